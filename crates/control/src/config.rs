@@ -1,6 +1,7 @@
 //! What a controller is told once, at its start.
 
 use lightbots_base::{RobotId, Span};
+use lightbots_lighting::Tolerance;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -36,6 +37,8 @@ pub struct Config {
     /// A run whose robots were out of reach for no longer than this goes on by itself. After that, people may have stepped
     /// on the floor, and the operator says that it goes on.
     pub goes_on_within: Span,
+    /// How far robots' lights may be from the colours of layers.
+    pub light_tolerance: Tolerance,
 }
 
 /// When robots that do not report age.
@@ -81,6 +84,7 @@ impl Default for Config {
             plan_bound: Span::from_millis(120_000),
             offline_bound: Span::from_millis(300_000),
             goes_on_within: Span::from_millis(30_000),
+            light_tolerance: Tolerance::SIDE_BY_SIDE,
         }
     }
 }

@@ -6,6 +6,7 @@
 
 use lightbots_base::{LightRecord, LightTrack, Rgb};
 use lightbots_light::lightness;
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// A rounded line leads through a code if it is within this much of it. A little less than a half: a robot's arithmetic may
@@ -21,7 +22,7 @@ static LIGHTNESS: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|c
 const SIDE_BY_SIDE: f64 = 2.0;
 
 /// How far a shown colour may be from the wanted one, channel by channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Tolerance {
     /// One of 255 steps.
     OneStep,

@@ -1,6 +1,7 @@
 //! Conditions of a rehearsal: faults of robots, sensors and networks.
 
 use lightbots_base::Span;
+use lightbots_lighting::Tolerance;
 
 use crate::mishap::Mishap;
 
@@ -37,6 +38,10 @@ pub struct Conditions {
     pub mishaps: Vec<(Span, Mishap)>,
     /// Frames, counted from 0, that the operator sends robots to: to the next of them each time a frame stands.
     pub visits: Vec<usize>,
+    /// How long the operator lets a frame wait for GO.
+    pub go_after: Span,
+    /// How far robots' lights may be from the colours of layers.
+    pub light_tolerance: Tolerance,
 }
 
 /// Properties of position fixes.
@@ -133,6 +138,8 @@ impl Default for Conditions {
             crashed: Vec::new(),
             mishaps: Vec::new(),
             visits: Vec::new(),
+            go_after: Span::ZERO,
+            light_tolerance: Tolerance::SIDE_BY_SIDE,
         }
     }
 }

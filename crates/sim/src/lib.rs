@@ -65,7 +65,7 @@ pub use dice::{Dice, Purpose};
 pub use faults::{Faults, FaultsError};
 pub use fleet::{Fleet, FleetConfig, FleetMessage};
 pub use floor::FloorObject;
-pub use light_watch::LightCounts;
+pub use light_watch::{LightCounts, LightWatch};
 pub use lightbots_base::StateHash;
 pub use mishap::Mishap;
 pub use network::MessageCounts;

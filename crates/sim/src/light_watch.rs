@@ -2,15 +2,13 @@
 
 use lightbots_base::{Instant, Rgb, RobotId, Span};
 use lightbots_control::Controller;
+use lightbots_lighting::Tolerance;
 use serde::Serialize;
 
 /// How late or early a light may be: the design's number.
 const IN_TIME: Span = Span::from_millis(25);
 /// Moments around now at which the wanted colour counts, in parts of [`IN_TIME`].
 const MOMENTS: [i64; 7] = [-4, -3, -1, 0, 1, 3, 4];
-/// Codes of a channel by which a light may differ: the fit's two units of L* are at most seven codes, and one is
-/// for rounding.
-const CODES: u8 = 8;
 /// Steps from one comparison to the next: more often would slow rehearsals down.
 pub(crate) const EVERY: u64 = 10;
 
@@ -23,14 +21,31 @@ pub struct LightCounts {
     pub wrong: u64,
 }
 
-impl LightCounts {
+/// Compares lights with layers while a show plays.
+#[derive(Clone, Copy, Debug)]
+pub struct LightWatch {
+    counts: LightCounts,
+    /// Codes of a channel by which a light may differ.
+    codes: u8,
+}
+
+impl LightWatch {
+    /// For a fit of this tolerance: its two units of L* are at most seven codes. One more is for rounding.
+    pub fn new(tolerance: Tolerance) -> Self {
+        let codes = match tolerance {
+            Tolerance::OneStep => 1,
+            Tolerance::Lightness(units) => (3.5 * units).ceil() as u8,
+        };
+        Self { counts: LightCounts::default(), codes: codes.saturating_add(1) }
+    }
+
+    /// The comparisons until now.
+    pub fn counts(&self) -> LightCounts {
+        self.counts
+    }
+
     /// Compares lights now. `shown` gives the light of a robot.
-    pub(crate) fn compare(
-        &mut self,
-        controller: &Controller,
-        now: Instant,
-        shown: impl Fn(RobotId) -> Option<Rgb>,
-    ) {
+    pub fn compare(&mut self, controller: &Controller, now: Instant, shown: impl Fn(RobotId) -> Option<Rgb>) {
         let moment = |part: i64| Instant(now.0.saturating_add_signed(IN_TIME.0 * part / 4));
         let wanted = MOMENTS.map(|part| controller.layered_lights(moment(part)));
         for (index, &(robot, _)) in wanted[0].iter().enumerate() {
@@ -40,18 +55,18 @@ impl LightCounts {
                 continue;
             };
             let Some(shown) = shown(robot) else { continue };
-            self.compared += 1;
-            self.wrong += u64::from(!is_among(shown, &colours));
+            self.counts.compared += 1;
+            self.counts.wrong += u64::from(!is_among(shown, &colours, self.codes));
         }
     }
 }
 
-/// Whether each channel lies between the least and the greatest of the colours.
-fn is_among(shown: Rgb, colours: &[Rgb]) -> bool {
+/// Whether each channel lies between the least and the greatest of the colours, or within `codes` of that.
+fn is_among(shown: Rgb, colours: &[Rgb], codes: u8) -> bool {
     let channels: [fn(&Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
     channels.iter().all(|channel| {
         let low = colours.iter().map(channel).min().unwrap_or(0);
         let high = colours.iter().map(channel).max().unwrap_or(u8::MAX);
-        (low.saturating_sub(CODES)..=high.saturating_add(CODES)).contains(&channel(&shown))
+        (low.saturating_sub(codes)..=high.saturating_add(codes)).contains(&channel(&shown))
     })
 }

@@ -12,6 +12,10 @@ pub(crate) struct Operator {
     presses_at: Option<Instant>,
     /// Since when some robots report and others stay away.
     waits_since: Option<Instant>,
+    /// How long a frame that may be left waits for GO.
+    go_after: Span,
+    /// Since when one waits.
+    cue_since: Option<Instant>,
     /// What else the operator does, in this order.
     wants: VecDeque<Operation>,
     /// When the operator tries the next of it.
@@ -25,6 +29,19 @@ impl Operator {
     const WAITS: Span = Span::from_millis(10_000);
     /// Time until a button that did nothing is pressed again.
     const TRIES_AGAIN: Span = Span::from_millis(500);
+
+    /// An operator who lets a frame wait this long for GO.
+    pub fn new(go_after: Span) -> Self {
+        Self { go_after, ..Self::default() }
+    }
+
+    /// Whether GO is given now. `waits`: a frame has stood for its air time and waits for it.
+    pub fn gives_go(&mut self, now: Instant, waits: bool) -> bool {
+        if !waits {
+            self.cue_since = None;
+        }
+        waits && now - *self.cue_since.get_or_insert(now) >= self.go_after
+    }
 
     /// The controller asks whether the run goes on.
     pub fn asked(&mut self, now: Instant) {
@@ -74,6 +91,14 @@ mod tests {
         operator.asked(Instant(6_000_000));
         assert!(!operator.presses(Instant(6_999_999)));
         assert!(operator.presses(Instant(7_000_000)) && !operator.presses(Instant(9_000_000)));
+    }
+
+    #[test]
+    fn each_frame_waits_anew_for_go() {
+        let mut operator = Operator::new(Span::from_millis(2_000));
+        let mut gives = |seconds: u64, waits| operator.gives_go(Instant(seconds * 1_000_000), waits);
+        assert!(!gives(1, true) && !gives(2, true) && gives(3, true));
+        assert!(!gives(4, false) && !gives(9, true) && gives(11, true));
     }
 
     #[test]

@@ -18,7 +18,7 @@ use crate::broker_outages::BrokerOutages;
 use crate::campaign::Invariants;
 use crate::controller_crashes::ControllerCrashes;
 use crate::forgeries::Forgeries;
-use crate::light_watch::{self, LightCounts};
+use crate::light_watch::{self, LightWatch};
 use crate::mishap::Mishap;
 use crate::network::{Network, Way};
 use crate::operator::Operator;
@@ -44,6 +44,8 @@ pub(crate) struct Play {
     seed: u64,
     planned_s: f64,
     controller: RecordedController,
+    /// What each controller is told at its start.
+    config: Config,
     robots: RobotSet,
     network: Network,
     breakdowns: Breakdowns,
@@ -61,7 +63,7 @@ pub(crate) struct Play {
     /// What must hold after each step of a campaign.
     pub invariants: Option<Box<Invariants>>,
     record: RehearsalRecord,
-    lights: LightCounts,
+    lights: LightWatch,
     hash: StateHash,
     /// `(name, robot)`, sorted by name.
     by_id: Vec<(RobotId, usize)>,
@@ -79,13 +81,15 @@ impl Play {
         planned_s: f64,
     ) -> Self {
         let RehearsalOptions { seed, conditions, .. } = options;
+        let config = Config { light_tolerance: conditions.light_tolerance, ..Config::default() };
         let robots = RobotSet::new(&show.stage, starts, names, conditions, *seed, false);
         let mut by_id: Vec<_> = (0..robots.len()).map(|robot| (robots.id(robot), robot)).collect();
         by_id.sort_unstable();
         Self {
             seed: *seed,
             planned_s,
-            controller: RecordedController::new(Controller::new(Config::default())),
+            controller: RecordedController::new(Controller::new(config.clone())),
+            config,
             network: Network::new(&conditions.link, starts.len(), *seed),
             forgeries: Forgeries::default(),
             namesakes: Vec::new(),
@@ -93,12 +97,12 @@ impl Play {
             broker: BrokerOutages::new(conditions, starts.len(), *seed),
             crashes: ControllerCrashes::new(&conditions.crashed),
             controllers: 0,
-            operator: Operator::default(),
+            operator: Operator::new(conditions.go_after),
             mishaps: Timetable::new(conditions.mishaps.clone()),
             visits: conditions.visits.iter().copied().collect(),
             invariants: None,
             record: RehearsalRecord::new(starts.len()),
-            lights: LightCounts::default(),
+            lights: LightWatch::new(conditions.light_tolerance),
             hash: StateHash::new(),
             robots,
             by_id,
@@ -120,20 +124,7 @@ impl Play {
 
     /// [`Self::run`] without the report.
     pub fn play(&mut self, log: Option<Vec<(String, String)>>, progress: &mut dyn FnMut(Progress<'_>)) {
-        if let Some(notes) = log {
-            // A new controller is at rest.
-            self.controller.begin_log(self.now, notes);
-        }
-        if self.crashes.are_there() {
-            self.controller.keep_journal();
-        }
-        self.controller.connected(self.now);
-        // Opening is refused only during a run.
-        let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
-        for robot in 0..self.robots.len() {
-            self.robots.link(self.now, robot, true);
-        }
-        self.drain_controller();
+        self.switch_on(log);
         let mut step = 0u64;
         while !self.is_over() {
             self.step();
@@ -157,6 +148,24 @@ impl Play {
             }
         }
         hand_on(&self.controller.end_log(), progress);
+    }
+
+    /// The controller finds its broker and gets the show, and robots get their links.
+    fn switch_on(&mut self, log: Option<Vec<(String, String)>>) {
+        if let Some(notes) = log {
+            // A new controller is at rest.
+            self.controller.begin_log(self.now, notes);
+        }
+        if self.crashes.are_there() {
+            self.controller.keep_journal();
+        }
+        self.controller.connected(self.now);
+        // Opening is refused only during a run.
+        let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
+        for robot in 0..self.robots.len() {
+            self.robots.link(self.now, robot, true);
+        }
+        self.drain_controller();
     }
 
     fn compare_lights(&mut self) {
@@ -355,7 +364,7 @@ impl Play {
         report.wall_contacts = bumps.edges;
         report.wall_pressed_m = bumps.edge_most_m;
         report.brakes = self.robots.brakes();
-        report.lights = self.lights;
+        report.lights = self.lights.counts();
         report.closest_m = world.contacts().closest_m();
         report.estimate_error_m = self.robots.errors().estimate_m();
         report.tracking_error_m = self.robots.errors().tracking_m();

@@ -46,6 +46,8 @@ pub(crate) struct LegLight {
     pub after: Vec<(Rgb, bool)>,
     /// The layers that may shine.
     pub layers: FrameLight,
+    /// How far robots' lights may be from the layers' colours.
+    pub tolerance: Tolerance,
     /// The first stretch.
     pub first: PlannedStretch,
     /// The time base, once the drive has begun.
@@ -120,7 +122,7 @@ impl LegLight {
                 Some(at) => self.moment_at(at + time),
                 None => self.moment(stretch.from + time, lost),
             });
-        let fitted = fit(&samples, Tolerance::SIDE_BY_SIDE, MAX_LIGHT_RECORDS);
+        let fitted = fit(&samples, self.tolerance, MAX_LIGHT_RECORDS);
         let (anchor, skip) = self.anchor(stretch, now);
         Command::Light(LightStretch {
             number: stretch.number,

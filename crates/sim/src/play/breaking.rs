@@ -61,7 +61,7 @@ impl Play {
                 CrashEvent::Killed => {
                     self.crashes.disk.crash(self.now);
                     self.controllers += 1;
-                    let config = Config { seq_base: self.controllers * SEQ_STEP, ..Config::default() };
+                    let config = Config { seq_base: self.controllers * SEQ_STEP, ..self.config.clone() };
                     self.controller = RecordedController::new(Controller::new(config));
                 }
                 CrashEvent::Back => self.start_controller(),
@@ -86,7 +86,9 @@ impl Play {
     /// The operator lets an interrupted show go on, and gives GO to a frame that has stood for its air time.
     pub(super) fn press(&mut self) {
         self.operate_again();
-        if self.controller.is_at_cue(self.now) && self.controller.operate(self.now, Operation::Go).is_ok() {
+        if self.operator.gives_go(self.now, self.controller.is_at_cue(self.now))
+            && self.controller.operate(self.now, Operation::Go).is_ok()
+        {
             self.drain_controller();
         }
         self.operator.sees(self.now, self.controller.may_go_on());

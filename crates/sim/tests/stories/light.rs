@@ -1,7 +1,8 @@
 //! Layers of light: robots show what the layers say, on time, whatever happens to the drive.
 
 use lightbots_base::{Rgb, Span, Vec2};
-use lightbots_show::{Frame, FramePhase, Layer, LayerSpan, Pixel, Setting, Show, Stage};
+use lightbots_lighting::Tolerance;
+use lightbots_show::{Cue, CuePlace, Frame, FramePhase, Layer, LayerSpan, Pixel, Setting, Show, Stage};
 use lightbots_sim::{Conditions, Faults, Mishap, RehearsalOptions, RehearsalReport, rehearse};
 
 fn layer(kind: &str, span: LayerSpan, settings: Vec<(&str, Setting)>) -> Layer {
@@ -52,8 +53,12 @@ fn place(frame: usize, id: u32, count: u32) -> Vec2 {
 }
 
 fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
+    play_in(show, faults, seed, Conditions::default())
+}
+
+fn play_in(show: &Show, faults: &str, seed: u64, conditions: Conditions) -> RehearsalReport {
     let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
-    let conditions = faults.added_to(Conditions::default());
+    let conditions = faults.added_to(conditions);
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
@@ -120,5 +125,86 @@ fn live_light_is_shown_within_0_3_s_while_robots_drive_stand_and_are_held() {
             let report = rehearse(&show, &options, &mut |_| {});
             assert_lit(&report, if faults.is_empty() { 2_000 } else { 100 });
         }
+    }
+}
+
+/// Effects that move, and their cycles a second.
+const MOVING: [(&str, f64); 12] = [
+    ("gradient", 0.1),
+    ("fade", 0.25),
+    ("pulse", 1.0),
+    ("strobe", 1.0),
+    ("twinkle", 0.5),
+    ("sparkle", 2.0),
+    ("wave", 0.5),
+    ("ripple", 0.3),
+    ("plasma", 0.2),
+    ("noise", 0.2),
+    ("fire", 0.5),
+    ("by-robot", 0.2),
+];
+
+/// A slow rainbow that stands with show time, and over it an effect that may run freely.
+fn over_a_rainbow(kind: &str, speed_hz: f64, runs_freely: bool) -> Vec<Layer> {
+    let settings = vec![
+        ("speed_hz", Setting::Number(speed_hz)),
+        ("wrap", Setting::Text("mirror".into())),
+        ("blend", Setting::Text("average".into())),
+        ("runs_freely", Setting::Bool(runs_freely)),
+    ];
+    vec![
+        layer("rainbow", LayerSpan::Show, vec![("speed_hz", Setting::Number(0.1))]),
+        layer(kind, LayerSpan::Show, settings),
+    ]
+}
+
+/// The operator pauses in the drive to the second frame, for longer than a stretch of light lasts.
+fn paused_on_the_way() -> Conditions {
+    let [from, to] = [9_500, 23_500].map(Span::from_millis);
+    Conditions { mishaps: vec![(from, Mishap::Pause), (to, Mishap::Resume)], ..Conditions::default() }
+}
+
+/// Robots were held in the drive to the second frame.
+fn assert_held(report: &RehearsalReport, what: &str) {
+    let drives: Vec<f64> = report.per_frame.iter().map(|frame| frame.drive_s).collect();
+    assert!(drives[1] > 14.0 && drives[0] < 14.0 && drives[2] < 14.0, "{what}: drives of {drives:?} s");
+}
+
+#[test]
+fn effects_stand_in_a_pause_or_run_freely_through_it() {
+    for (number, (kind, speed_hz)) in MOVING.into_iter().enumerate() {
+        for runs_freely in [false, true] {
+            let layers = over_a_rainbow(kind, speed_hz, runs_freely);
+            let show = Show { layers, ..show(8, 4.0) };
+            let report = play_in(&show, "loss=5%", 1 + number as u64, paused_on_the_way());
+            assert_held(&report, kind);
+            // Where a hold's stretch is lost, a robot stands until it is sent again.
+            assert_lit(&report, if runs_freely { 300 } else { 500 });
+        }
+    }
+}
+
+#[test]
+fn effects_go_on_while_a_frame_waits_for_go() {
+    for (number, (kind, speed_hz)) in MOVING.into_iter().enumerate() {
+        let layers = over_a_rainbow(kind, speed_hz, number % 2 == 0);
+        let cues = vec![Cue { name: String::new(), at: CuePlace::Frame("1".into()) }];
+        let show = Show { layers, cues, ..show(8, 4.0) };
+        let go_after = Span::from_millis(17_000);
+        let conditions = Conditions { go_after, ..Conditions::default() };
+        let report = play_in(&show, "loss=5%", 1 + number as u64, conditions);
+        assert!(report.duration_s > report.planned_s + 16.0, "{kind}: {} s", report.duration_s);
+        assert_lit(&report, 500);
+    }
+}
+
+#[test]
+fn robots_keep_to_one_step_of_each_channel_where_that_is_wanted() {
+    for (number, (kind, speed_hz)) in MOVING.into_iter().enumerate() {
+        let show = Show { layers: over_a_rainbow(kind, speed_hz, true), ..show(8, 4.0) };
+        let conditions = Conditions { light_tolerance: Tolerance::OneStep, ..paused_on_the_way() };
+        let report = play_in(&show, "loss=5%", 1 + number as u64, conditions);
+        assert_held(&report, kind);
+        assert_lit(&report, 300);
     }
 }

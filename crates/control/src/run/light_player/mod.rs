@@ -158,6 +158,7 @@ impl LightPlayer {
             before,
             after: leg.robots.iter().map(|step| (step.color, step.pixel.is_some())).collect(),
             layers,
+            tolerance: context.config.light_tolerance,
             first: PlannedStretch { number, from: Span::ZERO, ticks: 1, over, free_at: None },
             clock: None,
             seen: Span::ZERO,

@@ -158,8 +158,9 @@ impl LightPlayer {
         let is_changing = self.is_changing(now);
         let (Some(current), Some((stretch, upload))) = (&self.current, &mut self.upload) else { return };
         let config = context.config.upload;
-        // A hand waits for a change of live light.
-        let again_after = if is_changing { config.resend_after } else { config.resend_after * 2 };
+        // A hand waits for a change of live light, and a stretch that runs through holds begins at once.
+        let is_urgent = is_changing || stretch.free_at.is_some_and(|at| at < now + config.resend_after * 2);
+        let again_after = if is_urgent { config.resend_after } else { config.resend_after * 2 };
         let again_at = now + again_after;
         // Short stretches take less time.
         let shorter = STRETCH.0 / (TICK.0 * i64::from(stretch.ticks)).max(1);
