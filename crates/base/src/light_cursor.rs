@@ -41,6 +41,18 @@ impl LightCursor {
         self.before
     }
 
+    /// The record that `at` found last: when it begins, after the start of the track, how long it lasts, and the colours
+    /// from which to which it leads in a straight line of sRGB codes. `None`: the track is over.
+    pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, [Rgb; 2])> {
+        let record = *track.records.get(self.record)?;
+        let end = match record {
+            LightRecord::Line { to, .. } => to,
+            LightRecord::Step { .. } | LightRecord::Repeat { .. } => self.before,
+        };
+        let span = |us: u64| Span(i64::try_from(us).unwrap_or(i64::MAX));
+        Some((span(self.began_us), span(record.duration_us()), [self.before, end]))
+    }
+
     /// Whether the track is over.
     pub fn is_at_end(&self, track: LightTrack<'_>) -> bool {
         self.record >= track.records.len()

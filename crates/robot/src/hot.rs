@@ -7,6 +7,7 @@ use crate::clock::ShowClock;
 use crate::config::Config;
 use crate::drive::DriveBase;
 use crate::estimate::{Estimate, PoseQuality};
+use crate::light_piece::LightPiece;
 use crate::outbox::Outbox;
 use crate::routes::Routes;
 use crate::seek::Seek;
@@ -17,8 +18,8 @@ use crate::supervise::Supervisor;
 /// counts as an outage. Above, a robot drives on without fixes for longer.
 const OVERDUE: Span = Span::from_millis(16);
 
-/// All state that a step reads or writes while no neighbour is in sight and the light stays as it is: one piece of
-/// memory, 1.7 KB.
+/// All state that a step reads or writes while no neighbour is in sight and the light is a straight line of colours: one
+/// piece of memory, 1.8 KB.
 ///
 /// A simulator of thousands of robots may load it into the cache by its address and size before the robot's turn. A step
 /// that waits for memory itself waits longer than it computes.
@@ -45,6 +46,8 @@ pub struct Hot {
     /// The light may change by itself, or was told to change since the latest step.
     pub(crate) light_changes: bool,
     pub(crate) shown: Rgb,
+    /// The light of the next steps, as far as it is known.
+    pub(crate) light_piece: LightPiece,
     pub(crate) state: RobotState,
     /// It stands until fixes come again.
     pub(crate) pauses: bool,
@@ -76,6 +79,7 @@ impl Hot {
             shows_trouble: config.abilities != Abilities::default(),
             light_changes: false,
             shown: Rgb::BLACK,
+            light_piece: LightPiece::NONE,
             state: RobotState::Lost,
             pauses: false,
             is_wary: false,

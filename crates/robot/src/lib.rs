@@ -42,6 +42,7 @@ mod history;
 mod hot;
 mod light;
 mod light_ahead;
+mod light_piece;
 mod live_light;
 mod look_ahead;
 mod noise;

@@ -5,6 +5,7 @@ use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
 
 use crate::light_ahead::{LightAhead, StoredTracks};
+use crate::light_piece::LightPiece;
 use crate::live_light::LiveLight;
 
 /// Capacity for fades that wait for their moment. One more replaces the latest.
@@ -127,6 +128,22 @@ impl Light {
             _ => return steady,
         };
         if beat % 2 == 0 { colour } else { Rgb::BLACK }
+    }
+
+    /// The colours from a moment of the show clock on, after `step` found the colour of that moment. There is no piece where
+    /// anything but a stretch may change it.
+    pub(crate) fn piece(&self, show: Option<Instant>, stored: &StoredTracks) -> LightPiece {
+        let is_alone = self.running.is_none()
+            && self.waiting.is_empty()
+            && !self.live.is_on()
+            && self.blink.is_none()
+            && self.trouble.is_none();
+        show.filter(|_| is_alone).map_or(LightPiece::NONE, |show| self.tracks.piece(show, stored))
+    }
+
+    /// The own light is this by now, by a piece.
+    pub(crate) fn catch_up(&mut self, shown: Rgb) {
+        self.shown = shown;
     }
 
     fn advance(&mut self, show: Instant) {

@@ -3,6 +3,7 @@
 use lightbots_base::{Instant, LightCursor, LightRecord, LightTrack, Rgb, Span};
 use lightbots_wire::{LightAnchor, LightStretch, MAX_LIGHT_RECORDS};
 
+use crate::light_piece::LightPiece;
 use crate::timeline::Timeline;
 
 /// Stretches that are stored: one that plays, the one that goes on from it, and the first of the next drive.
@@ -178,6 +179,24 @@ impl LightAhead {
             self.playing = None;
         }
         Some(colour)
+    }
+
+    /// The colours from a moment of the show clock on, after `step` found the colour of that moment.
+    pub(crate) fn piece(&self, show: Instant, storage: &StoredTracks) -> LightPiece {
+        let Some(Playing { kept, cursor, .. }) = self.playing else { return LightPiece::NONE };
+        let Some(elapsed) = self.time_of(kept, show).map(|time| time - kept.skip) else {
+            return LightPiece::NONE;
+        };
+        let is_even = kept.runs_freely || self.timeline.runs_evenly(show);
+        let line = cursor.line(storage[kept.slot].track());
+        let Some((begins, lasts, [start, end])) = line.filter(|_| is_even && elapsed >= kept.over) else {
+            return LightPiece::NONE;
+        };
+        // The time of a stretch goes no faster than the show clock.
+        let due =
+            |kept: &Kept| self.time_of(*kept, show).map(|time| show + (kept.skip.max(Span::ZERO) - time));
+        let until = self.waiting.iter().filter_map(due).min().unwrap_or(Instant::FAR);
+        LightPiece::new((show, until), (show - (elapsed - begins), lasts), (start, end))
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {

@@ -15,6 +15,7 @@ use crate::clock::ClockFilter;
 use crate::config::{Config, Inputs, Outputs};
 use crate::hot::Hot;
 use crate::light::Light;
+use crate::light_piece::LightPiece;
 use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 use crate::supervise::Drives;
@@ -92,6 +93,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         hot.supervisor.receive(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
         self.begin_due(self.route_time(now));
+        self.end_light_piece();
         let mut commands = commands(payload);
         // Read where it was decoded: it has room for a route, and moving it would copy all of that.
         while let Some(command) = &commands.next() {
@@ -136,23 +138,49 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// The light at `now` of the own clock, between steps. A shell whose light can change at any time asks each
     /// millisecond or so. The lights of a fleet then change together and not each at its next step.
     pub fn light(&mut self, now: Instant) -> Rgb {
-        self.advance_light(now, self.hot.clock.show_time(now));
+        let show = self.hot.clock.show_time(now);
+        if self.hot.light_changes && !self.goes_on_with_piece(show) {
+            self.change_light(now, show);
+        }
         self.hot.shown
     }
 
+    #[inline]
     fn step_light(&mut self, now: Instant, show: Option<Instant>) {
         let flashes = self.trouble(now);
-        if flashes > 0 || self.hot.light_changes {
-            self.light.report(now, flashes);
+        if flashes > 0 {
+            self.end_light_piece();
             self.hot.light_changes = true;
-            self.advance_light(now, show);
+        }
+        if self.hot.light_changes && !self.goes_on_with_piece(show) {
+            self.light.report(now, flashes);
+            self.change_light(now, show);
         }
     }
 
-    fn advance_light(&mut self, now: Instant, show: Option<Instant>) {
-        if self.hot.light_changes {
-            self.hot.shown = self.light.step(now, show, &self.storage.borrow().tracks);
-            self.hot.light_changes = self.light.is_busy();
+    /// Shows the colour of the piece, if it has one for this moment.
+    #[inline]
+    fn goes_on_with_piece(&mut self, show: Option<Instant>) -> bool {
+        let colour = show.and_then(|show| self.hot.light_piece.colour(show));
+        self.hot.shown = colour.unwrap_or(self.hot.shown);
+        colour.is_some()
+    }
+
+    /// The light where no piece says it.
+    #[inline(never)]
+    fn change_light(&mut self, now: Instant, show: Option<Instant>) {
+        self.end_light_piece();
+        let tracks = &self.storage.borrow().tracks;
+        self.hot.shown = self.light.step(now, show, tracks);
+        self.hot.light_changes = self.light.is_busy();
+        self.hot.light_piece = self.light.piece(show, tracks);
+    }
+
+    /// A message or a fault may change the light: what was shown last is known to it then.
+    fn end_light_piece(&mut self) {
+        if !self.hot.light_piece.is_none() {
+            self.light.catch_up(self.hot.shown);
+            self.hot.light_piece = LightPiece::NONE;
         }
     }
 

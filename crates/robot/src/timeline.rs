@@ -78,6 +78,12 @@ impl Timeline {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
 
+    /// Whether path time goes on with the show clock from this moment on, as far as is known.
+    pub(crate) fn runs_evenly(&self, show: Instant) -> bool {
+        let now = self.at(show);
+        now.rate == 1.0 && !now.held && self.events.last().is_none_or(|last| last.at <= show)
+    }
+
     /// Whether a hold is in force at a moment of the show clock.
     pub(crate) fn held(&self, show: Instant) -> bool {
         let last = self.events.iter().take_while(|event| event.at <= show).last();

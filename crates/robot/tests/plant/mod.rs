@@ -30,6 +30,16 @@ impl Flaws {
         Self { fix_sigma_m: 0.0, heading_sigma_rad: Some(0.0), slip: [0.0, 0.0], fix_delay_steps: 0 };
 }
 
+/// What happened to a robot. Benchmarks read it.
+#[allow(dead_code)]
+#[derive(Clone)]
+pub enum Turn {
+    /// A message on its own topic.
+    Message(Instant, Vec<u8>),
+    /// A step.
+    Step(Instant, Inputs),
+}
+
 /// A robot on its floor.
 pub struct Plant {
     pub robot: Robot,
@@ -49,6 +59,8 @@ pub struct Plant {
     pub last: Outputs,
     /// Everything it said but time questions.
     pub said: Vec<(Topic, Report)>,
+    /// Everything that happened to it, if that is recorded.
+    pub turns: Option<Vec<Turn>>,
     /// True wheel rates of the step under way.
     wheels: [f64; 2],
     past: Vec<(Vec2, f64)>,
@@ -73,6 +85,7 @@ impl Plant {
             answers: true,
             last: Outputs::default(),
             said: Vec::new(),
+            turns: None,
             wheels: [0.0; 2],
             past: Vec::new(),
             seed: seed * 2 + 1,
@@ -94,10 +107,13 @@ impl Plant {
     pub fn tell(&mut self, command: &Command) {
         let mut text = String::new();
         encode(command, &mut text).unwrap();
-        self.robot.receive(self.now, Topic::Robot(self.id), text.as_bytes());
+        self.tell_text(text.as_bytes());
     }
 
     pub fn tell_text(&mut self, payload: &[u8]) {
+        if let Some(turns) = &mut self.turns {
+            turns.push(Turn::Message(self.now, payload.to_vec()));
+        }
         self.robot.receive(self.now, Topic::Robot(self.id), payload);
     }
 
@@ -121,6 +137,9 @@ impl Plant {
         self.wheels = self.last.wheels_radps;
         let (fix, lag) = (self.fix(), self.lag);
         let inputs = Inputs { wheel_turns_rad: turns, fix, battery: Some(80), lag, ..Inputs::default() };
+        if let Some(turns) = &mut self.turns {
+            turns.push(Turn::Step(self.now, inputs));
+        }
         self.last = self.robot.step(self.now, &inputs);
         self.drain();
     }
