@@ -1,19 +1,29 @@
 import { Badge, Tabs } from '@mantine/core';
-import { useState } from 'react';
+import { lazy, Suspense, useState } from 'react';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import { CueList } from './CueList';
 import { FleetTable } from './FleetTable';
 import { IncidentCards } from './IncidentCards';
+import type { useLiveLight } from './light/useLiveLight';
 import { LogList } from './LogList';
 import { ShowFacts } from './ShowFacts';
 import styles from '../parts/page.module.css';
 
-/** Robots, cues, show and log beside the floor. `onPast` shows the past runs. */
-export function FleetSide({ onPast }: { onPast: () => void }) {
+const LightTab = lazy(() => import('./light/LightTab'));
+
+interface Props {
+  liveLight: ReturnType<typeof useLiveLight>;
+  /** Shows the past runs. */
+  onPast: () => void;
+}
+
+/** Robots, cues, light, show and log beside the floor. */
+export function FleetSide({ liveLight, onPast }: Props) {
   const { live } = useSession();
   const [wide, setWide] = useState(false);
   const [tab, setTab] = useState<string | null>('robots');
+  const lights = useStore(live.playback, (p) => p.live_light.length);
   const robots = useStore(live.fleet, (fleet) => fleet.rows.length);
   const issues = useStore(
     live.plan,
@@ -22,7 +32,7 @@ export function FleetSide({ onPast }: { onPast: () => void }) {
   return (
     <aside
       className={styles.side}
-      aria-label="Fleet, cues, show and log"
+      aria-label="Fleet, cues, light, show and log"
       data-wide={(wide && tab === 'robots') || undefined}
     >
       <IncidentCards />
@@ -32,6 +42,9 @@ export function FleetSide({ onPast }: { onPast: () => void }) {
             Robots {robots > 0 ? <span className="quiet">{robots}</span> : null}
           </Tabs.Tab>
           <Tabs.Tab value="cues">Cues</Tabs.Tab>
+          <Tabs.Tab value="light">
+            Light {lights > 0 ? <span className="quiet">{lights} on</span> : null}
+          </Tabs.Tab>
           <Tabs.Tab
             value="show"
             rightSection={
@@ -52,6 +65,13 @@ export function FleetSide({ onPast }: { onPast: () => void }) {
         </Tabs.Panel>
         <Tabs.Panel value="cues">
           <CueList />
+        </Tabs.Panel>
+        <Tabs.Panel value="light">
+          {tab === 'light' ? (
+            <Suspense>
+              <LightTab {...liveLight} />
+            </Suspense>
+          ) : null}
         </Tabs.Panel>
         <Tabs.Panel value="show" p="md">
           <ShowFacts />

@@ -6,6 +6,7 @@ import { FleetSide } from './FleetSide';
 import { FrameStrip } from './FrameStrip';
 import { GoNote } from './GoNote';
 import { GoOnNote } from './GoOnNote';
+import { useLiveLight } from './light/useLiveLight';
 import { JumpDialog } from './JumpDialog';
 import { LiveStage } from './LiveStage';
 import { RunNote } from './RunNote';
@@ -20,6 +21,7 @@ import styles from '../parts/page.module.css';
 export function LivePage() {
   const [past, setPast] = useState(false);
   const showPast = () => setPast(true);
+  const liveLight = useLiveLight();
   return (
     <main className={styles.page}>
       <LiveStage />
@@ -39,7 +41,7 @@ export function LivePage() {
         <Transport />
         <FrameStrip />
       </Bottom>
-      <FleetSide onPast={showPast} />
+      <FleetSide liveLight={liveLight} onPast={showPast} />
       <JumpDialog />
       <StartDialog />
       {past ? <RunsDialog onClose={() => setPast(false)} /> : null}

@@ -7,6 +7,7 @@ const playback = (phase: Phase): Playback => ({
   doing: null,
   frame: 1,
   next: 2,
+  live_light: [],
   may_jump: false,
   frames: 12,
   progress: 0,

@@ -70,7 +70,8 @@ function readWhen(json: Readonly<Record<string, unknown>>): LayerWhen {
   return { of: 'seconds', from_s, to_s: number(json.to_s, from_s) };
 }
 
-function writeLayer({ kind, name, settings, when, rest }: Layer): unknown {
+/** The layer as it stands in a show's document. */
+export function writeLayer({ kind, name, settings, when, rest }: Layer): Record<string, unknown> {
   return {
     ...(name === '' ? {} : { name }),
     kind,

@@ -52,6 +52,7 @@ const NO_PLAYBACK: Playback = {
   doing: null,
   frame: null,
   next: null,
+  live_light: [],
   may_jump: false,
   frames: 0,
   progress: 0,

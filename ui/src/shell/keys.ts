@@ -17,6 +17,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['S'], 'Step to the next frame'],
       [['J'], 'Go to the chosen frame (asks)'],
       [['N'], 'Skip the next frame'],
+      [['1', '9', 'Q', 'E', 'D'], 'Put a light over the show, take it off: 1 to 9, Q, E, D'],
       [['P'], 'Drive robots to this frame'],
       [['Esc'], 'Abort'],
       [['L'], 'Loop'],

@@ -6,7 +6,7 @@ import type { Show } from '../../model/show';
 import { IconButton } from '../../parts/IconButton';
 import { useEditing } from '../context';
 import { duplicateLayer, removeLayer } from './lightActs';
-import { StripCanvas } from './StripCanvas';
+import { StripCanvas } from '../../light/StripCanvas';
 import styles from './Light.module.css';
 
 interface Props {
@@ -47,7 +47,7 @@ export function LayerRow({ layer, index, show, isChosen, onChoose, onMove, drag 
         onClick={onChoose}
         onKeyDown={press}
       >
-        <StripCanvas layer={layer} stage={show.stage} />
+        <StripCanvas lights={editing.lights} layer={layer} stage={show.stage} />
         <span className={styles.name}>
           <b>{title}</b>
           <span className={styles.when}>{whenText(show, layer)}</span>

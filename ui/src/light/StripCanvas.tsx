@@ -1,16 +1,10 @@
 import { useEffect, useRef, useState } from 'react';
-import type { Layer } from '../../model/layers';
-import type { Stage } from '../../model/show';
-import {
-  STRIP_COLUMNS,
-  STRIP_MOMENTS,
-  STRIP_ROBOTS,
-  STRIP_ROWS,
-  type Strip,
-} from '../../light/strip';
-import { FLOOR } from '../../stage/palette';
-import { useEditing } from '../context';
-import styles from './Light.module.css';
+import type { Layer } from '../model/layers';
+import type { Stage } from '../model/show';
+import { FLOOR } from '../stage/palette';
+import type { Lights } from './lights';
+import { STRIP_COLUMNS, STRIP_MOMENTS, STRIP_ROBOTS, STRIP_ROWS, type Strip } from './strip';
+import styles from './presets.module.css';
 
 /** Side of a robot's cell, device pixels. */
 const CELL = 12;
@@ -18,9 +12,14 @@ const [WIDTH, HEIGHT] = [STRIP_COLUMNS * CELL, STRIP_ROWS * CELL];
 /** A moment that shows most effects, for screens that are set to less motion. */
 const STILL = 26;
 
+interface Props {
+  lights: Lights;
+  layer: Layer;
+  stage: Stage;
+}
+
 /** What a layer does, on a small floor full of robots, over and over. */
-export function StripCanvas({ layer, stage }: { layer: Layer; stage: Stage }) {
-  const { lights } = useEditing();
+export function StripCanvas({ lights, layer, stage }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [strip, setStrip] = useState<Strip | null>(null);
   useEffect(() => {

@@ -1,0 +1,60 @@
+import { Button, Select } from '@mantine/core';
+import { useStore } from '../../base/store';
+import { LIGHT_PRESETS } from '../../model/lightPresets';
+import type { MidiPads, PadsState } from './midiPads';
+import styles from './LightTab.module.css';
+
+const STATES: Record<Exclude<PadsState, 'on'>, string> = {
+  off: 'Pads of a MIDI device can press these lights.',
+  asking: 'Answer the question of the browser about MIDI devices.',
+  refused:
+    'The browser was not allowed to use MIDI devices. Allow it in the settings of this page, and try again.',
+  missing:
+    'This browser has no MIDI here. It needs Chrome, Edge or Firefox, and an address with https or on this computer.',
+};
+
+const CHOICES = LIGHT_PRESETS.map(({ title }, index) => ({ value: String(index), label: title }));
+
+/** MIDI pads: which devices are there, and which pad presses which light. */
+export function PadFields({ pads }: { pads: MidiPads }) {
+  const state = useStore(pads.state);
+  const devices = useStore(pads.devices);
+  const learning = useStore(pads.learning);
+  if (state !== 'on')
+    return (
+      <div className={styles.pads}>
+        <p className={`quiet ${styles.line}`} role="status">
+          {STATES[state]}
+        </p>
+        {state === 'missing' ? null : (
+          <Button
+            size="compact-sm"
+            variant="default"
+            loading={state === 'asking'}
+            onClick={() => void pads.start()}
+          >
+            Use MIDI pads
+          </Button>
+        )}
+      </div>
+    );
+  const names = devices.length === 0 ? 'none is connected' : devices.join(', ');
+  return (
+    <div className={styles.pads}>
+      <p className={`quiet ${styles.line}`} role="status">
+        {learning === null
+          ? `MIDI devices: ${names}. Twelve pads from note 36 on press the lights in their order.`
+          : `Hit the pad that shall press ${LIGHT_PRESETS[learning]?.title ?? ''}.`}
+      </p>
+      <Select
+        size="xs"
+        label="Give a pad to"
+        placeholder="Choose a light"
+        data={CHOICES}
+        value={learning === null ? null : String(learning)}
+        clearable
+        onChange={(value) => pads.learn(value === null ? null : Number(value))}
+      />
+    </div>
+  );
+}

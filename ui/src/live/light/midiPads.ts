@@ -1,0 +1,108 @@
+import { createStore, type Readable } from '../../base/store';
+
+/** Where the pads are: not asked for, asked for, there, refused by the person or impossible in this browser. */
+export type PadsState = 'off' | 'asking' | 'on' | 'refused' | 'missing';
+
+/** The parts of Web MIDI that are used, so that tests can replace it. */
+export interface PadInput {
+  name: string | null;
+  onmidimessage: ((event: { data: Uint8Array | null }) => void) | null;
+}
+export interface PadAccess {
+  inputs: { forEach(visit: (input: PadInput) => void): void };
+  onstatechange: (() => void) | null;
+}
+
+/** Pads of MIDI devices that press presets. */
+export interface MidiPads {
+  state: Readable<PadsState>;
+  /** Names of the devices. */
+  devices: Readable<readonly string[]>;
+  /** The preset that gets the next pad that is hit; null: pads press. */
+  learning: Readable<number | null>;
+  /** Asks the browser for MIDI devices. */
+  start(): Promise<void>;
+  learn(index: number | null): void;
+}
+
+/** Pads of most devices begin at this note and count upwards. */
+const FIRST_NOTE = 36;
+const NOTE_ON = 0x90;
+const KEPT = 'lightbots-pads';
+
+/** Presets by note. */
+type Notes = Map<number, number>;
+
+export function createMidiPads(
+  request: (() => Promise<PadAccess>) | null,
+  press: (index: number) => void,
+  storage: Pick<Storage, 'getItem' | 'setItem'> | null,
+): MidiPads {
+  const state = createStore<PadsState>(request ? 'off' : 'missing');
+  const devices = createStore<readonly string[]>([]);
+  const learning = createStore<number | null>(null);
+  /** Presets of notes that were learned. */
+  const learned = readNotes(storage);
+
+  const hit = (note: number) => {
+    const index = learning.get();
+    if (index === null) return press(learned.get(note) ?? note - FIRST_NOTE);
+    // A preset has one pad.
+    for (const [other, preset] of learned) if (preset === index) learned.delete(other);
+    learned.set(note, index);
+    learning.set(null);
+    keep(storage, learned);
+  };
+  const receive = ({ data }: { data: Uint8Array | null }) => {
+    const [status = 0, note = 0, velocity = 0] = data ?? [];
+    if ((status & 0xf0) === NOTE_ON && velocity > 0) hit(note);
+  };
+  const listen = (access: PadAccess) => {
+    const names: string[] = [];
+    access.inputs.forEach((input) => {
+      input.onmidimessage = receive;
+      names.push(input.name ?? 'a device without a name');
+    });
+    devices.set(names);
+  };
+  return {
+    state,
+    devices,
+    learning,
+    async start() {
+      if (!request || state.get() === 'on' || state.get() === 'asking') return;
+      state.set('asking');
+      try {
+        const access = await request();
+        access.onstatechange = () => listen(access);
+        listen(access);
+        state.set('on');
+      } catch {
+        state.set('refused');
+      }
+    },
+    learn: (index) => learning.set(index),
+  };
+}
+
+function readNotes(storage: Pick<Storage, 'getItem'> | null): Notes {
+  const notes: Notes = new Map();
+  try {
+    const kept: unknown = JSON.parse(storage?.getItem(KEPT) ?? '{}');
+    for (const [note, index] of Object.entries(
+      typeof kept === 'object' && kept !== null ? kept : {},
+    ))
+      if (Number(note) < 128 && Number.isInteger(index)) notes.set(Number(note), Number(index));
+  } catch {
+    // None is known.
+  }
+  return notes;
+}
+
+function keep(storage: Pick<Storage, 'setItem'> | null, notes: Notes) {
+  try {
+    storage?.setItem(KEPT, JSON.stringify(Object.fromEntries(notes)));
+  } catch {
+    // They last as long as the page.
+  }
+}
