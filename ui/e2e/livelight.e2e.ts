@@ -81,7 +81,7 @@ test('a light is put over the running show by button, key and pad, and goes with
   await page.getByText('MIDI devices: Pads.').waitFor();
   await hit(77);
   await isOn(page, 'Sunrise', true);
-  await page.getByRole('tab', { name: 'Light 1 on' }).waitFor();
+  await page.getByRole('tab', { name: 'Light 1' }).waitFor();
   await button(page, 'Take all off').click();
   await isOn(page, 'Sunrise', false);
   await areBlue(page, true);

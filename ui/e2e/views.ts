@@ -101,6 +101,7 @@ const liveViews: View[] = [
     },
   },
   { name: 'live-cues', show: (page) => page.getByRole('tab', { name: 'Cues' }).click() },
+  { name: 'live-light', show: (page) => page.getByRole('tab', { name: 'Light' }).click() },
   dialog('go-to-frame', (page) => button(page, 'Go to frame 1').click()),
   { name: 'live-show', show: (page) => page.getByRole('tab', { name: 'Show' }).click() },
   {

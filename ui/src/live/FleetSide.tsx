@@ -43,7 +43,7 @@ export function FleetSide({ liveLight, onPast }: Props) {
           </Tabs.Tab>
           <Tabs.Tab value="cues">Cues</Tabs.Tab>
           <Tabs.Tab value="light">
-            Light {lights > 0 ? <span className="quiet">{lights} on</span> : null}
+            Light {lights > 0 ? <span className="quiet">{lights}</span> : null}
           </Tabs.Tab>
           <Tabs.Tab
             value="show"
