@@ -160,3 +160,30 @@ test('a show with light is run from the editor', async () => {
   await phaseIs(page, 'ready');
   await page.close();
 });
+
+/** A GIF of one green pixel. */
+const GREEN_GIF = Buffer.from(
+  'GIF89a\x01\0\x01\0\x80\0\0\0\xff\0\0\0\0,\0\0\0\0\x01\0\x01\0\0\x02\x02D\x01\0;',
+  'latin1',
+);
+
+test('a picture of a file shines on the floor, and a damaged one is said at its layer', async () => {
+  const page = await bed.open('edit');
+  await begin(page, 'projected');
+  const file = (name: string, buffer: Buffer) => ({ name, mimeType: 'image/gif', buffer });
+  const added = page.locator('input[type=file][aria-label="File of a picture or film"]');
+  await added.setInputFiles(file('meadow.gif', GREEN_GIF));
+  await isLit(isGreen, page, 'the robots are green');
+  await layersAre(
+    page,
+    'projected',
+    ([only]) => only?.name === 'meadow' && String(only.settings.picture).length === 64,
+  );
+  const chosen = page.locator('input[type=file][aria-label="File of the picture"]');
+  await chosen.setInputFiles(file('torn.gif', GREEN_GIF.subarray(0, 22)));
+  await page.getByText('damaged or cut off').first().waitFor();
+  await page.getByRole('combobox', { name: 'Picture' }).click();
+  await page.getByRole('option', { name: 'meadow.gif' }).click();
+  await isLit(isGreen, page, 'the robots are green again');
+  await page.close();
+});

@@ -1,9 +1,9 @@
 //! Files that were dropped or chosen.
 
 use lightbots_api::MakeFile;
+use lightbots_draw::animation::webp_moves;
 use lightbots_draw::text::Font;
 use lightbots_draw::{DrawError, FileKind, sniff, unsupported};
-use lightbots_make::webp_moves;
 use lightbots_show::SourceKind;
 
 use crate::answer;

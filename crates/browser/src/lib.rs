@@ -3,8 +3,9 @@
 //!
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
 //! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
-//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`PlannedLight`] has its colours, [`choices`] lists what settings
-//! may name, [`file`] tells what a file is; the functions below them are the same for JavaScript.
+//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`PlannedLight`] has its colours with [`LightPictures`],
+//! [`choices`] lists what settings may name, [`file`] tells what a file is; the functions below them are the same for
+//! JavaScript.
 
 mod answer;
 mod choices;
@@ -21,7 +22,7 @@ pub use choices::choices;
 pub use file::file;
 pub use film::film_answer;
 pub use fit::fit_answer;
-pub use light::PlannedLight;
+pub use light::{LightPictures, PlannedLight};
 pub use make::make_answer;
 pub use plan::plan_answer;
 

@@ -2,15 +2,57 @@
 
 use lightbots_api::{LightAnswer, LightRequest, MakeRemark, Transition};
 use lightbots_base::{Piece, Span, Vec2};
-use lightbots_lighting::{FrameLight, FrameTimes, LightMoment, LitFrame, PlannedDrive, ShowLight, lit_frame};
+use lightbots_lighting::{
+    FrameLight, FrameTimes, LAYER_PICTURES_MAX, LightMoment, LitFrame, PlannedDrive, ShowLight,
+    floor_picture, lit_frame,
+};
+use lightbots_make::layer_picture;
 use lightbots_plan::Path;
-use lightbots_show::{Frame, Show};
+use lightbots_show::{Frame, LayerPicture, Show};
+use std::collections::BTreeMap;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answer;
 
 /// Most colours in one answer: a request for more gets fewer moments.
 const COLOURS_MAX: usize = 2_000_000;
+
+/// Pictures that layers project on the floor, decoded. Files of others are read here, in a worker of the browser.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct LightPictures {
+    /// By the hash of the file.
+    decoded: BTreeMap<String, LayerPicture>,
+}
+
+#[wasm_bindgen]
+impl LightPictures {
+    /// No pictures.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> LightPictures {
+        Self::default()
+    }
+
+    /// Decodes a file. A `LightAnswer` as JSON: its error says what is wrong with the file.
+    pub fn add(&mut self, hash: &str, file: &[u8]) -> String {
+        let decoded = layer_picture(file).map_err(answer::drawing).and_then(|picture| {
+            if self.decoded.len() >= LAYER_PICTURES_MAX && !self.decoded.contains_key(hash) {
+                let message =
+                    format!("More than {LAYER_PICTURES_MAX} pictures were looked at: reload the page.");
+                return Err(MakeRemark { code: "too-many-pictures".into(), message });
+            }
+            self.decoded.insert(hash.to_owned(), picture);
+            Ok(())
+        });
+        answer::text(&LightAnswer { robots: 0, error: decoded.err() })
+    }
+}
+
+impl LightPictures {
+    fn light(&self, show: &Show) -> ShowLight {
+        ShowLight::with_pictures(show, |hash| floor_picture(self.decoded.get(hash)?)).0
+    }
+}
 
 /// The light of a show, ready to be asked for moments.
 #[wasm_bindgen]
@@ -37,8 +79,8 @@ struct Drive {
 impl PlannedLight {
     /// Reads a `LightRequest` as JSON.
     #[wasm_bindgen(constructor)]
-    pub fn new(request: &str) -> PlannedLight {
-        Self::read(request).unwrap_or_else(|error| Self { error: Some(error), ..Self::default() })
+    pub fn new(request: &str, pictures: &LightPictures) -> PlannedLight {
+        Self::read(request, pictures).unwrap_or_else(|error| Self { error: Some(error), ..Self::default() })
     }
 
     /// What was read: a `LightAnswer` as JSON.
@@ -48,11 +90,11 @@ impl PlannedLight {
 
     /// Takes other layers: those of a show in our format as JSON, whose other parts do not count, so that it may be without
     /// pixels. A `LightAnswer` as JSON.
-    pub fn relight(&mut self, document: &str) -> String {
+    pub fn relight(&mut self, document: &str, pictures: &LightPictures) -> String {
         match shown(document) {
             Ok(other) => {
                 self.show.layers = other.layers;
-                self.light = ShowLight::new(&self.show, |_| None).0;
+                self.light = pictures.light(&self.show);
                 self.answer()
             }
             Err(error) => answer::text(&LightAnswer { robots: self.robots, error: Some(error) }),
@@ -84,7 +126,7 @@ impl PlannedLight {
 }
 
 impl PlannedLight {
-    fn read(request: &str) -> Result<Self, MakeRemark> {
+    fn read(request: &str, pictures: &LightPictures) -> Result<Self, MakeRemark> {
         let request: LightRequest = answer::request(request)?;
         let show = shown(&request.show.to_string())?;
         let planned = |number: usize, frame: &Frame| match request.transitions.get(number) {
@@ -99,7 +141,7 @@ impl PlannedLight {
             times.push(FrameTimes::after(end_s, drive.duration.as_secs(), frame.air_time_s));
         }
         let robots = drives.iter().map(|drive| drive.pixels.len()).max().unwrap_or(0);
-        let (light, _) = ShowLight::new(&show, |_| None);
+        let light = pictures.light(&show);
         Ok(Self { show, light, drives, times, robots, error: None })
     }
 
@@ -172,11 +214,15 @@ mod tests {
         )
     }
 
+    fn planned(request: &str) -> PlannedLight {
+        PlannedLight::new(request, &LightPictures::new())
+    }
+
     fn with_plan(layers: &str) -> (PlannedLight, f64) {
         let show = show(layers);
         let plan = plan_answer(&format!(r#"{{"show": {show}, "quality": "full"}}"#)).plan.unwrap();
         let ways = serde_json::to_string(&plan.transitions).unwrap();
-        let light = PlannedLight::new(&format!(r#"{{"show": {show}, "transitions": {ways}}}"#));
+        let light = planned(&format!(r#"{{"show": {show}, "transitions": {ways}}}"#));
         assert_eq!(light.answer(), r#"{"robots":1,"error":null}"#);
         (light, plan.transitions[0].duration_s)
     }
@@ -195,7 +241,7 @@ mod tests {
     fn without_a_plan_robots_stand_on_their_pixels() {
         let along =
             r##"{"kind": "gradient", "settings": {"speed_hz": 0, "palette": ["#000000", "#ffffff"]}}"##;
-        let light = PlannedLight::new(&format!(r#"{{"show": {}, "transitions": []}}"#, show(along)));
+        let light = planned(&format!(r#"{{"show": {}, "transitions": []}}"#, show(along)));
         assert_eq!(light.colours(0.5, 2.0, 3), [0, 0, 0, 255, 255, 255, 255, 255, 255]);
     }
 
@@ -204,10 +250,11 @@ mod tests {
         let (mut light, first_s) = with_plan("");
         let frames = r#""frames": [{"name": "A", "pixels": []}]"#;
         let layers = r##""layers": [{"kind": "solid", "settings": {"palette": ["#00ff00"]}}]"##;
-        let answer = light.relight(&format!(r#"{{"lightbots": 2, {layers}, {frames}}}"#));
+        let answer =
+            light.relight(&format!(r#"{{"lightbots": 2, {layers}, {frames}}}"#), &LightPictures::new());
         assert_eq!(answer, r#"{"robots":1,"error":null}"#);
         assert_eq!(light.colours(first_s, 1.0, 1), [0, 255, 0]);
-        assert!(light.relight("{").contains("error"));
+        assert!(light.relight("{", &LightPictures::new()).contains("error"));
         assert_eq!(light.colours(first_s, 1.0, 1), [0, 255, 0]);
     }
 
@@ -218,8 +265,31 @@ mod tests {
             assert_eq!(light.colours(from_s, f64::NAN, 2).len(), 6);
         }
         assert_eq!(light.colours(0.0, 0.0, usize::MAX).len(), 3 * COLOURS_MAX);
-        let none = PlannedLight::new("{");
+        let none = planned("{");
         assert!(none.answer().contains("bad-request"));
         assert!(none.colours(0.0, 1.0, 9).is_empty());
+    }
+
+    /// A GIF of 2 by 1 pixels, blue and red: a palette of two colours, and codes of three bits (clear 4, 0, 1, end 5).
+    const GIF: &[u8] = b"GIF89a\x02\0\x01\0\x80\0\0\0\0\xff\xff\0\0,\0\0\0\0\x02\0\x01\0\0\x02\x02D\n\0;";
+
+    #[test]
+    fn a_picture_of_a_layer_shines_once_it_was_decoded_and_what_is_wrong_is_said() {
+        let hash = "ab".repeat(32);
+        let settings = format!(r#"{{"picture": "{hash}", "place": [0.5, 0], "size_m": 2}}"#);
+        let request = format!(
+            r#"{{"show": {}, "transitions": []}}"#,
+            show(&format!(r#"{{"kind": "picture", "settings": {settings}}}"#))
+        );
+        let mut pictures = LightPictures::new();
+        let own = [255, 0, 0, 0, 0, 255];
+        assert_eq!(PlannedLight::new(&request, &pictures).colours(0.5, 2.0, 2), own);
+        let cut = pictures.add(&hash, &GIF[..20]);
+        assert!(cut.contains("damaged or cut off"), "{cut}");
+        assert_eq!(PlannedLight::new(&request, &pictures).colours(0.5, 2.0, 2), own);
+        assert_eq!(pictures.add(&hash, GIF), r#"{"robots":0,"error":null}"#);
+        // The robot stands on the centres of the picture's pixels, first on the left one.
+        let lit = PlannedLight::new(&request, &pictures).colours(0.5, 2.0, 2);
+        assert_eq!(lit, [0, 0, 255, 255, 0, 0]);
     }
 }

@@ -23,6 +23,7 @@ fn with_logo() -> Show {
         media_type: "image/svg+xml".into(),
         bytes: LOGO.len() as u64,
         content: Some(LOGO.into()),
+        picture: None,
     };
     show.assets = [(hash_of(LOGO), asset)].into();
     show.frames[0].sources[0].asset = Some(hash_of(LOGO));

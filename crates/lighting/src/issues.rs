@@ -9,7 +9,7 @@ use lightbots_plan::ShowPlan;
 use lightbots_show::{AssetHash, Issue, Issues, Show, excerpt};
 
 /// Issues of a show with those of its layers: each layer that stays dark, and each setting without meaning. Pictures are
-/// not decoded here; they are missing where the show has no such file.
+/// not looked at here, see [`attach_pictures`](crate::attach_pictures); they are missing where the show has no such file.
 pub fn validate(show: &Show) -> Issues {
     let mut issues = lightbots_show::validate(show);
     issues.extend(faults(show).iter().map(|fault| Issue::warning("bad-layer", text(show, fault))));
@@ -19,7 +19,7 @@ pub fn validate(show: &Show) -> Issues {
 fn faults(show: &Show) -> Vec<LayerFault> {
     let dot = || FloorPicture::new(1, 1, vec![Rgb::BLACK]).ok();
     let is_there = |hash: &str| AssetHash::from_hex(hash).is_some_and(|hash| show.assets.contains_key(&hash));
-    ShowLight::new(show, |hash| is_there(hash).then(dot).flatten()).1
+    ShowLight::with_pictures(show, |hash| is_there(hash).then(dot).flatten()).1
 }
 
 /// Such as `the layer "Sparks": speed_hz is 1000: choose a number from -3 to 3`.
@@ -35,7 +35,7 @@ fn text(show: &Show, fault: &LayerFault) -> String {
 
 /// Says where the light of a planned show flashes too often, if it does.
 pub fn flashes_of(show: &Show, plan: &ShowPlan) -> Option<Issue> {
-    let (light, _) = ShowLight::new(show, |_| None);
+    let (light, _) = ShowLight::new(show);
     if light.is_empty() {
         return None;
     }

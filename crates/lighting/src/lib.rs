@@ -2,7 +2,8 @@
 //!
 //! `lightbots_light` computes colours of layers and knows no show; here layers are read from a show, placed on its timeline
 //! and turned into the records that robots play. No IO, and no state between two calls. Reading order: [`ShowLight`],
-//! [`FrameTimes`], [`DrivenLight`], [`fit`](fit()), [`flashes`](flashes()), [`validate`].
+//! [`FrameTimes`], [`DrivenLight`], [`fit`](fit()), [`flashes`](flashes()), [`validate`],
+//! [`attach_pictures`].
 
 mod driven;
 mod fit;
@@ -11,6 +12,7 @@ mod issues;
 mod layer_settings;
 mod live;
 mod masks;
+mod pictures;
 mod planned;
 mod settings;
 mod show_light;
@@ -21,6 +23,7 @@ pub use fit::{LightFit, Tolerance, fit, is_seen_apart};
 pub use flashes::{FlashWarning, LitFrame, flashes};
 pub use issues::{flash_issue, flashes_of, validate};
 pub use live::LiveLayers;
+pub use pictures::{LAYER_PICTURES_MAX, attach_pictures, floor_picture};
 pub use planned::{PlannedDrive, lit_frame, planned};
 pub use settings::LAYER_KINDS;
 pub use show_light::{FrameLight, ShowLight};

@@ -1,9 +1,10 @@
 //! The layers of a show, and which of them shine in a frame.
 
+use crate::pictures::floor_picture;
 use crate::settings::light_layer;
 use crate::times::FrameTimes;
 use lightbots_light::{FloorPicture, LayerFault, Layers, LightLayer};
-use lightbots_show::{FramePhase, LayerSpan, Show};
+use lightbots_show::{AssetHash, FramePhase, LayerSpan, Show};
 use std::collections::BTreeMap;
 
 /// When a layer shines, with frames by number.
@@ -42,9 +43,17 @@ impl FrameLight {
 }
 
 impl ShowLight {
-    /// Reads the layers of a show. `picture` decodes the picture with a hash. A layer that is wrong stays dark, and a
-    /// setting without meaning changes nothing; both are among the faults.
-    pub fn new(
+    /// Reads the layers of a show, with the pictures that were decoded into its files. A layer that is wrong or has no
+    /// picture stays dark, and a setting without meaning changes nothing; both are among the faults.
+    pub fn new(show: &Show) -> (Self, Vec<LayerFault>) {
+        Self::with_pictures(show, |hash| {
+            let asset = show.assets.get(&AssetHash::from_hex(hash)?)?;
+            floor_picture(asset.picture.as_ref()?)
+        })
+    }
+
+    /// The same with pictures from elsewhere: `picture` gives the one with a hash.
+    pub fn with_pictures(
         show: &Show,
         mut picture: impl FnMut(&str) -> Option<FloorPicture>,
     ) -> (Self, Vec<LayerFault>) {

@@ -28,7 +28,7 @@ fn circle(radius_m: f64) -> Setting {
 
 fn found(layers: Vec<Layer>) -> Option<(FlashWarning, String)> {
     let show = Show { layers, frames: vec![Frame::default()], ..Show::default() };
-    let (light, faults) = ShowLight::new(&show, |_| None);
+    let (light, faults) = ShowLight::new(&show);
     assert_eq!(faults, []);
     let robot = |index: u32| DrivenLight {
         number: (index, 100),

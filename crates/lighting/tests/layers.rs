@@ -65,7 +65,7 @@ fn a_layer_shines_in_its_frames_and_their_parts() {
         |first: &str, last: &str, phase| LayerSpan::Frames { first: first.into(), last: last.into(), phase };
     // Frame by frame: in the drive, and in the air time. Frame n is driven to from 6n − 2 s on.
     let seen = |span: LayerSpan| {
-        let (light, faults) = ShowLight::new(&show(vec![red(span)]), no_picture);
+        let (light, faults) = ShowLight::with_pictures(&show(vec![red(span)]), no_picture);
         assert_eq!(faults, []);
         let at = |frame: usize, s: f64| colour(&light, frame, 6.0 * frame as f64 + s, 0.0) == RED;
         (0..3).map(|frame| [at(frame, -1.0), at(frame, 1.0)]).collect::<Vec<_>>()
@@ -83,7 +83,7 @@ fn the_time_of_a_layer_counts_from_its_begin_and_a_free_one_is_ahead() {
     let fade = |free: bool| {
         let span = LayerSpan::Frames { first: "two".into(), last: "two".into(), phase: FramePhase::Picture };
         let settings = vec![("speed_hz", number(0.25)), ("runs_freely", Setting::Bool(free))];
-        ShowLight::new(&show(vec![layer("fade", span, settings)]), no_picture).0
+        ShowLight::with_pictures(&show(vec![layer("fade", span, settings)]), no_picture).0
     };
     // Air time of the second frame begins at 6 s; 4 s lead from black to white.
     assert_eq!(colour(&fade(false), 1, 6.0, 2.0), Rgb::BLACK);
@@ -99,11 +99,13 @@ fn every_kind_is_read_and_what_is_wrong_is_named() {
         let settings = if kind == "picture" { vec![("picture", text("f00d"))] } else { Vec::new() };
         let speed = if matches!(kind, "strobe" | "pulse") { 2.0 } else { 5.0 };
         let settings = settings.into_iter().chain([("speed_hz", number(speed))]).collect();
-        let (light, faults) = ShowLight::new(&show(vec![layer(kind, LayerSpan::Show, settings)]), picture);
+        let (light, faults) =
+            ShowLight::with_pictures(&show(vec![layer(kind, LayerSpan::Show, settings)]), picture);
         assert_eq!((light.is_empty(), faults.as_slice()), (false, [].as_slice()), "{kind}");
     }
     let said = |kind: &str, settings: Vec<(&str, Setting)>| {
-        let (_, faults) = ShowLight::new(&show(vec![layer(kind, LayerSpan::Show, settings)]), no_picture);
+        let (_, faults) =
+            ShowLight::with_pictures(&show(vec![layer(kind, LayerSpan::Show, settings)]), no_picture);
         faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
     };
     let list = Setting::List;
@@ -127,7 +129,7 @@ fn every_kind_is_read_and_what_is_wrong_is_named() {
 #[test]
 fn a_wrong_layer_stays_dark_and_the_others_shine() {
     let layers = vec![layer("sparkles", LayerSpan::Show, Vec::new()), red(LayerSpan::Show)];
-    let (light, faults) = ShowLight::new(&show(layers), no_picture);
+    let (light, faults) = ShowLight::with_pictures(&show(layers), no_picture);
     assert_eq!((faults.len(), colour(&light, 0, 1.0, 0.0)), (1, RED));
 }
 
@@ -138,7 +140,7 @@ fn a_mask_picks_pixels_by_their_ids() {
         let mask = Setting::Object(vec![("shape".into(), text("pixels")), ("pixels".into(), ids)]);
         let palette = ("palette", Setting::List(vec![text("#ff0000")]));
         let masked = layer("solid", LayerSpan::Show, vec![palette, ("masks", Setting::List(vec![mask]))]);
-        let (light, faults) = ShowLight::new(&show(vec![masked]), no_picture);
+        let (light, faults) = ShowLight::with_pictures(&show(vec![masked]), no_picture);
         assert_eq!(faults, []);
         colour(&light, 0, 1.0, 0.0)
     };
@@ -148,5 +150,5 @@ fn a_mask_picks_pixels_by_their_ids() {
 #[test]
 fn too_many_faults_are_cut() {
     let layers = vec![layer("sparkles", LayerSpan::Show, Vec::new()); 1_000];
-    assert_eq!(ShowLight::new(&show(layers), no_picture).1.len(), lightbots_light::FAULTS_MAX);
+    assert_eq!(ShowLight::with_pictures(&show(layers), no_picture).1.len(), lightbots_light::FAULTS_MAX);
 }

@@ -14,11 +14,6 @@ const REACH: usize = 60;
 /// Time that every move takes besides its way, seconds: a quarter turn and a ramp.
 const MOVE_S: f64 = 0.62;
 
-/// Whether a WebP file is an animation: its header says so in bit 1 of the flags.
-pub fn webp_moves(bytes: &[u8]) -> bool {
-    bytes.get(12..16) == Some(b"VP8X") && bytes.get(20).is_some_and(|flags| flags & 2 != 0)
-}
-
 /// The frames that an animation becomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {

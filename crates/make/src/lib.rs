@@ -2,21 +2,24 @@
 //!
 //! The command line and the browser make and change frames with this crate alone. It does no IO. In reading order:
 //! [`Recipe`] is the typed form of a source's settings, [`material`] gives its drawing, [`make_frame`] its pixels,
-//! [`film`] the frames of an animation, and [`fit_show`] fits all frames of a show to another fleet.
+//! [`film`] the frames of an animation, [`layer_picture`] what a layer projects on the floor, and [`fit_show`] fits all
+//! frames of a show to another fleet.
 
 mod enough;
 mod film;
 mod fit;
 mod floor;
 mod frame;
+mod layer_picture;
 mod material;
 mod recipe;
 mod settings;
 
 pub use enough::enough_for;
-pub use film::{Film, FilmFrame, film, webp_moves};
+pub use film::{Film, FilmFrame, film};
 pub use fit::fit_show;
 pub use floor::picture_floor;
 pub use frame::{MadeFrame, make_frame, make_frame_from};
+pub use layer_picture::layer_picture;
 pub use material::{Material, TextPages, material, text_pages};
 pub use recipe::{Content, Placing, Recipe, Scroll, TextRecipe, unknown_shape};

@@ -76,6 +76,9 @@ pub enum Command {
     Backup(BackupArguments),
     /// Make a data folder of a backup
     Restore(RestoreArguments),
+    /// Decode a picture of a layer; this program starts it by itself
+    #[command(hide = true)]
+    Picture,
 }
 
 /// How a show is read.

@@ -29,10 +29,11 @@ use std::sync::{Arc, Mutex};
 
 use lightbots_api::{ShowEntry, ShowOrigin, ShowState};
 use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, Loaded, hash_of, read, sniff};
-use lightbots_show::{AssetHash, Show};
+use lightbots_show::{AssetHash, Issues, Show};
 
 use crate::disk::{self, Readers};
 use crate::examples;
+use crate::layer_pictures::LayerPictures;
 use asset_store::AssetStore;
 use facts::{FileFacts, ListFacts};
 use given::{Given, GivenShows};
@@ -64,6 +65,7 @@ pub struct Library {
     writing: Arc<Mutex<()>>,
     /// Files that belong to the shows.
     assets: AssetStore,
+    pictures: LayerPictures,
 }
 
 impl Library {
@@ -90,6 +92,7 @@ impl Library {
         Self {
             states: States::new(folder.join("history")),
             assets: AssetStore::new(folder.join("assets")),
+            pictures: LayerPictures::default(),
             files: ShowFiles::new(folder),
             facts: FileFacts::default(),
             given: GivenShows::default(),
@@ -163,7 +166,7 @@ impl Library {
         let is_document = sniff(&bytes) == Some(&LIGHTBOTS) && unread.is_none();
         let bytes = if is_document { bytes } else { LIGHTBOTS.write(&show, None).bytes };
         let read_only = unread.map(|reason| read_only_line(name, &reason));
-        Ok(Kept { etag, bytes, show, read_only })
+        Ok(Kept { etag, bytes, show, read_only, issues: Issues::new() })
     }
 
     /// The saved states of a show, the newest first: the present one, and earlier ones.
@@ -210,6 +213,17 @@ impl Library {
     /// Gives a show the files that it names, as far as the library has them.
     pub fn attach(&self, show: &mut Show) {
         self.assets.attach(show);
+    }
+
+    /// Gives a show the decoded pictures that its layers project; says which layers stay dark.
+    pub fn attach_pictures(&self, show: &mut Show) -> Issues {
+        self.pictures.attach(show, |hash, asset| self.assets.of(hash, asset))
+    }
+
+    /// A show as robots play it: with the decoded pictures of its layers.
+    pub fn with_pictures(&self, mut kept: Kept) -> Kept {
+        kept.issues = self.attach_pictures(&mut kept.show);
+        kept
     }
 
     /// A file that a show may name by its hash.

@@ -227,6 +227,7 @@ fn with_picture() -> Show {
         media_type: "image/png".into(),
         bytes: content.len() as u64,
         content: Some(content.clone()),
+        picture: None,
     };
     Show { assets: [(hash_of(&content), asset)].into(), ..titled("Picture") }
 }

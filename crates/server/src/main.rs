@@ -14,11 +14,13 @@ mod disk;
 mod examples;
 mod failure;
 mod fleet_book;
+mod layer_pictures;
 mod library;
 mod live;
 mod logging;
 mod numbers;
 mod open_files;
+mod own_program;
 mod progress;
 mod run_report;
 mod say;
@@ -85,6 +87,7 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Broker(arguments) => commands::broker::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
         Command::Make(arguments) => stop.at_once(|| commands::make::run(&arguments)),
+        Command::Picture => stop.at_once(commands::picture::run),
         Command::Passwd(arguments) => stop.at_once(|| commands::passwd::run(&arguments)),
         Command::Backup(arguments) => stop.at_once(|| commands::backup::save(&arguments)),
         Command::Restore(arguments) => stop.at_once(|| commands::backup::restore(&arguments)),

@@ -9,6 +9,7 @@ use lightbots_show::{Identity, Issue, Issues, Show, Stage, with_floor};
 use crate::cli::ShowArguments;
 use crate::disk::read_bounded;
 use crate::failure::Failure;
+use crate::layer_pictures::LayerPictures;
 
 /// The code of the issue that `--floor` was given for a show that has a floor of its own.
 pub const FLOOR_IGNORED: &str = "floor-ignored";
@@ -96,6 +97,7 @@ fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
         }
     }
     issues.extend(validate(&show));
+    issues.extend(LayerPictures::default().attach(&mut show, |_, asset| asset.content.clone()));
     Opened { show, unread, issues }
 }
 

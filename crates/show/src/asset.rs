@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::layer_picture::LayerPicture;
+
 /// SHA-256 of a file's bytes. `Display` gives the 64 hexadecimal digits that files use.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct AssetHash(pub [u8; 32]);
@@ -23,6 +25,10 @@ pub struct Asset {
     /// a controller writes down of a show does without.
     #[serde(skip)]
     pub content: Option<Arc<[u8]>>,
+    /// The file as layers project it on the floor; `None`: no layer does, or the file was not decoded. A controller writes
+    /// it down, because the light of a run depends on it.
+    #[serde(with = "crate::layer_picture::shared")]
+    pub picture: Option<Arc<LayerPicture>>,
 }
 
 /// Files of a show by their hash.

@@ -409,5 +409,8 @@ fn send(
 }
 
 #[cfg(test)]
+#[path = "picture_tests.rs"]
+mod picture_tests;
+#[cfg(test)]
 #[path = "play_tests.rs"]
 mod tests;

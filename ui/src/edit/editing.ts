@@ -1,3 +1,4 @@
+import { getAsset } from '../api/http';
 import type { MakeChoices, Plan } from '../api/types.gen';
 import type { Rgb } from '../base/colour';
 import { createStore, type Readable, type Store } from '../base/store';
@@ -102,7 +103,9 @@ export function createEditing(
   const { saver, keeper } = saving;
   const color = createStore<Rgb>(0xffc878);
   const maker = createMaker(startWorker);
-  const lights = createLights(startLightWorker);
+  const files = new Map<string, TakenFile>();
+  const fileOf = async (hash: string) => files.get(hash)?.bytes ?? (await getAsset(hash));
+  const lights = createLights(startLightWorker, fileOf);
   let { selection } = editor.state.get();
   const unfollow = editor.state.subscribe(() => {
     const now = editor.state.get();
@@ -138,7 +141,7 @@ export function createEditing(
     lighting: createStore(false),
     choices: createStore<MakeChoices | null>(null),
     making: createStore<Making | null>(null),
-    files: new Map(),
+    files,
     space: createSpaceHold(() => tool.get() === 'hand', preview.toggle),
     menu: createStore<MenuAt | null>(null),
     renaming: createStore<number | null>(null),

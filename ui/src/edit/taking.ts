@@ -76,7 +76,7 @@ export async function takeFiles(session: Session, editing: Editing, files: reado
 }
 
 /** A file that was looked at. */
-interface Looked {
+export interface Looked {
   hash: string;
   name: string;
   kind: MakeFile['kind'];
@@ -91,7 +91,7 @@ const draftFile = ({ hash, name, kind }: Looked): DraftFile => ({
 });
 
 /** Looks what a file is, and keeps it until a frame uses it. */
-async function look(editing: Editing, file: File): Promise<Looked> {
+export async function look(editing: Editing, file: File): Promise<Looked> {
   const refused = (why: string): Looked => ({ hash: '', name: file.name, kind: null, why });
   if (file.size > FILE_BYTES_MAX)
     return refused(`It has ${Math.ceil(file.size / 2 ** 20)} MiB; use a file of at most 16 MiB.`);

@@ -5,10 +5,12 @@ import { addLayer, setLayerSettings, type Layer } from '../model/layers';
 import { EMPTY_STAGE, newFrame, newShow, type Show } from '../model/show';
 import { createLights } from './lights';
 import type { LightAsk } from './protocol';
+import { gifOf } from '../make/gif.testing';
 import { realLightWorker } from './realLight.testing';
 import { STRIP_MOMENTS, type Strip } from './strip';
 
 const NO_DRIVES = [] as const;
+const noFile = () => Promise.reject(new Error('there is no file'));
 const layer = (kind: string, settings: Record<string, unknown>): Layer => ({
   kind,
   name: '',
@@ -35,7 +37,7 @@ function dimmed(): Show {
 const settled = () => new Promise((done) => setTimeout(done, 250));
 
 test('colours of a moment come once they are computed, and stay the same object', async () => {
-  const lights = createLights(() => realLightWorker());
+  const lights = createLights(() => realLightWorker(), noFile);
   const show = setLayerSettings(dimmed(), 0, { opacity: 0.5 });
   expect(lights.at(show, NO_DRIVES, 1)).toBeNull();
   await settled();
@@ -52,7 +54,7 @@ test('colours of a moment come once they are computed, and stay the same object'
 
 test('a change of layers alone does not send the show again', async () => {
   const asked: LightAsk['do'][] = [];
-  const lights = createLights(() => realLightWorker((ask) => asked.push(ask.do)));
+  const lights = createLights(() => realLightWorker((ask) => asked.push(ask.do)), noFile);
   const show = dimmed();
   lights.at(show, NO_DRIVES, 0);
   await settled();
@@ -68,7 +70,7 @@ test('a change of layers alone does not send the show again', async () => {
 test('a show without layers does not start the module', () => {
   const lights = createLights(() => {
     throw new Error('started');
-  });
+  }, noFile);
   expect(lights.at(newShow('Test', 2), NO_DRIVES, 0)).toBeNull();
 });
 
@@ -79,7 +81,7 @@ test('a module that fails answers nothing any more, and nothing waits for it', a
     const worker = realLightWorker();
     worker.postMessage = () => worker.onerror?.({} as ErrorEvent);
     return worker;
-  });
+  }, noFile);
   const preset = presetLayer(LIGHT_PRESETS[0] as (typeof LIGHT_PRESETS)[number], EMPTY_STAGE);
   expect(await lights.strip(preset, EMPTY_STAGE)).toBeNull();
   expect(lights.at(dimmed(), NO_DRIVES, 0)).toBeNull();
@@ -96,7 +98,7 @@ function colours(strip: Strip): number {
 }
 
 test('every preset and every effect changes what robots show, by settings that the module takes', async () => {
-  const lights = createLights(() => realLightWorker());
+  const lights = createLights(() => realLightWorker(), noFile);
   const stripOf = async (one: Layer) => {
     const strip = await lights.strip(one, EMPTY_STAGE);
     expect(strip?.length).toBe(STRIP_MOMENTS.count * 96 * 3);
@@ -112,4 +114,39 @@ test('every preset and every effect changes what robots show, by settings that t
     const strip = await stripOf(layer(kind, {}));
     expect(strip, kind).not.toEqual(plain);
   }
+});
+
+/** A picture of four columns, of which the second is white. */
+const stripe = () => gifOf([1], 4);
+
+test('a picture is fetched and decoded once, and shines then; one that is broken is said', async () => {
+  const files: Record<string, Uint8Array> = { good: stripe(), bad: stripe().slice(0, 40) };
+  const asked: string[] = [];
+  const lights = createLights(
+    () => realLightWorker((ask) => asked.push(ask.do)),
+    (hash) => {
+      const file = files[hash];
+      asked.push(`fetch ${hash}`);
+      return file ? Promise.resolve(file) : Promise.reject(new Error('it is gone'));
+    },
+  );
+  const projected = (picture: string) => layer('picture', { picture, size_m: 100 });
+  const show = addLayer(dimmed(), projected('good'));
+  lights.at(show, NO_DRIVES, 1);
+  await settled();
+  lights.at(show, NO_DRIVES, 1);
+  await settled();
+  // The robots stand in the middle, where white meets black.
+  const lit = [...(lights.at(show, NO_DRIVES, 1) ?? [])];
+  expect(lit).toHaveLength(6);
+  expect(Math.min(...lit)).toBeGreaterThan(0);
+  const strip = await lights.strip(projected('good'), EMPTY_STAGE);
+  expect(strip?.some((code) => code > 0)).toBe(true);
+  expect(asked.filter((one) => one === 'fetch good')).toHaveLength(1);
+  expect(asked.filter((one) => one === 'picture')).toHaveLength(1);
+  expect(await lights.strip(projected('bad'), EMPTY_STAGE)).not.toBeNull();
+  expect(await lights.strip(projected('gone'), EMPTY_STAGE)).not.toBeNull();
+  expect(lights.pictureErrors.get().get('bad')).toContain('damaged or cut off');
+  expect(lights.pictureErrors.get().get('gone')).toContain('it is gone');
+  expect(lights.pictureErrors.get().has('good')).toBe(false);
 });

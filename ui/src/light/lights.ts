@@ -1,8 +1,10 @@
 import type { Transition } from '../api/types.gen';
+import type { Readable } from '../base/store';
 import { writeShow } from '../model/json';
 import { layersOf, type Layer } from '../model/layers';
 import type { Show, Stage } from '../model/show';
 import { createAsking, type LightWorker } from './asking';
+import { createLayerPictures, type FileOf, type PictureFile } from './pictures';
 import type { LightAsk, LightReply } from './protocol';
 import { stripRequest, STRIP_MOMENTS, type Strip } from './strip';
 
@@ -19,6 +21,8 @@ export interface Lights {
   at(show: Show, transitions: readonly Transition[], time_s: number): Colours | null;
   /** What a layer does on the floor of a show; null: it cannot be shown, or too many are asked for. */
   strip(layer: Layer, stage: Stage): Promise<Strip | null>;
+  /** Why pictures of layers cannot be shown, by the hash of the file. */
+  pictureErrors: Readable<ReadonlyMap<string, string>>;
   end(): void;
 }
 
@@ -50,8 +54,12 @@ interface StripJob {
   done: (strip: Strip | null) => void;
 }
 
-export function createLights(start: () => LightWorker): Lights {
+export function createLights(start: () => LightWorker, fileOf: FileOf): Lights {
   const asking = createAsking(start);
+  const pictures = createLayerPictures(fileOf, () => pump());
+  let wantedLayers: readonly Layer[] = [];
+  /** A picture came after the layers were read. */
+  let isStale = false;
   let loaded: Loaded | null = null;
   let wanted: (Planned & { time_s: number }) | null = null;
   let chunks = new Map<number, readonly Colours[]>();
@@ -64,7 +72,9 @@ export function createLights(start: () => LightWorker): Lights {
   /** Asks for what is needed most: the show, colours of the moment, of the moments after it, a strip. */
   const pump = () => {
     if (asking.isBusy() || asking.hasFailed()) return;
-    if (wanted && !isLoaded(loaded, wanted)) {
+    const picture = pictures.next();
+    if (picture) return decode(picture);
+    if (wanted && (isStale || !isLoaded(loaded, wanted))) {
       const early_ms = readAt_ms + LOAD_EVERY_MS - performance.now();
       if (early_ms <= 0 || onlyLayersDiffer(loaded, wanted))
         return load(wanted.show, wanted.transitions);
@@ -77,12 +87,21 @@ export function createLights(start: () => LightWorker): Lights {
       const missing = [at, at + 1].find((chunk) => !chunks.has(chunk));
       if (missing !== undefined) return fetchChunk(loaded, missing);
     }
-    const job = strips.shift();
-    if (job) makeStrip(job);
+    const job = strips.find(({ layer }) => !pictures.isWaiting(layer));
+    if (!job) return;
+    strips = strips.filter((one) => one !== job);
+    makeStrip(job);
   };
+  const decode = ({ hash, bytes }: PictureFile) =>
+    asking.ask({ do: 'picture', hash, bytes }, (reply) => {
+      if (reply.of === 'loaded') pictures.decoded(hash, reply.answer.error?.message ?? null);
+      isStale = true;
+      next(reply);
+    });
   const load = (show: Show, transitions: readonly Transition[]) => {
     const isSame = onlyLayersDiffer(loaded, { show, transitions });
     if (!isSame) readAt_ms = performance.now();
+    isStale = false;
     const request: LightAsk = isSame
       ? { do: 'relight', document: layersAlone(show) }
       : { do: 'load', request: { show: writeShow(show), transitions: [...transitions] } };
@@ -124,12 +143,14 @@ export function createLights(start: () => LightWorker): Lights {
     strips = [];
   };
   return {
+    pictureErrors: pictures.errors,
     at(show, transitions, time_s) {
       if (layersOf(show).length === 0 || asking.hasFailed()) {
         wanted = last = null;
         return null;
       }
       wanted = { show, transitions, time_s };
+      if (wantedLayers !== layersOf(show)) pictures.want((wantedLayers = layersOf(show)));
       pump();
       if (loaded && isLoaded(loaded, wanted)) {
         const { step_s, count } = loaded;
@@ -146,6 +167,7 @@ export function createLights(start: () => LightWorker): Lights {
       if (found) return Promise.resolve(found);
       return new Promise((done) => {
         if (asking.hasFailed()) return done(null);
+        pictures.want([layer]);
         strips.push({ key, layer, stage, done });
         if (strips.length > STRIPS_MAX) strips.shift()?.done(null);
         pump();

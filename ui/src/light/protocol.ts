@@ -5,6 +5,8 @@ export type LightAsk =
   | { do: 'load'; request: LightRequest }
   /** Other layers for the show that is loaded: a document whose pixels do not count. */
   | { do: 'relight'; document: unknown }
+  /** The file of a picture that layers project: shows and strips that are read afterwards have it. */
+  | { do: 'picture'; hash: string; bytes: Uint8Array }
   /** Colours of the loaded show at moments. */
   | { do: 'colours'; moments: Moments }
   /** Colours of another show, which is forgotten afterwards. */
@@ -25,20 +27,33 @@ export type LightReply =
   /** The worker is of no more use. */
   | { of: 'failure' };
 
-/** The class of the module, as `wasm-bindgen` writes it. */
-export interface LightOfModule {
+/** The classes of the module, as `wasm-bindgen` writes them. */
+export interface LightOfModule<Pictures> {
   answer(): string;
-  relight(document: string): string;
+  relight(document: string, pictures: Pictures): string;
   colours(from_s: number, step_s: number, count: number): Uint8Array;
   free(): void;
 }
-export type LightClass = new (request: string) => LightOfModule;
+export interface PicturesOfModule {
+  add(hash: string, file: Uint8Array): string;
+}
+export interface LightModule<Pictures extends PicturesOfModule> {
+  PlannedLight: new (request: string, pictures: Pictures) => LightOfModule<Pictures>;
+  LightPictures: new () => Pictures;
+}
 
-/** Answers messages with the module; keeps the show that was loaded last. */
-export function createResponder(PlannedLight: LightClass): (ask: LightAsk) => LightReply {
-  let loaded: LightOfModule | null = null;
+/** Answers messages with the module; keeps the show that was loaded last, and the pictures. */
+export function createResponder<Pictures extends PicturesOfModule>({
+  PlannedLight,
+  LightPictures,
+}: LightModule<Pictures>): (ask: LightAsk) => LightReply {
+  const pictures = new LightPictures();
+  let loaded: LightOfModule<Pictures> | null = null;
   const read = (text: string) => JSON.parse(text) as LightAnswer;
-  const colours = (light: LightOfModule, { from_s, step_s, count }: Moments): LightReply => ({
+  const colours = (
+    light: LightOfModule<Pictures>,
+    { from_s, step_s, count }: Moments,
+  ): LightReply => ({
     of: 'colours',
     bytes: light.colours(from_s, step_s, count),
   });
@@ -46,15 +61,20 @@ export function createResponder(PlannedLight: LightClass): (ask: LightAsk) => Li
     switch (ask.do) {
       case 'load':
         loaded?.free();
-        loaded = new PlannedLight(JSON.stringify(ask.request));
+        loaded = new PlannedLight(JSON.stringify(ask.request), pictures);
         return { of: 'loaded', answer: read(loaded.answer()) };
       case 'relight':
         if (!loaded) return { of: 'failure' };
-        return { of: 'loaded', answer: read(loaded.relight(JSON.stringify(ask.document))) };
+        return {
+          of: 'loaded',
+          answer: read(loaded.relight(JSON.stringify(ask.document), pictures)),
+        };
+      case 'picture':
+        return { of: 'loaded', answer: read(pictures.add(ask.hash, ask.bytes)) };
       case 'colours':
         return loaded ? colours(loaded, ask.moments) : { of: 'failure' };
       case 'strip': {
-        const light = new PlannedLight(JSON.stringify(ask.request));
+        const light = new PlannedLight(JSON.stringify(ask.request), pictures);
         try {
           return colours(light, ask.moments);
         } finally {

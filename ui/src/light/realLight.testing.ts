@@ -1,13 +1,13 @@
 import { readFileSync } from 'node:fs';
 import { answering } from '../base/worker.testing';
-import { initSync, PlannedLight } from '../generated/browser';
+import { initSync, LightPictures, PlannedLight } from '../generated/browser';
 import type { LightWorker } from './asking';
 import { createResponder, type LightAsk } from './protocol';
 
 /** The real module on this thread, behind the protocol of the worker; `asked` gets each message. */
 export function realLightWorker(asked: (ask: LightAsk) => void = () => undefined): LightWorker {
   initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
-  const respond = createResponder(PlannedLight);
+  const respond = createResponder({ PlannedLight, LightPictures });
   return answering((ask) => {
     asked(ask);
     return respond(ask);

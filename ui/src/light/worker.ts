@@ -1,15 +1,16 @@
-import load, { PlannedLight } from '../generated/browser';
+import load, { LightPictures, PlannedLight } from '../generated/browser';
 import address from '../generated/browser_bg.wasm?url';
 import { createResponder, type LightAsk, type LightReply } from './protocol';
 
 /** The module in a thread of its own: light is asked for many times a second, while frames are made in another thread. */
 const loaded = load({ module_or_path: address });
-const respond = createResponder(PlannedLight);
+let respond: ((ask: LightAsk) => LightReply) | null = null;
 const answer = (message: LightReply) => self.postMessage(message);
 
 self.onmessage = async ({ data }: MessageEvent<LightAsk>) => {
   try {
     await loaded;
+    respond ??= createResponder({ PlannedLight, LightPictures });
     answer(respond(data));
   } catch (error) {
     reportError(error);

@@ -11,7 +11,7 @@ const EDGES: [(&str, &[&str]); 21] = [
     ("draw", &["base"]),
     ("light", &["base"]),
     ("lighting", &["base", "light", "show", "plan"]),
-    ("make", &["base", "show", "draw"]),
+    ("make", &["base", "light", "show", "draw"]),
     ("plan", &["base", "show"]),
     ("exchange", &["base", "show", "plan"]),
     ("robot", &["base", "wire"]),

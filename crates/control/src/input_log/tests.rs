@@ -2,7 +2,7 @@ use super::record::{Record, RobotTopic};
 use super::*;
 use crate::{Config, Controller, OnReturn, Operation};
 use lightbots_base::{Instant, Span, StateHash};
-use lightbots_show::{Frame, Pixel, Show};
+use lightbots_show::{Asset, AssetHash, Frame, LayerPicture, Pixel, Show};
 use std::sync::Arc;
 
 fn drain(controller: &mut RecordedController) {
@@ -82,8 +82,12 @@ fn the_format_is_that_of_its_version() {
     controller.connected(Instant(5));
     let pixel = Pixel { robot: Some("a".into()), ..Pixel::default() };
     let frame = Frame { pixels: vec![pixel], ..Frame::default() };
-    let show = Arc::new(Show { frames: vec![frame], starts: Some(Vec::new()), ..Show::default() });
-    controller.operate(Instant(5), Operation::Open(show)).unwrap();
+    let picture = Some(Arc::new(LayerPicture { width: 1, height: 1, codes: vec![7, 8, 9] }));
+    let (name, media_type) = ("a.png".into(), "image/png".into());
+    let asset = Asset { name, media_type, bytes: 9, content: None, picture };
+    let assets = [(AssetHash([5; 32]), asset)].into();
+    let show = Show { frames: vec![frame], starts: Some(Vec::new()), assets, ..Show::default() };
+    controller.operate(Instant(5), Operation::Open(Arc::new(show))).unwrap();
     controller.message(Instant(6), "T/LightBot/Status", b"a 0.5 1.3 st=driving h=1 bat=5 off=0.01 fw=x");
     drain(&mut controller);
     let mut hash = StateHash::new();
@@ -106,5 +110,5 @@ fn the_format_is_that_of_its_version() {
         &postcard::to_allocvec(&[OnReturn::GoOrAsk, OnReturn::Go, OnReturn::Ask, OnReturn::Stop]).unwrap(),
     );
     records.iter().for_each(|record| hash.bytes(&postcard::to_allocvec(record).unwrap()));
-    assert_eq!((VERSION, hash.finish()), (15, 12_566_142_129_570_917_405));
+    assert_eq!((VERSION, hash.finish()), (16, 17_303_426_094_685_503_816));
 }

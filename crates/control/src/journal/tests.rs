@@ -3,7 +3,7 @@
 use super::*;
 use crate::run::{AirTime, FrameCursor, Membership, PathClock, Probation, RunPurpose, Whereabouts};
 use lightbots_base::{Instant, Rgb, RobotId, Span, StateHash, Vec2};
-use lightbots_show::{Frame, Layer, LayerSpan, Pixel, Setting, Show};
+use lightbots_show::{Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show};
 use std::sync::Arc;
 
 fn state() -> JournalState {
@@ -11,10 +11,14 @@ fn state() -> JournalState {
     let id = RobotId::new("a").unwrap();
     let settings = vec![("speed_hz".to_owned(), Setting::Number(2.0))];
     let layer = Layer { kind: "rainbow".into(), name: String::new(), span: LayerSpan::Show, settings };
+    let picture = Some(Arc::new(LayerPicture { width: 1, height: 1, codes: vec![7, 8, 9] }));
+    let (name, media_type) = ("a.png".into(), "image/png".into());
+    let asset = Asset { name, media_type, bytes: 9, content: None, picture };
+    let assets = [(AssetHash([5; 32]), asset)].into();
     JournalState {
         begun: RunBegun {
             at: Instant(5),
-            show: Arc::new(Show { frames: vec![frame], layers: vec![layer], ..Show::default() }),
+            show: Arc::new(Show { frames: vec![frame], layers: vec![layer], assets, ..Show::default() }),
             purpose: RunPurpose::Play,
             missing: Default::default(),
         },
@@ -105,9 +109,12 @@ fn the_format_is_that_of_its_version() {
     ]);
     let mut hash = StateHash::new();
     let bytes = postcard::to_allocvec(&entry).unwrap();
-    assert!(postcard::from_bytes::<Entry>(&bytes).unwrap() == entry, "a layer keeps its settings");
+    assert!(
+        postcard::from_bytes::<Entry>(&bytes).unwrap() == entry,
+        "a layer keeps its settings, a picture its codes"
+    );
     hash.bytes(&bytes);
-    assert_eq!((VERSION, hash.finish()), (5, 16_159_275_559_983_556_534));
+    assert_eq!((VERSION, hash.finish()), (6, 7_147_090_647_923_588_093));
 }
 
 #[test]

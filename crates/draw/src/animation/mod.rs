@@ -6,8 +6,9 @@ mod still;
 mod webp_file;
 
 pub use moments::{KeyMoments, key_moments};
+pub use still::Still;
 
-use crate::animation::still::{STILLS_MAX, Still, Stills, damaged};
+use crate::animation::still::{STILLS_MAX, Stills, damaged};
 use crate::drawing::Drawing;
 use crate::error::{DrawError, Note};
 use crate::picture::{self, BitMask, Bitmap, PictureSettings, Separation};
@@ -50,6 +51,29 @@ impl Animation {
     pub fn times_s(&self) -> Vec<f64> {
         self.frames.iter().map(|frame| frame.at_s).collect()
     }
+}
+
+/// The pixels of a file: one picture of a PNG, JPEG or WebP file, the pictures of an animation in GIF or WebP; at least one.
+///
+/// # Errors
+/// Files without pixels, damaged files, and pictures that are too large.
+pub fn stills(bytes: &[u8]) -> Result<Vec<Still>, DrawError> {
+    let alone = |bitmap| vec![Still { bitmap, lasts_s: 1.0 }];
+    match sniff(bytes) {
+        Some(FileKind::Gif) => Ok(gif_file::stills(bytes)?.stills),
+        Some(FileKind::Webp) if webp_moves(bytes) => Ok(webp_file::stills(bytes)?.stills),
+        Some(FileKind::Png | FileKind::Jpeg | FileKind::Webp) => picture::bitmap(bytes).map(alone),
+        Some(FileKind::Svg | FileKind::Csv) => {
+            let message = "The file is a drawing or a list, which has no pixels. Save it as PNG.";
+            Err(DrawError::new("picture-format", message))
+        }
+        None => Err(unsupported(bytes)),
+    }
+}
+
+/// Whether a WebP file is an animation: its header says so in bit 1 of the flags.
+pub fn webp_moves(bytes: &[u8]) -> bool {
+    bytes.get(12..16) == Some(b"VP8X") && bytes.get(20).is_some_and(|flags| flags & 2 != 0)
 }
 
 /// The animation in a GIF or WebP file.

@@ -11,6 +11,7 @@ pub const STILLS_MAX: usize = 300;
 pub const PIXELS_MAX: u64 = 200_000_000;
 
 /// A picture of an animation.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Still {
     /// What it shows.
     pub bitmap: Bitmap,

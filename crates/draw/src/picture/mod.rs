@@ -13,7 +13,8 @@ pub(crate) use lit::lifted;
 
 use crate::drawing::{Area, Drawing, DrawingPart, FillRule, Stroke};
 use crate::error::{DrawError, Made, Note};
-pub(crate) use crate::picture::bitmap::{BitMask, Bitmap};
+pub(crate) use crate::picture::bitmap::BitMask;
+pub use crate::picture::bitmap::Bitmap;
 pub(crate) use crate::picture::separate::Separation;
 
 /// How a picture is shown.

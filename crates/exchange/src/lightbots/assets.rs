@@ -63,6 +63,7 @@ fn asset(json: &mut Json<'_>, notes: &mut Notes) -> Result<Asset, ReadError> {
         media_type: media_type.ok_or_else(|| missing(json, "the media_type of the asset"))?,
         bytes: u64::from(bytes.ok_or_else(|| missing(json, "the number of bytes of the asset"))?),
         content: None,
+        picture: None,
     })
 }
 

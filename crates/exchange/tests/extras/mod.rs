@@ -18,6 +18,7 @@ pub fn with_every_part(show: Show) -> Show {
                 media_type: "image/svg+xml".into(),
                 bytes: 1_234,
                 content: None,
+                picture: None,
             },
         )]
         .into(),

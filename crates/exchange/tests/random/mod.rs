@@ -142,7 +142,7 @@ impl Numbers {
 
     fn asset(&mut self) -> Asset {
         let bytes = self.below(1 << 32) as u64;
-        Asset { name: self.text(), media_type: self.text(), bytes, content: None }
+        Asset { name: self.text(), media_type: self.text(), bytes, content: None, picture: None }
     }
 
     /// A show with random parts of version 2. It need not be valid.

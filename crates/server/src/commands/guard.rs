@@ -1,11 +1,12 @@
 //! Files of others are read in a child process with limits on memory and time: a file of a few bytes can ask for gigabytes.
 
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::failure::{Failure, Outcome};
+use crate::own_program::own_program;
 use crate::say;
 
 /// Set for the child, so that it does not start another one.
@@ -35,29 +36,36 @@ pub fn child_outcome(reads_foreign_files: bool) -> Option<Outcome> {
     reads_foreign_files.then(run_in_child)
 }
 
+/// This program as a child that reads what is not to be trusted.
+pub fn reading_child() -> Command {
+    let mut child = Command::new(own_program());
+    child.env(CHILD, "1").stdin(Stdio::null());
+    child
+}
+
+/// Why a child could not read, and what to do; `None`: it has said why.
+pub fn reading_failure(status: ExitStatus) -> Option<String> {
+    match status.code() {
+        Some(TOO_LONG) => {
+            Some(format!("takes more than {} s to read; make its file simpler", READING_MAX.as_secs()))
+        }
+        Some(_) => None,
+        None => Some(format!("needs more than {} MB to read; make its file smaller", MEMORY_MAX >> 20)),
+    }
+}
+
 /// Runs the same command in a child process and ends as it does.
 fn run_in_child() -> Outcome {
-    let program = std::env::current_exe()
-        .map_err(|error| Failure::problem(format!("this program's own file is not found: {error}")))?;
-    let status = Command::new(program)
+    let status = reading_child()
         .args(std::env::args_os().skip(1))
-        .env(CHILD, "1")
-        .stdin(Stdio::null())
         .status()
         .map_err(|error| Failure::problem(format!("no process can be started: {error}")))?;
-    match status.code() {
-        Some(0) => Ok(true),
-        Some(1) => Ok(false),
-        Some(TOO_LONG) => Err(Failure::input(format!(
-            "a source takes more than {} s to read; make its file simpler",
-            READING_MAX.as_secs()
-        ))),
+    match (status.code(), reading_failure(status)) {
+        (_, Some(why)) => Err(Failure::input(format!("a source {why}"))),
+        (Some(0), None) => Ok(true),
+        (Some(1), None) => Ok(false),
         // It has said why.
-        Some(code) => std::process::exit(code),
-        None => Err(Failure::input(format!(
-            "a source needs more than {} MB to read; make its file smaller",
-            MEMORY_MAX >> 20
-        ))),
+        (code, None) => std::process::exit(code.unwrap_or(2)),
     }
 }
 

@@ -271,9 +271,13 @@ fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<Str
 
 async fn open(shared: &Arc<Shared>, name: Option<String>) {
     let Some(name) = name else { return };
-    match shared.library.get(&name) {
-        Ok(kept) => shared.desk.open(name, kept).await,
-        Err(error) => tracing::error!("{}", error.line()),
+    let (library, wanted) = (shared.library.clone(), name.clone());
+    let opened =
+        tokio::task::spawn_blocking(move || library.get(&wanted).map(|kept| library.with_pictures(kept)));
+    match opened.await {
+        Ok(Ok(kept)) => shared.desk.open(name, kept).await,
+        Ok(Err(error)) => tracing::error!("{}", error.line()),
+        Err(error) => tracing::error!("{error}"),
     }
 }
 

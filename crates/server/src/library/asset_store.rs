@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use lightbots_exchange::hash_of;
-use lightbots_show::{AssetHash, Show};
+use lightbots_show::{Asset, AssetHash, Show};
 
 use crate::disk::{self, Readers};
 
@@ -56,8 +56,13 @@ impl AssetStore {
     /// Gives a show the files that it names and that are in the store. A damaged file counts as missing.
     pub fn attach(&self, show: &mut Show) {
         for (hash, asset) in show.assets.iter_mut().filter(|(_, asset)| asset.content.is_none()) {
-            asset.content = self.content(*hash, asset.bytes).or_else(|| self.given_content(hash));
+            asset.content = self.of(*hash, asset);
         }
+    }
+
+    /// A file that a show names. A damaged file counts as missing.
+    pub fn of(&self, hash: AssetHash, asset: &Asset) -> Option<Arc<[u8]>> {
+        self.content(hash, asset.bytes).or_else(|| self.given_content(&hash))
     }
 
     /// A file of that hash and length, bytes. A damaged file counts as missing.

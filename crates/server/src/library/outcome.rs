@@ -1,6 +1,6 @@
 //! What the library gives, refuses and asks for.
 
-use lightbots_show::Show;
+use lightbots_show::{Issues, Show};
 
 /// A show as the library keeps it.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Kept {
     pub etag: String,
     /// Why the show cannot be replaced, for people: its file holds more than the document.
     pub read_only: Option<String>,
+    /// What is wrong with the pictures of its layers, once they were decoded.
+    pub issues: Issues,
 }
 
 /// Why the library does not do as it is told.

@@ -138,6 +138,8 @@ pub async fn put(
     let (entry, kept) = put.await?.map_err(library_problem)?;
     let etag = entry.etag.clone();
     if shared.desk.shown().name.as_ref() == Some(&entry.name) {
+        let library = shared.library.clone();
+        let kept = beside(move || library.with_pictures(kept)).await?;
         shared.desk.open(entry.name.clone(), kept).await;
     }
     Ok(([(header::ETAG, etag)], Json(entry)).into_response())
@@ -194,9 +196,9 @@ pub async fn check(
     bytes: Result<Bytes, BytesRejection>,
 ) -> Answer<Json<Plan>> {
     let bytes = body(bytes)?;
-    let budget = shared.planner.budget();
+    let (budget, library) = (shared.planner.budget(), shared.library.clone());
     let plan = shared.planner.work(ends.remote.ip().to_canonical(), move |is_wanted| {
-        let loaded = match read(&bytes, None) {
+        let mut loaded = match read(&bytes, None) {
             Ok(loaded) => loaded,
             Err(error) => {
                 return Plan { issues: vec![lightbots_api::Issue::from(&error.issue())], ..Plan::default() };
@@ -204,6 +206,7 @@ pub async fn check(
         };
         let mut found = loaded.issues;
         found.extend(validate(&loaded.show));
+        found.extend(library.attach_pictures(&mut loaded.show));
         match show_plan::plan_unless(&loaded.show, &found, is_wanted) {
             Ok((_, plan)) => plan,
             Err(Cancelled) => show_plan::cut_off(&found, budget),

@@ -6,7 +6,7 @@ use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_control::{ControllerState, EventKind, Operation, Refusal};
 use lightbots_lighting::validate;
-use lightbots_show::Show;
+use lightbots_show::{Issues, Show};
 use tokio::sync::{Mutex, broadcast, watch};
 
 use crate::library::Kept;
@@ -74,7 +74,7 @@ impl Desk {
             *shown = Arc::new(Shown::new(message, show.clone()));
         });
         self.plan.send_replace(Arc::new(api::Plan { revision, planning: true, ..api::Plan::default() }));
-        self.begin_plan(revision, show);
+        self.begin_plan(revision, show, kept.issues);
         // During a run the controller keeps its show and gets this one when the run is over.
         let _ = self.hand_over().await;
     }
@@ -124,14 +124,15 @@ impl Desk {
         }
     }
 
-    fn begin_plan(&self, revision: u32, show: Arc<Show>) {
+    fn begin_plan(&self, revision: u32, show: Arc<Show>, found: Issues) {
         let (sender, last_plan) = (self.plan.clone(), self.last_plan.clone());
         let give_up = GiveUp::default();
         let is_given_up = give_up.asked();
         // Nothing needs the plan of the show before.
         *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
         tokio::task::spawn_blocking(move || {
-            let planned = last_plan.plan_unless(&show, &validate(&show), &|| is_given_up.get());
+            let found = validate(&show).into_iter().chain(found).collect();
+            let planned = last_plan.plan_unless(&show, &found, &|| is_given_up.get());
             let Ok(mut plan) = planned else { return };
             plan.revision = revision;
             sender.send_if_modified(|current| {
@@ -183,8 +184,13 @@ mod tests {
         let (handle, _conductor) =
             Handle::start(RecordingTarget::Off, Clock::start(), crate::stop::Stop::install());
         let desk = Desk::new(handle);
-        let kept =
-            || Kept { bytes: b"{}".to_vec(), show: Show::default(), etag: String::new(), read_only: None };
+        let kept = || Kept {
+            bytes: b"{}".to_vec(),
+            show: Show::default(),
+            etag: String::new(),
+            read_only: None,
+            issues: Issues::new(),
+        };
         let is_given_up = || desk.planning.lock().unwrap().asked();
         desk.open("one".into(), kept()).await;
         let of_first = is_given_up();

@@ -147,7 +147,7 @@ async fn open(shared: &Shared, name: String) -> Result<(), String> {
     let library = shared.library.clone();
     let wanted = name.clone();
     let kept = tokio::task::spawn_blocking(move || {
-        let kept = library.get(&wanted);
+        let kept = library.get(&wanted).map(|kept| library.with_pictures(kept));
         if kept.is_ok() {
             library.remember(&wanted);
         }

@@ -24,6 +24,7 @@ mod guesses;
 mod hostile_clients;
 mod hostile_shows;
 mod http;
+mod layer_pictures;
 mod library;
 mod make;
 mod mosquitto;

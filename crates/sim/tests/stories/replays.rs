@@ -1,7 +1,8 @@
 //! Recorded rehearsals are replayed to the bit, and no bytes make a replay panic.
 
+use lightbots_base::{Rgb, Vec2};
 use lightbots_control::{LogEnd, LogError, ReplayReport, replay};
-use lightbots_show::{Frame, Show};
+use lightbots_show::{Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show};
 use lightbots_sim::{
     Conditions, Faults, Progress, RehearsalOptions, RehearsalReport, rehearse, rehearse_recorded,
 };
@@ -126,4 +127,49 @@ fn joined(log: &[u8], blocks: &[Vec<u8>]) -> Vec<u8> {
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+}
+
+/// Twelve robots that drive from a row to another one, over a film of three pictures.
+fn over_a_film() -> Show {
+    let pixel = |id: u32, y: f64| Pixel {
+        id,
+        at: Vec2::new(f64::from(id) * 0.2 - 1.1, y),
+        color: Rgb::new(255, 80, 0),
+        ..Pixel::default()
+    };
+    let frame = |y: f64| Frame {
+        air_time_s: 6.0,
+        pixels: (0..12).map(|id| pixel(id, y)).collect(),
+        ..Frame::default()
+    };
+    let hash = AssetHash([7; 32]);
+    let codes = (0..3 * 8 * 8 * 3u32).map(|n| (n * 31 % 256) as u8).collect();
+    let asset = Asset {
+        name: "film.gif".into(),
+        media_type: "image/gif".into(),
+        bytes: 99,
+        content: None,
+        picture: Some(LayerPicture { width: 8, height: 8, codes }.into()),
+    };
+    let settings = [
+        ("picture", Setting::Text(hash.to_string())),
+        ("size_m", Setting::Number(3.0)),
+        ("speed_hz", Setting::Number(0.5)),
+    ];
+    let settings = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+    let layer = Layer { name: String::new(), kind: "picture".into(), span: LayerSpan::Show, settings };
+    let frames = vec![frame(0.9), frame(-0.8)];
+    Show { layers: vec![layer], assets: [(hash, asset)].into(), frames, ..Show::default() }
+}
+
+#[test]
+fn a_film_on_the_floor_is_shown_and_a_recorded_run_with_it_repeats() {
+    let (report, log) = recorded(&over_a_film(), &options("loss=0%", 2));
+    let lights = report.lights;
+    assert!(report.contacts == 0 && lights.compared > 1_000, "{lights:?}");
+    assert!(lights.wrong * 500 <= lights.compared, "{lights:?}");
+    let again = replayed(&log);
+    assert_eq!((again.difference, again.robots), (None, 12));
+    // The log holds the pixels: another film is another run.
+    assert!(log.windows(8).any(|codes| codes == [0, 31, 62, 93, 124, 155, 186, 217]));
 }

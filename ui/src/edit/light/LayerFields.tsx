@@ -4,15 +4,13 @@ import type { Layer } from '../../model/layers';
 import { useEditing } from '../context';
 import { BlendFields } from './BlendFields';
 import { setFields, setSettings } from './lightActs';
+import { LayerPictureField } from './LayerPictureField';
 import { MotionFields } from './MotionFields';
 import { PaletteField } from './PaletteField';
 import { SpotFields } from './SpotFields';
 import { WhenFields } from './WhenFields';
 
-/** A file of the show is needed for a picture, which presets do not have. */
-const KINDS = Object.entries(LAYER_KINDS)
-  .filter(([kind]) => kind !== 'picture')
-  .map(([value, { title }]) => ({ value, label: title }));
+const KINDS = Object.entries(LAYER_KINDS).map(([value, { title }]) => ({ value, label: title }));
 
 /** The settings of the chosen layer. */
 export function LayerFields({ index, layer }: { index: number; layer: Layer }) {
@@ -45,6 +43,7 @@ export function LayerFields({ index, layer }: { index: number; layer: Layer }) {
         onChange={(kind) => kind !== null && setFields(editing, index, { kind })}
       />
       <WhenFields index={index} layer={layer} />
+      {layer.kind === 'picture' ? <LayerPictureField index={index} layer={layer} /> : null}
       <PaletteField index={index} layer={layer} />
       <MotionFields index={index} layer={layer} />
       <SpotFields index={index} layer={layer} />

@@ -1,9 +1,12 @@
+import { Button, FileButton } from '@mantine/core';
+import { IconPhoto } from '@tabler/icons-react';
 import { PresetTiles } from '../../light/PresetTiles';
 import { LIGHT_PRESETS } from '../../model/lightPresets';
 import { useEditing, useEditor } from '../context';
 import { addPreset } from './lightActs';
+import { addPicture, PICTURE_FILES } from './pictureActs';
 
-/** Presets; one press adds it over the whole show. */
+/** Presets, and files of pictures; one press adds it over the whole show. */
 export function PresetList({ onAdded }: { onAdded: () => void }) {
   const editing = useEditing();
   const stage = useEditor((s) => s.show.stage);
@@ -13,6 +16,19 @@ export function PresetList({ onAdded }: { onAdded: () => void }) {
     onAdded();
   };
   return (
-    <PresetTiles label="Presets of light" lights={editing.lights} stage={stage} onPress={add} />
+    <>
+      <PresetTiles label="Presets of light" lights={editing.lights} stage={stage} onPress={add} />
+      <FileButton
+        accept={PICTURE_FILES}
+        onChange={(file) => file && void addPicture(editing, file).then(onAdded)}
+        inputProps={{ 'aria-label': 'File of a picture or film' }}
+      >
+        {(props) => (
+          <Button size="xs" variant="default" leftSection={<IconPhoto size={14} />} {...props}>
+            Picture or film…
+          </Button>
+        )}
+      </FileButton>
+    </>
   );
 }

@@ -1,5 +1,6 @@
 import { Button, Group } from '@mantine/core';
 import { useEffect, useMemo } from 'react';
+import { getAsset } from '../../api/http';
 import { useStore } from '../../base/store';
 import { startLightWorker } from '../../light/browserWorker';
 import { createLights } from '../../light/lights';
@@ -25,7 +26,7 @@ export default function LightTab({ light, pads }: Props) {
   const plays = useStore(live.playback, (p) => isPlayed(p.phase));
   const on = useStore(live.playback, (p) => p.live_light);
   const learning = useStore(pads.learning);
-  const lights = useMemo(() => createLights(startLightWorker), []);
+  const lights = useMemo(() => createLights(startLightWorker, getAsset), []);
   useEffect(() => () => lights.end(), [lights]);
   if (!stage) return <p className={`quiet ${styles.text}`}>No show is open. Open one first.</p>;
   const others = on.filter((name) => !LIGHT_PRESETS.some((preset) => preset.title === name));

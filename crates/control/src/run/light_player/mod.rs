@@ -69,7 +69,7 @@ impl LightPlayer {
     /// The light of a run.
     pub fn new(playback: &PlayedShow) -> Self {
         let show = match playback.purpose {
-            RunPurpose::Play => ShowLight::new(&playback.show, |_| None).0,
+            RunPurpose::Play => ShowLight::new(&playback.show).0,
             RunPurpose::Preview | RunPurpose::Home => ShowLight::default(),
         };
         Self { show, again_at: Instant::FAR, renew_at: Instant::FAR, ..Self::default() }

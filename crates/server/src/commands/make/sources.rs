@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use lightbots_draw::animation::webp_moves;
 use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::text::{self, FONTS};
 use lightbots_draw::{DrawError, FileKind, ShapeSettings, shape_named, sniff, unsupported};
-use lightbots_make::{Content, TextPages, TextRecipe, text_pages, webp_moves};
+use lightbots_make::{Content, TextPages, TextRecipe, text_pages};
 use lightbots_show::{Asset, AssetHash};
 
 use super::films;

@@ -40,6 +40,7 @@ pub fn asset(path: &Path, bytes: &[u8], media_type: &str) -> (AssetHash, Asset) 
         media_type: media_type.into(),
         bytes: bytes.len() as u64,
         content: Some(Arc::from(bytes)),
+        picture: None,
     };
     (hash_of(bytes), asset)
 }

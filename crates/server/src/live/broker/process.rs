@@ -5,7 +5,6 @@
 //! Passwords never stand on a command line, where every user of the machine could read them.
 
 use std::net::{IpAddr, SocketAddr};
-use std::path::PathBuf;
 use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
@@ -18,6 +17,7 @@ use tokio::sync::mpsc;
 use super::users::{Role, Users};
 use super::{BrokerOptions, Engine};
 use crate::failure::{Failure, Outcome};
+use crate::own_program::own_program;
 
 /// How long the child may take to listen or to say why it cannot.
 const START_WITHIN: Duration = Duration::from_secs(20);
@@ -149,7 +149,7 @@ struct Running {
 impl Running {
     async fn start(options: &BrokerOptions) -> Result<(Self, SocketAddr, Option<SocketAddr>), Failure> {
         let failed = |why: String| Failure::problem(format!("the broker's process does not start: {why}"));
-        let mut child = Command::new(program())
+        let mut child = Command::new(own_program())
             .args(COMMAND)
             .args(["--log", crate::logging::level()])
             .stdin(Stdio::piped())
@@ -208,15 +208,6 @@ fn ending(status: ExitStatus) -> String {
         return format!("was ended by signal {signal}");
     }
     status.code().map_or_else(|| "ended".into(), |code| format!("ended with code {code}"))
-}
-
-/// This program, also after its file was replaced by a newer build.
-fn program() -> PathBuf {
-    let running = PathBuf::from("/proc/self/exe");
-    if cfg!(target_os = "linux") && running.exists() {
-        return running;
-    }
-    std::env::current_exe().unwrap_or_else(|_| PathBuf::from("lightbots"))
 }
 
 /// What the child process does: reads its order, serves until its stdin ends.
