@@ -6,30 +6,24 @@
 
 use lightbots_base::{Instant, Rgb, Span};
 
+/// Parts of a code in which colours are computed: whole numbers are quicker than fractions.
+const PARTS_BITS: u32 = 32;
+
 /// Colours from one moment of the show clock to another, if no message comes between.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPiece {
     /// First moment, and the one after the last.
     from: Instant,
     until: Instant,
-    /// When its line begins; not after `from`.
-    begins: Instant,
-    /// One over the duration of the line, in microseconds.
-    per_us: f64,
-    start: Rgb,
-    end: Rgb,
+    /// Of each channel, at `from`: its code and a half, and its change in a microsecond, in parts of a code.
+    codes: [i64; 3],
+    changes: [i64; 3],
 }
 
 impl LightPiece {
     /// A piece without a moment.
-    pub(crate) const NONE: Self = Self {
-        from: Instant::FAR,
-        until: Instant::ZERO,
-        begins: Instant::ZERO,
-        per_us: 0.0,
-        start: Rgb::BLACK,
-        end: Rgb::BLACK,
-    };
+    pub(crate) const NONE: Self =
+        Self { from: Instant::FAR, until: Instant::ZERO, codes: [0; 3], changes: [0; 3] };
 
     /// A line of colours that takes `lasts` from `begins` on, as far as it lies within `from..until`.
     pub(crate) fn new(
@@ -37,8 +31,16 @@ impl LightPiece {
         (begins, lasts): (Instant, Span),
         (start, end): (Rgb, Rgb),
     ) -> Self {
-        let until = until.min(begins + lasts);
-        Self { from, until, begins, per_us: 1.0 / lasts.0.max(1) as f64, start, end }
+        let lasts_us = lasts.0.max(1);
+        let share = ((from - begins).0 as f64 / lasts_us as f64).clamp(0.0, 1.0);
+        let channels = [(start.r, end.r), (start.g, end.g), (start.b, end.b)];
+        let codes = channels.map(|(start, end)| {
+            let (start, end) = (f64::from(start), f64::from(end));
+            ((start + (end - start) * share + 0.5) * (1u64 << PARTS_BITS) as f64) as i64
+        });
+        let changes =
+            channels.map(|(start, end)| ((i64::from(end) - i64::from(start)) << PARTS_BITS) / lasts_us);
+        Self { from, until: until.min(begins + lasts), codes, changes }
     }
 
     /// Whether it has no moment.
@@ -52,7 +54,10 @@ impl LightPiece {
         if show < self.from || show >= self.until {
             return None;
         }
-        Some(self.start.mixed(self.end, (show - self.begins).0 as f64 * self.per_us))
+        let passed_us = (show - self.from).0;
+        let code =
+            |channel: usize| ((self.codes[channel] + self.changes[channel] * passed_us) >> PARTS_BITS) as u8;
+        Some(Rgb::new(code(0), code(1), code(2)))
     }
 }
 
