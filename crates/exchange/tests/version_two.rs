@@ -68,7 +68,7 @@ fn a_sound_show_with_every_part_plays() {
     let show = with_every_part(show(vec![row(3)]));
     let issues = validate(&show);
     assert!(issues.iter().all(|issue| issue.code == "not-played-yet"), "{issues:?}");
-    assert_eq!(issues.len(), 3, "moments, trajectories, spares; its cue is of a frame: {issues:?}");
+    assert_eq!(issues.len(), 2, "moments, trajectories; its cue is of a frame: {issues:?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::Show;
+use crate::{MAX_PIXELS, Show};
 
 /// Number of different robots that pixels name.
 pub fn robots_asked_for(show: &Show) -> usize {
@@ -15,9 +15,11 @@ pub fn most_pixels(show: &Show) -> usize {
     show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
 }
 
-/// Number of robots that a show needs: one per pixel of the largest frame, and at least the robots that pixels name.
+/// Number of robots that a show is made for: one per pixel of the largest frame, at least the robots that pixels name, and the
+/// spare ones. It plays without the spare ones as well.
 pub fn robots_needed(show: &Show) -> usize {
-    most_pixels(show).max(robots_asked_for(show))
+    let spares = usize::try_from(show.spares).unwrap_or(MAX_PIXELS).min(MAX_PIXELS);
+    most_pixels(show).max(robots_asked_for(show)) + spares
 }
 
 #[cfg(test)]
@@ -46,5 +48,8 @@ mod tests {
         assert_eq!(of(vec![frame(&[None, Some("a")]), frame(&[Some("b"), Some("c")])]), 3);
         assert_eq!(of(vec![frame(&[None, Some("a")]), frame(&[Some("a"), None])]), 2);
         assert_eq!(of(vec![]), 0);
+        let of_spares =
+            |spares| robots_needed(&Show { spares, frames: vec![frame(&[None])], ..Show::default() });
+        assert_eq!((of_spares(2), of_spares(u32::MAX)), (3, 1 + MAX_PIXELS));
     }
 }

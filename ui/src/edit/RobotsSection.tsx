@@ -1,6 +1,6 @@
 import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
 import { useStore } from '../base/store';
-import { fleetSize, setFleetSize, setShow } from '../model/commands';
+import { fleetSize, setFleetSize, setShow, setSpares, sparesOf } from '../model/commands';
 import { limitOf, LIMITS_USUAL, setLimit, type LimitName } from '../model/limits';
 import { LengthInput } from '../parts/LengthInput';
 import { NumberField } from '../parts/NumberField';
@@ -49,6 +49,15 @@ export function RobotsSection() {
           </Button>
         ) : null}
       </Group>
+      <NumberField
+        label="Spare robots"
+        description="They wait where they start, and take over the pixels of robots that fail."
+        whole
+        min={0}
+        max={FLEET_MAX}
+        value={sparesOf(show)}
+        onChange={(count) => editor.change('Spare robots', (now) => setSpares(now, count))}
+      />
       <Stack gap={4}>
         <Text size="xs">Robot assignment</Text>
         <SegmentedControl

@@ -1,3 +1,4 @@
+import { without } from './jsonFields';
 import { withoutLostCues } from './cues';
 import { keepLayersInFrames } from './layers';
 import type { Point } from '../base/geometry';
@@ -196,6 +197,17 @@ export const setShow = (show: Show, fields: Partial<Pick<Show, 'name' | 'identit
 
 /** Number of pixels of the frame with the most pixels. */
 export const fleetSize = (show: Show) => Math.max(0, ...show.frames.map((f) => f.pixels.length));
+
+/** Number of robots that wait for others to fail. */
+export function sparesOf(show: Show): number {
+  const { spares } = show.rest;
+  return typeof spares === 'number' && Number.isInteger(spares) && spares > 0 ? spares : 0;
+}
+
+export function setSpares(show: Show, count: number): Show {
+  const rest = without(show.rest, ['spares']);
+  return { ...show, rest: count > 0 ? { ...rest, spares: count } : rest };
+}
 
 /** Gives every frame `count` pixels: removes the highest ids, adds new pixels in rows at the front edge. */
 export function setFleetSize(show: Show, count: number, color: Rgb): Show {

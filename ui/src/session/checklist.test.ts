@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Broker, FleetRow, Plan } from '../api/types.gen';
-import { pinPixel } from '../model/commands';
+import { pinPixel, setSpares } from '../model/commands';
 import { newShow } from '../model/show';
 import { robotRow } from './robots.testing';
 import { canGoOn, checklistOf, isReady, type Check, type Situation } from './checklist';
@@ -40,6 +40,17 @@ test('all is well', () => {
   const checks = checklistOf(all());
   expect(isReady(checks)).toBe(true);
   expect(checks.map((c) => c.name)).toEqual(['broker', 'plan', 'robots', 'places', 'batteries']);
+});
+
+test('missing spare robots are said, and the show plays without them', () => {
+  const checks = checklistOf(all({ show: setSpares(newShow('x', 1), 2) }));
+  expect(of(checks, 'robots')).toMatchObject({
+    verdict: 'warn',
+    detail: '1 of 1, and 1 of 2 spare robots.',
+  });
+  expect([isReady(checks), canGoOn(checks)]).toEqual([false, true]);
+  const enough = checklistOf(all({ show: setSpares(newShow('x', 1), 1) }));
+  expect(of(enough, 'robots')).toMatchObject({ verdict: 'good', detail: '2 of 2' });
 });
 
 test('what is missing is said, and whether one can go on without', () => {

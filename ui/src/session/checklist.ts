@@ -1,5 +1,6 @@
+import { countText } from '../base/numbers';
 import type { Broker, FleetRow, Plan, Robots } from '../api/types.gen';
-import { fleetSize, pinsOf } from '../model/commands';
+import { fleetSize, pinsOf, sparesOf } from '../model/commands';
 import type { Show } from '../model/show';
 import { chargeText, nameOf } from './robotWords';
 
@@ -86,9 +87,15 @@ function planCheck(plan: Plan | null): Check {
 
 function robotsCheck(show: Show, rows: readonly FleetRow[]): Check {
   const needed = fleetSize(show);
+  const spares = sparesOf(show);
   const ready = rows.filter(canDrive).length;
   const count = `${ready} of ${needed}`;
-  if (ready >= needed) return check('robots', 'Robots ready', 'good', count);
+  if (ready >= needed + spares)
+    return check('robots', 'Robots ready', 'good', `${ready} of ${needed + spares}`);
+  if (ready >= needed) {
+    const few = `${ready - needed} of ${countText(spares, 'spare robot')}`;
+    return check('robots', 'Robots ready', 'warn', `${needed} of ${needed}, and ${few}.`);
+  }
   const silent = rows.filter((row) => row.presence !== 'active').length;
   const unfit = rows.length - ready - silent;
   const why = [

@@ -1,4 +1,5 @@
 import type { FleetRow } from '../api/types.gen';
+import { sparesOf } from '../model/commands';
 import type { Show } from '../model/show';
 import { viewNow } from './address';
 import { canDrive } from './checklist';
@@ -12,7 +13,8 @@ export function robotsToFit(
 ): number | null {
   const here = rows.filter(canDrive).length;
   if (!show || readOnly !== null || here === 0) return null;
-  return show.frames.some(({ pixels }) => pixels.length !== here) ? here : null;
+  const fits = (count: number) => count <= here && here <= count + sparesOf(show);
+  return show.frames.every(({ pixels }) => fits(pixels.length)) ? null : here;
 }
 
 /** The show that the user looks at: the editor's, else the open one. */

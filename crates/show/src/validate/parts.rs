@@ -46,7 +46,6 @@ fn not_played(show: &Show, findings: &mut Findings) {
         (moments, "absolute time of a frame", "absolute times of frames"),
         (timed, "cue at a moment", "cues at moments"),
         (show.trajectories.len(), "prescribed trajectory", "prescribed trajectories"),
-        (show.spares as usize, "spare robot", "spare robots"),
     ] {
         if count > 0 {
             let what = if count == 1 { one } else { many };

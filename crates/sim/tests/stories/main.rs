@@ -21,3 +21,4 @@ mod rapier;
 mod recovery;
 mod rehearsals;
 mod replays;
+mod spares;
