@@ -31,7 +31,7 @@ enum Source {
 }
 
 /// All parts, in the order of the page.
-const PARTS: [Part; 11] = [
+const PARTS: [Part; 14] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -83,6 +83,32 @@ const PARTS: [Part; 11] = [
                 their own (up to 50 ppm off), each on its own connection to the embedded broker over loopback TCP. \
                 Their lights are sampled every millisecond, all in one pass, so that smaller differences are not \
                 visible. `by steps`: the same, sampled only at the robots' steps of 16 ms, which are out of phase.",
+    },
+    Part {
+        name: "light-fit",
+        title: "Light as records",
+        source: Source::Example("lightbots-lighting", "fit"),
+        about: "What a robot's light takes on the wire, per robot and second: eleven effects on 1,000 robots, every \
+                hundredth of them for 30 s, in stretches of 10 s. What a robot shows is compared with each sample of 10 ms; \
+                it stays within two units of L* (CIE 1976) of each channel's grey, or, where one code is more than that, \
+                within one code. `one step`: the same within one code (1/255) of each channel.",
+    },
+    Part {
+        name: "light-step",
+        title: "A robot's step with light",
+        source: Source::Example("lightbots-robot", "light_step"),
+        about: "A step of the robot core on a route with position fixes, without light and with the records of three moving \
+                layers (rainbow, chase, twinkle): medians of interleaved runs, and of their ratios.",
+    },
+    Part {
+        name: "light-show",
+        title: "A show with light over the broker",
+        source: Source::Example("lightbots-server", "light_show"),
+        about: "`lightbots play` plays a show with three moving layers (rainbow, chase, twinkle) over the embedded broker on \
+                loopback TCP. Simulated robots, each on its own connection, share the cores with them. Each light is \
+                compared about six times a second with what the controller wanted (by a replay of its recording); wrong \
+                ones show something else than within 25 ms before or after. Messages and bytes (topic and payload) are per \
+                robot and second; a broadcast counts once. `cpu s`: processor time of each process.",
     },
     Part {
         name: "siege",

@@ -29,6 +29,13 @@ impl Drop for Broker {
     }
 }
 
+impl Broker {
+    /// Its process.
+    pub fn process(&self) -> u32 {
+        self.child.id()
+    }
+}
+
 /// The program `lightbots`, built beside this one.
 pub fn program() -> Outcome<PathBuf> {
     let here = std::env::current_exe()?;
