@@ -1,7 +1,7 @@
 //! What a controller is told once, at its start.
 
 use lightbots_base::{RobotId, Span};
-use lightbots_lighting::Tolerance;
+use lightbots_lighting::{LampSettings, Tolerance};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -39,6 +39,9 @@ pub struct Config {
     pub goes_on_within: Span,
     /// How far robots' lights may be from the colours of layers.
     pub light_tolerance: Tolerance,
+    /// The lamps of the fleet: colours leave for robots corrected by these. All others, such as those of snapshots, are as
+    /// they are meant.
+    pub lamp: LampSettings,
 }
 
 /// When robots that do not report age.
@@ -85,6 +88,7 @@ impl Default for Config {
             offline_bound: Span::from_millis(300_000),
             goes_on_within: Span::from_millis(30_000),
             light_tolerance: Tolerance::SIDE_BY_SIDE,
+            lamp: LampSettings::default(),
         }
     }
 }

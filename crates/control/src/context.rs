@@ -42,9 +42,9 @@ impl Context {
     pub fn new(config: Config) -> Self {
         Self {
             next_route: config.seq_base.max(1),
-            config,
             fleet: KnownRobots::default(),
-            outbox: SendQueue::default(),
+            outbox: SendQueue::new(config.lamp),
+            config,
             log: EventQueue::default(),
             mapping: Mapping::default(),
             plan_request: None,

@@ -1,7 +1,8 @@
 //! Messages waiting to be sent, and broadcasts that are sent several times because links lose some.
 
 use lightbots_base::{Instant, Span};
-use lightbots_wire::{Command, Topic, encode};
+use lightbots_lighting::LampSettings;
+use lightbots_wire::{Command, Fade, Topic, encode};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
@@ -31,6 +32,8 @@ struct Repeat {
 /// The queue of messages.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct SendQueue {
+    /// The lamps of the robots.
+    lamp: LampSettings,
     #[serde(skip)]
     waiting: VecDeque<Send>,
     repeats: Vec<Repeat>,
@@ -44,6 +47,11 @@ pub(crate) struct SendQueue {
 }
 
 impl SendQueue {
+    /// A queue to robots with these lamps; there is no broker yet.
+    pub fn new(lamp: LampSettings) -> Self {
+        Self { lamp, ..Self::default() }
+    }
+
     /// The broker is there or lost. What waits for a lost one is dropped: it would come too late.
     pub fn link(&mut self, up: bool) {
         self.linked = up;
@@ -64,10 +72,17 @@ impl SendQueue {
         self.waiting.is_empty()
     }
 
-    /// Commands in one payload to one topic.
+    /// Commands in one payload to one topic. The colours of COLOR and FADE are corrected for lamps here; those of stretches
+    /// of light were, before they were fitted.
     pub fn send(&mut self, topic: Topic, commands: &[Command]) {
         self.text.clear();
-        if self.linked && commands.iter().any(|command| encode(command, &mut self.text).is_err()) {
+        let Self { lamp, text, .. } = self;
+        let mut write = |command: &Command| match command {
+            Command::Color(meant) => encode(&Command::Color(lamp.sent(*meant)), text),
+            Command::Fade(fade) => encode(&Command::Fade(Fade { to: lamp.sent(fade.to), ..*fade }), text),
+            other => encode(other, text),
+        };
+        if self.linked && commands.iter().any(|command| write(command).is_err()) {
             self.unsent += 1;
             return;
         }
@@ -132,6 +147,7 @@ impl SendQueue {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lightbots_base::Rgb;
 
     fn payloads(outbox: &mut SendQueue) -> Vec<String> {
         std::iter::from_fn(|| outbox.next()).map(|send| String::from_utf8(send.payload).unwrap()).collect()
@@ -159,5 +175,23 @@ mod tests {
         outbox.tick(Instant(50));
         assert!(payloads(&mut outbox).is_empty());
         assert_eq!(outbox.unsent, 2);
+    }
+
+    #[test]
+    fn colours_leave_corrected_for_the_lamps() {
+        let lamp = LampSettings { gain: [0.5, 1.0, 1.0], ..LampSettings::default() };
+        let mut outbox = SendQueue::new(lamp);
+        outbox.link(true);
+        let fade = Fade { to: Rgb::new(255, 0, 0), at: Instant(7), over: Span(9) };
+        outbox.send(
+            Topic::Broadcast,
+            &[Command::Color(Rgb::new(255, 9, 0)), Command::Fade(fade), Command::Uuid],
+        );
+        let mut text = String::new();
+        let [color, to] = [Rgb::new(188, 9, 0), Rgb::new(188, 0, 0)];
+        for command in [Command::Color(color), Command::Fade(Fade { to, ..fade }), Command::Uuid] {
+            encode(&command, &mut text).unwrap();
+        }
+        assert_eq!(payloads(&mut outbox), [text]);
     }
 }

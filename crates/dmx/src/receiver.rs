@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use lightbots_base::{Instant, Rgb, RobotId, Span};
+use lightbots_light::LampSettings;
 use lightbots_wire::{Command, Report, Topic, encode};
 
 use crate::fixtures::Fixtures;
@@ -73,6 +74,8 @@ pub struct PacketCounts {
 #[derive(Debug)]
 pub struct DeskReceiver {
     patch: PatchTable,
+    /// The lamps of the robots: messages have corrected colours.
+    lamp: LampSettings,
     /// Universes with robots. Others are not kept.
     universes: BTreeMap<u16, Universe>,
     fixtures: Fixtures,
@@ -96,9 +99,10 @@ pub struct DeskReceiver {
 
 impl DeskReceiver {
     /// A receiver that knows no robot yet. `number`: of the first moment of live light, higher than any before.
-    pub fn new(patch: PatchTable, number: u32) -> Self {
+    pub fn new(patch: PatchTable, number: u32, lamp: LampSettings) -> Self {
         Self {
             patch,
+            lamp,
             universes: BTreeMap::new(),
             fixtures: Fixtures::default(),
             number,
@@ -210,7 +214,9 @@ impl DeskReceiver {
         }
         self.repeats = self.repeats.saturating_sub(1);
         self.sent_at = now;
-        for payload in write_moment(self.number, self.fixtures.colours(), self.fixtures.released()) {
+        let lamp = self.lamp;
+        let colours = self.fixtures.colours().map(|(slot, meant)| (slot, lamp.sent(meant)));
+        for payload in write_moment(self.number, colours, self.fixtures.released()) {
             self.publishes.push_back(LivePublish { topic: Topic::Broadcast, payload });
         }
         self.number = self.number.checked_add(1).unwrap_or(1);

@@ -2,6 +2,7 @@
 
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_dmx::{DeskNews, DeskReceiver, DmxPacket, DmxSource, PatchTable};
+use lightbots_light::LampSettings;
 use lightbots_show::Stage;
 use lightbots_sim::{Conditions, Fleet, FleetConfig, STEP};
 use lightbots_wire::{Report, Topic};
@@ -36,7 +37,7 @@ impl Floor {
         fleet.link(Instant::ZERO, true);
         Self {
             fleet,
-            receiver: DeskReceiver::new(patch, 1_000),
+            receiver: DeskReceiver::new(patch, 1_000, LampSettings::default()),
             now: Instant::ZERO,
             loss_percent,
             dice: 1,
@@ -118,6 +119,24 @@ fn colour(moment: usize, robot: usize) -> Rgb {
 }
 
 #[test]
+fn lamps_get_corrected_colours_and_people_see_those_that_are_meant() {
+    let mut floor = Floor::new(3, PatchTable::default(), 0);
+    let lamp = LampSettings { gain: [1.0, 0.5, 0.25], ..LampSettings::default() };
+    floor.receiver = DeskReceiver::new(PatchTable::default(), 1_000, lamp);
+    floor.run(2_000);
+    let meant = [Rgb::new(255, 255, 255), Rgb::new(0, 200, 0), Rgb::new(90, 0, 255)];
+    for _ in 0..5 {
+        floor.send(1, &meant);
+        floor.run(100);
+    }
+    assert_eq!(floor.lights(), meant.map(|colour| lamp.sent(colour)));
+    assert!(floor.lights()[0] == Rgb::new(255, 188, 137));
+    let mut seen: Vec<(RobotId, Rgb)> = floor.receiver.lights().collect();
+    seen.sort();
+    assert_eq!(seen.into_iter().map(|(_, colour)| colour).collect::<Vec<_>>(), meant);
+}
+
+#[test]
 fn every_robot_shows_its_channels_with_five_percent_of_messages_lost() {
     let robots = 200;
     let mut floor = Floor::new(robots, PatchTable::default(), 5);
@@ -190,7 +209,7 @@ fn robots_of_the_patch_table_alone_are_lit_and_a_late_robot_joins() {
     let mut floor = Floor::new(5, PatchTable::default(), 0);
     let ids = floor.by_number();
     let patch = format!("{} 9 4\n4 9 1 # the last one\n", ids[1]);
-    floor.receiver = DeskReceiver::new(PatchTable::read(&patch).unwrap(), 1);
+    floor.receiver = DeskReceiver::new(PatchTable::read(&patch).unwrap(), 1, LampSettings::default());
     for robot in 0..5 {
         // All but the first robot of the fleet are switched off for now.
         floor.fleet.link_of(floor.now, robot, robot == 0);

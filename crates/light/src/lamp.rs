@@ -2,9 +2,10 @@
 
 use crate::colour::Linear;
 use lightbots_base::Rgb;
+use serde::{Deserialize, Serialize};
 
 /// How the lamps of a fleet show light. A robot decodes the sRGB colour that it receives, so the stage works on light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LampSettings {
     /// Exponent that a lamp's light has over what an sRGB lamp shows, 0.2 to 5; 1 for a lamp that decodes sRGB.
     pub gamma: f64,
@@ -44,6 +45,17 @@ impl LampSettings {
     pub fn colour(&self, wanted: Linear) -> Rgb {
         self.light(wanted).to_rgb()
     }
+
+    /// The colour that is sent for a colour that is meant.
+    pub fn sent(&self, meant: Rgb) -> Rgb {
+        if self.changes_nothing() { meant } else { self.colour(Linear::from_rgb(meant)) }
+    }
+
+    /// Whether every colour is sent as it is meant.
+    pub fn changes_nothing(&self) -> bool {
+        let most_ma = self.standby_ma + 3.0 * self.channel_ma;
+        self.gamma == 1.0 && self.gain == [1.0; 3] && self.current_max_ma >= most_ma
+    }
 }
 
 #[cfg(test)]
@@ -56,6 +68,23 @@ mod tests {
             LampSettings::default().colour(Linear::from_rgb(Rgb::new(1, 128, 255))),
             Rgb::new(1, 128, 255)
         );
+    }
+
+    #[test]
+    fn what_is_meant_is_sent_as_it_is_or_corrected() {
+        let [white, grey] = [255, 128].map(|code| Rgb::new(code, code, code));
+        let plain = LampSettings { current_max_ma: 61.0, ..LampSettings::default() };
+        assert!(plain.changes_nothing() && plain.sent(grey) == grey);
+        for (lamp, sent) in [
+            (LampSettings { current_max_ma: 60.0, ..plain }, Rgb::new(253, 253, 253)),
+            (LampSettings { gain: [1.0, 0.5, 1.0], ..plain }, Rgb::new(255, 188, 255)),
+        ] {
+            assert!(!lamp.changes_nothing());
+            assert_eq!(lamp.sent(white), sent);
+        }
+        // Half of the light of a lamp with gamma 2 needs the root of it.
+        let bent = LampSettings { gamma: 2.0, ..plain };
+        assert_eq!((bent.sent(white), bent.sent(grey)), (white, Rgb::new(181, 181, 181)));
     }
 
     #[test]

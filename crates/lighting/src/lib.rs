@@ -22,6 +22,7 @@ pub use driven::{DrivenLight, LightMoment, fade_of};
 pub use fit::{LightFit, Tolerance, fit, is_seen_apart};
 pub use flashes::{FlashWarning, LitFrame, flashes};
 pub use issues::{flash_issue, flashes_of, validate};
+pub use lightbots_light::LampSettings;
 pub use live::LiveLayers;
 pub use pictures::{LAYER_PICTURES_MAX, attach_pictures, floor_picture};
 pub use planned::{PlannedDrive, lit_frame, planned};

@@ -3,6 +3,7 @@
 mod backup;
 mod certs;
 mod desk;
+mod lamps;
 mod make;
 mod passwd;
 mod replay;
@@ -24,6 +25,7 @@ use crate::numbers::{address, floor, robot, seed};
 pub use backup::{BackupArguments, RestoreArguments};
 pub use certs::CertsArguments;
 pub use desk::DeskArguments;
+pub use lamps::LampArguments;
 pub use make::MakeArguments;
 pub use passwd::PasswdArguments;
 pub use replay::ReplayArguments;
@@ -143,6 +145,8 @@ pub struct RunArguments {
     pub mqtt: MqttArguments,
     #[command(flatten)]
     pub desk: DeskArguments,
+    #[command(flatten)]
+    pub lamps: LampArguments,
     /// Folder of the library of shows and of recorded runs [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
@@ -303,6 +307,8 @@ pub struct PlayArguments {
     /// Speed of drives, percent of the usual one: half of it for a first run
     #[arg(long, value_name = "PERCENT", default_value_t = 100, value_parser = clap::value_parser!(u32).range(i64::from(SPEED_MIN_PERCENT)..=100))]
     pub speed: u32,
+    #[command(flatten)]
+    pub lamps: LampArguments,
     #[command(flatten)]
     pub reading: ShowArguments,
     /// One JSON object on stdout

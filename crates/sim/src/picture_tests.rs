@@ -3,12 +3,13 @@
 use super::*;
 use crate::conditions::Conditions;
 use lightbots_base::Rgb;
+use lightbots_lighting::LampSettings;
 use lightbots_show::{Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, front_rows};
 
-/// Eight robots that cross a picture of 12 m by 3 m, red on the left and blue on the right.
-fn crossing() -> Show {
+/// Eight robots that cross a picture of 12 m by 3 m with a colour on the left and another one on the right.
+fn crossing(halves: [[u8; 3]; 2]) -> Show {
     let hash = AssetHash([7; 32]);
-    let codes = [[[255, 0, 0]; 8], [[0, 0, 255]; 8]].concat().repeat(4).concat();
+    let codes = halves.map(|half| [half; 8]).concat().repeat(4).concat();
     let asset = Asset {
         name: "halves.png".into(),
         media_type: "image/png".into(),
@@ -38,12 +39,27 @@ fn crossing() -> Show {
 
 #[test]
 fn robots_show_the_picture_on_the_floor_at_their_places_standing_and_driving() {
-    let show = Arc::new(crossing());
+    cross([[255, 0, 0], [0, 0, 255]], LampSettings::default());
+}
+
+#[test]
+fn lamps_are_sent_corrected_colours_and_snapshots_have_those_of_the_show() {
+    let lamp = LampSettings { gamma: 2.0, gain: [0.5, 1.0, 0.25], ..LampSettings::default() };
+    assert_eq!(lamp.sent(Rgb::new(200, 0, 0)), Rgb::new(166, 0, 0));
+    cross([[200, 0, 0], [0, 90, 255]], lamp);
+}
+
+/// Robots cross the picture; each shows what its lamp is to be sent for the half that it is on.
+fn cross(halves: [[u8; 3]; 2], lamp: LampSettings) {
+    let show = Arc::new(crossing(halves));
+    let [left, right] = halves.map(|[r, g, b]| Rgb::new(r, g, b));
     let starts = front_rows(&show.stage, 8);
     let options = RehearsalOptions { seed: 5, conditions: Conditions::default(), robots: None };
     let mut play = Play::new(show, &starts, &[], &options, 30.0);
+    play.controller = RecordedController::new(Controller::new(Config { lamp, ..Config::default() }));
     play.switch_on(None);
     let (mut places_before, mut seen, mut first_reached) = (vec![Vec2::ZERO; 8], [0; 4], None);
+    let mut is_seen = false;
     while !play.is_over() {
         play.step();
         play.plan(&mut |_| {});
@@ -52,6 +68,12 @@ fn robots_show_the_picture_on_the_floor_at_their_places_standing_and_driving() {
             first_reached = Some(play.now);
         }
         let is_lit = first_reached.is_some_and(|at| play.now > at + Span::from_millis(500));
+        // All robots stand on the left then, and people see the colour of the show.
+        if first_reached.is_some_and(|at| play.now == at + STEP * 32) {
+            let snapshot = play.controller.snapshot(play.now);
+            assert!(snapshot.robots.iter().all(|robot| is_about(robot.light, left)), "{snapshot:?}");
+            is_seen = true;
+        }
         for (robot, before) in places_before.iter_mut().enumerate() {
             let place = play.robots.world.places()[robot];
             let drives = place.distance(*before) > 1e-4;
@@ -61,13 +83,13 @@ fn robots_show_the_picture_on_the_floor_at_their_places_standing_and_driving() {
                 continue;
             }
             let is_right = place.x > 0.0;
-            let wanted = if is_right { Rgb::new(0, 0, 255) } else { Rgb::new(255, 0, 0) };
+            let wanted = lamp.sent(if is_right { right } else { left });
             let shown = play.robots.light(robot);
             assert!(is_about(shown, wanted), "{shown} at {place:?}, {:?}", play.now);
             seen[usize::from(drives) + 2 * usize::from(is_right)] += 1;
         }
     }
-    assert!(seen.iter().all(|&count| count > 100), "standing and driving, red and blue: {seen:?}");
+    assert!(is_seen && seen.iter().all(|&count| count > 100), "standing and driving, red and blue: {seen:?}");
 }
 
 /// Whether each channel is as it should be to what the fit of light tracks allows.

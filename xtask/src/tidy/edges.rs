@@ -19,7 +19,7 @@ const EDGES: [(&str, &[&str]); 21] = [
     ("sim", &["base", "wire", "show", "plan", "lighting", "robot", "control"]),
     ("report", &["base", "wire", "show", "control"]),
     ("exam", &["base", "wire"]),
-    ("dmx", &["base", "wire"]),
+    ("dmx", &["base", "light", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
     ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "api"]),
     ("link", &["base", "wire"]),

@@ -3,7 +3,7 @@
 use crate::leg::Leg;
 use crate::run::path_clock::PathClock;
 use lightbots_base::{Instant, Rgb, Span, TICK};
-use lightbots_lighting::{DrivenLight, FrameLight, LightMoment, ShowLight, Tolerance, fit};
+use lightbots_lighting::{DrivenLight, FrameLight, LampSettings, LightMoment, ShowLight, Tolerance, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
 
 /// A stretch of light that is sent to all robots.
@@ -48,6 +48,8 @@ pub(crate) struct LegLight {
     pub layers: FrameLight,
     /// How far robots' lights may be from the layers' colours.
     pub tolerance: Tolerance,
+    /// The lamps of the robots.
+    pub lamp: LampSettings,
     /// The first stretch.
     pub first: PlannedStretch,
     /// The time base, once the drive has begun.
@@ -117,11 +119,15 @@ impl LegLight {
         now: Instant,
     ) -> Command {
         let lost = self.lost(now);
-        let samples =
+        let mut samples =
             robot.samples(&self.layers, show.pictures(), stretch.ticks, |time| match stretch.free_at {
                 Some(at) => self.moment_at(at + time),
                 None => self.moment(stretch.from + time, lost),
             });
+        // Robots draw lines between the colours that they get: these are corrected first and fitted then.
+        if !self.lamp.changes_nothing() {
+            samples.iter_mut().for_each(|colour| *colour = self.lamp.sent(*colour));
+        }
         let fitted = fit(&samples, self.tolerance, MAX_LIGHT_RECORDS);
         let (anchor, skip) = self.anchor(stretch, now);
         Command::Light(LightStretch {

@@ -46,7 +46,7 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     open_files::raise_limit();
     let recording = arguments.record.clone().map_or(RecordingTarget::Off, RecordingTarget::File);
     let (until, end) = stop.child();
-    let (handle, task) = Handle::start(recording, Clock::start(), until);
+    let (handle, task) = Handle::start(recording, (Clock::start(), arguments.lamps.settings()), until);
     let (mut news, links) = (handle.news(), handle.news());
     handle.connect(broker).await;
     let mut report = RunReport::new(&opened.show);

@@ -100,7 +100,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     }
     open_files::raise_limit();
     let certificate = certificate(&exposure, &data)?;
-    let desk_light = DeskLight::open(&arguments.desk).await?;
+    let desk_light = DeskLight::open(&arguments.desk, arguments.lamps.settings()).await?;
     let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
     folder.tell_address(&format!("{}://{address}", names.scheme().name()));
@@ -117,7 +117,8 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let seed = robots_seed(arguments.seed, other.is_none());
     let (settings, broker) = chosen(arguments, other, &own, &data);
     let clock = cut_off.as_ref().map_or_else(Clock::start, CutOffRun::clock);
-    let (handle, conductor) = Handle::start(RecordingTarget::Runs(data.clone()), clock, stop.clone());
+    let (handle, conductor) =
+        Handle::start(RecordingTarget::Runs(data.clone()), (clock, arguments.lamps.settings()), stop.clone());
     started.tasks.push(conductor);
     let (admission, first) = Admission::new(&data, names.is_open()).map_err(Failure::problem)?;
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));

@@ -8,6 +8,7 @@ use lightbots_control::{
     Config, Controller, ControllerState, Operation, PlanRequest, PlanResult, RecordedController, Refusal,
 };
 use lightbots_dmx::LivePublish;
+use lightbots_lighting::LampSettings;
 use lightbots_link::{Link, LinkEvent};
 use lightbots_wire::Topic;
 use tokio::sync::{broadcast, mpsc};
@@ -33,16 +34,16 @@ const EVENTS: usize = 16_384;
 const BATCH: usize = 512;
 
 impl Handle {
-    /// Starts a conductor that lives by `clock`. It ends, with its robots at rest if a run was on, once `stop` is wanted;
-    /// wait for the task.
+    /// Starts a conductor that lives by `clock`, of robots with these lamps. It ends, with its robots at rest if a run was
+    /// on, once `stop` is wanted; wait for the task.
     pub fn start(
         recording: RecordingTarget,
-        clock: Clock,
+        (clock, lamp): (Clock, LampSettings),
         stop: Stop,
     ) -> (Self, tokio::task::JoinHandle<()>) {
         let (orders, inbox) = mpsc::channel(ORDERS);
         let (news, _) = broadcast::channel(EVENTS);
-        let config = Config { seq_base: seq_base(), ..Config::default() };
+        let config = Config { seq_base: seq_base(), lamp, ..Config::default() };
         let (done_sender, done) = mpsc::channel(4);
         let pace = Arc::new(Pace::default());
         let mut controller = RecordedController::new(Controller::new(config));

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use lightbots_api::Level;
 use lightbots_dmx::{DeskNews, DeskReceiver, PatchTable};
+use lightbots_lighting::LampSettings;
 use lightbots_wire::Report;
 use tokio::sync::mpsc;
 
@@ -30,7 +31,7 @@ pub struct DeskLight {
 
 impl DeskLight {
     /// Binds the sockets and reads the patch table; `None`: no desk is asked for.
-    pub async fn open(arguments: &DeskArguments) -> Result<Option<Self>, Failure> {
+    pub async fn open(arguments: &DeskArguments, lamp: LampSettings) -> Result<Option<Self>, Failure> {
         let patch = match &arguments.patch {
             Some(file) => patch_table(file)?,
             None => PatchTable::default(),
@@ -40,7 +41,7 @@ impl DeskLight {
             let line = "--patch is for lighting desks: add --artnet or --sacn";
             return if is_idle { Err(Failure::input(line)) } else { Ok(None) };
         };
-        Ok(Some(Self { sockets, receiver: DeskReceiver::new(patch, seq_base()) }))
+        Ok(Some(Self { sockets, receiver: DeskReceiver::new(patch, seq_base(), lamp) }))
     }
 
     /// Receives until `stop` is wanted.

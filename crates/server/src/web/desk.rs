@@ -181,8 +181,11 @@ mod tests {
 
     #[tokio::test]
     async fn the_plan_of_a_show_that_was_replaced_is_given_up() {
-        let (handle, _conductor) =
-            Handle::start(RecordingTarget::Off, Clock::start(), crate::stop::Stop::install());
+        let (handle, _conductor) = Handle::start(
+            RecordingTarget::Off,
+            (Clock::start(), Default::default()),
+            crate::stop::Stop::install(),
+        );
         let desk = Desk::new(handle);
         let kept = || Kept {
             bytes: b"{}".to_vec(),

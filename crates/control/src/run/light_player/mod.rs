@@ -159,6 +159,7 @@ impl LightPlayer {
             after: leg.robots.iter().map(|step| (step.color, step.pixel.is_some())).collect(),
             layers,
             tolerance: context.config.light_tolerance,
+            lamp: context.config.lamp,
             first: PlannedStretch { number, from: Span::ZERO, ticks: 1, over, free_at: None },
             clock: None,
             seen: Span::ZERO,
