@@ -84,8 +84,8 @@ fn what_makes_no_part_is_named() {
         (source("\"kind\": \"svg\", \"seed\": -1"), "seed is -1"),
         (source("\"kind\": \"svg\", \"box\": {\"min\": [0, 0]}"), "min or max of the box is missing"),
         (source("\"kind\": \"svg\", \"settings\": {\"a\": 1, \"a\": 2}"), "\"a\" stands twice"),
-        (source("\"kind\": \"svg\", \"settings\": {\"a\": NaN}"), "a setting is NaN"),
-        (source("\"kind\": \"svg\", \"settings\": {\"a\": [1e999]}"), "a setting is infinite"),
+        (source("\"kind\": \"svg\", \"settings\": {\"a\": NaN}"), "the setting \"a\" is NaN"),
+        (source("\"kind\": \"svg\", \"settings\": {\"a\": [1e999]}"), "the setting \"a\" is infinite"),
         (with("\"layers\": [{\"kind\": \"fire\", \"from_s\": 1}]"), "\"from_s\" and \"to_s\""),
         (with("\"layers\": [{\"kind\": \"fire\", \"frames\": [\"a\"]}]"), "a layer has \"frames\""),
         (with("\"layers\": [{\"from_s\": 1, \"to_s\": 2}]"), "the kind of the layer is missing"),
@@ -112,7 +112,10 @@ fn parts_without_bounds_are_refused() {
             many("1", points)
         ))
     };
-    assert!(refusal(&curve(1_000_000)).contains("more than 20000 values"));
+    assert!(
+        refusal(&curve(1_000_000))
+            .contains("more than 20000 values in one group of settings; simplify the setting \"a\"")
+    );
     let loaded = read(curve(MAX_SETTING_VALUES - 1).as_bytes(), None).unwrap();
     let Some(Setting::List(points)) = setting(&loaded.show.layers[0].settings, "a") else { panic!() };
     assert_eq!(points.len(), MAX_SETTING_VALUES - 1);

@@ -29,15 +29,19 @@ fn object(json: &mut Json<'_>, room: &mut usize, depth: usize) -> Result<NamedSe
             let what = format!("the setting \"{}\" stands twice; take one away", excerpt(key));
             return Err(json.fail("duplicate-field", what));
         }
-        settings.push((key.to_owned(), value(json, room, depth)?));
+        settings.push((key.to_owned(), value(json, key, room, depth)?));
         Ok(())
     })?;
     Ok(settings)
 }
 
-fn value(json: &mut Json<'_>, room: &mut usize, depth: usize) -> Result<Setting, ReadError> {
+/// The value of the setting `name`, or a part of it.
+fn value(json: &mut Json<'_>, name: &str, room: &mut usize, depth: usize) -> Result<Setting, ReadError> {
     *room = room.checked_sub(1).ok_or_else(|| {
-        let what = format!("more than {MAX_SETTING_VALUES} values in one group of settings; simplify it");
+        let what = format!(
+            "more than {MAX_SETTING_VALUES} values in one group of settings; simplify the setting \"{}\"",
+            excerpt(name)
+        );
         json.fail("too-many-settings", what)
     })?;
     let is_nested = matches!(json.peek()?, b'{' | b'[');
@@ -50,22 +54,22 @@ fn value(json: &mut Json<'_>, room: &mut usize, depth: usize) -> Result<Setting,
         b'[' => {
             let mut items = Vec::new();
             json.list(|json, _| {
-                items.push(value(json, room, depth - 1)?);
+                items.push(value(json, name, room, depth - 1)?);
                 Ok(())
             })?;
             Ok(Setting::List(items))
         }
-        _ => scalar(json),
+        _ => scalar(json, name),
     }
 }
 
-fn scalar(json: &mut Json<'_>) -> Result<Setting, ReadError> {
+fn scalar(json: &mut Json<'_>, name: &str) -> Result<Setting, ReadError> {
     let before = json.clone();
     Ok(match json.scalar()? {
         Scalar::Null => Setting::Null,
         Scalar::Bool(value) => Setting::Bool(value),
         Scalar::Text(text) => Setting::Text(text.into_owned()),
-        _ => Setting::Number(before.clone().number("a setting")?),
+        _ => Setting::Number(before.clone().number(&format!("the setting \"{}\"", excerpt(name)))?),
     })
 }
 

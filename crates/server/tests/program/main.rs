@@ -22,6 +22,7 @@ mod example_brokers;
 mod fleet;
 mod guesses;
 mod hostile_clients;
+mod hostile_layers;
 mod hostile_shows;
 mod http;
 mod layer_pictures;
