@@ -116,3 +116,49 @@ test('the list of cues says what is next, goes to a frame after one question, an
   await page.keyboard.press('Escape');
   await phaseIs(page, 'ready');
 });
+
+test('frames repeat until GO: chosen in the editor, left at the end of a round', async () => {
+  const page = await bed.open('edit');
+  const show = JSON.parse(longShow()) as { cues: unknown; frames: Record<string, unknown>[] };
+  const frames = show.frames.map((frame) => ({ ...frame, air_time_s: 0.3 }));
+  await uploadText(page, 'encore.json', JSON.stringify({ ...show, cues: undefined, frames }));
+  await pixelsAre(page, 6);
+  const strip = page.getByRole('list', { name: 'Frames' });
+  await strip.getByRole('button', { name: /Two/ }).click();
+  await page.getByRole('tab', { name: 'Frame' }).click();
+  await page.getByRole('checkbox', { name: 'Wait for GO after this' }).click();
+
+  // By mouse, then taken back and chosen again by keyboard.
+  const until = page.getByRole('combobox', { name: 'Until GO' });
+  await until.click();
+  await countIs(page.getByRole('option', { name: /Wait here|Repeat from/ }), 3);
+  await page.getByRole('option', { name: 'Repeat from 1 One' }).click();
+  const marks = strip.getByTitle('Repeats until GO');
+  await countIs(marks, 1);
+  await page.keyboard.press('Escape');
+  await until.blur();
+  await page.keyboard.press('Control+z');
+  await countIs(marks, 0);
+  await until.focus();
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('Enter');
+  await countIs(marks, 1);
+  await saved(page);
+  const { cues } = (await stored(page, 'encore')) as unknown as { cues: unknown };
+  expect(cues).toEqual([{ frame: 'f1', loop_from: 'first' }]);
+
+  await button(page, 'Run on robots').click();
+  const note = page.getByTestId('go-note');
+  await note.getByText('Frames 1 to 2 repeat until GO (round 1)').waitFor();
+  await note.getByText('Then: frame 3, Three').waitFor();
+  await page.getByRole('tab', { name: 'Cues' }).click();
+  await page.getByText('repeats from frame 1 until GO').waitFor();
+  await note.getByText('Frames 1 to 2 repeat until GO (round 3)').waitFor();
+  await page.keyboard.press('PageDown');
+  await note.getByText(/^GO was given: on after frame 2/).waitFor();
+  await countIs(note.getByRole('button'), 0);
+  await page.getByText('Playing frame 3 of 3').waitFor();
+  await note.waitFor({ state: 'hidden' });
+  await phaseIs(page, 'ready');
+});

@@ -48,5 +48,5 @@ pub use plan_document::{plan_document, plan_summary, rounded};
 pub use robots::Robots;
 pub use runs::{RunEntry, RunEntryKind};
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
-pub use state::{Broker, BrokerPhase, Phase, Playback, State};
+pub use state::{Broker, BrokerPhase, Phase, Playback, Repeats, State};
 pub use typescript::typescript;

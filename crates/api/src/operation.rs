@@ -48,7 +48,7 @@ pub enum Operation {
     Resume,
     /// Show the next frame, then pause.
     Step,
-    /// GO: leave the frame that waits for it.
+    /// GO: leave the frame that waits for it, or the frames that repeat until then, at the end of their round.
     Go,
     /// Drive to a frame in place of the next one, and play on from there. Only while `Playback.may_jump`.
     GoTo {

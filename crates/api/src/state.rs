@@ -76,6 +76,8 @@ pub struct Playback {
     pub cue: Option<String>,
     /// Names of the layers of live light that are on, lowest first.
     pub live_light: Vec<String>,
+    /// The frames that repeat until `go`; null: none do at the moment.
+    pub repeats: Option<Repeats>,
     /// Whether `go_on` lets a show go on whose robots were out of reach: some report again.
     pub may_go_on: bool,
     /// Speed of drives, percent of the usual one.
@@ -84,6 +86,19 @@ pub struct Playback {
     pub looping: bool,
     /// Names of late robots that the fleet waits for; at most 20.
     pub late: Vec<String>,
+}
+
+/// Frames that repeat until `go`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+pub struct Repeats {
+    /// Index of the first of them, counted from 0.
+    pub first: usize,
+    /// Index of the last of them, counted from 0.
+    pub last: usize,
+    /// Which time they are played, counted from 1.
+    pub round: u32,
+    /// Whether GO was given: the show goes on after the last of them.
+    pub leaves: bool,
 }
 
 /// Phase of the run.

@@ -9,8 +9,8 @@ use crate::{
     IncidentTone, Incidents, Issue, Level, LightAnswer, LightRequest, LogLine, MadePixel, MadeReadability,
     MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
     Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan, PlanAnswer, PlanningRequest,
-    Playback, Presence, Problem, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity, ShowEntry,
-    ShowOrigin, ShowState, State, ToScreen, Transition, Whoami,
+    Playback, Presence, Problem, Repeats, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity,
+    ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition, Whoami,
 };
 
 /// The first line of the generated file.
@@ -58,6 +58,7 @@ fn messages() -> String {
         BrokerPhase,
         BrokerSettings,
         Playback,
+        Repeats,
         Phase,
         Robots,
         LogLine,

@@ -207,6 +207,18 @@ pub enum EventKind {
         /// Robots lost on the way.
         dropouts: usize,
     },
+    /// The first frame of a loop stands: frames repeat until the operator gives GO.
+    LoopBegun {
+        /// The first of them, counted from 0.
+        first: usize,
+        /// The last of them, counted from 0.
+        last: usize,
+    },
+    /// The operator gave GO for a loop: the show goes on after its last frame.
+    LeavesLoop {
+        /// The last frame, counted from 0.
+        last: usize,
+    },
 }
 
 /// What is wrong with a robot in a run.

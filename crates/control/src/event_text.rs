@@ -67,10 +67,19 @@ impl EventKind {
         }
     }
 
-    /// The line of a jump to another frame than the next one.
+    /// The line of a jump to another frame than the next one, or of a loop.
     fn write_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GoesTo { frame } => write!(f, "Going to frame {}.", frame + 1),
+            Self::LoopBegun { first, last } if first == last => {
+                write!(f, "Frame {} repeats until GO.", first + 1)
+            }
+            Self::LoopBegun { first, last } => {
+                write!(f, "Frames {} to {} repeat until GO.", first + 1, last + 1)
+            }
+            Self::LeavesLoop { last } => {
+                write!(f, "GO: the show leaves the loop after frame {}.", last + 1)
+            }
             Self::Skipped { frame } => write!(f, "Frame {} is skipped.", frame + 1),
             Self::JumpGivenUp { frame } => {
                 write!(f, "The show stays where it is: no path leads to frame {}.", frame + 1)
@@ -151,6 +160,7 @@ impl fmt::Display for EventKind {
             }
             GoingHome { .. } | PlannedHome | AtHome | WaitsForGo { .. } => self.write_stand(f),
             GoesTo { .. } | Skipped { .. } | JumpGivenUp { .. } => self.write_jump(f),
+            LoopBegun { .. } | LeavesLoop { .. } => self.write_jump(f),
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,

@@ -1,5 +1,6 @@
 //! One leg of a run: what each robot drives between two moments at which all stand.
 
+use crate::frame_cursor::FrameCursor;
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::Path;
 use lightbots_plan::unsynchronised::StraightDrive;
@@ -14,6 +15,8 @@ pub(crate) struct Leg {
     pub frame: usize,
     /// How many times the show started again before that frame.
     pub round: u32,
+    /// How many times the frames of its loop were played before.
+    pub pass: u32,
     /// Number of its routes; 0 until it is queued.
     pub seq: u32,
     /// How robots are told to go.
@@ -87,6 +90,11 @@ impl RobotLeg {
 }
 
 impl Leg {
+    /// The frame it leads to, in its run.
+    pub fn cursor(&self) -> FrameCursor {
+        FrameCursor { frame: self.frame, round: self.round, pass: self.pass }
+    }
+
     /// The path of a participant, if it drives one.
     pub fn path(&self, participant: usize) -> Option<&Path> {
         match self.robots.get(participant).map(|robot| &robot.task) {

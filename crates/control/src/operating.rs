@@ -3,9 +3,10 @@
 use crate::context::Context;
 use crate::controller::Controller;
 use crate::event::EventKind;
+use crate::frame_cursor::FrameCursor;
 use crate::home;
 use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
-use crate::run::{FrameCursor, LIVE_MAX, NAME_MAX, PlayedShow, Run, RunPurpose};
+use crate::run::{LIVE_MAX, NAME_MAX, PlayedShow, Run, RunPurpose};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_show::{Issue, Layer, SPEED_MIN_PERCENT, Show, slowed, validate};
@@ -146,17 +147,8 @@ impl Controller {
         (frame, missing): (usize, MissingPolicy),
     ) {
         (self.failure, self.stopped_in) = (None, None);
-        let playback = PlayedShow {
-            show,
-            purpose,
-            missing,
-            looping: self.looping,
-            next: FrameCursor { frame, round: 0 },
-            paused: false,
-            stepping: false,
-            waits_for_go: false,
-            jump: None,
-        };
+        let next = FrameCursor { frame, ..FrameCursor::default() };
+        let playback = PlayedShow { looping: self.looping, ..PlayedShow::new(show, purpose, missing, next) };
         self.run = Some(Run::begin(&mut self.context, now, playback));
     }
 
@@ -225,11 +217,11 @@ impl Controller {
         if run.playback.paused {
             return Err(Refusal::Paused);
         }
-        if !run.playback.waits_for_go {
-            return Err(Refusal::NoCue);
+        if run.playback.waits_for_go {
+            run.go(now);
+            return Ok(());
         }
-        run.go(now);
-        Ok(())
+        if run.leave_loop(&mut self.context, now) { Ok(()) } else { Err(Refusal::NoCue) }
     }
 
     fn go_on(&mut self, now: Instant) -> Result<(), Refusal> {

@@ -1,5 +1,6 @@
 //! Builds a plan: legs of timed paths, and straight drives of robots that know TARGET only.
 
+use crate::frame_cursor::FrameCursor;
 use crate::leg::{Leg, LegKind, RobotLeg, Task};
 use crate::mapping::Roles;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult};
@@ -35,9 +36,9 @@ impl PlanRequest {
         let is_over = || questions.ask();
         let mut builder = PlanBuilder::new(&self.problem, &is_over);
         let mut failed = None;
-        for &(frame, round) in &self.problem.frames {
-            if let Err(why) = builder.frame(frame, round) {
-                failed = Some((frame, why));
+        for &at in &self.problem.frames {
+            if let Err(why) = builder.frame(at) {
+                failed = Some((at.frame, why));
                 break;
             }
         }
@@ -99,7 +100,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     /// Adds the legs to one frame.
-    fn frame(&mut self, index: usize, round: u32) -> Result<(), String> {
+    fn frame(&mut self, FrameCursor { frame: index, round, pass }: FrameCursor) -> Result<(), String> {
         let show = &self.problem.show;
         let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
         let identity = frame.identity.unwrap_or(show.identity);
@@ -128,7 +129,7 @@ impl<'a> PlanBuilder<'a> {
         }
         let last = legs.len() - 1;
         for (number, leg) in legs.into_iter().enumerate() {
-            self.legs.push(Leg { frame: index, round, reaches_frame: number == last, ..leg });
+            self.legs.push(Leg { frame: index, round, pass, reaches_frame: number == last, ..leg });
         }
         self.places = rests.iter().map(|rest| rest.goal).collect();
         self.frames += 1;
@@ -328,6 +329,7 @@ impl<'a> PlanBuilder<'a> {
         Leg {
             frame: 0,
             round: 0,
+            pass: 0,
             seq: 0,
             kind,
             robots,

@@ -1,5 +1,6 @@
 //! A request for a plan and its result. Any thread may make the plan.
 
+use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
 use crate::mapping::Mapping;
 use lightbots_base::{RobotId, Span, StateHash, Vec2};
@@ -24,8 +25,8 @@ pub struct PlanRequest {
 #[derive(Clone, Debug)]
 pub(crate) struct PlanProblem {
     pub show: Arc<Show>,
-    /// Frames in the order they are played, each with the round it belongs to.
-    pub frames: Vec<(usize, u32)>,
+    /// Frames in the order they are played.
+    pub frames: Vec<FrameCursor>,
     pub robots: Vec<PlannedRobot>,
     /// Number of participants, planned or not.
     pub participants: usize,
@@ -100,8 +101,9 @@ impl PlanRequest {
         hash.word(self.number);
         hash.word(*participants as u64);
         hash.word(u64::from(*lenient) | u64::from(*stopped) << 1);
-        for &(frame, round) in frames {
+        for &FrameCursor { frame, round, pass } in frames {
             hash.word((frame as u64) << 32 | u64::from(round));
+            hash.word(pass.into());
         }
         for robot in robots {
             hash.bytes(robot.id.as_bytes());

@@ -59,6 +59,8 @@ pub struct RunView {
     pub cue: Option<String>,
     /// Names of the layers of live light that are on.
     pub live_light: Vec<String>,
+    /// The frames that repeat until GO; `None`: no loop is under way.
+    pub repeats: Option<RepeatView>,
     /// Whether the operator can let a run go on that was interrupted, without robots that do not report.
     pub may_go_on: bool,
     /// Robots of the run that others wait for, because they make no progress or are silent; at most 8.
@@ -67,6 +69,19 @@ pub struct RunView {
     pub frames_played: usize,
     /// Number of dropouts.
     pub dropouts: usize,
+}
+
+/// Frames that repeat until GO, at one moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RepeatView {
+    /// The first of them, counted from 0.
+    pub first: usize,
+    /// The last of them, counted from 0.
+    pub last: usize,
+    /// Which time they are played, counted from 1.
+    pub round: u32,
+    /// GO was given: the show goes on after the last of them.
+    pub leaves: bool,
 }
 
 /// A robot at one moment.

@@ -44,6 +44,7 @@ impl Run {
             began,
             live_light: self.pipeline.light.live().names().map(str::to_owned).collect(),
             cue: self.cue().map(str::to_owned),
+            repeats: self.repeats(),
             may_go_on: self.may_go_on(context),
             waiting_for: self.waiting_for(context, now),
             frames_played: self.tally.frames_played,
@@ -137,6 +138,12 @@ impl Run {
 }
 
 impl Controller {
+    /// Which time the frames of the loop under way are played, counted from 1; `None`: no frames repeat, or GO was given.
+    pub fn loop_round(&self) -> Option<u32> {
+        let repeats = self.run.as_ref()?.repeats()?;
+        (!repeats.leaves).then_some(repeats.round)
+    }
+
     /// The colours that layers give now to robots that get stretches of light; empty while no show with layers is played,
     /// and while lights blend to other colours.
     pub fn layered_lights(&self, now: Instant) -> Vec<(RobotId, Rgb)> {

@@ -12,7 +12,7 @@ use lightbots_show::{Cue, CuePlace, Show};
 fn with_cue(frames: usize, robots: usize, air_time_s: f64) -> Show {
     let mut show = show(frames, robots, air_time_s);
     show.frames[1].id = Some("second".into());
-    show.cues = vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("second".into()) }];
+    show.cues = vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("second".into()), loop_from: None }];
     show
 }
 

@@ -17,7 +17,11 @@ fn waiting(frames: usize, robots: usize) -> Show {
     let mut show = show(frames, robots, 0.3);
     for (number, frame) in show.frames.iter_mut().enumerate() {
         frame.id = Some(format!("f{number}"));
-        show.cues.push(Cue { name: String::new(), at: CuePlace::Frame(format!("f{number}")) });
+        show.cues.push(Cue {
+            name: String::new(),
+            at: CuePlace::Frame(format!("f{number}")),
+            loop_from: None,
+        });
     }
     show
 }

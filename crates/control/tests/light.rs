@@ -15,7 +15,7 @@ fn rainbow(robots: usize) -> Show {
     let mut show = show(3, robots, 2.0);
     show.layers = vec![layer];
     show.frames[1].id = Some("second".into());
-    show.cues = vec![Cue { name: String::new(), at: CuePlace::Frame("second".into()) }];
+    show.cues = vec![Cue { name: String::new(), at: CuePlace::Frame("second".into()), loop_from: None }];
     show
 }
 

@@ -131,6 +131,7 @@ impl ReportBuilder {
                 self.note_lights(*starts, controller);
             }
             EventKind::Replanning { .. } => self.frames.plan_anew(),
+            EventKind::LoopBegun { .. } => self.is_order_changed = true,
             EventKind::GoesTo { .. } | EventKind::Skipped { .. } => {
                 self.is_order_changed = true;
                 self.frames.plan_anew();

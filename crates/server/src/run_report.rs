@@ -119,7 +119,7 @@ impl RunReport {
 
     /// How much was played, 0 to 1.
     pub fn share(&self) -> f64 {
-        self.frames_played as f64 / self.frames.max(1) as f64
+        (self.frames_played as f64 / self.frames.max(1) as f64).min(1.0)
     }
 }
 

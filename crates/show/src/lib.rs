@@ -11,6 +11,7 @@
 //! ```
 
 mod asset;
+mod frame_loop;
 mod front;
 mod issue;
 mod label;
@@ -26,6 +27,7 @@ mod timeline;
 mod validate;
 
 pub use asset::{Asset, AssetHash, Assets};
+pub use frame_loop::{FrameLoop, frame_loops};
 pub use front::{front_rows, starting_places};
 pub use issue::{Issue, Issues, Severity};
 pub use label::{excerpt, frame_label};

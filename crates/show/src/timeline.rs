@@ -85,6 +85,9 @@ pub struct Cue {
     pub name: String,
     /// Where the show waits.
     pub at: CuePlace,
+    /// Of a cue at a frame: id of a frame not after it. The show does not wait, but repeats all from that frame to this one
+    /// until GO. `None`: it waits.
+    pub loop_from: Option<String>,
 }
 
 /// Where a cue stands.

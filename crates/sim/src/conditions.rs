@@ -42,6 +42,8 @@ pub struct Conditions {
     pub go_after: Span,
     /// How far robots' lights may be from the colours of layers.
     pub light_tolerance: Tolerance,
+    /// How often frames that repeat until GO are played before the operator gives it.
+    pub loop_rounds: u32,
 }
 
 /// Properties of position fixes.
@@ -140,6 +142,7 @@ impl Default for Conditions {
             visits: Vec::new(),
             go_after: Span::ZERO,
             light_tolerance: Tolerance::SIDE_BY_SIDE,
+            loop_rounds: 1,
         }
     }
 }

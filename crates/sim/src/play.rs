@@ -60,6 +60,8 @@ pub(crate) struct Play {
     mishaps: Timetable<Mishap>,
     /// Frames that the operator has yet to send robots to.
     visits: VecDeque<usize>,
+    /// How often frames that repeat until GO are played.
+    loop_rounds: u32,
     /// What must hold after each step of a campaign.
     pub invariants: Option<Box<Invariants>>,
     record: RehearsalRecord,
@@ -100,6 +102,7 @@ impl Play {
             operator: Operator::new(conditions.go_after),
             mishaps: Timetable::new(conditions.mishaps.clone()),
             visits: conditions.visits.iter().copied().collect(),
+            loop_rounds: conditions.loop_rounds,
             invariants: None,
             record: RehearsalRecord::new(starts.len()),
             lights: LightWatch::new(conditions.light_tolerance),

@@ -32,7 +32,7 @@ fn largest_change(faults: &str, seed: u64) -> (u8, f64) {
     show.layers =
         vec![Layer { name: String::new(), kind: "rainbow".into(), span: LayerSpan::Show, settings }];
     show.frames[1].id = Some("waits".into());
-    show.cues = vec![Cue { name: String::new(), at: CuePlace::Frame("waits".into()) }];
+    show.cues = vec![Cue { name: String::new(), at: CuePlace::Frame("waits".into()), loop_from: None }];
     let conditions = Conditions { go_after: Span::from_millis(9_000), ..Conditions::default() };
     let conditions = Faults::parse(faults).unwrap().added_to(conditions);
     let options = RehearsalOptions { seed, conditions, robots: None };

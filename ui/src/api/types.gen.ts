@@ -483,6 +483,9 @@ cue: string | null,
  * Names of the layers of live light that are on, lowest first.
  */
 live_light: Array<string>, 
+ * The frames that repeat until `go`; null: none do at the moment.
+ */
+repeats: Repeats | null, 
 /**
  * Whether `go_on` lets a show go on whose robots were out of reach: some report again.
  */
@@ -499,6 +502,27 @@ looping: boolean,
  * Names of late robots that the fleet waits for; at most 20.
  */
 late: Array<string>, };
+
+/**
+ * Frames that repeat until `go`.
+ */
+export type Repeats = { 
+/**
+ * Index of the first of them, counted from 0.
+ */
+first: number, 
+/**
+ * Index of the last of them, counted from 0.
+ */
+last: number, 
+/**
+ * Which time they are played, counted from 1.
+ */
+round: number, 
+/**
+ * Whether GO was given: the show goes on after the last of them.
+ */
+leaves: boolean, };
 
 /**
  * Phase of the run.

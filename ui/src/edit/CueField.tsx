@@ -1,5 +1,5 @@
-import { Checkbox, TextInput } from '@mantine/core';
-import { cueOf } from '../model/cues';
+import { Checkbox, Select, TextInput } from '@mantine/core';
+import { cueOf, loopFrom } from '../model/cues';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 
@@ -20,6 +20,7 @@ export function CueField() {
         indeterminate={!waits && cues.some((cue) => cue !== null)}
         onChange={(event) => acts.setCue(editing, event.currentTarget.checked ? '' : null)}
       />
+      {waits && cues.length === 1 ? <LoopField /> : null}
       {waits && cues.length === 1 ? (
         <TextInput
           key={`${[...chosen].join()} ${name}`}
@@ -35,5 +36,31 @@ export function CueField() {
         />
       ) : null}
     </>
+  );
+}
+
+/** What the show does at the cue of the frame until GO is given: it waits, or repeats frames. */
+function LoopField() {
+  const editing = useEditing();
+  const show = useEditor((s) => s.show);
+  const index = useEditor((s) => s.frame);
+  const from = loopFrom(show, index);
+  const frames = show.frames.slice(0, index + 1).map((frame, i) => ({
+    value: String(i),
+    label: `Repeat from ${i + 1} ${frame.name}`.trim(),
+  }));
+  const lost = from === 'lost' ? [{ value: 'lost', label: 'Wait: the frame is not here' }] : [];
+  return (
+    <Select
+      label="Until GO"
+      size="xs"
+      allowDeselect={false}
+      data={[{ value: '', label: 'Wait here' }, ...lost, ...frames]}
+      value={from === null ? '' : String(from)}
+      onChange={(value) => {
+        if (value === 'lost' || value === null) return;
+        acts.setLoop(editing, index, value === '' ? null : Number(value));
+      }}
+    />
   );
 }

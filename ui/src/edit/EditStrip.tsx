@@ -4,7 +4,7 @@ import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { IconButton } from '../parts/IconButton';
 import * as acts from './acts';
-import { cueOf } from '../model/cues';
+import { goOf } from '../model/cues';
 import { useEditing, useEditor } from './context';
 import { FrameCard } from './FrameCard';
 import { useReorder } from './useReorder';
@@ -75,7 +75,7 @@ export function EditStrip() {
               stage={show.stage}
               current={i === at}
               chosen={chosen.has(i)}
-              waits={cueOf(show, frame) !== null}
+              go={goOf(show, i)}
               drive={driveOf(plan, i)}
               wrong={plan?.issues.some((x) => x.frame === i && x.severity === 'error') ?? false}
               onChoose={(event) => choose(i, event)}

@@ -14,8 +14,8 @@ interface Props {
   chosen: boolean;
   /** Travel time to the frame, seconds, as text; empty while it is not planned. */
   drive: string;
-  /** Whether the show waits for GO after the frame. */
-  waits: boolean;
+  /** What the show does after the frame until GO; null: it goes on by itself. */
+  go: 'waits' | 'repeats' | null;
   /** Whether the plan has an error in this frame. */
   wrong: boolean;
   onChoose: (event: MouseEvent) => void;
@@ -63,7 +63,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
           {props.wrong ? ' !' : ''}
         </b>
         <span>{frame.name}</span>
-        {props.waits ? <GoMark /> : null}
+        {props.go === null ? null : <GoMark go={props.go} />}
       </span>
       <span className={styles.times}>
         {props.drive ? (

@@ -134,6 +134,10 @@ function recolour(
 export const setCue = (e: Editing, name: string | null) =>
   e.editor.change('Cue', (show) => cues.setCue(show, chosenFrames(e), name));
 
+/** Lets the show repeat from the frame at `from` to the chosen one until GO; null: it waits there. */
+export const setLoop = (e: Editing, index: number, from: number | null) =>
+  e.editor.change('Cue', (show) => cues.setLoop(show, index, from));
+
 /** Makes the selection one group. */
 export const group = (e: Editing) =>
   e.editor.change('Group', (show, s) => groups.groupPixels(show, s.frame, s.selection));

@@ -4,7 +4,7 @@ import { useStore } from '../base/store';
 import { secondsText } from '../base/time';
 import { Gate } from '../parts/Gate';
 import { useSession } from '../session/session';
-import { cueRows, frameText, isPlayed, whyNoJump, type CueRow } from './cueRows';
+import { cueRows, frameText, isPlayed, wayOn, whyNoJump, type CueRow } from './cueRows';
 import styles from './CueList.module.css';
 
 /** All frames with how each is left, what plays now, and what is next in large type. */
@@ -72,7 +72,7 @@ function SkipButton({ next, disabled }: { next: number | null; disabled: boolean
 
 function Row({ row, isChosen, why }: { row: CueRow; isChosen: boolean; why: string | null }) {
   const { frame, jumpAsked } = useSession();
-  const { index, name, air_s, cue, place } = row;
+  const { index, name, air_s, place } = row;
   const element = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (place === 'now') element.current?.scrollIntoView({ block: 'nearest' });
@@ -97,8 +97,7 @@ function Row({ row, isChosen, why }: { row: CueRow; isChosen: boolean; why: stri
           )}
         </span>
         <span className="quiet">
-          {secondsText(air_s)},{' '}
-          {cue === null ? 'goes on by itself' : cue ? `GO: ${cue}` : 'waits for GO'}
+          {secondsText(air_s)}, {wayOn(row)}
         </span>
       </button>
       <Button

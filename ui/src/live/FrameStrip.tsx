@@ -1,6 +1,7 @@
 import { useEffect, useRef } from 'react';
 import { useStore } from '../base/store';
-import { cueOf } from '../model/cues';
+import { goOf } from '../model/cues';
+import type { Show } from '../model/show';
 import { GoMark } from '../parts/GoMark';
 import { useSession } from '../session/session';
 import { Thumbnail } from '../stage/Thumbnail';
@@ -43,11 +44,16 @@ export function FrameStrip() {
             <span className={styles.label}>
               <b>{i + 1}</b>
               <span>{f.name}</span>
-              {cueOf(show, f) === null ? null : <GoMark />}
+              <Mark show={show} index={i} />
             </span>
           </button>
         </li>
       ))}
     </ul>
   );
+}
+
+function Mark({ show, index }: { show: Show; index: number }) {
+  const go = goOf(show, index);
+  return go === null ? null : <GoMark go={go} />;
 }

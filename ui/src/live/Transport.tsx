@@ -14,7 +14,7 @@ import { useStore } from '../base/store';
 import { Gate, useWhyNot } from '../parts/Gate';
 import { IconButton } from '../parts/IconButton';
 import { useSession } from '../session/session';
-import { actionsOf, type Action } from './actions';
+import { actionsOf, takesGo, type Action } from './actions';
 import { ChecklistButton } from './ChecklistButton';
 import { DriveDialog } from './DriveDialog';
 import { DriveProgress } from './DriveProgress';
@@ -41,7 +41,7 @@ export function Transport() {
   const phase = useStore(live.playback, (p) => p.phase);
   const mayGoOn = useStore(live.playback, (p) => p.may_go_on);
   const mayJump = useStore(live.playback, (p) => p.may_jump);
-  const waitsForGo = useStore(live.playback, (p) => p.cue !== null);
+  const waitsForGo = useStore(live.playback, takesGo);
   const looping = useStore(live.playback, (p) => p.looping);
   const chosen = useStore(frame);
   const linked = useStore(live.link) === 'open';

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Phase, Playback } from '../api/types.gen';
-import { actionsOf, asksToGoOn, phaseText } from './actions';
+import { actionsOf, asksToGoOn, phaseText, takesGo } from './actions';
 
 const playback = (phase: Phase): Playback => ({
   phase,
@@ -17,6 +17,7 @@ const playback = (phase: Phase): Playback => ({
   speed_percent: 100,
   stopped_in: null,
   cue: null,
+  repeats: null,
   may_go_on: false,
   late: [],
 });
@@ -80,4 +81,12 @@ test('GO is there while a frame waits for it, but not in a pause', () => {
   expect(phaseText({ ...playback('playing'), doing: 'waiting for GO' })).toBe(
     'Waiting for GO, frame 2 of 12',
   );
+});
+
+test('GO is taken by a frame that waits, and by frames that repeat until it was given', () => {
+  const repeats = { first: 1, last: 2, round: 3, leaves: false };
+  expect(takesGo({ cue: null, repeats: null })).toBe(false);
+  expect(takesGo({ cue: '', repeats: null })).toBe(true);
+  expect(takesGo({ cue: null, repeats })).toBe(true);
+  expect(takesGo({ cue: null, repeats: { ...repeats, leaves: true } })).toBe(false);
 });

@@ -52,6 +52,10 @@ export function actionsOf(
   return { main, enabled };
 }
 
+/** Whether GO does something: a frame waits for it, or frames repeat until then. */
+export const takesGo = ({ cue, repeats }: Pick<Playback, 'cue' | 'repeats'>): boolean =>
+  cue !== null || (repeats !== null && !repeats.leaves);
+
 /** Phases with a run. */
 const RUNNING: ReadonlySet<Phase> = new Set<Phase>([
   'preparing',

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { readShow } from '../model/json';
-import { cueRows, frameText, jumpQuestion, whyNoJump } from './cueRows';
+import { cueRows, frameText, jumpQuestion, repeatsText, wayOn, whyNoJump } from './cueRows';
 
 const show = readShow({
   cues: [{ name: 'Curtain', frame: 'b' }],
@@ -41,4 +41,19 @@ test('robots that drive are not sent elsewhere', () => {
   expect(whyNoJump({ phase: 'ready', may_jump: false }, true)).toBeNull();
   expect(whyNoJump({ phase: 'ready', may_jump: false }, false)).toMatch(/connection/);
   expect(whyNoJump({ phase: 'preview', may_jump: false }, true)).not.toBeNull();
+});
+
+test('frames that repeat are said in their row and above Play', () => {
+  const cues = [{ name: 'Encore', frame: 'b', loop_from: 'a' }];
+  const looping = readShow({ cues, frames: [{ id: 'a' }, { id: 'b' }] });
+  const rows = cueRows(looping, { phase: 'ready', frame: null, next: null }, 0);
+  expect(rows.map(wayOn)).toEqual(['goes on by itself', 'repeats from frame 1 until GO: Encore']);
+  expect(wayOn({ index: 1, cue: '', from: 1 })).toBe('repeats until GO');
+  expect(wayOn({ index: 1, cue: '', from: null })).toBe('waits for GO');
+  const repeats = { first: 1, last: 3, round: 3, leaves: false };
+  expect(repeatsText(repeats)).toBe('Frames 2 to 4 repeat until GO (round 3)');
+  expect(repeatsText({ ...repeats, last: 1 })).toBe('Frame 2 repeats until GO (round 3)');
+  expect(repeatsText({ ...repeats, leaves: true })).toBe(
+    'GO was given: on after frame 4 (round 3)',
+  );
 });

@@ -1,5 +1,5 @@
-import type { Playback } from '../api/types.gen';
-import { cueOf } from '../model/cues';
+import type { Playback, Repeats } from '../api/types.gen';
+import { cueOf, loopFrom } from '../model/cues';
 import type { Frame, Show } from '../model/show';
 
 /** A frame in the list of cues. */
@@ -11,6 +11,8 @@ export interface CueRow {
   air_s: number;
   /** Name of the cue at which it waits for GO; may be empty. Null: it goes on by itself. */
   cue: string | null;
+  /** Index of the frame from which the show repeats until GO; null: it does not. */
+  from: number | null;
   /** What the frame is in the show that plays. */
   place: 'now' | 'next' | null;
 }
@@ -32,8 +34,30 @@ export function cueRows(show: Show, playback: CuePlayback, chosen: number): CueR
     name: frame.name,
     air_s: frame.airTime_s,
     cue: cueOf(show, frame),
+    from: fromOf(show, index),
     place: index === now ? 'now' : index === next ? 'next' : null,
   }));
+}
+
+function fromOf(show: Show, index: number): number | null {
+  const from = loopFrom(show, index);
+  return from === 'lost' ? null : from;
+}
+
+/** How the show goes on after the frame of a row. */
+export function wayOn({ index, cue, from }: Pick<CueRow, 'index' | 'cue' | 'from'>): string {
+  if (cue === null) return 'goes on by itself';
+  if (from === null) return cue ? `GO: ${cue}` : 'waits for GO';
+  const what = from === index ? 'repeats until GO' : `repeats from frame ${from + 1} until GO`;
+  return cue ? `${what}: ${cue}` : what;
+}
+
+/** The frames that repeat until GO, in words. */
+export function repeatsText({ first, last, round, leaves }: Repeats): string {
+  const frames =
+    first === last ? `Frame ${first + 1} repeats` : `Frames ${first + 1} to ${last + 1} repeat`;
+  if (!leaves) return `${frames} until GO (round ${round})`;
+  return `GO was given: on after frame ${last + 1} (round ${round})`;
 }
 
 /** `3 Heart`, `3`; a dash where there is no frame. */

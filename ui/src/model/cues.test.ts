@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { deleteFrames, duplicateFrames, moveFrames } from './commands';
-import { cueOf, setCue } from './cues';
+import { cueOf, goOf, loopFrom, setCue, setLoop } from './cues';
 import { readShow, writeShow } from './json';
 
 const show = readShow({ frames: [{ name: 'A' }, { name: 'B', id: 'f1' }, { name: 'C' }] });
@@ -39,4 +39,37 @@ test('cues at a moment stay as they are', () => {
     { name: '', frame: 'f1' },
   ]);
   expect(deleteFrames(both, [0]).rest.cues).toEqual([{ name: 'Later', at_s: 9 }]);
+});
+
+const looping = setLoop(setCue(show, [2], 'Encore'), 2, 0);
+const loops = (of: typeof show) => of.frames.map((_, index) => loopFrom(of, index));
+
+test('frames repeat until GO, or the last of them waits', () => {
+  expect(loops(looping)).toEqual([null, null, 0]);
+  expect(looping.frames.map((_, index) => goOf(looping, index))).toEqual([null, null, 'repeats']);
+  const [first, , last] = looping.frames;
+  expect(writeShow(looping)).toMatchObject({
+    cues: [{ name: 'Encore', frame: last?.id, loop_from: first?.id }],
+  });
+  expect(readShow(writeShow(looping)).rest.cues, 'a file keeps it').toEqual(looping.rest.cues);
+  expect(loops(setCue(looping, [2], 'Bow')), 'another name').toEqual([null, null, 0]);
+  expect(setLoop(looping, 2, 0)).toBe(looping);
+  expect(setLoop(show, 1, 0), 'without a cue').toBe(show);
+  const waiting = setLoop(looping, 2, null);
+  expect(waiting.rest.cues).toEqual([{ name: 'Encore', frame: last?.id }]);
+  expect(goOf(waiting, 2)).toBe('waits');
+  expect(loops(setLoop(looping, 2, 2)), 'one frame').toEqual([null, null, 2]);
+});
+
+test('a loop keeps to its frames as they are moved and deleted', () => {
+  expect(loops(moveFrames(looping, [1], 0))).toEqual([null, null, 1]);
+  expect(loops(moveFrames(looping, [0], 3)), 'its first frame comes later').toEqual([
+    null,
+    'lost',
+    null,
+  ]);
+  expect(loops(deleteFrames(looping, [1]))).toEqual([null, 0]);
+  expect(loops(deleteFrames(looping, [0])), 'the next one is first').toEqual([null, 0]);
+  expect(loops(deleteFrames(looping, [0, 1]))).toEqual([0]);
+  expect(deleteFrames(looping, [2]).rest).toEqual({});
 });

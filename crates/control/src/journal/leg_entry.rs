@@ -14,6 +14,7 @@ const PIECE_MAX: Span = Span::from_millis(86_400_000);
 pub(crate) struct LegEntry {
     pub frame: u32,
     pub round: u32,
+    pub pass: u32,
     /// Number of its routes.
     pub seq: u32,
     /// Whether robots drive routes, and not by TARGET.
@@ -63,6 +64,7 @@ impl LegEntry {
         Self {
             frame: leg.frame as u32,
             round: leg.round,
+            pass: leg.pass,
             seq: leg.seq,
             is_routes: leg.kind == LegKind::Routes,
             reaches_frame: leg.reaches_frame,
@@ -92,6 +94,7 @@ impl LegEntry {
         Some(Leg {
             frame: self.frame as usize,
             round: self.round,
+            pass: self.pass,
             seq: self.seq,
             kind: if self.is_routes { LegKind::Routes } else { LegKind::Targets },
             drivers: robots.iter().filter(|step| !matches!(step.task, Task::Stay)).count(),

@@ -1,8 +1,9 @@
 //! What a journal says of a run, and what changes it.
 
 use super::LegEntry;
+use crate::frame_cursor::FrameCursor;
 use crate::operation::MissingPolicy;
-use crate::run::{AirTime, FrameCursor, Membership, PathClock, Probation, RunPurpose, Whereabouts};
+use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, Whereabouts};
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_show::Show;
 use lightbots_wire::Abilities;
@@ -62,6 +63,8 @@ pub(crate) struct RunBegun {
 pub(crate) struct RunProgress {
     /// The frame that is reached next.
     pub next: FrameCursor,
+    /// The last frame of a loop that GO was given for.
+    pub leaves_loop: Option<FrameCursor>,
     /// The show starts again after its last frame.
     pub looping: bool,
     /// The operator paused.

@@ -82,15 +82,12 @@ impl Run {
         let UnfinishedRun { at, state, .. } = unfinished;
         let (begun, progress) = (&state.begun, &state.progress);
         let mut playback = PlayedShow {
-            show: begun.show.clone(),
-            purpose: begun.purpose,
-            missing: begun.missing,
             looping: progress.looping,
-            next: progress.next,
             paused: progress.paused,
             stepping: progress.stepping,
             waits_for_go: progress.waits_for_go,
-            jump: None,
+            leaves_loop: progress.leaves_loop,
+            ..PlayedShow::new(begun.show.clone(), begun.purpose, begun.missing, progress.next)
         };
         if Mutant::WrongFrameAfterRestart.is_planted() {
             playback.next = playback.after(playback.next).unwrap_or(playback.next);

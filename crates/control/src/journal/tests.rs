@@ -1,9 +1,12 @@
 //! What a journal holds, in bytes.
 
 use super::*;
-use crate::run::{AirTime, FrameCursor, Membership, PathClock, Probation, RunPurpose, Whereabouts};
+use crate::frame_cursor::FrameCursor;
+use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, Whereabouts};
 use lightbots_base::{Instant, Rgb, RobotId, Span, StateHash, Vec2};
-use lightbots_show::{Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show};
+use lightbots_show::{
+    Asset, AssetHash, Cue, CuePlace, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show,
+};
 use std::sync::Arc;
 
 fn state() -> JournalState {
@@ -15,10 +18,12 @@ fn state() -> JournalState {
     let (name, media_type) = ("a.png".into(), "image/png".into());
     let asset = Asset { name, media_type, bytes: 9, content: None, picture };
     let assets = [(AssetHash([5; 32]), asset)].into();
+    let cue = Cue { name: String::new(), at: CuePlace::Seconds(1.0), loop_from: Some("b".into()) };
+    let show = Show { frames: vec![frame], cues: vec![cue], layers: vec![layer], assets, ..Show::default() };
     JournalState {
         begun: RunBegun {
             at: Instant(5),
-            show: Arc::new(Show { frames: vec![frame], layers: vec![layer], assets, ..Show::default() }),
+            show: Arc::new(show),
             purpose: RunPurpose::Play,
             missing: Default::default(),
         },
@@ -36,7 +41,8 @@ fn state() -> JournalState {
         found: vec![Vec2::ZERO],
         ignores_strangers: true,
         progress: RunProgress {
-            next: FrameCursor { frame: 0, round: 1 },
+            next: FrameCursor { frame: 0, round: 1, pass: 2 },
+            leaves_loop: Some(FrameCursor { frame: 0, round: 1, pass: 2 }),
             looping: true,
             paused: false,
             stepping: true,
@@ -67,6 +73,7 @@ fn leg() -> LegEntry {
     LegEntry::of(&crate::leg::Leg {
         frame: 0,
         round: 0,
+        pass: 0,
         seq: 9,
         kind: crate::leg::LegKind::Routes,
         robots: vec![step],
@@ -114,7 +121,7 @@ fn the_format_is_that_of_its_version() {
         "a layer keeps its settings, a picture its codes"
     );
     hash.bytes(&bytes);
-    assert_eq!((VERSION, hash.finish()), (6, 7_147_090_647_923_588_093));
+    assert_eq!((VERSION, hash.finish()), (7, 5_637_511_702_025_491_302));
 }
 
 #[test]

@@ -230,6 +230,7 @@ impl Run {
         let (playback, tally) = (&self.playback, &self.tally);
         RunProgress {
             next: playback.next,
+            leaves_loop: playback.leaves_loop,
             looping: playback.looping,
             paused: playback.paused,
             stepping: playback.stepping,

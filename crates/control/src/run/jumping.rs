@@ -2,8 +2,9 @@
 
 use crate::context::Context;
 use crate::event::EventKind;
+use crate::frame_cursor::FrameCursor;
+use crate::leg::Leg;
 use crate::run::machine::{Run, RunPhase};
-use crate::run::playback::FrameCursor;
 use lightbots_base::Instant;
 
 impl Run {
@@ -19,8 +20,11 @@ impl Run {
 
     /// The operator sends robots to a frame: they leave for it as soon as they can.
     pub fn go_to(&mut self, io: &mut Context, now: Instant, frame: usize) {
-        let round = self.pipeline.leg().map_or(self.playback.next.round, |leg| leg.round);
-        self.playback.choose(Some(FrameCursor { frame, round }), true);
+        let present = self.pipeline.leg().map_or(self.playback.next, Leg::cursor);
+        // A jump within a loop stays in its present pass.
+        let repeats = self.playback.loop_at(frame).filter(|repeats| repeats.has(present.frame));
+        let pass = repeats.map_or(0, |_| present.pass);
+        self.playback.choose(Some(FrameCursor { frame, pass, ..present }), true);
         match &mut self.phase {
             RunPhase::Standing(standing) => standing.leave_now(now),
             RunPhase::Gathering(gathering) => gathering.leave_now(),

@@ -1,5 +1,6 @@
 //! Light from the beginning of a drive until its frame is left: when each of its moments is, and colours at them.
 
+use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
 use crate::run::path_clock::PathClock;
 use lightbots_base::{Instant, Rgb, Span, TICK};
@@ -26,8 +27,8 @@ pub(crate) struct PlannedStretch {
 pub(crate) struct LegLight {
     /// Number of the leg's routes.
     pub seq: u32,
-    /// The frame it leads to, and the round of a show that loops.
-    pub frame: (usize, u32),
+    /// The frame it leads to, in its run.
+    pub frame: FrameCursor,
     /// Whether the frame is reached at its end.
     pub reaches_frame: bool,
     /// Show time at the beginning of the drive, seconds.

@@ -105,6 +105,13 @@ impl Lights {
         *self = Self { pending: vec![None; participants], ..Self::default() };
     }
 
+    /// Changes that were to go along with routes go by themselves, because there are no such routes any more.
+    pub fn send_again(&mut self, now: Instant) {
+        if self.pending.iter().any(Option::is_some) {
+            self.begin_repeats(now);
+        }
+    }
+
     /// The drive is over: what is pending goes along with the next routes.
     pub fn end_drive(&mut self) {
         let pending = std::mem::take(&mut self.pending);

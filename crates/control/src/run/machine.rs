@@ -363,7 +363,7 @@ impl Run {
         match &self.phase {
             RunPhase::Starting(_) | RunPhase::Driving(_) | RunPhase::Over(..) => false,
             // Once a frame is reached, another one is next.
-            _ => !self.playback.leaves() && (leg.frame, leg.round) != (towards.frame, towards.round),
+            _ => !self.playback.leaves() && leg.cursor() != towards,
         }
     }
 }

@@ -13,6 +13,7 @@ mod light_player;
 mod lights;
 mod link;
 mod link_loss;
+mod looping;
 mod machine;
 mod membership;
 mod next;
@@ -41,7 +42,7 @@ pub(crate) use machine::{Run, RunPhase};
 pub(crate) use membership::{Membership, Probation};
 pub(crate) use next::AirTime;
 pub(crate) use path_clock::PathClock;
-pub(crate) use playback::{FrameCursor, PlayedShow, RunPurpose};
+pub(crate) use playback::{PlayedShow, RunPurpose};
 pub(crate) use roster::{Participant, Roster, Whereabouts};
 pub(crate) use silence::StopTimes;
 

@@ -1,5 +1,6 @@
 //! What plans drive around: robots that take no part, places of silent ones, and what robots met in their paths.
 
+use crate::frame_cursor::FrameCursor;
 use crate::mutant::Mutant;
 use crate::robot::KnownRobot;
 use crate::run::roster::{Participant, Whereabouts};
@@ -91,7 +92,9 @@ pub(crate) fn relax(cx: &mut RunContext) -> bool {
         participants.iter_mut().for_each(|known| known.last_seen = Whereabouts::default());
     } else {
         let after = cx.playback.after(cx.playback.next);
-        let Some(next) = after.filter(|next| next.round == cx.playback.next.round) else { return false };
+        let goes_on =
+            |next: &FrameCursor| next.round == cx.playback.next.round && next.pass <= cx.playback.next.pass;
+        let Some(next) = after.filter(goes_on) else { return false };
         cx.playback.next = next;
     }
     true

@@ -2,12 +2,13 @@
 
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
+use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
 use crate::run::light_player::{self, LightPlayer};
 use crate::run::lights::Lights;
 use crate::run::link::LinkEstimate;
 use crate::run::next::Next;
-use crate::run::playback::{FrameCursor, PlayedShow};
+use crate::run::playback::PlayedShow;
 use crate::run::roster::Roster;
 use crate::run::target_progress::TargetProgress;
 use crate::run::upload::Upload;

@@ -1,8 +1,9 @@
 //! What is played: the show, the frame that is reached next, and whether the operator paused.
 
+use crate::frame_cursor::FrameCursor;
 use crate::operation::MissingPolicy;
 use lightbots_base::Span;
-use lightbots_show::{CuePlace, Show};
+use lightbots_show::{CuePlace, FrameLoop, Show, frame_loops};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -20,15 +21,6 @@ pub(crate) enum RunPurpose {
     Home,
 }
 
-/// A frame in a run of a show that may loop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct FrameCursor {
-    /// Index of the frame, counted from 0; `usize::MAX` after the last one.
-    pub frame: usize,
-    /// How many times the show started again before.
-    pub round: u32,
-}
-
 /// The operator chose the frame that is reached next. This ends when robots leave for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Jump {
@@ -36,6 +28,8 @@ pub(crate) struct Jump {
     pub instead_of: FrameCursor,
     /// The frame that stood waited for GO.
     pub waited_for_go: bool,
+    /// The loop that GO had been given for.
+    pub left_loop: Option<FrameCursor>,
     /// Robots leave as soon as they can. Otherwise the show waits as it would have.
     pub leaves: bool,
 }
@@ -61,18 +55,52 @@ pub(crate) struct PlayedShow {
     pub waits_for_go: bool,
     /// The operator chose the next frame.
     pub jump: Option<Jump>,
+    /// The frames that repeat until GO.
+    pub loops: Vec<FrameLoop>,
+    /// The last frame of the present pass of a loop: GO was given, and the show goes on after it.
+    pub leaves_loop: Option<FrameCursor>,
 }
 
 impl PlayedShow {
+    /// A show that is about to be played, from the frame at `next` on.
+    pub fn new(show: Arc<Show>, purpose: RunPurpose, missing: MissingPolicy, next: FrameCursor) -> Self {
+        Self {
+            loops: if purpose == RunPurpose::Play { frame_loops(&show) } else { Vec::new() },
+            show,
+            purpose,
+            missing,
+            looping: false,
+            next,
+            paused: false,
+            stepping: false,
+            waits_for_go: false,
+            jump: None,
+            leaves_loop: None,
+        }
+    }
+
     /// The frame after one, if there is any.
     pub fn after(&self, cursor: FrameCursor) -> Option<FrameCursor> {
-        match self.purpose {
-            RunPurpose::Preview | RunPurpose::Home => None,
-            RunPurpose::Play if cursor.frame.saturating_add(1) < self.show.frames.len() => {
-                Some(FrameCursor { frame: cursor.frame + 1, ..cursor })
+        let FrameCursor { frame, round, pass } = cursor;
+        let repeats = self.loop_at(frame);
+        let is_last = repeats.is_some_and(|repeats| repeats.last == frame);
+        match (self.purpose, repeats) {
+            (RunPurpose::Preview | RunPurpose::Home, _) => None,
+            (RunPurpose::Play, Some(repeats)) if is_last && self.leaves_loop != Some(cursor) => {
+                Some(FrameCursor { frame: repeats.first, round, pass: pass.saturating_add(1) })
             }
-            RunPurpose::Play => self.looping.then(|| FrameCursor { frame: 0, round: cursor.round + 1 }),
+            (RunPurpose::Play, _) if frame.saturating_add(1) < self.show.frames.len() => {
+                Some(FrameCursor { frame: frame + 1, round, pass: if is_last { 0 } else { pass } })
+            }
+            (RunPurpose::Play, _) => {
+                self.looping.then(|| FrameCursor { frame: 0, round: round + 1, pass: 0 })
+            }
         }
+    }
+
+    /// The loop that a frame is in.
+    pub fn loop_at(&self, frame: usize) -> Option<FrameLoop> {
+        self.loops.iter().copied().find(|repeats| repeats.has(frame))
     }
 
     /// A frame was reached: the one after it is next.
@@ -85,19 +113,25 @@ impl PlayedShow {
 
     /// The operator chooses the frame that is reached next. `leaves`: robots leave for it at once.
     pub fn choose(&mut self, next: Option<FrameCursor>, leaves: bool) {
-        let begun = Jump { instead_of: self.next, waited_for_go: self.waits_for_go, leaves: false };
+        let begun = Jump {
+            instead_of: self.next,
+            waited_for_go: self.waits_for_go,
+            left_loop: self.leaves_loop,
+            leaves: false,
+        };
         let jump = self.jump.get_or_insert(begun);
         jump.leaves |= leaves;
         self.next = next.unwrap_or(FrameCursor { frame: usize::MAX, ..self.next });
         if leaves {
             (self.paused, self.stepping, self.waits_for_go) = (false, false, false);
+            self.leaves_loop = None;
         }
     }
 
     /// There is no path to the frame that the operator chose: the show waits where it is.
     pub fn give_up(&mut self, jump: Jump) {
         self.jump = None;
-        self.next = jump.instead_of;
+        (self.next, self.leaves_loop) = (jump.instead_of, jump.left_loop);
         if jump.leaves {
             self.waits_for_go = jump.waited_for_go;
             self.paused = !jump.waited_for_go;
@@ -124,8 +158,11 @@ impl PlayedShow {
         self.next.frame.min(self.show.frames.len().saturating_sub(1))
     }
 
-    /// The name of the cue at which a frame waits for GO in this run; it may be empty. `None`: the frame has none.
+    /// The name of the cue at which a frame waits for GO in this run; it may be empty. `None`: the frame does not wait.
     pub fn cue(&self, frame: usize) -> Option<&str> {
+        if self.loops.iter().any(|repeats| repeats.last == frame) {
+            return None;
+        }
         let id = self.show.frames.get(frame).filter(|_| self.purpose == RunPurpose::Play)?.id.as_deref()?;
         let mut cues = self.show.cues.iter();
         cues.find(|cue| matches!(&cue.at, CuePlace::Frame(at) if at == id)).map(|cue| cue.name.as_str())
@@ -151,7 +188,7 @@ impl PlayedShow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lightbots_show::{Frame, Stage};
+    use lightbots_show::{Cue, Frame, Stage};
 
     fn playback(purpose: RunPurpose, looping: bool) -> PlayedShow {
         let frame = |air_time_s| Frame {
@@ -164,17 +201,8 @@ mod tests {
         };
         let show =
             Show { stage: Stage::default(), frames: vec![frame(1.0), frame(f64::NAN)], ..Show::default() };
-        PlayedShow {
-            show: Arc::new(show),
-            purpose,
-            missing: MissingPolicy::Refuse,
-            looping,
-            next: FrameCursor { frame: 1, round: 0 },
-            paused: false,
-            stepping: false,
-            waits_for_go: false,
-            jump: None,
-        }
+        let next = FrameCursor { frame: 1, ..FrameCursor::default() };
+        PlayedShow { looping, ..PlayedShow::new(Arc::new(show), purpose, MissingPolicy::Refuse, next) }
     }
 
     #[test]
@@ -184,7 +212,7 @@ mod tests {
         assert!(once.is_ended());
         let mut looping = playback(RunPurpose::Play, true);
         looping.advance();
-        assert_eq!(looping.next, FrameCursor { frame: 0, round: 1 });
+        assert_eq!(looping.next, FrameCursor { frame: 0, round: 1, pass: 0 });
     }
 
     #[test]
@@ -203,14 +231,50 @@ mod tests {
         playback.waits_for_go = true;
         playback.choose(None, false);
         assert!(playback.is_ended() && playback.waits_for_go && !playback.leaves());
-        playback.choose(Some(FrameCursor { frame: 0, round: 0 }), true);
+        playback.choose(Some(FrameCursor::default()), true);
         assert!(!playback.waits() && playback.leaves());
         playback.give_up(playback.jump.unwrap());
         assert_eq!((playback.next, playback.waits_for_go, playback.paused), (before, true, false));
         playback.waits_for_go = false;
-        playback.choose(Some(FrameCursor { frame: 0, round: 0 }), true);
+        playback.choose(Some(FrameCursor::default()), true);
         playback.give_up(playback.jump.unwrap());
         assert_eq!((playback.next, playback.waits_for_go, playback.paused), (before, false, true));
+    }
+
+    /// Four frames, of which the second and third repeat.
+    fn repeating() -> PlayedShow {
+        let frame = |number: usize| Frame { id: Some(format!("f{number}")), ..Frame::default() };
+        let at = CuePlace::Frame("f2".into());
+        let cue = Cue { name: "Encore".into(), at, loop_from: Some("f1".into()) };
+        let show = Show { frames: (0..4).map(frame).collect(), cues: vec![cue], ..Show::default() };
+        PlayedShow::new(Arc::new(show), RunPurpose::Play, MissingPolicy::Refuse, FrameCursor::default())
+    }
+
+    #[test]
+    fn frames_repeat_until_go_and_again_in_the_next_round() {
+        let mut playback = repeating();
+        let at = |frame, round, pass| FrameCursor { frame, round, pass };
+        assert_eq!(playback.after(at(2, 0, 0)), Some(at(1, 0, 1)));
+        assert_eq!(playback.after(at(1, 0, 1)), Some(at(2, 0, 1)));
+        playback.leaves_loop = Some(at(2, 0, 1));
+        assert_eq!(playback.after(at(2, 0, 1)), Some(at(3, 0, 0)));
+        playback.looping = true;
+        assert_eq!(playback.after(at(3, 0, 0)), Some(at(0, 1, 0)));
+        assert_eq!(playback.after(at(2, 1, 0)), Some(at(1, 1, 1)));
+        assert_eq!((playback.cue(2), playback.loop_at(3)), (None, None), "it does not wait");
+        let preview = PlayedShow::new(playback.show, RunPurpose::Preview, MissingPolicy::Refuse, at(2, 0, 0));
+        assert_eq!(preview.after(preview.next), None);
+    }
+
+    #[test]
+    fn a_jump_takes_back_a_go_for_the_loop_unless_it_is_given_up() {
+        let mut playback = repeating();
+        let end = FrameCursor { frame: 2, ..FrameCursor::default() };
+        (playback.next, playback.leaves_loop) = (end, Some(end));
+        playback.choose(Some(FrameCursor { frame: 1, ..FrameCursor::default() }), true);
+        assert_eq!(playback.leaves_loop, None);
+        playback.give_up(playback.jump.unwrap());
+        assert_eq!((playback.next, playback.leaves_loop), (end, Some(end)));
     }
 
     #[test]

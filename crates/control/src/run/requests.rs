@@ -1,12 +1,13 @@
 //! Plan requests, and what becomes of their results.
 
 use crate::event::EventKind;
+use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
 use crate::operation::MissingPolicy;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
 use crate::run::next::Next;
 use crate::run::obstacles;
-use crate::run::playback::{FrameCursor, Jump, RunPurpose};
+use crate::run::playback::{Jump, RunPurpose};
 use crate::run::run_context::RunContext;
 use lightbots_base::Span;
 use std::ops::ControlFlow;
@@ -47,14 +48,14 @@ pub(crate) fn plan_ahead(cx: &mut RunContext) {
     cx.pipeline.planning.pending = Some((cx.io.plan_number, cx.now));
 }
 
-/// At most `most` frames of one round from `first` on; they count as planned.
-fn take_frames(cx: &mut RunContext, first: FrameCursor, most: usize) -> Vec<(usize, u32)> {
+/// At most `most` frames of one round, and of one pass of a loop, from `first` on; they count as planned.
+fn take_frames(cx: &mut RunContext, first: FrameCursor, most: usize) -> Vec<FrameCursor> {
     let planning = &mut cx.pipeline.planning;
-    let mut frames = vec![(first.frame, first.round)];
+    let mut frames = vec![first];
     planning.last = first;
     planning.next = cx.playback.after(first);
-    while let Some(next) = planning.next.filter(|next| frames.len() < most && next.round == first.round) {
-        frames.push((next.frame, next.round));
+    while let Some(next) = planning.next.filter(|next| frames.len() < most && next.is_in_pass_of(first)) {
+        frames.push(next);
         planning.last = next;
         planning.next = cx.playback.after(next);
     }
@@ -197,7 +198,7 @@ pub(crate) fn set_looping(cx: &mut RunContext, looping: bool, is_starting: bool)
     playback.looping = looping;
     if looping {
         if playback.is_ended() {
-            playback.next = FrameCursor { frame: 0, round: playback.next.round + 1 };
+            playback.next = FrameCursor { round: playback.next.round + 1, ..FrameCursor::default() };
         }
         if planning.next.is_none() && planning.failure.is_none() {
             planning.next = playback.after(planning.last);
@@ -209,13 +210,14 @@ pub(crate) fn set_looping(cx: &mut RunContext, looping: bool, is_starting: bool)
     pipeline.queue.retain(|leg| leg.round <= present);
     if planning.last.round > present {
         planning.pending = None;
-        planning.last = FrameCursor { frame: playback.show.frames.len().saturating_sub(1), round: present };
+        let frame = playback.show.frames.len().saturating_sub(1);
+        planning.last = FrameCursor { frame, round: present, pass: 0 };
         if let Some(last) = pipeline.queue.back().or(driven) {
             planning.from = last.robots.iter().map(|robot| robot.goal).collect();
         }
     }
     planning.next = planning.next.filter(|next| next.round <= present);
     if playback.next.round > present {
-        playback.next = FrameCursor { frame: usize::MAX, round: present };
+        playback.next = FrameCursor { frame: usize::MAX, round: present, pass: 0 };
     }
 }

@@ -88,21 +88,23 @@ pub(super) fn markers(json: &mut Json<'_>, notes: &mut Notes) -> Result<Vec<Mark
 
 pub(super) fn cues(json: &mut Json<'_>, notes: &mut Notes) -> Result<Vec<Cue>, ReadError> {
     bounded(json, "cues", MAX_MARKS, |json| {
-        let (mut name, mut frame, mut at_s) = (String::new(), None, None);
+        let (mut name, mut frame, mut at_s, mut loop_from) = (String::new(), None, None, None);
         json.object(|json, key| {
             match key {
                 "name" => name = label(json, key)?,
                 "frame" => frame = Some(label(json, key)?),
                 "at_s" => at_s = Some(json.number(key)?),
+                "loop_from" => loop_from = Some(label(json, key)?),
                 _ => notes.unknown(json, "cue", key)?,
             }
             Ok(())
         })?;
-        match (frame, at_s) {
-            (Some(frame), None) => Ok(Cue { name, at: CuePlace::Frame(frame) }),
-            (None, Some(at_s)) => Ok(Cue { name, at: CuePlace::Seconds(at_s) }),
-            _ => Err(json.fail("bad-cue", "a cue has either \"frame\" or \"at_s\"")),
-        }
+        let at = match (frame, at_s) {
+            (Some(frame), None) => CuePlace::Frame(frame),
+            (None, Some(at_s)) => CuePlace::Seconds(at_s),
+            _ => return Err(json.fail("bad-cue", "a cue has either \"frame\" or \"at_s\"")),
+        };
+        Ok(Cue { name, at, loop_from })
     })
 }
 
@@ -160,7 +162,8 @@ pub(super) fn cue_text(cue: &Cue) -> String {
         CuePlace::Frame(id) => format!("\"frame\": {}", quoted(id)),
         CuePlace::Seconds(at_s) => format!("\"at_s\": {}", exact(*at_s)),
     };
-    object(vec![named(&cue.name), at])
+    let loop_from = cue.loop_from.as_ref().map(|from| format!("\"loop_from\": {}", quoted(from)));
+    object([named(&cue.name), at].into_iter().chain(loop_from).collect())
 }
 
 pub(super) fn beats_text(beats: &Beats) -> String {

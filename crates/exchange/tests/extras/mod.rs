@@ -25,7 +25,11 @@ pub fn with_every_part(show: Show) -> Show {
         beats: Some(Beats { grid: BeatGrid::Steady { bpm: 120.0, offset_s: 0.35 }, per_bar: 4 }),
         sections: vec![Section { name: "Verse".into(), from_s: 0.0, to_s: 16.0 }],
         markers: vec![Marker { name: "Drop".into(), at_s: 12.5 }],
-        cues: vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("one".into()) }],
+        cues: vec![Cue {
+            name: "Curtain".into(),
+            at: CuePlace::Frame("one".into()),
+            loop_from: Some("one".into()),
+        }],
         layers: vec![Layer {
             name: "Sparks".into(),
             kind: "sparkle".into(),

@@ -94,7 +94,7 @@ impl Numbers {
 
     fn cue(&mut self) -> Cue {
         let at = if self.chance() { CuePlace::Frame(self.text()) } else { CuePlace::Seconds(self.number()) };
-        Cue { name: self.text(), at }
+        Cue { name: self.text(), at, loop_from: self.some(Self::text) }
     }
 
     fn beats(&mut self) -> Beats {

@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use lightbots_control::{Age, Event, EventKind, MissingPolicy, Operation, Refusal, RobotView, Snapshot};
+use lightbots_control::{
+    Age, Event, EventKind, MissingPolicy, Operation, Refusal, RobotView, RunView, Snapshot,
+};
 use lightbots_show::{Issue, Show, most_pixels};
 use lightbots_wire::RobotState;
 use tokio::sync::broadcast;
@@ -182,6 +184,10 @@ fn too_few(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted:
     ))
 }
 
+/// Said where GO would be given by Enter.
+const NO_TERMINAL: &str = "there is no terminal to press Enter on: GO is given after each air time, and frames that \
+                           repeat are played once";
+
 /// Follows the run to its end.
 async fn follow(
     report: &mut RunReport,
@@ -198,7 +204,7 @@ async fn follow(
                 match question {
                     EnterFor::GoOn => go_on(handle, is_pressed).await?,
                     EnterFor::Go if is_pressed => go(handle).await,
-                    EnterFor::Go => say::note("there is no terminal to press Enter on: GO is given after each air time"),
+                    EnterFor::Go => say::note(NO_TERMINAL),
                 }
                 if has_terminal && waits_for_go(handle).await {
                     enter.ask(EnterFor::Go);
@@ -212,7 +218,9 @@ async fn follow(
         };
         match event.kind {
             EventKind::LinkBack { asks_operator: true, .. } => enter.ask(EnterFor::GoOn),
-            EventKind::WaitsForGo { .. } if has_terminal => enter.ask(EnterFor::Go),
+            EventKind::WaitsForGo { .. } | EventKind::LoopBegun { .. } if has_terminal => {
+                enter.ask(EnterFor::Go)
+            }
             _ => {}
         }
         let places = if RunReport::wants_places(&event) { handle.look().await } else { None };
@@ -246,15 +254,24 @@ async fn next_event(
     }
 }
 
-/// Whether a frame waits for GO.
+/// Whether a frame waits for GO, or frames repeat until it.
 async fn waits_for_go(handle: &Handle) -> bool {
-    handle.look().await.and_then(|snapshot| snapshot.run).is_some_and(|run| run.cue.is_some())
+    let waits = |run: RunView| run.cue.is_some() || is_repeating(&run);
+    handle.look().await.and_then(|snapshot| snapshot.run).is_some_and(waits)
 }
 
-/// Ends when a frame that waits for GO has stood for its air time.
+/// Whether frames repeat until GO, and it was not given.
+fn is_repeating(run: &RunView) -> bool {
+    run.repeats.is_some_and(|repeats| !repeats.leaves)
+}
+
+/// Ends when a frame that waits for GO has stood for its air time, or frames repeat that were played once.
 async fn air_time_over(handle: &Handle) {
-    let is_over =
-        |snapshot: Snapshot| snapshot.run.is_some_and(|run| run.cue.is_some() && run.progress >= 1.0);
+    let is_due = |run: RunView| {
+        let is_cue_due = run.cue.is_some() && run.progress >= 1.0;
+        is_cue_due || run.cue.is_none() && is_repeating(&run)
+    };
+    let is_over = |snapshot: Snapshot| snapshot.run.is_some_and(is_due);
     while !handle.look().await.is_some_and(is_over) {
         tokio::time::sleep(LOOK_AT_CUE).await;
     }

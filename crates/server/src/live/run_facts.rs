@@ -101,7 +101,9 @@ impl RunNotes {
                 self.frame = *frame;
                 self.shown.insert(*frame);
             }
-            EventKind::GoesTo { .. } | EventKind::Skipped { .. } => self.is_order_changed = true,
+            EventKind::GoesTo { .. } | EventKind::Skipped { .. } | EventKind::LoopBegun { .. } => {
+                self.is_order_changed = true;
+            }
             EventKind::Dropout { robot, why } => {
                 let name = robot.as_str().to_owned();
                 let loss =

@@ -7,7 +7,7 @@ use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_api::rounded;
 use lightbots_base::{RobotId, Vec2};
-use lightbots_control::{Age, ControllerState, RobotView, Snapshot};
+use lightbots_control::{Age, ControllerState, RepeatView, RobotView, Snapshot};
 use lightbots_wire::RobotState;
 use tokio::sync::{broadcast, watch};
 use tokio::time::MissedTickBehavior;
@@ -196,6 +196,7 @@ impl Painter {
             failure: snapshot.failure.clone(),
             stopped_in: snapshot.stopped_in,
             cue: run.and_then(|run| run.cue.clone()),
+            repeats: run.and_then(|run| run.repeats).map(repeats),
             may_go_on: run.is_some_and(|run| run.may_go_on),
             speed_percent: snapshot.speed_percent,
             looping: snapshot.looping,
@@ -212,6 +213,10 @@ impl Painter {
         let air_s = frames.get(run.frame)?.air_time_s;
         let now_s = if is_showing { air_s } else { run.drive_s };
         let then_s = if is_showing { 0.0 } else { air_s };
+        // A loop lasts until GO.
+        if run.repeats.is_some_and(|repeats| !repeats.leaves) {
+            return None;
+        }
         // A show that begins again has no end.
         let next = run.next.filter(|next| *next > run.frame).unwrap_or(frames.len());
         let rest = frames.iter().zip(&plan.transitions).skip(next);
@@ -220,6 +225,10 @@ impl Painter {
         let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s * slower).sum();
         Some(rounded(now_s * (1.0 - run.progress.clamp(0.0, 1.0)) + then_s + rest_s, 2))
     }
+}
+
+fn repeats(RepeatView { first, last, round, leaves }: RepeatView) -> api::Repeats {
+    api::Repeats { first, last, round, leaves }
 }
 
 fn broker_phase(phase: LinkPhase) -> api::BrokerPhase {

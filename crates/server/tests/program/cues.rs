@@ -56,6 +56,36 @@ fn without_a_terminal_go_is_given_after_the_air_time() {
     assert_played(play);
 }
 
+/// A show of three frames of which the first two repeat until GO.
+fn loop_file() -> String {
+    let mut show: Value = serde_json::from_str(&shows::row(3, &[0.1, 0.1, 0.1])).unwrap();
+    show["lightbots"] = json!(2);
+    (show["frames"][0]["id"], show["frames"][1]["id"]) = (json!("first"), json!("second"));
+    show["cues"] = json!([{"name": "Encore", "frame": "second", "loop_from": "first"}]);
+    shows::file("loop.lightbots.json", show.to_string())
+}
+
+#[test]
+fn frames_repeat_until_enter_or_once_without_a_terminal() {
+    let _turn = alone();
+    let Some(broker) = Mosquitto::start() else { return };
+    let _robots = Child::lightbots(&["robots", "--count", "3", "--broker", &broker.url()]);
+    let show = loop_file();
+    let mut once = Child::lightbots(&arguments(&show, &broker.url()));
+    once.complains("frames that repeat are played once");
+    assert_played(once);
+    let mut play = Child::lightbots_at_terminal(&arguments(&show, &broker.url()));
+    play.complains("Frames 1 to 2 repeat until GO.");
+    play.complains("press Enter for GO");
+    wait_for("the third round", || (play.err().matches("To frame 1").count() >= 3).then_some(()));
+    play.press_enter();
+    let code = play.end();
+    let report: Value = serde_json::from_str(&play.out()).unwrap_or_default();
+    let played = report["frames_played"].as_u64().unwrap_or_default();
+    assert!(code == 0 && played >= 7, "{report} {}", play.err());
+    assert!(play.err().contains("GO: the show leaves the loop after frame 2."), "{}", play.err());
+}
+
 #[test]
 fn a_pedal_gives_go_by_its_own_topic_and_can_do_nothing_else() {
     let _turn = alone();

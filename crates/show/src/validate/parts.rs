@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use super::findings::Findings;
 use super::limits::MAX_PIXELS;
 use super::words::number;
+use crate::frame_loop::examined;
 use crate::{BeatGrid, CuePlace, Issue, LayerSpan, Show, excerpt, frame_label};
 
 /// Latest moment on the timeline, seconds: one day, as for air times.
@@ -25,6 +26,9 @@ pub(super) fn check(show: &Show, findings: &mut Findings) {
             );
             warn(findings, "unknown-frame", what);
         }
+    }
+    for issue in examined(show).1 {
+        findings.add(issue);
     }
     times(show, findings);
     beats(show, findings);

@@ -74,6 +74,8 @@ pub(crate) struct Invariants {
     reached: Option<usize>,
     /// Frames to which there was no plan.
     given_up: Vec<usize>,
+    /// The first and the last frame of the latest loop.
+    repeats: Option<(usize, usize)>,
     /// When a person put a foot on the floor.
     stepped: Option<Instant>,
     /// The journal may be older than the run: the disk failed.
@@ -102,6 +104,7 @@ impl Invariants {
             robots: (0..robots).map(watched).collect(),
             reached: None,
             given_up: Vec::new(),
+            repeats: None,
             stepped: None,
             is_journal_old: false,
             limit,
@@ -187,6 +190,7 @@ impl Invariants {
             }
             EventKind::FrameReached { frame, .. } => self.frame_stands(event.at, *frame),
             EventKind::PlanFailed { frame, .. } | EventKind::Skipped { frame } => self.given_up.push(*frame),
+            EventKind::LoopBegun { first, last } => self.repeats = Some((*first, *last)),
             EventKind::GoesTo { frame } => self.reached = frame.checked_sub(1),
             EventKind::Rejoined(id) => {
                 if let Some(place) = robot(*id) {
@@ -216,9 +220,11 @@ impl Invariants {
         }
     }
 
-    /// A frame stands: all before it did, each once.
+    /// A frame stands: all before it did, each once, or it begins a loop again.
     fn frame_stands(&mut self, now: Instant, frame: usize) {
-        let next = self.reached.map_or(0, |reached| reached + 1);
+        let goes_back =
+            self.repeats.is_some_and(|(first, last)| self.reached == Some(last) && frame == first);
+        let next = if goes_back { frame } else { self.reached.map_or(0, |reached| reached + 1) };
         self.reached = Some(frame);
         let is_next = frame >= next && (next..frame).all(|skipped| self.given_up.contains(&skipped));
         if !is_next && !self.is_journal_old {

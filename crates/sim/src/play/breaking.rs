@@ -83,12 +83,13 @@ impl Play {
         self.drain_controller();
     }
 
-    /// The operator lets an interrupted show go on, and gives GO to a frame that has stood for its air time.
+    /// The operator lets an interrupted show go on, and gives GO: to a frame that has stood for its air time, and in the
+    /// last round of frames that repeat.
     pub(super) fn press(&mut self) {
         self.operate_again();
-        if self.operator.gives_go(self.now, self.controller.is_at_cue(self.now))
-            && self.controller.operate(self.now, Operation::Go).is_ok()
-        {
+        let is_last_round = self.controller.loop_round().is_some_and(|round| round >= self.loop_rounds);
+        let is_cue_due = self.operator.gives_go(self.now, self.controller.is_at_cue(self.now));
+        if (is_last_round || is_cue_due) && self.controller.operate(self.now, Operation::Go).is_ok() {
             self.drain_controller();
         }
         self.operator.sees(self.now, self.controller.may_go_on());

@@ -188,7 +188,7 @@ fn effects_stand_in_a_pause_or_run_freely_through_it() {
 fn effects_go_on_while_a_frame_waits_for_go() {
     for (number, (kind, speed_hz)) in MOVING.into_iter().enumerate() {
         let layers = over_a_rainbow(kind, speed_hz, number % 2 == 0);
-        let cues = vec![Cue { name: String::new(), at: CuePlace::Frame("1".into()) }];
+        let cues = vec![Cue { name: String::new(), at: CuePlace::Frame("1".into()), loop_from: None }];
         let show = Show { layers, cues, ..show(8, 4.0) };
         let go_after = Span::from_millis(17_000);
         let conditions = Conditions { go_after, ..Conditions::default() };

@@ -13,6 +13,7 @@ mod identities;
 mod jumps;
 mod light;
 mod link_lost;
+mod loops;
 mod noise;
 mod originals;
 mod outages;

@@ -61,7 +61,7 @@ fn a_show_plays_to_its_end_under_standard_conditions() {
 fn a_rehearsal_gives_go_after_the_air_time() {
     let mut waiting = show(12);
     waiting.frames[1].id = Some("ring".into());
-    waiting.cues = vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("ring".into()) }];
+    waiting.cues = vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("ring".into()), loop_from: None }];
     let report = play(&waiting, "", 1);
     assert_fine(&report);
     let by_itself = play(&show(12), "", 1);

@@ -7,6 +7,7 @@ use crate::run::next::{AirTime, Next};
 use crate::run::playback::RunPurpose;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span, Vec2};
+use lightbots_show::FrameLoop;
 use lightbots_wire::RobotState;
 
 /// An arrival that is reported within this of the planned end is in time: the frame stands since the planned end.
@@ -116,7 +117,19 @@ fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     if let Some(name) = cue {
         cx.io.log.record(cx.now, EventKind::WaitsForGo { frame, name });
     }
+    if let Some(repeats) = begins_loop(cx, frame) {
+        let FrameLoop { first, last } = repeats;
+        cx.io.log.record(cx.now, EventKind::LoopBegun { first, last });
+    }
     cx.playback.advance();
+}
+
+/// The loop that begins with a frame that was just reached. A show that is played from a frame within a loop begins it
+/// there.
+fn begins_loop(cx: &RunContext, frame: usize) -> Option<FrameLoop> {
+    let repeats = cx.playback.loop_at(frame)?;
+    let begins = frame == repeats.first || cx.tally.frames_played == 1;
+    (begins && cx.playback.next.pass == 0).then_some(repeats)
 }
 
 /// Whether a place is the goal, as the original firmware tests it: along x and along y.

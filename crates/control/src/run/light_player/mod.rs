@@ -109,11 +109,13 @@ impl LightPlayer {
         }
         let before = self.before(context, roster, leg);
         let (drive, air) = (leg.duration, playback.air_time(leg.frame));
-        let frame = (leg.frame, leg.round);
+        let frame = leg.cursor();
         let current = self.current.as_ref();
-        let is_new_round = current.is_some_and(|current| current.frame.1 != leg.round);
+        let is_new_round = current.is_some_and(|current| current.frame.round != leg.round);
         let is_same_frame = current.is_some_and(|current| current.frame == frame);
-        let is_chosen = playback.jump.is_some();
+        // A loop goes back to its first frame as a jump does.
+        let goes_back = current.is_some_and(|current| !is_new_round && leg.pass > current.frame.pass);
+        let is_chosen = playback.jump.is_some() || goes_back;
         if is_new_round {
             self.times.begun.clear();
         }
@@ -140,7 +142,9 @@ impl LightPlayer {
         let mut layers = self.show.in_frame(leg.frame, |frame| self.times.begun.get(&frame).copied());
         layers.live = self.live.layers().clone();
         let follows = current.is_some_and(|current| {
-            current.frame == (leg.frame.wrapping_sub(1), leg.round) && !current.waits_for_go
+            current.frame.round == leg.round
+                && current.frame.frame.checked_add(1) == Some(leg.frame)
+                && !current.waits_for_go
         }) && !is_chosen;
         let over = if follows && !layers.is_free() { Span::ZERO } else { BLEND };
         let number = if self.is_active() { context.number_route() } else { 0 };

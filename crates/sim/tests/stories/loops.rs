@@ -1,0 +1,131 @@
+//! Frames repeat until GO: no robot touches another on any way back, whatever the link loses.
+
+use lightbots_base::{Rgb, Span, Vec2};
+use lightbots_show::{Cue, CuePlace, Frame, Layer, LayerSpan, Pixel, Setting, Show, Stage};
+use lightbots_sim::{Conditions, Faults, Mishap, RehearsalOptions, RehearsalReport, rehearse};
+
+const FRAMES: usize = 5;
+
+/// Five frames of `count` robots; those from `first` to `last`, counted from 0, repeat until GO.
+fn show((first, last): (usize, usize), count: u32) -> Show {
+    let frame = |number: usize| Frame {
+        id: Some(number.to_string()),
+        air_time_s: 0.5,
+        pixels: (0..count)
+            .map(|id| {
+                let color = Rgb::new(255, 80, id as u8);
+                Pixel { id, at: place(number, id, count), color, ..Pixel::default() }
+            })
+            .collect(),
+        ..Frame::default()
+    };
+    let at = CuePlace::Frame(last.to_string());
+    let cue = Cue { name: "Encore".into(), at, loop_from: Some(first.to_string()) };
+    Show {
+        stage: Stage::default(),
+        frames: (0..FRAMES).map(frame).collect(),
+        cues: vec![cue],
+        ..Show::default()
+    }
+}
+
+/// A row, a ring, a grid, a diagonal and another row.
+fn place(frame: usize, id: u32, count: u32) -> Vec2 {
+    let share = f64::from(id) / f64::from(count);
+    let along = (share - 0.5) * 0.1 * f64::from(count);
+    match frame {
+        0 => Vec2::new(along, 0.9),
+        1 => Vec2::unit(share * std::f64::consts::TAU) * (0.2 + 0.02 * f64::from(count)),
+        2 => Vec2::new(0.09 * f64::from(id % 4) - 0.2, 0.09 * f64::from(id / 4) - 0.6),
+        3 => Vec2::new(along, along),
+        _ => Vec2::new(-along, -0.8),
+    }
+}
+
+fn play(show: &Show, faults: &str, seed: u64, conditions: Conditions) -> RehearsalReport {
+    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
+    let options = RehearsalOptions { seed, conditions: faults.added_to(conditions), robots: None };
+    rehearse(show, &options, &mut |_| {})
+}
+
+fn rounds(loop_rounds: u32) -> Conditions {
+    Conditions { loop_rounds, ..Conditions::default() }
+}
+
+/// Nothing touched or was lost, and the show ended after these frames.
+fn assert_played(report: &RehearsalReport, frames: &[usize], what: &str) {
+    let (seed, issues) = (report.seed, &report.issues);
+    let what = format!("{what}, seed {seed}: {issues:?}");
+    assert_eq!((report.contacts, report.dropouts), (0, 0), "{what}");
+    assert_eq!(report.per_frame.iter().map(|frame| frame.frame).collect::<Vec<_>>(), frames, "{what}");
+    let is_bad = |code: &str| ["plan-failed", "no-end", "run-failed"].contains(&code);
+    assert!(!issues.iter().any(|issue| is_bad(&issue.code)), "{what}");
+}
+
+#[test]
+fn a_rehearsal_plays_a_loop_once_and_goes_on() {
+    let report = play(&show((1, 3), 12), "", 1, Conditions::default());
+    assert_played(&report, &[0, 1, 2, 3, 4], "once");
+    let plain = play(&Show { cues: Vec::new(), ..show((1, 3), 12) }, "", 1, Conditions::default());
+    assert!(report.ok && (report.duration_s - plain.duration_s).abs() < 1.0, "{} s", report.duration_s);
+}
+
+#[test]
+fn frames_repeat_without_contacts() {
+    for seed in 1..=4 {
+        for faults in ["", "loss=5%", "loss=5%,double=5%,reorder=5%,jitter"] {
+            let report = play(&show((1, 3), 12), faults, seed, rounds(4));
+            assert_played(&report, &[0, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4], faults);
+            assert!(report.position_error_m.max < 0.02, "{faults}, seed {seed}");
+            let report = play(&show((2, 4), 12), faults, seed, rounds(2));
+            assert_played(&report, &[0, 1, 2, 3, 4, 2, 3, 4], faults);
+        }
+    }
+    let report = play(&show((2, 2), 12), "loss=5%", 1, rounds(3));
+    assert_played(&report, &[0, 1, 2, 2, 2, 3, 4], "one frame");
+}
+
+#[test]
+fn loops_outlive_controllers_links_and_robots() {
+    for seed in 1..=3 {
+        for faults in ["crash=9+3,loss=5%", "freeze=9+5,loss=5%", "gone=14+4,loss=5%"] {
+            let report = play(&show((1, 2), 12), faults, seed, rounds(4));
+            assert_played(&report, &[0, 1, 2, 1, 2, 1, 2, 1, 2, 3, 4], faults);
+        }
+        let report = play(&show((1, 2), 12), "kill=3@10,loss=5%", seed, rounds(4));
+        assert_eq!((report.contacts, report.dropouts), (0, 1), "seed {seed}: {:?}", report.issues);
+        assert_eq!(report.frames_played, 11, "seed {seed}: {:?}", report.issues);
+    }
+}
+
+#[test]
+fn the_operator_pauses_and_jumps_in_a_loop() {
+    for (seed, at_ms) in (1_000..20_000).step_by(1_900).enumerate() {
+        let at = Span::from_millis(at_ms);
+        let mishaps = vec![
+            (at, Mishap::Pause),
+            (at + Span::from_millis(700), Mishap::GoTo(seed % 4)),
+            (at + Span::from_millis(4_000), Mishap::Pause),
+            (at + Span::from_millis(5_000), Mishap::Resume),
+        ];
+        let conditions = Conditions { mishaps, ..rounds(3) };
+        let report = play(&show((1, 3), 12), "loss=5%", seed as u64, conditions);
+        let frames: Vec<usize> = report.per_frame.iter().map(|frame| frame.frame).collect();
+        assert_eq!((report.contacts, report.dropouts), (0, 0), "at {at_ms} ms: {:?}", report.issues);
+        assert!(frames.ends_with(&[3, 4]), "at {at_ms} ms: {frames:?}, {:?}", report.issues);
+    }
+}
+
+#[test]
+fn light_is_that_of_the_frame_in_every_round() {
+    let settings = vec![("speed_hz".into(), Setting::Number(0.2))];
+    let layer = Layer { name: String::new(), kind: "rainbow".into(), span: LayerSpan::Show, settings };
+    let lit = Show { layers: vec![layer], ..show((1, 3), 12) };
+    for (faults, seed, one_in) in [("", 1, 2_000), ("loss=5%", 2, 500)] {
+        let report = play(&lit, faults, seed, rounds(3));
+        assert_played(&report, &[0, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4], faults);
+        let lights = report.lights;
+        assert!(lights.compared > 1_000, "seed {seed}: {lights:?}");
+        assert!(lights.wrong * one_in <= lights.compared, "seed {seed}: {lights:?}");
+    }
+}
