@@ -483,6 +483,7 @@ cue: string | null,
  * Names of the layers of live light that are on, lowest first.
  */
 live_light: Array<string>, 
+/**
  * The frames that repeat until `go`; null: none do at the moment.
  */
 repeats: Repeats | null, 
