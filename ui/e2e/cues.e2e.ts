@@ -141,7 +141,18 @@ test('frames repeat until GO: chosen in the editor, left at the end of a round',
   await countIs(marks, 0);
   await until.focus();
   await page.keyboard.press('ArrowDown');
-  await page.keyboard.press('ArrowDown');
+  // The list opens a little later than a key can be pressed again.
+  const first = page.getByRole('option', { name: 'Repeat from 1 One' });
+  await first.waitFor();
+  await eventually(
+    async () => {
+      const isAt = (await first.getAttribute('data-combobox-selected')) !== null;
+      if (!isAt) await page.keyboard.press('ArrowDown');
+      return isAt;
+    },
+    (isAt) => isAt,
+    'the first choice is marked',
+  );
   await page.keyboard.press('Enter');
   await countIs(marks, 1);
   await saved(page);
