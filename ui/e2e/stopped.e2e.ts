@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { eventually } from './harness';
-import { button, phaseIs, robotPlaces, smallShow, uploadText } from './journeys';
+import { button, countIs, phaseIs, robotPlaces, smallShow, uploadText } from './journeys';
 import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '4');
@@ -51,4 +51,48 @@ test('half the speed is chosen in the checklist, and every screen shows it', asy
   await page.keyboard.press('c');
   await dialog.getByText('100 %', { exact: true }).click();
   await second.getByText('drives at 50 %').waitFor({ state: 'hidden' });
+});
+
+test('half the speed is offered until these robots have played the show to its end', async () => {
+  const page = await bed.open('live');
+  await uploadText(page, 'first.json', smallShow(3, 2));
+  const dialog = page.getByRole('dialog', { name: 'Before you start' });
+  const offer = dialog.getByTestId('first-run');
+  const full = dialog.getByRole('radio', { name: '100 %' });
+  const atFullSpeed = async () => {
+    await page.keyboard.press('c');
+    await dialog.getByText('100 %', { exact: true }).click();
+    await eventually(
+      () => full.isChecked(),
+      (checked) => checked,
+      'full speed in the checklist',
+    );
+  };
+  const playAtHalfSpeed = async () => {
+    await page.keyboard.press('c');
+    await offer.getByRole('button', { name: 'Drive at 50 %' }).click();
+    await offer.waitFor({ state: 'detached' });
+    await dialog.getByRole('button', { name: 'Play', exact: true }).click();
+    await page.getByText('Playing frame 1 of 2').waitFor();
+  };
+
+  // A run that is stopped is no show that was played.
+  await playAtHalfSpeed();
+  await button(page, 'Abort (Esc)').click();
+  await phaseIs(page, 'ready');
+  await atFullSpeed();
+  await offer.waitFor();
+  await dialog.getByRole('button', { name: 'Not now' }).click();
+  // Keys are the dialog's until it has faded out.
+  await countIs(page.locator('[role="dialog"]'), 0);
+
+  await playAtHalfSpeed();
+  await page.getByText('Playing frame 2 of 2').waitFor();
+  await phaseIs(page, 'ready');
+  await atFullSpeed();
+  await offer.waitFor({ state: 'detached' });
+  await page.reload();
+  await phaseIs(page, 'ready');
+  await atFullSpeed();
+  expect(await offer.count()).toBe(0);
 });

@@ -82,6 +82,8 @@ pub struct Playback {
     pub may_go_on: bool,
     /// Speed of drives, percent of the usual one.
     pub speed_percent: u32,
+    /// Whether the robots that are there have never played the open show to its end: a slow first run is offered.
+    pub first_run: bool,
     /// Whether the show begins again after the last frame.
     pub looping: bool,
     /// Names of late robots that the fleet waits for; at most 20.

@@ -21,6 +21,7 @@ mod logging;
 mod numbers;
 mod open_files;
 mod own_program;
+mod played_shows;
 mod progress;
 mod run_report;
 mod say;

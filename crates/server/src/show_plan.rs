@@ -68,7 +68,7 @@ impl LastPlan {
 }
 
 /// The show without what robots' drives do not depend on. A field that is not named here counts.
-fn driven(show: &Show) -> Show {
+pub fn driven(show: &Show) -> Show {
     let mut driven = Show {
         name: String::new(),
         music: None,

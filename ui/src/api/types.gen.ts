@@ -496,6 +496,10 @@ may_go_on: boolean,
  */
 speed_percent: number, 
 /**
+ * Whether the robots that are there have never played the open show to its end: a slow first run is offered.
+ */
+first_run: boolean, 
+/**
  * Whether the show begins again after the last frame.
  */
 looping: boolean, 

@@ -1,9 +1,37 @@
-import { SegmentedControl, Stack, Text } from '@mantine/core';
+import { Button, Group, SegmentedControl, Stack, Text } from '@mantine/core';
 import { useStore } from '../base/store';
+import { Gate } from '../parts/Gate';
 import { useSession } from '../session/session';
 
 /** Speeds of drives that are offered, percent. */
 const SPEEDS = [30, 50, 100];
+
+/** Percent of the usual speed that is offered for a first run. */
+const FIRST_RUN = 50;
+
+/** Offers a slow first run of a show that these robots have never played to its end. */
+function FirstRun() {
+  const { live, ask } = useSession();
+  const isOffered = useStore(
+    live.playback,
+    (p) => p.phase === 'ready' && p.first_run && p.speed_percent === 100,
+  );
+  if (!isOffered) return null;
+  return (
+    <Group gap="xs" data-testid="first-run">
+      <Text size="sm">These robots have not played this show yet. See it slowly first?</Text>
+      <Gate needs="operator" act="change the speed">
+        <Button
+          size="compact-sm"
+          variant="default"
+          onClick={() => void ask({ do: 'speed', percent: FIRST_RUN })}
+        >
+          Drive at {FIRST_RUN} %
+        </Button>
+      </Gate>
+    </Group>
+  );
+}
 
 /** The speed of drives, from the next start on. */
 export function SpeedField() {
@@ -24,6 +52,7 @@ export function SpeedField() {
           .sort((a, b) => a - b)
           .map((speed) => ({ value: String(speed), label: `${speed} %` }))}
       />
+      <FirstRun />
       <Text size="xs" c="dimmed">
         Half speed shows a crew and a new floor what the robots will do. Air times stay.
       </Text>

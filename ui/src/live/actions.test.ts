@@ -15,6 +15,7 @@ const playback = (phase: Phase): Playback => ({
   failure: null,
   looping: false,
   speed_percent: 100,
+  first_run: false,
   stopped_in: null,
   cue: null,
   repeats: null,

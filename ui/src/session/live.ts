@@ -60,6 +60,7 @@ const NO_PLAYBACK: Playback = {
   failure: null,
   looping: false,
   speed_percent: 100,
+  first_run: false,
   stopped_in: null,
   cue: null,
   repeats: null,

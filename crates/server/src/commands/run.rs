@@ -27,6 +27,7 @@ use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
 use crate::live::desk_light::DeskLight;
 use crate::live::recorder::RecordingTarget;
+use crate::played_shows::PlayedShows;
 use crate::stop::Stop;
 use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, Scheme, ScreenLog, Shared, WebCertificate};
 use crate::{open_files, say, show_file};
@@ -122,12 +123,12 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     started.tasks.push(conductor);
     let (admission, first) = Admission::new(&data, names.is_open()).map_err(Failure::problem)?;
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
-    let book = FleetBook::load(&data);
+    let (book, played) = (FleetBook::load(&data), PlayedShows::load(&data));
     if let Some(names) = book.admitted() {
         let _ = handle.operate(Operation::Admit(Some(names))).await;
     }
     let desk = BrokerDesk::new(data, settings, embedded);
-    let shared = Shared::new(handle.clone(), library, book, desk, names, admission, planner);
+    let shared = Shared::new(handle.clone(), library, (book, played), desk, names, admission, planner);
     open(&shared, name).await;
     if let Some(run) = cut_off {
         run.tell(handle.clock().now());

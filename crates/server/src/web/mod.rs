@@ -52,6 +52,7 @@ use crate::failure::Failure;
 use crate::fleet_book::FleetBook;
 use crate::library::Library;
 use crate::live::conductor::Handle;
+use crate::played_shows::PlayedShows;
 use connection::{Connections, Ends};
 use picture::Pictures;
 use runs::Runs;
@@ -85,7 +86,7 @@ impl Shared {
     pub fn new(
         handle: Handle,
         library: Library,
-        book: FleetBook,
+        (book, played): (FleetBook, PlayedShows),
         broker: BrokerDesk,
         names: Names,
         admission: Admission,
@@ -98,7 +99,8 @@ impl Shared {
         let desk = Desk::new(handle.clone());
         tokio::spawn(desk.clone().follow(handle.news()));
         let pictures = Pictures::new();
-        tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone(), book.clone()));
+        tokio::spawn(played.clone().follow(handle.clone(), desk.clone()));
+        tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone(), book.clone(), played));
         let runs = Runs::of(library.folder(), handle.clone());
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
         Arc::new(Self {

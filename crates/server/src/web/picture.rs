@@ -16,6 +16,7 @@ use super::Desk;
 use super::message::text;
 use crate::fleet_book::FleetBook;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
+use crate::played_shows::{Played, PlayedShows};
 
 /// Time between two pictures: 20 a second, which screens interpolate. More cost bandwidth; fewer make dots lag.
 const EVERY: Duration = Duration::from_millis(50);
@@ -40,6 +41,9 @@ pub struct Picture {
 struct Painter {
     desk: Desk,
     book: FleetBook,
+    played: PlayedShows,
+    /// Revision of the open show, and what it is to `played`.
+    known: Option<(u32, Played)>,
     link: LinkState,
     /// The robots of the last fleet table, in order.
     names: Vec<RobotId>,
@@ -101,7 +105,7 @@ impl Pictures {
     }
 
     /// Makes pictures until the conductor ends.
-    pub async fn follow(self, handle: Handle, desk: Desk, book: FleetBook) {
+    pub async fn follow(self, handle: Handle, desk: Desk, book: FleetBook, played: PlayedShows) {
         let mut news = handle.news();
         let mut ticks = tokio::time::interval(EVERY);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
@@ -109,6 +113,8 @@ impl Pictures {
         let mut painter = Painter {
             desk,
             book,
+            played,
+            known: None,
             link,
             names: Vec::new(),
             revision: 0,
@@ -139,6 +145,7 @@ impl Pictures {
     }
 
     fn paint(&self, painter: &mut Painter, snapshot: &Snapshot) {
+        painter.know_show(snapshot);
         let same = painter.names.len() == snapshot.robots.len()
             && painter.names.iter().zip(&snapshot.robots).all(|(name, robot)| *name == robot.id);
         if !same {
@@ -163,6 +170,20 @@ impl Pictures {
 }
 
 impl Painter {
+    fn know_show(&mut self, snapshot: &Snapshot) {
+        let shown = self.desk.shown();
+        if self.known.is_none_or(|(revision, _)| revision != shown.revision) {
+            self.known = Some((shown.revision, Played::of(&shown.show, &snapshot.robots)));
+        }
+    }
+
+    /// Whether the robots that are there have never played the open show to its end.
+    fn is_first_run(&self, snapshot: &Snapshot) -> bool {
+        let has_frames = !self.desk.shown().show.frames.is_empty();
+        let played = self.known.map(|(_, played)| played.with(&snapshot.robots));
+        has_frames && played.is_some_and(|played| !self.played.has(played))
+    }
+
     fn state(&self, snapshot: &Snapshot, pace: f64) -> api::State {
         api::State {
             at_ms: snapshot.at.0 as f64 / 1e3,
@@ -199,6 +220,7 @@ impl Painter {
             repeats: run.and_then(|run| run.repeats).map(repeats),
             may_go_on: run.is_some_and(|run| run.may_go_on),
             speed_percent: snapshot.speed_percent,
+            first_run: self.is_first_run(snapshot),
             looping: snapshot.looping,
             late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),
         }

@@ -1,0 +1,226 @@
+//! Which shows the robots of this data folder have played to their end, kept in a file: others are offered at half speed.
+
+use std::collections::VecDeque;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lightbots_base::StateHash;
+use lightbots_control::{Age, Event, EventKind, RobotView, RunOutcome};
+use lightbots_show::Show;
+use serde::{Deserialize, Serialize};
+use tokio::sync::broadcast;
+
+use crate::disk::{self, Readers};
+use crate::live::conductor::{Handle, News};
+use crate::show_plan::driven;
+use crate::web::Desk;
+
+const FILE: &str = "played.json";
+/// Shows that are kept; the one that was played first is forgotten first. An entry has about 100 bytes.
+const SHOWS_MAX: usize = 1_000;
+/// The longest file, bytes: names of shows are 200 characters at most.
+const FILE_MAX: u64 = 1 << 20;
+
+/// The shows that were played to their end. Clones share them.
+#[derive(Clone, Debug)]
+pub struct PlayedShows {
+    path: PathBuf,
+    kept: Arc<Mutex<Kept>>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+struct Kept {
+    /// In the order in which they were played first.
+    #[serde(default)]
+    shows: VecDeque<Entry>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Entry {
+    /// What the show was called, for people.
+    show: String,
+    #[serde(flatten)]
+    played: Played,
+}
+
+/// A show and the kind of robots that play it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Played {
+    /// Hash of all that robots' drives depend on: a show with another name or other colours is the same.
+    drives: u64,
+    /// Real robots take part.
+    real: bool,
+}
+
+impl Played {
+    /// A show, and the robots that are there. What only simulated robots played, real ones did not.
+    pub fn of(show: &Show, robots: &[RobotView]) -> Self {
+        Self { drives: drives_hash(show), real: has_real(robots) }
+    }
+
+    /// The same show with the robots that are there now.
+    pub fn with(self, robots: &[RobotView]) -> Self {
+        Self { real: has_real(robots), ..self }
+    }
+}
+
+fn has_real(robots: &[RobotView]) -> bool {
+    robots.iter().any(|robot| robot.contact.age == Age::Active && !robot.reported.simulated)
+}
+
+/// Writes into a hash.
+struct Hashed(StateHash);
+
+impl io::Write for Hashed {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.bytes(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn drives_hash(show: &Show) -> u64 {
+    let mut hashed = Hashed(StateHash::new());
+    // Neither a show nor the hash refuses anything.
+    let _ = serde_json::to_writer(io::BufWriter::new(&mut hashed), &driven(show));
+    hashed.0.finish()
+}
+
+impl PlayedShows {
+    /// The shows of a folder of data; none where the file cannot be read: then they are offered at half speed once more.
+    pub fn load(folder: &Path) -> Self {
+        let path = folder.join(FILE);
+        let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
+        let kept = kept.unwrap_or_else(|| Ok(Kept::default())).unwrap_or_else(|error| {
+            tracing::warn!("{} is begun again: {error}", path.display());
+            Kept::default()
+        });
+        Self { path, kept: Arc::new(Mutex::new(kept)) }
+    }
+
+    /// Whether robots of that kind have played the show to its end.
+    pub fn has(&self, played: Played) -> bool {
+        self.lock().shows.iter().any(|entry| entry.played == played)
+    }
+
+    /// Robots played a show to its end.
+    fn add(&self, show: &str, played: Played) {
+        let mut kept = self.lock();
+        if kept.shows.iter().any(|entry| entry.played == played) {
+            return;
+        }
+        kept.shows.push_back(Entry { show: show.into(), played });
+        if kept.shows.len() > SHOWS_MAX {
+            kept.shows.pop_front();
+        }
+        let written = serde_json::to_vec_pretty(&*kept)
+            .map_err(io::Error::other)
+            .and_then(|text| disk::replace(&self.path, &text, Readers::Owner));
+        if let Err(error) = written {
+            tracing::warn!("{} cannot be written: {error}", self.path.display());
+        }
+    }
+
+    /// Notes each show that is played to its end, until the conductor ends.
+    pub async fn follow(self, handle: Handle, desk: Desk) {
+        let mut news = handle.news();
+        let mut run = PresentRun::default();
+        loop {
+            let event = match news.recv().await {
+                Ok(News::Event(event)) => event,
+                Ok(News::Link(_) | News::Warning(_)) | Err(broadcast::error::RecvError::Lagged(_)) => {
+                    continue;
+                }
+                Err(broadcast::error::RecvError::Closed) => return,
+            };
+            if matches!(event.kind, EventKind::RunBegun { .. } | EventKind::TakenUp { .. }) {
+                let Some(snapshot) = handle.look().await else { return };
+                let show = desk.shown().show.clone();
+                run.show = Some((show.name.clone(), Played::of(&show, &snapshot.robots), show.frames.len()));
+            }
+            if let Some((name, played)) = run.ends(&event) {
+                self.add(&name, played);
+            }
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The run that is on.
+#[derive(Debug, Default)]
+struct PresentRun {
+    /// The name of its show, what it is, and the number of its frames.
+    show: Option<(String, Played, usize)>,
+}
+
+impl PresentRun {
+    /// The show that was played to its end with this event: all its frames stood.
+    fn ends(&mut self, event: &Event) -> Option<(String, Played)> {
+        let EventKind::RunEnded { outcome, frames_played, .. } = &event.kind else { return None };
+        let (name, played, frames) = self.show.take()?;
+        (*outcome == RunOutcome::Finished && *frames_played >= frames).then_some((name, played))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::{Instant, Rgb};
+    use lightbots_show::{Frame, Pixel};
+
+    fn show() -> Show {
+        let frame = Frame { pixels: vec![Pixel::default()], ..Frame::default() };
+        Show { name: "Hello".into(), frames: vec![frame.clone(), frame], ..Show::default() }
+    }
+
+    #[test]
+    fn a_show_is_known_by_its_drives_and_its_kind_of_robots() {
+        let played = Played::of(&show(), &[]);
+        let mut other = Show { name: "Night".into(), ..show() };
+        other.frames[0].pixels[0].color = Rgb::new(1, 2, 3);
+        assert_eq!(Played::of(&other, &[]), played, "colours and names are no drives");
+        other.frames[1].pixels[0].at.x = 0.25;
+        assert_ne!(Played::of(&other, &[]), played);
+        assert_ne!(Played { real: true, ..played }, played);
+    }
+
+    #[test]
+    fn shows_come_back_at_the_next_start_and_have_an_end() {
+        let folder = std::env::temp_dir().join(format!("lightbots-played-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        let played = |drives| Played { drives, real: true };
+        let shows = PlayedShows::load(&folder);
+        assert!(!shows.has(played(7)));
+        shows.add("Hello", played(7));
+        assert!(PlayedShows::load(&folder).has(played(7)));
+        assert!(!PlayedShows::load(&folder).has(Played { real: false, ..played(7) }));
+        (100..100 + SHOWS_MAX as u64).for_each(|drives| shows.add("Many", played(drives)));
+        let shows = PlayedShows::load(&folder);
+        assert!(!shows.has(played(7)) && shows.has(played(100)), "the first one is forgotten");
+        std::fs::write(folder.join(FILE), b"{").unwrap();
+        assert!(!PlayedShows::load(&folder).has(played(100)));
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn only_a_run_that_showed_all_frames_counts() {
+        let played = Played::of(&show(), &[]);
+        let ended = |outcome, frames_played| {
+            let kind = EventKind::RunEnded { outcome, frames_played, dropouts: 0 };
+            let mut run = PresentRun { show: Some(("Hello".into(), played, 2)) };
+            run.ends(&Event { at: Instant::ZERO, kind })
+        };
+        assert_eq!(ended(RunOutcome::Finished, 2), Some(("Hello".into(), played)));
+        assert_eq!(ended(RunOutcome::Finished, 1), None, "it began with the second frame");
+        assert_eq!(ended(RunOutcome::Aborted, 2), None);
+        assert_eq!(ended(RunOutcome::Failed("no path".into()), 2), None);
+    }
+}
