@@ -57,6 +57,8 @@ struct Playing {
     /// The colour that was shown before.
     before: Rgb,
     cursor: LightCursor,
+    /// Its time at the last step, without what was skipped.
+    elapsed: Span,
 }
 
 /// The stretches of a robot. Their records lie in its storage.
@@ -71,6 +73,8 @@ pub(crate) struct LightAhead {
     started: Option<(u32, Instant)>,
     /// Time since `playing` counts, without holds.
     timeline: Timeline,
+    /// No stretch that waits begins before this moment of the show clock.
+    quiet_until: Instant,
 }
 
 impl Default for LightAhead {
@@ -81,6 +85,7 @@ impl Default for LightAhead {
             newest: 0,
             started: None,
             timeline: Timeline::new(),
+            quiet_until: Instant::ZERO,
         }
     }
 }
@@ -121,6 +126,7 @@ impl LightAhead {
         let kept = Kept { number, slot, seq, from, runs_freely, skip, over };
         // Fits: there are no more of them than slots.
         let _ = self.waiting.push(kept);
+        self.quiet_until = Instant::ZERO;
     }
 
     /// A START states when a route begins. A later moment postpones it, as with routes.
@@ -129,6 +135,7 @@ impl LightAhead {
             return;
         }
         self.started = Some((seq, at));
+        self.quiet_until = Instant::ZERO;
         for kept in self.waiting.iter_mut().filter(|kept| kept.seq == Some(seq)) {
             kept.from = Some(at);
         }
@@ -137,11 +144,14 @@ impl LightAhead {
     /// Notes a hold or resume.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
+        // A resume that comes late makes up for time.
+        self.quiet_until = Instant::ZERO;
     }
 
     /// Ends the stretch that plays.
     pub(crate) fn end(&mut self) {
         self.playing = None;
+        self.quiet_until = Instant::ZERO;
     }
 
     /// Drops all stretches.
@@ -157,46 +167,42 @@ impl LightAhead {
 
     /// Whether a stretch begins by this moment of the show clock.
     pub(crate) fn begins(&self, show: Instant) -> bool {
-        self.waiting.iter().any(|&kept| self.is_due(kept, show))
+        show >= self.quiet_until && self.due(show).is_some()
     }
 
     /// The colour at a moment of the show clock, where a stretch plays. `shown`: the colour until now.
     pub(crate) fn step(&mut self, show: Instant, shown: Rgb, storage: &StoredTracks) -> Option<Rgb> {
-        while let Some(index) = (0..self.waiting.len()).find(|&index| self.is_due(self.waiting[index], show))
-        {
-            let kept = self.waiting.remove(index);
-            self.begin(kept, shown);
+        if show >= self.quiet_until {
+            while let Some(index) = self.due(show) {
+                let kept = self.waiting.remove(index);
+                self.begin(kept, shown);
+            }
+            self.quiet_until = self.next_due(show);
         }
         let Playing { kept, before, .. } = self.playing?;
         let elapsed = self.time_of(kept, show)? - kept.skip;
         let track = storage[kept.slot].track();
-        let cursor = &mut self.playing.as_mut()?.cursor;
-        let colour = cursor.at(track, elapsed);
+        let playing = self.playing.as_mut()?;
+        playing.elapsed = elapsed;
+        let colour = playing.cursor.at(track, elapsed);
         if elapsed < kept.over {
             return Some(before.mixed(colour, elapsed.as_secs() / kept.over.as_secs()));
         }
-        if cursor.is_at_end(track) {
-            self.playing = None;
+        if playing.cursor.is_at_end(track) {
+            self.end();
         }
         Some(colour)
     }
 
     /// The colours from a moment of the show clock on, after `step` found the colour of that moment.
     pub(crate) fn piece(&self, show: Instant, storage: &StoredTracks) -> LightPiece {
-        let Some(Playing { kept, cursor, .. }) = self.playing else { return LightPiece::NONE };
-        let Some(elapsed) = self.time_of(kept, show).map(|time| time - kept.skip) else {
-            return LightPiece::NONE;
-        };
+        let Some(Playing { kept, cursor, elapsed, .. }) = self.playing else { return LightPiece::NONE };
         let is_even = kept.runs_freely || self.timeline.runs_evenly(show);
         let line = cursor.line(storage[kept.slot].track());
         let Some((begins, lasts, [start, end])) = line.filter(|_| is_even && elapsed >= kept.over) else {
             return LightPiece::NONE;
         };
-        // The time of a stretch goes no faster than the show clock.
-        let due =
-            |kept: &Kept| self.time_of(*kept, show).map(|time| show + (kept.skip.max(Span::ZERO) - time));
-        let until = self.waiting.iter().filter_map(due).min().unwrap_or(Instant::FAR);
-        LightPiece::new((show, until), (show - (elapsed - begins), lasts), (start, end))
+        LightPiece::new((show, self.quiet_until), (show - (elapsed - begins), lasts), (start, end))
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
@@ -209,12 +215,22 @@ impl LightAhead {
         {
             self.timeline.begin(from);
         }
-        self.playing = Some(Playing { kept, before: shown, cursor: LightCursor::default() });
+        self.playing =
+            Some(Playing { kept, before: shown, cursor: LightCursor::default(), elapsed: Span::ZERO });
     }
 
-    /// Whether a stretch that waits begins.
-    fn is_due(&self, kept: Kept, show: Instant) -> bool {
-        self.time_of(kept, show).is_some_and(|time| time >= kept.skip.max(Span::ZERO))
+    /// The stretch that waits and begins by this moment.
+    fn due(&self, show: Instant) -> Option<usize> {
+        let is_due =
+            |kept: Kept| self.time_of(kept, show).is_some_and(|time| time >= kept.skip.max(Span::ZERO));
+        (0..self.waiting.len()).find(|&index| is_due(self.waiting[index]))
+    }
+
+    /// Before when no stretch that waits begins, because the time of a stretch goes no faster than the show clock.
+    fn next_due(&self, show: Instant) -> Instant {
+        let due =
+            |kept: &Kept| self.time_of(*kept, show).map(|time| show + (kept.skip.max(Span::ZERO) - time));
+        self.waiting.iter().filter_map(due).min().unwrap_or(Instant::FAR)
     }
 
     /// The time of a stretch, which counts from its anchor; `None`: not known.
@@ -324,6 +340,19 @@ mod tests {
         tracks.keep(&stretch(5, LightAnchor::Moment(ms(3000)), Span::ZERO), &mut storage);
         tracks.step(ms(2000), WHITE, &storage);
         assert!(tracks.waiting.iter().map(|kept| kept.number).eq([1, 5]), "a later one waits on");
+    }
+
+    #[test]
+    fn a_late_resume_brings_a_stretch_that_waits_to_its_time() {
+        let (mut tracks, mut storage) = (LightAhead::default(), stored());
+        tracks.keep(&stretch(1, LightAnchor::Moment(ms(1000)), Span::ZERO), &mut storage);
+        tracks.keep(&stretch(2, LightAnchor::Moment(ms(1000)), Span::from_millis(3_000)), &mut storage);
+        tracks.step(ms(1000), WHITE, &storage);
+        tracks.note(ms(1500), true);
+        tracks.step(ms(4000), WHITE, &storage);
+        assert_eq!(tracks.waiting.len(), 1, "its time stands at 0.65 s");
+        tracks.note(ms(1800), false);
+        assert_eq!(tracks.step(ms(4700), WHITE, &storage), Some(Rgb::new(102, 102, 102)));
     }
 
     #[test]
