@@ -12,8 +12,7 @@ const ROBOTS: usize = 9;
 /// How far the two may be apart in time.
 const IN_TIME_MS: i64 = 25;
 
-/// Five layers that move, in drives, in pictures and over the whole show. None goes by the number of a robot: a run numbers
-/// robots as they came, and a plan by their starting places.
+/// Six layers that move, in drives, in pictures and over the whole show. Some go by the number of a robot.
 fn lit() -> Show {
     let mut show = show(4, ROBOTS, 3.0);
     for (number, frame) in show.frames.iter_mut().enumerate() {
@@ -29,6 +28,7 @@ fn lit() -> Show {
         layer("rainbow", LayerSpan::Show, vec![("speed_hz", Setting::Number(0.2))]),
         layer("chase", frames(FramePhase::Transition), vec![added()]),
         layer("plasma", frames(FramePhase::Picture), vec![added()]),
+        layer("twinkle", LayerSpan::Show, vec![("speed_hz", Setting::Number(0.5)), added()]),
         layer("ripple", LayerSpan::Seconds { from_s: 1.0, to_s: 9.0 }, vec![added()]),
         layer("by-speed", frames(FramePhase::Whole), vec![("blend", Setting::Text("average".into()))]),
     ];

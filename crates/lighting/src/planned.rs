@@ -18,6 +18,19 @@ pub struct PlannedDrive<'a> {
     pub duration: Span,
 }
 
+/// `[robot]`: its number in effects that go by it, so that plans and runs agree: the rank of its pixel's id in the frame
+/// that robots drive to first. Robots without a pixel come after the others, in their order.
+pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
+    let mut robots: Vec<(Option<u32>, usize)> =
+        pixels.into_iter().enumerate().map(|(robot, pixel)| (pixel, robot)).collect();
+    robots.sort_unstable_by_key(|&(pixel, robot)| (pixel.is_none(), pixel, robot));
+    let mut numbers = vec![0; robots.len()];
+    for (number, (_, robot)) in (0..).zip(robots) {
+        numbers[robot] = number;
+    }
+    numbers
+}
+
 /// `[frame]`: the drive to it and its robots, in the order of their starting places. Robots are dark before the first frame.
 pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
     let drives: Vec<PlannedDrive<'a>> = plan
@@ -44,11 +57,12 @@ pub fn lit_frame<'a>(show: &Show, drives: &[PlannedDrive<'a>], frame: usize) -> 
     };
     let colour = |pixel: Option<&Pixel>| pixel.map_or(Rgb::BLACK, |pixel| pixel.color);
     let drive = &drives[frame];
+    let numbers = numbers(drives[0].pixels.iter().copied());
     let robot = |robot: usize| {
         let [before, own, next] = [0, 1, 2].map(|which| of(which, robot));
         let path = drive.paths.get(robot).map(Path::as_ref);
         DrivenLight {
-            number: (robot as u32, drive.pixels.len() as u32),
+            number: (numbers.get(robot).map_or(robot as u32, |number| *number), drive.pixels.len() as u32),
             frame: frame as u32,
             pixel: drive.pixels[robot],
             colours: [colour(before), colour(own), colour(next.or(own))],
@@ -61,5 +75,16 @@ pub fn lit_frame<'a>(show: &Show, drives: &[PlannedDrive<'a>], frame: usize) -> 
     LitFrame {
         air: Span::from_secs(show.frames[frame].air_time_s),
         robots: (0..drive.pixels.len()).map(robot).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robots_are_numbered_by_their_first_pixels() {
+        assert_eq!(numbers([Some(7), None, Some(2), None, Some(4)]), [2, 3, 0, 4, 1]);
+        assert_eq!(numbers([]), []);
     }
 }

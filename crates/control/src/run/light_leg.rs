@@ -6,6 +6,7 @@ use crate::run::path_clock::PathClock;
 use lightbots_base::{Instant, Rgb, Span, TICK};
 use lightbots_lighting::{DrivenLight, FrameLight, LampSettings, LightMoment, ShowLight, Tolerance, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
+use std::sync::Arc;
 
 /// A stretch of light that is sent to all robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +42,8 @@ pub(crate) struct LegLight {
     pub waits_for_go: bool,
     /// How long show time had stood at the beginning of the drive, seconds.
     pub lead_s: f64,
+    /// `[participant]`: its number in effects.
+    pub numbers: Arc<[u32]>,
     /// `[participant]`: colour before, and whether layers shone on the robot then.
     pub before: Vec<(Rgb, bool)>,
     /// The same at its end.
@@ -100,7 +103,7 @@ impl LegLight {
         let (before, shone) = self.before.get(participant).copied().unwrap_or((Rgb::BLACK, false));
         let after = next.filter(|next| next.frame != leg.frame).and_then(|next| next.robots.get(participant));
         Some(DrivenLight {
-            number: (participant as u32, leg.robots.len() as u32),
+            number: (self.numbers.get(participant).copied()?, leg.robots.len() as u32),
             frame: leg.frame as u32,
             pixel: step.pixel,
             colours: [before, step.color, after.map_or(step.color, |after| after.color)],

@@ -17,8 +17,9 @@ use crate::run::roster::Roster;
 use crate::run::show_times::ShowTimes;
 use crate::run::upload::Upload;
 use lightbots_base::{Instant, Rgb, Span, TICK};
-use lightbots_lighting::{FrameTimes, LiveLayers, ShowLight};
+use lightbots_lighting::{FrameTimes, LiveLayers, ShowLight, numbers};
 use lightbots_wire::Command;
+use std::sync::Arc;
 
 /// Duration of a stretch. Shorter: more messages. Longer: more is sent in vain when plans change.
 const STRETCH: Span = Span::from_millis(10_000);
@@ -37,6 +38,8 @@ pub(crate) struct LightPlayer {
     show: ShowLight,
     /// When the frames of this round are.
     pub times: ShowTimes,
+    /// `[participant]`: its number in effects; it keeps it over the whole run.
+    numbers: Arc<[u32]>,
     /// The leg that is driven or was driven last.
     current: Option<LegLight>,
     /// The leg after it.
@@ -108,6 +111,7 @@ impl LightPlayer {
             return;
         }
         let before = self.before(context, roster, leg);
+        self.number_robots(leg);
         let (drive, air) = (leg.duration, playback.air_time(leg.frame));
         let frame = leg.cursor();
         let current = self.current.as_ref();
@@ -159,6 +163,7 @@ impl LightPlayer {
             lead_s: current.map_or(0.0, |current| {
                 current.clock.map_or(current.lead_s, |clock| current.lead_s + clock.lost.as_secs())
             }),
+            numbers: self.numbers.clone(),
             before,
             after: leg.robots.iter().map(|step| (step.color, step.pixel.is_some())).collect(),
             layers,
@@ -170,6 +175,20 @@ impl LightPlayer {
         };
         light.first = light.stretch(number, Span::ZERO, STRETCH, over).unwrap_or(light.first);
         self.next = Some(light);
+    }
+
+    /// Numbers robots at the first leg, and those that came since.
+    fn number_robots(&mut self, leg: &Leg) {
+        if self.numbers.is_empty() {
+            self.numbers = numbers(leg.robots.iter().map(|step| step.pixel)).into();
+        } else if self.numbers.len() < leg.robots.len() {
+            self.numbers = self
+                .numbers
+                .iter()
+                .copied()
+                .chain(self.numbers.len() as u32..leg.robots.len() as u32)
+                .collect();
+        }
     }
 
     /// The drive of a leg has begun. Also kept where no stretches are sent: live light may be put over it.
