@@ -198,7 +198,7 @@ async function scrub(page: Page, robots: number, scene: string) {
   const box = await thumb.locator('xpath=../..').boundingBox();
   if (!box) throw new Error('There is no slider.');
   const measured = await measureDrag(page, (turn) => ({
-    x: box.x + box.width * (0.5 - 0.45 * Math.cos(turn / 4)),
+    x: box.x + box.width * (0.5 - 0.45 * Math.cos(turn)),
     y: box.y + box.height / 2,
   }));
   row(scene, robots, measured);

@@ -1,15 +1,13 @@
-import { Button, Slider } from '@mantine/core';
+import { Button } from '@mantine/core';
 import {
   IconArrowBackUp,
   IconArrowForwardUp,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
 } from '@tabler/icons-react';
-import { useMemo, type ReactNode } from 'react';
+import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
-import { clockText } from '../base/time';
 import { IconButton } from '../parts/IconButton';
-import { timelineOf, totalOf } from '../model/timeline';
 import { openShow } from '../session/openShow';
 import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
@@ -18,27 +16,20 @@ import { useEditing, useEditor } from './context';
 import { HistoryMenu } from './HistoryMenu';
 import { ExportMenu } from './ExportMenu';
 import { SaveMark } from './SaveMark';
+import { Scrubber } from './Scrubber';
 import { StatesButton } from './StatesButton';
 import page from '../parts/page.module.css';
-import styles from './EditBar.module.css';
 
 /** Undo, preview, scrubbing, and the state of saving. */
 export function EditBar() {
   const session = useSession();
   const editing = useEditing();
   const { editor } = editing;
-  const show = useEditor((s) => s.show);
   const canUndo = useEditor((s) => s.history.past.length > 0);
   const canRedo = useEditor((s) => s.history.future.length > 0);
   const { preview } = editing;
   const running = useStore(preview.running);
-  const time_s = useStore(preview.time_s);
-  const plan = useStore(editing.settled);
-  const frame = useEditor((s) => s.frame);
   const isMaking = useStore(editing.making, (making) => making !== null);
-  const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
-  const total = totalOf(timeline);
-  const at = time_s ?? timeline[frame]?.shownFrom_s ?? 0;
   /** Runs the whole show from its first frame; the live view shows what is missing. */
   const playWithRobots = async () => {
     editing.saver.flush();
@@ -69,20 +60,7 @@ export function EditBar() {
         preview.toggle,
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
       )}
-      <Slider
-        className={page.progress}
-        size="sm"
-        label={(value) => clockText(value)}
-        thumbLabel="Moment of the show"
-        min={0}
-        max={Math.max(total, 0.1)}
-        step={0.05}
-        value={at}
-        onChange={(to_s) => preview.scrub(timeline, to_s)}
-      />
-      <span className={`quiet ${styles.time}`}>
-        {clockText(at)} / {clockText(total)}
-      </span>
+      <Scrubber />
       <SaveMark />
       <StatesButton />
       <ExportMenu />
