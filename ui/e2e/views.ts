@@ -101,8 +101,8 @@ const liveViews: View[] = [
     },
   },
   { name: 'live-cues', show: (page) => page.getByRole('tab', { name: 'Cues' }).click() },
-  { name: 'live-light', show: (page) => page.getByRole('tab', { name: 'Light' }).click() },
   dialog('go-to-frame', (page) => button(page, 'Go to frame 1').click()),
+  { name: 'live-light', show: (page) => page.getByRole('tab', { name: 'Light' }).click() },
   { name: 'live-show', show: (page) => page.getByRole('tab', { name: 'Show' }).click() },
   {
     name: 'live-log',
