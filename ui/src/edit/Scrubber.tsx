@@ -7,7 +7,7 @@ import page from '../parts/page.module.css';
 import { useEditing, useEditor } from './context';
 import styles from './EditBar.module.css';
 
-/** The moment of the show that the floor shows. It stands alone, because it is drawn anew with every picture of a preview. */
+/** The moment of the show that the floor shows. It stands alone, because each picture of a preview draws it anew. */
 export function Scrubber() {
   const { preview, settled } = useEditing();
   const show = useEditor((s) => s.show);
