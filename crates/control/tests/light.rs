@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{World, show};
+use fleet::{World, reached, show};
 use lightbots_base::{Rgb, Span};
 use lightbots_control::{EventKind, Operation};
 use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, Show};
@@ -17,10 +17,6 @@ fn rainbow(robots: usize) -> Show {
     show.frames[1].id = Some("second".into());
     show.cues = vec![Cue { name: String::new(), at: CuePlace::Frame("second".into()), loop_from: None }];
     show
-}
-
-fn reached(frame: usize) -> impl Fn(&EventKind) -> bool {
-    move |kind| matches!(kind, EventKind::FrameReached { frame: one, .. } if *one == frame)
 }
 
 /// The stretches of the first robot since it had `count`.
@@ -204,4 +200,20 @@ fn live_light_that_is_wrong_too_much_or_without_a_show_is_refused_with_a_remedy(
     world.operate(live("7", Some("#00ff00"))).expect("one of the same name is replaced");
     let refused = world.operate(live("8", Some("#ff0000"))).unwrap_err().to_string();
     assert!(refused.starts_with("8 live lights are on"), "{refused}");
+}
+
+#[test]
+fn a_robot_that_restarts_under_live_light_gets_what_is_left_of_it() {
+    let mut world = World::ready(9, 0, show(3, 9, 30.0));
+    world.play();
+    world.run_until(30.0, reached(0));
+    world.operate(live("red", Some("#ff0000"))).unwrap();
+    world.run_for(4.0);
+    world.robots[0].restart();
+    world.run_for(1.0);
+    let sent = since(&world, 0);
+    let first = sent.first().expect("it gets a stretch");
+    assert_eq!(last(first), RED);
+    assert!(first.track().duration() > Span::from_secs(1.0), "{first:?}");
+    assert!(matches!(first.anchor, LightAnchor::Free(_)), "{first:?}");
 }

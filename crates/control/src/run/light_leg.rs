@@ -1,10 +1,11 @@
 //! Light from the beginning of a drive until its frame is left: when each of its moments is, and colours at them.
 
+use crate::config::Config;
 use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
 use crate::run::path_clock::PathClock;
 use lightbots_base::{Instant, Rgb, Span, TICK};
-use lightbots_lighting::{DrivenLight, FrameLight, LampSettings, LightMoment, ShowLight, Tolerance, fit};
+use lightbots_lighting::{DrivenLight, FrameLight, LightMoment, ShowLight, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
 use std::sync::Arc;
 
@@ -50,10 +51,6 @@ pub(crate) struct LegLight {
     pub after: Vec<(Rgb, bool)>,
     /// The layers that may shine.
     pub layers: FrameLight,
-    /// How far robots' lights may be from the layers' colours.
-    pub tolerance: Tolerance,
-    /// The lamps of the robots.
-    pub lamp: LampSettings,
     /// The first stretch.
     pub first: PlannedStretch,
     /// The time base, once the drive has begun.
@@ -117,6 +114,7 @@ impl LegLight {
     /// A stretch as a participant's message.
     pub fn command(
         &self,
+        config: &Config,
         show: &ShowLight,
         robot: &DrivenLight<'_>,
         stretch: &PlannedStretch,
@@ -129,10 +127,10 @@ impl LegLight {
                 None => self.moment(stretch.from + time, lost),
             });
         // Robots draw lines between the colours that they get: these are corrected first and fitted then.
-        if !self.lamp.changes_nothing() {
-            samples.iter_mut().for_each(|colour| *colour = self.lamp.sent(*colour));
+        if !config.lamp.changes_nothing() {
+            samples.iter_mut().for_each(|colour| *colour = config.lamp.sent(*colour));
         }
-        let fitted = fit(&samples, self.tolerance, MAX_LIGHT_RECORDS);
+        let fitted = fit(&samples, config.light_tolerance, MAX_LIGHT_RECORDS);
         let (anchor, skip) = self.anchor(stretch, now);
         Command::Light(LightStretch {
             number: stretch.number,

@@ -60,7 +60,7 @@ impl LightPlayer {
             if roster.robot(context, participant).reported.abilities.light
                 && let Some(robot) = current.driven(leg, None, participant)
             {
-                let command = current.command(&self.show, &robot, &stretch, now);
+                let command = current.command(&context.config, &self.show, &robot, &stretch, now);
                 context.send(known.robot, &[command]);
             }
         }

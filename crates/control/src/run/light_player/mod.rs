@@ -92,17 +92,15 @@ impl LightPlayer {
         (leg, after): (&Leg, Option<&Leg>),
         (now, participant): (Instant, usize),
     ) -> Option<Command> {
-        if !self.is_active() || !roster.robot(context, participant).reported.abilities.light {
-            return None;
-        }
         // Live light counts by the show clock, and when the drive begins is not known yet.
-        if !self.live.is_empty() {
+        let may_be_sent = self.is_active() && self.live.is_empty();
+        if !may_be_sent || !roster.robot(context, participant).reported.abilities.light {
             return None;
         }
         self.prepare(context, playback, roster, leg);
         let light = self.next.as_ref()?;
         let robot = light.driven(leg, after, participant)?;
-        Some(light.command(&self.show, &robot, &light.first, now))
+        Some(light.command(&context.config, &self.show, &robot, &light.first, now))
     }
 
     /// Makes the light of the next leg, unless it is made.
@@ -167,8 +165,6 @@ impl LightPlayer {
             before,
             after: leg.robots.iter().map(|step| (step.color, step.pixel.is_some())).collect(),
             layers,
-            tolerance: context.config.light_tolerance,
-            lamp: context.config.lamp,
             first: PlannedStretch { number, from: Span::ZERO, ticks: 1, over, free_at: None },
             clock: None,
             seen: Span::ZERO,

@@ -26,7 +26,7 @@ struct LiveChange {
     /// Duration of the first stretch, and what each robot adds to it, so that the next reaches all in time. Short ones are
     /// computed sooner.
     first: (Span, Span),
-    /// At most so many times as many stretches are computed at once as others: each then takes 0.06 ms.
+    /// How many times more of them than of others may be computed at once: each takes 0.06 ms.
     at_once: usize,
 }
 
@@ -85,13 +85,11 @@ impl LightPlayer {
         };
         let Some((from, free_at)) = begins else { return };
         let rests_at = clock.open_hold().map_or(now, |hold| hold.at + Route::EASE);
-        let (longest, over) = match renews {
+        let (longest, over) = match (renews, free_at) {
             // Nothing changes from when all stand until the hold is over.
-            true if let Some(at) = free_at.filter(|_| !is_free) => {
-                ((rests_at - at).max(Span::ZERO) + TICK, LIVE.blend)
-            }
-            true => (LIVE.first(leg.robots.len()), LIVE.blend),
-            false => (STRETCH, Span::ZERO),
+            (true, Some(at)) if !is_free => ((rests_at - at).max(Span::ZERO) + TICK, LIVE.blend),
+            (true, _) => (LIVE.first(leg.robots.len()), LIVE.blend),
+            (false, _) => (STRETCH, Span::ZERO),
         };
         let number = context.number_route();
         let stretch = match current.stretch(number, from, longest, over) {
@@ -173,7 +171,7 @@ impl LightPlayer {
                 return;
             };
             if let Some(robot) = current.driven(leg, after, one) {
-                let command = current.command(&self.show, &robot, stretch, now);
+                let command = current.command(&context.config, &self.show, &robot, stretch, now);
                 context.send(roster.participants[one].robot, &[command]);
             }
             upload.record_sent(now, one, again_at);
@@ -225,9 +223,16 @@ impl LightPlayer {
             return;
         };
         let number = context.number_route();
-        let longest = (self.covered - elapsed).max(TICK);
-        let Some(stretch) = current.stretch(number, elapsed, longest, BLEND) else { return };
-        let command = current.command(&self.show, &robot, &stretch, now);
+        let free_at = now + LEAD;
+        let free = self.free_until.filter(|until| (free_at..Instant::FAR).contains(until));
+        let stretch = match free.zip(current.clock) {
+            Some((until, clock)) => current
+                .stretch(number, clock.path_time(free_at), (until - free_at).max(TICK), BLEND)
+                .map(|stretch| PlannedStretch { free_at: Some(free_at), ..stretch }),
+            None => current.stretch(number, elapsed, (self.covered - elapsed).max(TICK), BLEND),
+        };
+        let Some(stretch) = stretch else { return };
+        let command = current.command(&context.config, &self.show, &robot, &stretch, now);
         context.send(roster.participants[participant].robot, &[command]);
     }
 
