@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{World, show};
+use fleet::{World, reached, show};
 use lightbots_control::{
     ControllerState, EventKind, MissingPolicy, OnReturn, Operation, Refusal, RunOutcome,
 };
@@ -14,10 +14,6 @@ fn with_cue(frames: usize, robots: usize, air_time_s: f64) -> Show {
     show.frames[1].id = Some("second".into());
     show.cues = vec![Cue { name: "Curtain".into(), at: CuePlace::Frame("second".into()), loop_from: None }];
     show
-}
-
-fn reached(frame: usize) -> impl Fn(&EventKind) -> bool {
-    move |kind| matches!(kind, EventKind::FrameReached { frame: one, .. } if *one == frame)
 }
 
 fn cue(world: &World) -> Option<String> {

@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{World, show, started};
+use fleet::{World, reached, show, started};
 use lightbots_base::Span;
 use lightbots_control::{
     ControllerState, EventKind, MissingPolicy, OnReturn, Operation, Refusal, RunOutcome,
@@ -24,19 +24,6 @@ fn waiting(frames: usize, robots: usize) -> Show {
         });
     }
     show
-}
-
-fn reached(frame: usize) -> impl Fn(&EventKind) -> bool {
-    move |kind| matches!(kind, EventKind::FrameReached { frame: one, .. } if *one == frame)
-}
-
-/// The frames that stood, in order.
-fn stood(world: &World) -> Vec<usize> {
-    let frame = |kind: &EventKind| match kind {
-        EventKind::FrameReached { frame, .. } => Some(*frame),
-        _ => None,
-    };
-    world.events.iter().filter_map(|event| frame(&event.kind)).collect()
 }
 
 /// The frame that stands or is driven to, and the one after it.
@@ -76,7 +63,7 @@ fn robots_go_from_each_frame_that_waits_to_each_other_and_the_show_goes_on_from_
             world.run_for(0.5);
             assert_eq!(world.lit(&frames[to]), 12, "frame {to}: {}", world.story());
         }
-        assert_eq!(stood(&world), walk);
+        assert_eq!(world.stood(), walk);
         for next in 1..5 {
             world.operate(Operation::Go).unwrap();
             world.run_until(60.0, reached(next));
@@ -107,7 +94,7 @@ fn robots_that_are_held_on_their_way_go_to_each_frame() {
             world.run_until(60.0, reached(to));
             let (outcome, ..) = world.run_to_end(90.0);
             let wanted: Vec<usize> = [number - 1].into_iter().chain(to..5).collect();
-            assert_eq!((outcome, stood(&world)), (RunOutcome::Finished, wanted), "{}", world.story());
+            assert_eq!((outcome, world.stood()), (RunOutcome::Finished, wanted), "{}", world.story());
             assert!(world.closest_m >= CONTACT_M, "to {to}: {} m", world.closest_m);
         }
     }
@@ -127,7 +114,7 @@ fn robots_that_drive_are_not_sent_elsewhere() {
     world.run_until(30.0, reached(0));
     world.operate(Operation::GoTo(2)).unwrap();
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished);
-    assert_eq!(stood(&world), [0, 2, 3], "its air time was cut");
+    assert_eq!(world.stood(), [0, 2, 3], "its air time was cut");
     world.operate(Operation::Preview { frame: 1, missing: MissingPolicy::Refuse }).unwrap();
     world.run_for(1.0);
     assert_eq!(world.operate(Operation::GoTo(2)), Err(Refusal::Busy(ControllerState::Preview)));
@@ -146,7 +133,7 @@ fn a_skip_moves_no_robot_and_keeps_waiting() {
     world.operate(Operation::Skip).unwrap();
     assert_eq!(now_and_next(&world), (0, Some(2)));
     world.run_for(30.0);
-    assert_eq!((stood(&world), world.count(started)), (vec![0], 1));
+    assert_eq!((world.stood(), world.count(started)), (vec![0], 1));
     world.operate(Operation::Go).unwrap();
     world.run_until(30.0, reached(2));
     world.operate(Operation::Pause).unwrap();
@@ -158,7 +145,7 @@ fn a_skip_moves_no_robot_and_keeps_waiting() {
     world.operate(Operation::Resume).unwrap();
     world.operate(Operation::Go).unwrap();
     assert!(!world.controller.has_run(), "{}", world.story());
-    assert_eq!(stood(&world), [0, 2]);
+    assert_eq!(world.stood(), [0, 2]);
 }
 
 #[test]
@@ -173,10 +160,10 @@ fn the_frame_that_held_robots_drive_to_is_skipped_once_the_pause_ends() {
     world.operate(Operation::Skip).unwrap();
     assert_eq!(now_and_next(&world), (2, Some(3)));
     world.run_for(20.0);
-    assert_eq!((stood(&world), world.controller.state()), (vec![0], ControllerState::Paused));
+    assert_eq!((world.stood(), world.controller.state()), (vec![0], ControllerState::Paused));
     world.operate(Operation::Resume).unwrap();
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished, "{}", world.story());
-    assert_eq!(stood(&world), [0, 2, 3]);
+    assert_eq!(world.stood(), [0, 2, 3]);
 }
 
 #[test]
@@ -189,7 +176,7 @@ fn a_show_without_a_path_to_the_frame_stays_where_it_is() {
     world.operate(Operation::GoTo(3)).unwrap();
     assert_eq!((world.count(given_up), now_and_next(&world)), (1, (0, Some(1))));
     world.run_for(30.0);
-    assert_eq!(stood(&world), [0]);
+    assert_eq!(world.stood(), [0]);
     world.operate(Operation::Go).unwrap();
     world.run_until(30.0, reached(1));
     let mut world = World::ready(9, 0, show(4, 9, 20.0));
@@ -231,7 +218,7 @@ fn a_show_that_begins_again_goes_on_from_the_chosen_frame() {
     }
     world.operate(Operation::Skip).unwrap();
     world.run_until(60.0, reached(2));
-    assert_eq!(stood(&world), [0, 1, 2, 1, 2, 0, 2]);
+    assert_eq!(world.stood(), [0, 1, 2, 1, 2, 0, 2]);
 }
 
 #[test]
@@ -244,7 +231,7 @@ fn robots_that_die_on_the_way_do_not_keep_the_others_from_the_frame() {
     world.run_for(0.5);
     world.robots[4].dead = true;
     world.run_until(60.0, reached(3));
-    assert_eq!(stood(&world), [0, 3], "{}", world.story());
+    assert_eq!(world.stood(), [0, 3], "{}", world.story());
     assert!(world.closest_m >= CONTACT_M);
 }
 
@@ -262,7 +249,7 @@ fn robots_that_know_target_only_go_to_other_frames() {
             world.run_for(1.0);
             assert_eq!(world.lit(&frames[to]), 8, "frame {to}: {}", world.story());
         }
-        assert_eq!(stood(&world), [0, 3, 1, 1, 4, 2]);
+        assert_eq!(world.stood(), [0, 3, 1, 1, 4, 2]);
         assert!(world.closest_m >= CONTACT_M, "{} m", world.closest_m);
     }
 }

@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{World, show, started};
+use fleet::{World, reached, show, started};
 use lightbots_base::{Rgb, Span};
 use lightbots_control::{EventKind, MissingPolicy, OnReturn, Operation, Refusal, RepeatView, RunOutcome};
 use lightbots_show::{Cue, CuePlace, Identity, Layer, LayerSpan, Setting, Show};
@@ -20,21 +20,8 @@ fn repeating((first, last): (usize, usize), frames: usize, robots: usize, air_ti
     show
 }
 
-fn reached(frame: usize) -> impl Fn(&EventKind) -> bool {
-    move |kind| matches!(kind, EventKind::FrameReached { frame: one, .. } if *one == frame)
-}
-
 fn left_for(frame: usize) -> impl Fn(&EventKind) -> bool {
     move |kind| matches!(kind, EventKind::TransitionStarted { frame: one, .. } if *one == frame)
-}
-
-/// The frames that stood, in order.
-fn stood(world: &World) -> Vec<usize> {
-    let frame = |kind: &EventKind| match kind {
-        EventKind::FrameReached { frame, .. } => Some(*frame),
-        _ => None,
-    };
-    world.events.iter().filter_map(|event| frame(&event.kind)).collect()
 }
 
 fn repeats(world: &World) -> Option<RepeatView> {
@@ -43,7 +30,7 @@ fn repeats(world: &World) -> Option<RepeatView> {
 
 /// Runs until that frame was reached in that round.
 fn run_to(world: &mut World, frame: usize, round: u32) {
-    while repeats(world).is_none_or(|repeats| repeats.round < round) || stood(world).last() != Some(&frame) {
+    while repeats(world).is_none_or(|repeats| repeats.round < round) || world.stood().last() != Some(&frame) {
         world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
     }
 }
@@ -67,7 +54,7 @@ fn frames_repeat_until_go_and_the_show_goes_on_after_the_last_of_them() {
         assert_eq!(repeats(&world), Some(RepeatView { first: 1, last: 3, round: 3, leaves: true }));
         assert_eq!(world.operate(Operation::Go), Err(Refusal::NoCue), "GO was given");
         let (outcome, ..) = world.run_to_end(60.0);
-        assert_eq!((outcome, stood(&world)), (RunOutcome::Finished, vec![0, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4]));
+        assert_eq!((outcome, world.stood()), (RunOutcome::Finished, vec![0, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4]));
         let told = |kind: &EventKind| match kind {
             EventKind::LoopBegun { .. } | EventKind::LeavesLoop { .. } => Some(kind.to_string()),
             _ => None,
@@ -109,7 +96,7 @@ fn go_is_given_at_any_moment_of_a_round() {
         world.operate(Operation::Go).unwrap();
         let outcome = world.run_to_end(90.0).0;
         let wanted: Vec<usize> = [0].into_iter().chain([1, 2].repeat(round)).chain([3]).collect();
-        assert_eq!((outcome, stood(&world)), (RunOutcome::Finished, wanted), "{after_ms}: {}", world.story());
+        assert_eq!((outcome, world.stood()), (RunOutcome::Finished, wanted), "{after_ms}: {}", world.story());
         assert!(world.closest_m >= CONTACT_M, "after {after_ms} ms: {} m", world.closest_m);
         rounds[round.min(3)] += 1;
     }
@@ -137,14 +124,14 @@ fn a_loop_of_one_frame_and_one_at_the_end_of_the_show() {
     run_to(&mut one, 1, 4);
     one.operate(Operation::Go).unwrap();
     assert_eq!(one.run_to_end(60.0).0, RunOutcome::Finished);
-    assert_eq!(stood(&one), [0, 1, 1, 1, 1, 2]);
+    assert_eq!(one.stood(), [0, 1, 1, 1, 1, 2]);
     for go_at in [1, 2] {
         let mut last = World::ready(9, 0, repeating((1, 2), 3, 9, 0.4));
         last.play();
         run_to(&mut last, go_at, 2);
         last.operate(Operation::Go).unwrap();
         assert_eq!(last.run_to_end(60.0).0, RunOutcome::Finished, "{}", last.story());
-        assert_eq!(stood(&last), [0, 1, 2, 1, 2]);
+        assert_eq!(last.stood(), [0, 1, 2, 1, 2]);
     }
 }
 
@@ -159,7 +146,7 @@ fn a_show_that_begins_again_repeats_its_loop_again() {
     world.operate(Operation::Loop(false)).unwrap();
     world.operate(Operation::Go).unwrap();
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished, "{}", world.story());
-    assert_eq!(stood(&world), [0, 1, 2, 0, 1, 2, 1, 2]);
+    assert_eq!(world.stood(), [0, 1, 2, 0, 1, 2, 1, 2]);
 }
 
 #[test]
@@ -186,7 +173,7 @@ fn a_controller_that_is_killed_in_a_loop_goes_on_with_it() {
             assert_eq!(world.run_to_end(90.0).0, RunOutcome::Finished, "{}", world.story());
             let rounds = if is_given { 2 } else { 3 };
             let wanted: Vec<usize> = [0].into_iter().chain([1, 2].repeat(rounds)).chain([3]).collect();
-            assert_eq!(stood(&world), wanted, "GO {is_given}, after {after_s} s");
+            assert_eq!(world.stood(), wanted, "GO {is_given}, after {after_s} s");
         }
     }
 }
@@ -208,7 +195,7 @@ fn a_lost_link_and_dead_robots_do_not_end_a_loop() {
     let (outcome, _, dropouts) = world.run_to_end(90.0);
     assert_eq!((outcome, dropouts), (RunOutcome::Finished, 1), "{}", world.story());
     let wanted: Vec<usize> = [0].into_iter().chain([1, 2].repeat(5)).chain([3]).collect();
-    assert_eq!(stood(&world), wanted);
+    assert_eq!(world.stood(), wanted);
     assert!(world.closest_m >= CONTACT_M, "{} m", world.closest_m);
 }
 
@@ -228,7 +215,7 @@ fn jumps_and_skips_lead_out_of_a_loop_and_through_it() {
     world.operate(Operation::GoTo(4)).unwrap();
     assert_eq!(repeats(&world), None);
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished, "{}", world.story());
-    assert_eq!(stood(&world), [0, 1, 2, 3, 1, 2, 1, 2, 3, 2, 4]);
+    assert_eq!(world.stood(), [0, 1, 2, 3, 1, 2, 1, 2, 3, 2, 4]);
     // GO after the first frame of the next round was skipped.
     let mut world = World::ready(9, 0, repeating((1, 2), 4, 9, 2.0));
     world.play();
@@ -236,7 +223,7 @@ fn jumps_and_skips_lead_out_of_a_loop_and_through_it() {
     world.operate(Operation::Skip).unwrap();
     world.operate(Operation::Go).unwrap();
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished, "{}", world.story());
-    assert_eq!(stood(&world), [0, 1, 2, 3]);
+    assert_eq!(world.stood(), [0, 1, 2, 3]);
 }
 
 #[test]
@@ -253,7 +240,7 @@ fn a_frame_within_a_loop_that_waits_gets_the_first_go() {
     }
     world.operate(Operation::Go).unwrap();
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished, "{}", world.story());
-    assert_eq!(stood(&world), [0, 1, 2, 3, 1, 2, 3, 4]);
+    assert_eq!(world.stood(), [0, 1, 2, 3, 1, 2, 3, 4]);
 }
 
 #[test]
@@ -277,7 +264,7 @@ fn robots_that_know_target_only_repeat_frames() {
         run_to(&mut world, 1, 3);
         world.operate(Operation::Go).unwrap();
         assert_eq!(world.run_to_end(240.0).0, RunOutcome::Finished, "{}", world.story());
-        assert_eq!(stood(&world), [0, 1, 2, 1, 2, 1, 2, 3]);
+        assert_eq!(world.stood(), [0, 1, 2, 1, 2, 1, 2, 3]);
         assert!(world.closest_m >= CONTACT_M, "{} m", world.closest_m);
     }
 }
@@ -319,5 +306,5 @@ fn layers_begin_again_with_the_round_and_go_on_after_it() {
         let most = lights.iter().zip(&known[frame]).map(off).max();
         assert!(most < Some(12), "frame {frame}: {lights:?}, and {:?}", known[frame]);
     }
-    assert_eq!(stood(&repeating), [0, 1, 2, 1, 2, 1, 2, 3]);
+    assert_eq!(repeating.stood(), [0, 1, 2, 1, 2, 1, 2, 3]);
 }

@@ -30,6 +30,11 @@ impl Dice {
     }
 }
 
+/// The frame stands.
+pub fn reached(frame: usize) -> impl Fn(&EventKind) -> bool {
+    move |kind| matches!(kind, EventKind::FrameReached { frame: one, .. } if *one == frame)
+}
+
 /// Robots leave for a frame.
 pub fn started(kind: &EventKind) -> bool {
     matches!(kind, EventKind::TransitionStarted { .. })
@@ -294,6 +299,15 @@ impl World {
     pub fn story(&self) -> String {
         let line = |event: &Event| format!("{:8.3} {}\n", event.at.as_secs(), event.kind);
         self.events.iter().map(line).collect()
+    }
+
+    /// The frames that stood, in order.
+    pub fn stood(&self) -> Vec<usize> {
+        let frame = |kind: &EventKind| match kind {
+            EventKind::FrameReached { frame, .. } => Some(*frame),
+            _ => None,
+        };
+        self.events.iter().filter_map(|event| frame(&event.kind)).collect()
     }
 
     pub fn count(&self, what: impl Fn(&EventKind) -> bool) -> usize {

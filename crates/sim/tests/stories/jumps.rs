@@ -1,38 +1,9 @@
 //! The operator sends robots to other frames than the next one: no robot touches another, whatever the link loses.
 
-use lightbots_base::{Rgb, Span, Vec2};
-use lightbots_show::{Frame, Layer, LayerSpan, Pixel, Setting, Show, Stage};
-use lightbots_sim::{Conditions, Faults, Mishap, RehearsalOptions, RehearsalReport, rehearse};
-
-const FRAMES: usize = 5;
-
-/// Five frames of `count` robots: two rows, a ring, a grid and a diagonal.
-fn show(count: u32, air_time_s: f64) -> Show {
-    let frame = |number: usize| Frame {
-        id: Some(number.to_string()),
-        air_time_s,
-        pixels: (0..count)
-            .map(|id| {
-                let color = Rgb::new(255, 80, id as u8);
-                Pixel { id, at: place(number, id, count), color, ..Pixel::default() }
-            })
-            .collect(),
-        ..Frame::default()
-    };
-    Show { stage: Stage::default(), frames: (0..FRAMES).map(frame).collect(), ..Show::default() }
-}
-
-fn place(frame: usize, id: u32, count: u32) -> Vec2 {
-    let share = f64::from(id) / f64::from(count);
-    let along = (share - 0.5) * 0.1 * f64::from(count);
-    match frame {
-        0 => Vec2::new(along, 0.9),
-        1 => Vec2::unit(share * std::f64::consts::TAU) * (0.2 + 0.02 * f64::from(count)),
-        2 => Vec2::new(0.09 * f64::from(id % 4) - 0.2, 0.09 * f64::from(id / 4) - 0.6),
-        3 => Vec2::new(along, along),
-        _ => Vec2::new(-along, -0.8),
-    }
-}
+use crate::five_frames::{FRAMES, play, show};
+use lightbots_base::Span;
+use lightbots_show::{Layer, LayerSpan, Setting, Show};
+use lightbots_sim::{Conditions, Mishap, RehearsalReport};
 
 /// A walk that goes from each frame to each other, and to itself, once.
 fn each_to_each() -> Vec<usize> {
@@ -46,12 +17,6 @@ fn each_to_each() -> Vec<usize> {
     }
     walk.reverse();
     walk.split_off(1)
-}
-
-fn play(show: &Show, faults: &str, seed: u64, conditions: Conditions) -> RehearsalReport {
-    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
-    let options = RehearsalOptions { seed, conditions: faults.added_to(conditions), robots: None };
-    rehearse(show, &options, &mut |_| {})
 }
 
 /// Nothing touched or was lost, and the show ended after `frames` frames.

@@ -1,51 +1,15 @@
 //! Frames repeat until GO: no robot touches another on any way back, whatever the link loses.
 
-use lightbots_base::{Rgb, Span, Vec2};
-use lightbots_show::{Cue, CuePlace, Frame, Layer, LayerSpan, Pixel, Setting, Show, Stage};
-use lightbots_sim::{Conditions, Faults, Mishap, RehearsalOptions, RehearsalReport, rehearse};
-
-const FRAMES: usize = 5;
+use crate::five_frames::{self, play};
+use lightbots_base::Span;
+use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, Show};
+use lightbots_sim::{Conditions, Mishap, RehearsalReport};
 
 /// Five frames of `count` robots; those from `first` to `last`, counted from 0, repeat until GO.
 fn show((first, last): (usize, usize), count: u32) -> Show {
-    let frame = |number: usize| Frame {
-        id: Some(number.to_string()),
-        air_time_s: 0.5,
-        pixels: (0..count)
-            .map(|id| {
-                let color = Rgb::new(255, 80, id as u8);
-                Pixel { id, at: place(number, id, count), color, ..Pixel::default() }
-            })
-            .collect(),
-        ..Frame::default()
-    };
     let at = CuePlace::Frame(last.to_string());
     let cue = Cue { name: "Encore".into(), at, loop_from: Some(first.to_string()) };
-    Show {
-        stage: Stage::default(),
-        frames: (0..FRAMES).map(frame).collect(),
-        cues: vec![cue],
-        ..Show::default()
-    }
-}
-
-/// A row, a ring, a grid, a diagonal and another row.
-fn place(frame: usize, id: u32, count: u32) -> Vec2 {
-    let share = f64::from(id) / f64::from(count);
-    let along = (share - 0.5) * 0.1 * f64::from(count);
-    match frame {
-        0 => Vec2::new(along, 0.9),
-        1 => Vec2::unit(share * std::f64::consts::TAU) * (0.2 + 0.02 * f64::from(count)),
-        2 => Vec2::new(0.09 * f64::from(id % 4) - 0.2, 0.09 * f64::from(id / 4) - 0.6),
-        3 => Vec2::new(along, along),
-        _ => Vec2::new(-along, -0.8),
-    }
-}
-
-fn play(show: &Show, faults: &str, seed: u64, conditions: Conditions) -> RehearsalReport {
-    let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
-    let options = RehearsalOptions { seed, conditions: faults.added_to(conditions), robots: None };
-    rehearse(show, &options, &mut |_| {})
+    Show { cues: vec![cue], ..five_frames::show(count, 0.5) }
 }
 
 fn rounds(loop_rounds: u32) -> Conditions {

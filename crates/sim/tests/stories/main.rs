@@ -6,6 +6,7 @@ mod campaign;
 mod crashes;
 mod crossings;
 mod crowds;
+mod five_frames;
 mod fleet;
 mod formations;
 mod gaps;
