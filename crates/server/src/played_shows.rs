@@ -5,15 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lightbots_base::StateHash;
 use lightbots_control::{Age, Event, EventKind, RobotView, RunOutcome};
-use lightbots_show::Show;
 use serde::{Deserialize, Serialize};
 use tokio::sync::broadcast;
 
 use crate::disk::{self, Readers};
 use crate::live::conductor::{Handle, News};
-use crate::show_plan::driven;
 use crate::web::Desk;
 
 const FILE: &str = "played.json";
@@ -54,40 +51,15 @@ pub struct Played {
 }
 
 impl Played {
-    /// A show, and the robots that are there. What only simulated robots played, real ones did not.
-    pub fn of(show: &Show, robots: &[RobotView]) -> Self {
-        Self { drives: drives_hash(show), real: has_real(robots) }
-    }
-
-    /// The same show with the robots that are there now.
-    pub fn with(self, robots: &[RobotView]) -> Self {
-        Self { real: has_real(robots), ..self }
+    /// A show by its `show_plan::drives_hash`, and the robots that are there. What only simulated robots played, real ones
+    /// did not.
+    pub fn of(drives: u64, robots: &[RobotView]) -> Self {
+        Self { drives, real: has_real(robots) }
     }
 }
 
 fn has_real(robots: &[RobotView]) -> bool {
     robots.iter().any(|robot| robot.contact.age == Age::Active && !robot.reported.simulated)
-}
-
-/// Writes into a hash.
-struct Hashed(StateHash);
-
-impl io::Write for Hashed {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.bytes(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-fn drives_hash(show: &Show) -> u64 {
-    let mut hashed = Hashed(StateHash::new());
-    // Neither a show nor the hash refuses anything.
-    let _ = serde_json::to_writer(io::BufWriter::new(&mut hashed), &driven(show));
-    hashed.0.finish()
 }
 
 impl PlayedShows {
@@ -109,17 +81,20 @@ impl PlayedShows {
 
     /// Robots played a show to its end.
     fn add(&self, show: &str, played: Played) {
-        let mut kept = self.lock();
-        if kept.shows.iter().any(|entry| entry.played == played) {
-            return;
-        }
-        kept.shows.push_back(Entry { show: show.into(), played });
-        if kept.shows.len() > SHOWS_MAX {
-            kept.shows.pop_front();
-        }
-        let written = serde_json::to_vec_pretty(&*kept)
-            .map_err(io::Error::other)
-            .and_then(|text| disk::replace(&self.path, &text, Readers::Owner));
+        let text = {
+            let mut kept = self.lock();
+            if kept.shows.iter().any(|entry| entry.played == played) {
+                return;
+            }
+            kept.shows.push_back(Entry { show: show.into(), played });
+            if kept.shows.len() > SHOWS_MAX {
+                kept.shows.pop_front();
+            }
+            serde_json::to_vec_pretty(&*kept)
+        };
+        // Screens ask meanwhile.
+        let written =
+            text.map_err(io::Error::other).and_then(|text| disk::replace(&self.path, &text, Readers::Owner));
         if let Err(error) = written {
             tracing::warn!("{} cannot be written: {error}", self.path.display());
         }
@@ -139,8 +114,9 @@ impl PlayedShows {
             };
             if matches!(event.kind, EventKind::RunBegun { .. } | EventKind::TakenUp { .. }) {
                 let Some(snapshot) = handle.look().await else { return };
-                let show = desk.shown().show.clone();
-                run.show = Some((show.name.clone(), Played::of(&show, &snapshot.robots), show.frames.len()));
+                let shown = desk.shown();
+                let played = Played::of(shown.drives(), &snapshot.robots);
+                run.show = Some((shown.show.name.clone(), played, shown.show.frames.len()));
             }
             if let Some((name, played)) = run.ends(&event) {
                 self.add(&name, played);
@@ -172,8 +148,9 @@ impl PresentRun {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::show_plan::drives_hash;
     use lightbots_base::{Instant, Rgb};
-    use lightbots_show::{Frame, Pixel};
+    use lightbots_show::{Frame, Pixel, Show};
 
     fn show() -> Show {
         let frame = Frame { pixels: vec![Pixel::default()], ..Frame::default() };
@@ -182,12 +159,12 @@ mod tests {
 
     #[test]
     fn a_show_is_known_by_its_drives_and_its_kind_of_robots() {
-        let played = Played::of(&show(), &[]);
+        let played = Played::of(drives_hash(&show()), &[]);
         let mut other = Show { name: "Night".into(), ..show() };
         other.frames[0].pixels[0].color = Rgb::new(1, 2, 3);
-        assert_eq!(Played::of(&other, &[]), played, "colours and names are no drives");
+        assert_eq!(Played::of(drives_hash(&other), &[]), played, "colours and names are no drives");
         other.frames[1].pixels[0].at.x = 0.25;
-        assert_ne!(Played::of(&other, &[]), played);
+        assert_ne!(Played::of(drives_hash(&other), &[]), played);
         assert_ne!(Played { real: true, ..played }, played);
     }
 
@@ -212,7 +189,7 @@ mod tests {
 
     #[test]
     fn only_a_run_that_showed_all_frames_counts() {
-        let played = Played::of(&show(), &[]);
+        let played = Played::of(drives_hash(&show()), &[]);
         let ended = |outcome, frames_played| {
             let kind = EventKind::RunEnded { outcome, frames_played, dropouts: 0 };
             let mut run = PresentRun { show: Some(("Hello".into(), played, 2)) };

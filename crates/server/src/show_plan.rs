@@ -1,11 +1,12 @@
 //! Plans of whole shows: for the screen, for `check` and for `plan`.
 
+use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use lightbots_api as api;
 use lightbots_api::plan_document;
-use lightbots_base::Rgb;
+use lightbots_base::{Rgb, StateHash};
 use lightbots_plan::{Cancelled, ShowOptions, ShowPlan};
 use lightbots_show::{Assets, Issue, Issues, Show, starting_places};
 
@@ -67,8 +68,30 @@ impl LastPlan {
     }
 }
 
+/// Writes into a hash.
+struct Hashed(StateHash);
+
+impl io::Write for Hashed {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.bytes(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Hash of all that robots' drives depend on. It reads the whole show: not for a task that others wait for.
+pub fn drives_hash(show: &Show) -> u64 {
+    let mut hashed = Hashed(StateHash::new());
+    // Neither a show nor the hash refuses anything.
+    let _ = serde_json::to_writer(io::BufWriter::new(&mut hashed), &driven(show));
+    hashed.0.finish()
+}
+
 /// The show without what robots' drives do not depend on. A field that is not named here counts.
-pub fn driven(show: &Show) -> Show {
+fn driven(show: &Show) -> Show {
     let mut driven = Show {
         name: String::new(),
         music: None,

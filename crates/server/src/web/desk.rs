@@ -1,6 +1,6 @@
 //! The show that is open on every screen, and its plan.
 
-use std::sync::{Arc, PoisonError};
+use std::sync::{Arc, OnceLock, PoisonError};
 
 use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
@@ -39,6 +39,8 @@ pub struct Shown {
     pub show: Arc<Show>,
     /// The message to screens, ready to send.
     pub message: Utf8Bytes,
+    /// [`show_plan::drives_hash`] of the show, once it was asked for.
+    drives: OnceLock<u64>,
 }
 
 impl Desk {
@@ -130,7 +132,9 @@ impl Desk {
         let is_given_up = give_up.asked();
         // Nothing needs the plan of the show before.
         *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
+        let shown = self.shown();
         tokio::task::spawn_blocking(move || {
+            shown.drives();
             let found = validate(&show).into_iter().chain(found).collect();
             let planned = last_plan.plan_unless(&show, &found, &|| is_given_up.get());
             let Ok(mut plan) = planned else { return };
@@ -147,6 +151,16 @@ impl Desk {
 }
 
 impl Shown {
+    /// [`show_plan::drives_hash`] of the show.
+    pub fn drives(&self) -> u64 {
+        *self.drives.get_or_init(|| show_plan::drives_hash(&self.show))
+    }
+
+    /// The same, if it was computed: soon after the show was opened.
+    pub fn known_drives(&self) -> Option<u64> {
+        self.drives.get().copied()
+    }
+
     /// The show with a name: without one from its author it gets its name in the library.
     fn named(&self) -> Arc<Show> {
         match &self.name {
@@ -159,7 +173,8 @@ impl Shown {
 
     fn new(open: api::OpenShow, show: Arc<Show>) -> Self {
         let (revision, name) = (open.revision, open.name.clone());
-        Self { revision, name, show, message: super::message::text(&api::ToScreen::Show(open)) }
+        let message = super::message::text(&api::ToScreen::Show(open));
+        Self { revision, name, show, message, drives: OnceLock::new() }
     }
 }
 

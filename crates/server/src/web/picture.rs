@@ -42,8 +42,6 @@ struct Painter {
     desk: Desk,
     book: FleetBook,
     played: PlayedShows,
-    /// Revision of the open show, and what it is to `played`.
-    known: Option<(u32, Played)>,
     link: LinkState,
     /// The robots of the last fleet table, in order.
     names: Vec<RobotId>,
@@ -114,7 +112,6 @@ impl Pictures {
             desk,
             book,
             played,
-            known: None,
             link,
             names: Vec::new(),
             revision: 0,
@@ -145,7 +142,6 @@ impl Pictures {
     }
 
     fn paint(&self, painter: &mut Painter, snapshot: &Snapshot) {
-        painter.know_show(snapshot);
         let same = painter.names.len() == snapshot.robots.len()
             && painter.names.iter().zip(&snapshot.robots).all(|(name, robot)| *name == robot.id);
         if !same {
@@ -170,18 +166,11 @@ impl Pictures {
 }
 
 impl Painter {
-    fn know_show(&mut self, snapshot: &Snapshot) {
-        let shown = self.desk.shown();
-        if self.known.is_none_or(|(revision, _)| revision != shown.revision) {
-            self.known = Some((shown.revision, Played::of(&shown.show, &snapshot.robots)));
-        }
-    }
-
     /// Whether the robots that are there have never played the open show to its end.
     fn is_first_run(&self, snapshot: &Snapshot) -> bool {
-        let has_frames = !self.desk.shown().show.frames.is_empty();
-        let played = self.known.map(|(_, played)| played.with(&snapshot.robots));
-        has_frames && played.is_some_and(|played| !self.played.has(played))
+        let shown = self.desk.shown();
+        let played = shown.known_drives().map(|drives| Played::of(drives, &snapshot.robots));
+        !shown.show.frames.is_empty() && played.is_some_and(|played| !self.played.has(played))
     }
 
     fn state(&self, snapshot: &Snapshot, pace: f64) -> api::State {
