@@ -4,7 +4,7 @@ use lightbots_api::{LightAnswer, LightRequest, MakeRemark, Transition};
 use lightbots_base::{Piece, Span, Vec2};
 use lightbots_lighting::{
     FrameLight, FrameTimes, LAYER_PICTURES_MAX, LightMoment, LitFrame, PlannedDrive, ShowLight,
-    floor_picture, lit_frame,
+    floor_picture, lit_frame, numbers_of,
 };
 use lightbots_make::layer_picture;
 use lightbots_plan::Path;
@@ -107,13 +107,14 @@ impl PlannedLight {
         let mut bytes = Vec::new();
         let mut begun: Option<(usize, LitFrame<'_>, FrameLight)> = None;
         let drives: Vec<PlannedDrive<'_>> = self.drives.iter().map(Drive::as_planned).collect();
+        let numbers = numbers_of(&drives);
         for nth in 0..self.count_of(count) {
             let Some((frame, moment)) = self.moment(from_s + step_s * nth as f64) else { break };
             let (_, lit, light) = match begun.take() {
                 Some(same) if same.0 == frame => begun.insert(same),
                 _ => {
                     let light = self.light.in_frame(frame, |frame| self.times.get(frame).copied());
-                    begun.insert((frame, lit_frame(&self.show, &drives, frame), light))
+                    begun.insert((frame, lit_frame(&self.show, (&drives, &numbers), frame), light))
                 }
             };
             let colours = lit.robots.iter().map(|robot| robot.colour(light, self.light.pictures(), moment));

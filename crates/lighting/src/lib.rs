@@ -25,7 +25,7 @@ pub use issues::{flash_issue, flashes_of, validate};
 pub use lightbots_light::LampSettings;
 pub use live::LiveLayers;
 pub use pictures::{LAYER_PICTURES_MAX, attach_pictures, floor_picture};
-pub use planned::{PlannedDrive, lit_frame, numbers, planned};
+pub use planned::{PlannedDrive, lit_frame, numbers, numbers_of, planned};
 pub use settings::LAYER_KINDS;
 pub use show_light::{FrameLight, ShowLight};
 pub use times::FrameTimes;

@@ -40,11 +40,21 @@ pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
         .map(|(pixels, way)| PlannedDrive { pixels, paths: &way.paths, duration: way.duration })
         .collect();
     let frames = drives.len().min(show.frames.len());
-    (0..frames).map(|frame| lit_frame(show, &drives, frame)).collect()
+    let numbers = numbers_of(&drives);
+    (0..frames).map(|frame| lit_frame(show, (&drives, &numbers), frame)).collect()
 }
 
-/// The drive to one frame and its robots. The frame must have a drive.
-pub fn lit_frame<'a>(show: &Show, drives: &[PlannedDrive<'a>], frame: usize) -> LitFrame<'a> {
+/// [`numbers`] of the robots of planned drives.
+pub fn numbers_of(drives: &[PlannedDrive<'_>]) -> Vec<u32> {
+    numbers(drives.first().into_iter().flat_map(|drive| drive.pixels).copied())
+}
+
+/// The drive to one frame and its robots, with their [`numbers_of`]. The frame must have a drive.
+pub fn lit_frame<'a>(
+    show: &Show,
+    (drives, numbers): (&[PlannedDrive<'a>], &[u32]),
+    frame: usize,
+) -> LitFrame<'a> {
     let pixels = |of: Option<usize>| -> BTreeMap<u32, &Pixel> {
         let found = of.and_then(|frame| show.frames.get(frame));
         found.into_iter().flat_map(|frame| &frame.pixels).map(|pixel| (pixel.id, pixel)).collect()
@@ -57,7 +67,6 @@ pub fn lit_frame<'a>(show: &Show, drives: &[PlannedDrive<'a>], frame: usize) -> 
     };
     let colour = |pixel: Option<&Pixel>| pixel.map_or(Rgb::BLACK, |pixel| pixel.color);
     let drive = &drives[frame];
-    let numbers = numbers(drives[0].pixels.iter().copied());
     let robot = |robot: usize| {
         let [before, own, next] = [0, 1, 2].map(|which| of(which, robot));
         let path = drive.paths.get(robot).map(Path::as_ref);
