@@ -212,7 +212,7 @@ async function watch(page: Page, robots: number, scene: string) {
   row(scene, robots, measured, await snapshots(page));
 }
 
-/** The crowd of so many robots, on the page for editing; `scenes` are measured. */
+/** A crowd of `robots` robots, on the page for editing; `scenes` are measured. */
 async function withCrowd(
   robots: number,
   layers: readonly object[],

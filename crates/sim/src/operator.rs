@@ -30,7 +30,7 @@ impl Operator {
     /// Time until a button that did nothing is pressed again.
     const TRIES_AGAIN: Span = Span::from_millis(500);
 
-    /// An operator who lets a frame wait this long for GO.
+    /// An operator that lets a frame wait this long for GO.
     pub fn new(go_after: Span) -> Self {
         Self { go_after, ..Self::default() }
     }

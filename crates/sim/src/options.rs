@@ -53,6 +53,15 @@ pub enum Progress<'a> {
     Logged(&'a [u8]),
 }
 
+impl Progress<'_> {
+    /// Hands on bytes of the log, if there are any.
+    pub(crate) fn log(bytes: &[u8], progress: &mut dyn FnMut(Progress<'_>)) {
+        if !bytes.is_empty() {
+            progress(Progress::Logged(bytes));
+        }
+    }
+}
+
 /// Most robots of a rehearsal.
 pub const ROBOTS_MAX: usize = 20_000;
 

@@ -133,7 +133,7 @@ impl Play {
             self.step();
             self.plan(progress);
             self.report_departure(progress);
-            hand_on(&self.controller.take_log(), progress);
+            Progress::log(&self.controller.take_log(), progress);
             step += 1;
             if self.began && step.is_multiple_of(PLACES_EVERY) {
                 let places = self.robots.world.places();
@@ -150,7 +150,7 @@ impl Play {
                 progress(self.progress());
             }
         }
-        hand_on(&self.controller.end_log(), progress);
+        Progress::log(&self.controller.end_log(), progress);
     }
 
     /// The controller finds its broker and gets the show, and robots get their links.
@@ -360,22 +360,10 @@ impl Play {
     pub fn report(mut self) -> RehearsalReport {
         self.robots.world.imprint(&mut self.hash);
         self.hash.word(self.now.0);
-        let world = &self.robots.world;
-        let bumps = world.bumps();
-        let mut report = self.record.report(self.now, &self.breakdowns);
-        report.contacts = world.contacts().count() + bumps.obstacles + bumps.over;
-        report.wall_contacts = bumps.edges;
-        report.wall_pressed_m = bumps.edge_most_m;
-        report.brakes = self.robots.brakes();
+        let mut report = self.record.report(self.now, &self.breakdowns, &self.robots);
         report.lights = self.lights.counts();
-        report.closest_m = world.contacts().closest_m();
-        report.estimate_error_m = self.robots.errors().estimate_m();
-        report.tracking_error_m = self.robots.errors().tracking_m();
-        report.clock_spread_s = self.robots.errors().clocks_s();
         report.stop_after_crash_s = self.crashes.longest_stop().map(Span::as_secs);
-        report.planned_s = self.planned_s;
-        report.robots = self.robots.len();
-        report.frames = self.show.frames.len();
+        (report.planned_s, report.frames) = (self.planned_s, self.show.frames.len());
         report.messages = self.network.counts();
         report.seed = self.seed;
         report.state_hash = format!("{:016x}", self.hash.finish());
@@ -385,13 +373,6 @@ impl Play {
             report.issues.push(Issue::warning("seed", message));
         }
         report
-    }
-}
-
-/// Hands on bytes of the log, if there are any.
-fn hand_on(log: &[u8], progress: &mut dyn FnMut(Progress<'_>)) {
-    if !log.is_empty() {
-        progress(Progress::Logged(log));
     }
 }
 

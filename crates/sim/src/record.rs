@@ -223,7 +223,7 @@ impl RehearsalRecord {
     }
 
     /// The report without the figures of world and network.
-    pub fn report(mut self, now: Instant, breakdowns: &Breakdowns) -> RehearsalReport {
+    pub fn report(mut self, now: Instant, breakdowns: &Breakdowns, robots: &RobotSet) -> RehearsalReport {
         let finished = self.outcome == Some(RunOutcome::Finished);
         if self.outcome.is_none() {
             let message = format!("The show did not end within {:.0} s: given up.", now.as_secs());
@@ -235,26 +235,28 @@ impl RehearsalRecord {
         }
         let ended = if self.outcome.is_some() { self.ended } else { now };
         let spreads: Vec<f64> = self.frames.iter().map(|frame| frame.arrival_spread_s).collect();
+        let (world, errors) = (&robots.world, robots.errors());
+        let bumps = world.bumps();
         RehearsalReport {
             ok: finished && self.dropouts.len() <= breakdowns.count(),
-            robots: 0,
+            robots: robots.len(),
             frames_played: self.frames.len(),
             frames: 0,
             duration_s: self.began.map_or(0.0, |began| (ended - began).max(Span::ZERO).as_secs()),
             planned_s: 0.0,
             lower_bound_s: 0.0,
-            contacts: 0,
+            contacts: world.contacts().count() + bumps.obstacles + bumps.over,
             contacts_after_replan: self.contacts_after_replan,
             replans: self.replans,
-            wall_contacts: 0,
-            wall_pressed_m: 0.0,
-            brakes: Default::default(),
-            closest_m: None,
+            wall_contacts: bumps.edges,
+            wall_pressed_m: bumps.edge_most_m,
+            brakes: robots.brakes(),
+            closest_m: world.contacts().closest_m(),
             arrival_spread_s: Spread::of(&spreads),
             position_error_m: Spread::of(&self.errors_m),
-            estimate_error_m: Spread::default(),
-            tracking_error_m: Spread::default(),
-            clock_spread_s: Spread::default(),
+            estimate_error_m: errors.estimate_m(),
+            tracking_error_m: errors.tracking_m(),
+            clock_spread_s: errors.clocks_s(),
             lights: LightCounts::default(),
             stop_after_crash_s: None,
             messages: Default::default(),
