@@ -24,7 +24,9 @@ export default function LightTab({ light, pads }: Props) {
   const { live } = useSession();
   const stage = useStore(live.opened, (o) => o.show?.stage ?? null);
   const plays = useStore(live.playback, (p) => isPlayed(p.phase));
-  const on = useStore(live.playback, (p) => p.live_light);
+  // A text, not the list, which is another one twenty times a second.
+  const names = useStore(live.playback, (p) => JSON.stringify(p.live_light));
+  const on = useMemo(() => JSON.parse(names) as string[], [names]);
   const learning = useStore(pads.learning);
   const lights = useMemo(() => createLights(startLightWorker, getAsset), []);
   useEffect(() => () => lights.end(), [lights]);
