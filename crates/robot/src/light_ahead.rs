@@ -59,6 +59,8 @@ struct Playing {
     cursor: LightCursor,
     /// Its time at the last step, without what was skipped.
     elapsed: Span,
+    /// Whether its time went on with the show clock at the last step, and does so until a message comes.
+    is_even: bool,
 }
 
 /// The stretches of a robot. Their records lie in its storage.
@@ -179,14 +181,17 @@ impl LightAhead {
             }
             self.quiet_until = self.next_due(show);
         }
-        let Playing { kept, before, .. } = self.playing?;
-        let elapsed = self.time_of(kept, show)? - kept.skip;
-        let track = storage[kept.slot].track();
         let playing = self.playing.as_mut()?;
-        playing.elapsed = elapsed;
+        let kept = &playing.kept;
+        let from = kept.from?;
+        let (time, is_even) =
+            if kept.runs_freely { (show - from, true) } else { self.timeline.time_and_whether_even(show) };
+        let (elapsed, over) = (time - kept.skip, kept.over);
+        let track = storage[kept.slot].track();
+        (playing.elapsed, playing.is_even) = (elapsed, is_even);
         let colour = playing.cursor.at(track, elapsed);
-        if elapsed < kept.over {
-            return Some(before.mixed(colour, elapsed.as_secs() / kept.over.as_secs()));
+        if elapsed < over {
+            return Some(playing.before.mixed(colour, elapsed.as_secs() / over.as_secs()));
         }
         if playing.cursor.is_at_end(track) {
             self.end();
@@ -196,13 +201,15 @@ impl LightAhead {
 
     /// The colours from a moment of the show clock on, after `step` found the colour of that moment.
     pub(crate) fn piece(&self, show: Instant, storage: &StoredTracks) -> LightPiece {
-        let Some(Playing { kept, cursor, elapsed, .. }) = self.playing else { return LightPiece::NONE };
-        let is_even = kept.runs_freely || self.timeline.runs_evenly(show);
-        let line = cursor.line(storage[kept.slot].track());
-        let Some((begins, lasts, [start, end])) = line.filter(|_| is_even && elapsed >= kept.over) else {
+        let Some(playing) = self.playing.as_ref().filter(|one| one.is_even && one.elapsed >= one.kept.over)
+        else {
             return LightPiece::NONE;
         };
-        LightPiece::new((show, self.quiet_until), (show - (elapsed - begins), lasts), (start, end))
+        let Some((begins, lasts, [start, end])) = playing.cursor.line(storage[playing.kept.slot].track())
+        else {
+            return LightPiece::NONE;
+        };
+        LightPiece::new((show, self.quiet_until), (show - (playing.elapsed - begins), lasts), (start, end))
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
@@ -215,8 +222,13 @@ impl LightAhead {
         {
             self.timeline.begin(from);
         }
-        self.playing =
-            Some(Playing { kept, before: shown, cursor: LightCursor::default(), elapsed: Span::ZERO });
+        self.playing = Some(Playing {
+            kept,
+            before: shown,
+            cursor: LightCursor::default(),
+            elapsed: Span::ZERO,
+            is_even: false,
+        });
     }
 
     /// The stretch that waits and begins by this moment.

@@ -12,9 +12,9 @@ const PARTS_BITS: u32 = 32;
 /// Colours from one moment of the show clock to another, if no message comes between.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPiece {
-    /// First moment, and the one after the last.
+    /// First moment, and how long it lasts: 0 for a piece without a moment.
     from: Instant,
-    until: Instant,
+    lasts_us: u64,
     /// Of each channel, at `from`: its code and a half, and its change in a microsecond, in parts of a code.
     codes: [i64; 3],
     changes: [i64; 3],
@@ -22,8 +22,7 @@ pub(crate) struct LightPiece {
 
 impl LightPiece {
     /// A piece without a moment.
-    pub(crate) const NONE: Self =
-        Self { from: Instant::FAR, until: Instant::ZERO, codes: [0; 3], changes: [0; 3] };
+    pub(crate) const NONE: Self = Self { from: Instant::ZERO, lasts_us: 0, codes: [0; 3], changes: [0; 3] };
 
     /// A line of colours that takes `lasts` from `begins` on, as far as it lies within `from..until`.
     pub(crate) fn new(
@@ -31,30 +30,35 @@ impl LightPiece {
         (begins, lasts): (Instant, Span),
         (start, end): (Rgb, Rgb),
     ) -> Self {
-        let lasts_us = lasts.0.max(1);
-        let share = ((from - begins).0 as f64 / lasts_us as f64).clamp(0.0, 1.0);
+        // One division: it takes longer than all else here.
+        let parts_in_us = (1u64 << PARTS_BITS) as f64 / lasts.0.max(1) as f64;
+        let passed_us = (from - begins).0.clamp(0, lasts.0.max(0));
         let channels = [(start.r, end.r), (start.g, end.g), (start.b, end.b)];
-        let codes = channels.map(|(start, end)| {
-            let (start, end) = (f64::from(start), f64::from(end));
-            ((start + (end - start) * share + 0.5) * (1u64 << PARTS_BITS) as f64) as i64
-        });
         let changes =
-            channels.map(|(start, end)| ((i64::from(end) - i64::from(start)) << PARTS_BITS) / lasts_us);
-        Self { from, until: until.min(begins + lasts), codes, changes }
+            channels.map(|(start, end)| (f64::from(i16::from(end) - i16::from(start)) * parts_in_us) as i64);
+        let half = 1i64 << (PARTS_BITS - 1);
+        let code = |channel: usize| {
+            (i64::from(channels[channel].0) << PARTS_BITS) + half + changes[channel] * passed_us
+        };
+        let codes = [code(0), code(1), code(2)];
+        let lasts_us = until.min(begins + lasts).0.saturating_sub(from.0);
+        Self { from, lasts_us, codes, changes }
     }
 
     /// Whether it has no moment.
     pub(crate) fn is_none(&self) -> bool {
-        self.until <= self.from
+        self.lasts_us == 0
     }
 
     /// The colour at a moment of the show clock; `None`: the piece says nothing about it.
     #[inline]
     pub(crate) fn colour(&self, show: Instant) -> Option<Rgb> {
-        if show < self.from || show >= self.until {
+        // A moment before the piece wraps around to a large number.
+        let passed_us = show.0.wrapping_sub(self.from.0);
+        if passed_us >= self.lasts_us {
             return None;
         }
-        let passed_us = (show - self.from).0;
+        let passed_us = passed_us as i64;
         let code =
             |channel: usize| ((self.codes[channel] + self.changes[channel] * passed_us) >> PARTS_BITS) as u8;
         Some(Rgb::new(code(0), code(1), code(2)))

@@ -130,50 +130,55 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.is_wary = self.hot.is_wary && self.reflex.is_wary();
         self.hot.stall.command(wheels_radps);
         self.hot.state = self.current_state(route_time);
-        self.step_light(now, show);
+        let light = self.step_light(now, show);
         self.notice(now);
-        Outputs { wheels_radps, light: self.hot.shown }
+        Outputs { wheels_radps, light }
     }
 
     /// The light at `now` of the own clock, between steps. A shell whose light can change at any time asks each
     /// millisecond or so. The lights of a fleet then change together and not each at its next step.
     pub fn light(&mut self, now: Instant) -> Rgb {
         let show = self.hot.clock.show_time(now);
-        if self.hot.light_changes && !self.goes_on_with_piece(show) {
-            self.change_light(now, show);
+        if !self.hot.light_changes {
+            return self.hot.shown;
         }
-        self.hot.shown
+        self.piece_colour(show).unwrap_or_else(|| self.change_light(now, show))
     }
 
     #[inline]
-    fn step_light(&mut self, now: Instant, show: Option<Instant>) {
+    fn step_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
         let flashes = self.trouble(now);
         if flashes > 0 {
             self.end_light_piece();
             self.hot.light_changes = true;
         }
-        if self.hot.light_changes && !self.goes_on_with_piece(show) {
-            self.light.report(now, flashes);
-            self.change_light(now, show);
+        if !self.hot.light_changes {
+            return self.hot.shown;
         }
+        if let Some(colour) = self.piece_colour(show) {
+            return colour;
+        }
+        self.light.report(now, flashes);
+        self.change_light(now, show)
     }
 
     /// Shows the colour of the piece, if it has one for this moment.
     #[inline]
-    fn goes_on_with_piece(&mut self, show: Option<Instant>) -> bool {
-        let colour = show.and_then(|show| self.hot.light_piece.colour(show));
-        self.hot.shown = colour.unwrap_or(self.hot.shown);
-        colour.is_some()
+    fn piece_colour(&mut self, show: Option<Instant>) -> Option<Rgb> {
+        let colour = self.hot.light_piece.colour(show?)?;
+        self.hot.shown = colour;
+        Some(colour)
     }
 
     /// The light where no piece says it.
     #[inline(never)]
-    fn change_light(&mut self, now: Instant, show: Option<Instant>) {
+    fn change_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
         self.end_light_piece();
         let tracks = &self.storage.borrow().tracks;
         self.hot.shown = self.light.step(now, show, tracks);
         self.hot.light_changes = self.light.is_busy();
         self.hot.light_piece = self.light.piece(show, tracks);
+        self.hot.shown
     }
 
     /// A message or a fault may change the light: what was shown last is known to it then.

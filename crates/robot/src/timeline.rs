@@ -78,10 +78,11 @@ impl Timeline {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
 
-    /// Whether path time goes on with the show clock from this moment on, as far as is known.
-    pub(crate) fn runs_evenly(&self, show: Instant) -> bool {
+    /// Path time, and whether it goes on with the show clock from this moment on, as far as is known.
+    pub(crate) fn time_and_whether_even(&self, show: Instant) -> (Span, bool) {
         let now = self.at(show);
-        now.rate == 1.0 && !now.held && self.events.last().is_none_or(|last| last.at <= show)
+        let is_even = now.rate == 1.0 && !now.held && self.events.last().is_none_or(|last| last.at <= show);
+        (now.time, is_even)
     }
 
     /// Whether a hold is in force at a moment of the show clock.
