@@ -158,8 +158,6 @@ impl LightPlayer {
         let config = context.config.upload;
         // A hand waits for a change of live light, and a stretch that runs through holds begins at once.
         let is_urgent = is_changing || stretch.free_at.is_some_and(|at| at < now + config.resend_after * 2);
-        let again_after = if is_urgent { config.resend_after } else { config.resend_after * 2 };
-        let again_at = now + again_after;
         // Short stretches take less time.
         let shorter = STRETCH.0 / (TICK.0 * i64::from(stretch.ticks)).max(1);
         let mut left = AT_ONCE * usize::try_from(shorter).unwrap_or(1).clamp(1, LIVE.at_once);
@@ -174,7 +172,13 @@ impl LightPlayer {
                 let command = current.command(&context.config, &self.show, &robot, stretch, now);
                 context.send(roster.participants[one].robot, &[command]);
             }
-            upload.record_sent(now, one, again_at);
+            let again_after = match upload.tries(one) {
+                _ if is_urgent => config.resend_after,
+                0 => config.resend_after * 2,
+                // A broker that is late gets no more to do than it must: at most two to a robot in any second.
+                _ => config.resend_after * 4,
+            };
+            upload.record_sent(now, one, now + again_after);
             left -= 1;
         }
         self.again_at = now + AGAIN_AFTER;
