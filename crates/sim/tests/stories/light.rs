@@ -208,3 +208,24 @@ fn robots_keep_to_one_step_of_each_channel_where_that_is_wanted() {
         assert_lit(&report, 300);
     }
 }
+
+/// A press reaches a thousand robots in time, too.
+#[test]
+fn live_light_reaches_a_thousand_robots() {
+    let place = |frame: usize, id: u32| {
+        let turn = Vec2::unit(0.5 * frame as f64);
+        (turn * (f64::from(id % 32) - 15.5) + turn.left() * (f64::from(id / 32) - 15.5)) * 0.1
+    };
+    let mut show = show(1, 4.0);
+    show.stage = Stage { width_m: 7.0, depth_m: 7.0, ..Stage::default() };
+    for (number, frame) in show.frames.iter_mut().enumerate() {
+        let pixel = |id| Pixel { id, at: place(number, id), color: Rgb::new(255, 80, 0), ..Pixel::default() };
+        frame.pixels = (0..1_000).map(pixel).collect();
+    }
+    show.starts = Some((0..1_000).map(|id| place(0, id)).collect());
+    let at = |ms: i64, on| (Span::from_millis(ms), Mishap::Rainbow(on));
+    let mishaps = vec![at(2_000, true), at(6_000, false), at(11_000, true), at(17_000, false)];
+    let conditions = Conditions { mishaps, ..Conditions::default() };
+    let report = rehearse(&show, &RehearsalOptions { seed: 1, conditions, robots: None }, &mut |_| {});
+    assert_lit(&report, 2_000);
+}
