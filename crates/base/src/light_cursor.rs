@@ -20,6 +20,14 @@ impl LightCursor {
     /// The colour some time after the start of the track; the last one after its end. Times that go back are found from the
     /// start again. A repeat that is not valid counts as none.
     pub fn at(&mut self, track: LightTrack<'_>, elapsed: Span) -> Rgb {
+        let elapsed_us = self.seek(track, elapsed);
+        let Some(&record) = track.records.get(self.record) else { return self.before };
+        record.within(self.before, (elapsed_us - self.began_us) as f64 / record.duration_us() as f64)
+    }
+
+    /// Finds the record at some time after the start of the track, as `at` does; that time, not before 0, microseconds.
+    #[inline]
+    pub fn seek(&mut self, track: LightTrack<'_>, elapsed: Span) -> u64 {
         let elapsed_us = u64::try_from(elapsed.0).unwrap_or(0);
         if !self.moved || elapsed_us < self.began_us {
             *self = Self { before: track.start, moved: true, ..Self::default() };
@@ -27,9 +35,8 @@ impl LightCursor {
         while let Some(&record) = track.records.get(self.record) {
             let LightRecord::Repeat { records, times } = record else {
                 let whole_us = record.duration_us();
-                let within_us = elapsed_us - self.began_us;
-                if within_us < whole_us {
-                    return record.within(self.before, within_us as f64 / whole_us as f64);
+                if elapsed_us - self.began_us < whole_us {
+                    break;
                 }
                 self.began_us += whole_us;
                 self.before = record.end(self.before);
@@ -38,19 +45,20 @@ impl LightCursor {
             };
             self.repeat(track, (records as usize, times), elapsed_us);
         }
-        self.before
+        elapsed_us
     }
 
-    /// The record that `at` found last: when it begins, after the start of the track, how long it lasts, and the colours
+    /// The record that was found last: when it begins, after the start of the track, how long it lasts, and the colours
     /// from which to which it leads in a straight line of sRGB codes. `None`: the track is over.
-    pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, [Rgb; 2])> {
+    #[inline]
+    pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, (Rgb, Rgb))> {
         let record = *track.records.get(self.record)?;
         let end = match record {
             LightRecord::Line { to, .. } => to,
             LightRecord::Step { .. } | LightRecord::Repeat { .. } => self.before,
         };
         let span = |us: u64| Span(i64::try_from(us).unwrap_or(i64::MAX));
-        Some((span(self.began_us), span(record.duration_us()), [self.before, end]))
+        Some((span(self.began_us), span(record.duration_us()), (self.before, end)))
     }
 
     /// Whether the track is over.

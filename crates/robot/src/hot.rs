@@ -48,6 +48,8 @@ pub struct Hot {
     pub(crate) shown: Rgb,
     /// The light of the next steps, as far as it is known.
     pub(crate) light_piece: LightPiece,
+    /// Moment of the show clock whose colour of the piece was shown last.
+    pub(crate) piece_shown_at: Instant,
     pub(crate) state: RobotState,
     /// It stands until fixes come again.
     pub(crate) pauses: bool,
@@ -80,6 +82,7 @@ impl Hot {
             light_changes: false,
             shown: Rgb::BLACK,
             light_piece: LightPiece::NONE,
+            piece_shown_at: Instant::ZERO,
             state: RobotState::Lost,
             pauses: false,
             is_wary: false,

@@ -57,10 +57,18 @@ struct Playing {
     /// The colour that was shown before.
     before: Rgb,
     cursor: LightCursor,
-    /// Its time at the last step, without what was skipped.
-    elapsed: Span,
-    /// Whether its time went on with the show clock at the last step, and does so until a message comes.
+    /// Its time, without what was skipped, counts from here, as far as it goes on with the show clock.
+    began: Instant,
+    /// Whether it went on so at the last step, and does until a message comes. Blending is over.
     is_even: bool,
+}
+
+impl Playing {
+    /// The line of colours at its cursor, as far as it lies within `from..until`.
+    fn piece(&self, track: LightTrack<'_>, moments: (Instant, Instant)) -> Option<LightPiece> {
+        let (begins, lasts, colours) = self.cursor.line(track)?;
+        Some(LightPiece::new(moments, (self.began + begins, lasts), colours))
+    }
 }
 
 /// The stretches of a robot. Their records lie in its storage.
@@ -188,7 +196,8 @@ impl LightAhead {
             if kept.runs_freely { (show - from, true) } else { self.timeline.time_and_whether_even(show) };
         let (elapsed, over) = (time - kept.skip, kept.over);
         let track = storage[kept.slot].track();
-        (playing.elapsed, playing.is_even) = (elapsed, is_even);
+        playing.is_even = is_even && elapsed >= over;
+        playing.began = show - elapsed;
         let colour = playing.cursor.at(track, elapsed);
         if elapsed < over {
             return Some(playing.before.mixed(colour, elapsed.as_secs() / over.as_secs()));
@@ -199,17 +208,24 @@ impl LightAhead {
         Some(colour)
     }
 
+    /// The piece after one that is over, if nothing happened but that time passed; `None`: `step` has to look.
+    #[inline]
+    pub(crate) fn next_piece(&mut self, show: Instant, storage: &StoredTracks) -> Option<LightPiece> {
+        if show >= self.quiet_until {
+            return None;
+        }
+        let playing = self.playing.as_mut()?;
+        let (track, elapsed) = (storage[playing.kept.slot].track(), show - playing.began);
+        playing.cursor.seek(track, elapsed);
+        playing.piece(track, (show, self.quiet_until))
+    }
+
     /// The colours from a moment of the show clock on, after `step` found the colour of that moment.
     pub(crate) fn piece(&self, show: Instant, storage: &StoredTracks) -> LightPiece {
-        let Some(playing) = self.playing.as_ref().filter(|one| one.is_even && one.elapsed >= one.kept.over)
-        else {
-            return LightPiece::NONE;
-        };
-        let Some((begins, lasts, [start, end])) = playing.cursor.line(storage[playing.kept.slot].track())
-        else {
-            return LightPiece::NONE;
-        };
-        LightPiece::new((show, self.quiet_until), (show - (playing.elapsed - begins), lasts), (start, end))
+        let even = self.playing.as_ref().filter(|playing| playing.is_even);
+        let piece = even
+            .and_then(|playing| playing.piece(storage[playing.kept.slot].track(), (show, self.quiet_until)));
+        piece.unwrap_or(LightPiece::NONE)
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
@@ -226,7 +242,7 @@ impl LightAhead {
             kept,
             before: shown,
             cursor: LightCursor::default(),
-            elapsed: Span::ZERO,
+            began: Instant::ZERO,
             is_even: false,
         });
     }

@@ -7,7 +7,7 @@
 use lightbots_base::{Instant, Rgb, Span};
 
 /// Parts of a code in which colours are computed: whole numbers are quicker than fractions.
-const PARTS_BITS: u32 = 32;
+const PARTS_BITS: u32 = 40;
 
 /// Colours from one moment of the show clock to another, if no message comes between.
 #[derive(Clone, Copy, Debug)]
@@ -31,11 +31,10 @@ impl LightPiece {
         (start, end): (Rgb, Rgb),
     ) -> Self {
         // One division: it takes longer than all else here.
-        let parts_in_us = (1u64 << PARTS_BITS) as f64 / lasts.0.max(1) as f64;
+        let parts_in_us = ((1u64 << PARTS_BITS) as f64 / lasts.0.max(1) as f64) as i64;
         let passed_us = (from - begins).0.clamp(0, lasts.0.max(0));
         let channels = [(start.r, end.r), (start.g, end.g), (start.b, end.b)];
-        let changes =
-            channels.map(|(start, end)| (f64::from(i16::from(end) - i16::from(start)) * parts_in_us) as i64);
+        let changes = channels.map(|(start, end)| (i64::from(end) - i64::from(start)) * parts_in_us);
         let half = 1i64 << (PARTS_BITS - 1);
         let code = |channel: usize| {
             (i64::from(channels[channel].0) << PARTS_BITS) + half + changes[channel] * passed_us

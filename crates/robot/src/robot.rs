@@ -165,25 +165,37 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Shows the colour of the piece, if it has one for this moment.
     #[inline]
     fn piece_colour(&mut self, show: Option<Instant>) -> Option<Rgb> {
-        let colour = self.hot.light_piece.colour(show?)?;
-        self.hot.shown = colour;
+        let show = show?;
+        let colour = self.hot.light_piece.colour(show)?;
+        // The colour is computed again where it is needed: most steps would store it in vain.
+        self.hot.piece_shown_at = show;
         Some(colour)
     }
 
     /// The light where no piece says it.
     #[inline(never)]
     fn change_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
+        let next = show.filter(|_| !self.hot.light_piece.is_none());
+        let next = next.and_then(|show| self.light.tracks.next_piece(show, &self.storage.borrow().tracks));
+        if let Some(piece) = next {
+            self.hot.light_piece = piece;
+            if let Some(colour) = self.piece_colour(show) {
+                return colour;
+            }
+        }
         self.end_light_piece();
         let tracks = &self.storage.borrow().tracks;
         self.hot.shown = self.light.step(now, show, tracks);
         self.hot.light_changes = self.light.is_busy();
         self.hot.light_piece = self.light.piece(show, tracks);
+        self.hot.piece_shown_at = show.unwrap_or(Instant::ZERO);
         self.hot.shown
     }
 
     /// A message or a fault may change the light: what was shown last is known to it then.
     fn end_light_piece(&mut self) {
         if !self.hot.light_piece.is_none() {
+            self.hot.shown = self.hot.light_piece.colour(self.hot.piece_shown_at).unwrap_or(self.hot.shown);
             self.light.catch_up(self.hot.shown);
             self.hot.light_piece = LightPiece::NONE;
         }
