@@ -103,6 +103,54 @@ test('a preset shines on the stage at once, is changed in the panel and is saved
   await page.close();
 });
 
+test('a layer shines on a part of the floor or on chosen pixels, and changes over time', async () => {
+  const page = await bed.open('edit');
+  await begin(page, 'parts');
+  await preset(page, 'Starry').click();
+  const choose = async (field: string, option: string) => {
+    await page.getByRole('combobox', { name: field }).click();
+    await page.getByRole('option', { name: option }).click();
+  };
+  await choose('Effect', 'Plain colour');
+  await choose('Mixing', 'Covers what is below');
+  const colour = page.getByRole('textbox', { name: 'Colour 1 of the layer' });
+  await colour.fill('#00ff00');
+  await colour.press('Tab');
+  await isLit(isGreen, page, 'all robots are green');
+  const isOwn = (what: string) => isLit((now) => !isGreen(now), page, what);
+  await choose('Shines on', 'A circle on the floor');
+  await isOwn('the first robot stands outside of the circle');
+  const radius = page.getByRole('textbox', { name: /^Radius/ });
+  await radius.fill('200');
+  await radius.press('Enter');
+  await isLit(isGreen, page, 'the circle holds the first robot');
+  await page.getByRole('checkbox', { name: 'Everywhere else instead' }).click();
+  await isOwn('all but the circle shines');
+  await choose('Shines on', 'Some pixels');
+  await page.getByText('Choose pixels on the floor').waitFor();
+  await drag(page, [-0.9, 1.35], [0.6, 0.95]);
+  await button(page, 'Take the chosen').click();
+  await isLit(isGreen, page, 'the chosen pixels are green');
+  await button(page, 'Let it change over time').click();
+  // The picture on the stage is that of two seconds after the start.
+  const later = page.getByRole('textbox', { name: /^Opacity/ }).last();
+  await later.fill('0');
+  await later.press('Enter');
+  await isOwn('the layer is dark');
+  await layersAre(page, 'parts', ([only]) => {
+    const [mask] = (only?.settings.masks as { shape: string; pixels: number[] }[]) ?? [];
+    const opacity = JSON.stringify(only?.settings.opacity);
+    return mask?.shape === 'pixels' && mask.pixels.length === 6 && opacity === '[[0,0],[2,0]]';
+  });
+  await later.fill('100');
+  await later.press('Enter');
+  await isLit(isGreen, page, 'the layer is bright again');
+  await button(page, 'Take out point 1').click();
+  await button(page, 'Make it even').click();
+  await layersAre(page, 'parts', ([only]) => only?.settings.opacity === 1);
+  await page.close();
+});
+
 test('handles on the floor move a layer, and Escape takes a drag back', async () => {
   const page = await bed.open('edit');
   await begin(page, 'handles');

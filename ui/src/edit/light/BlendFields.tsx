@@ -1,7 +1,9 @@
-import { Button, Group, Select, Text } from '@mantine/core';
+import { Button, Select } from '@mantine/core';
 import { opacityOf } from '../../model/layerKinds';
 import type { Layer } from '../../model/layers';
+import { curveOf, firstCurve } from '../../model/masks';
 import { useEditing } from '../context';
+import { CurveFields } from './CurveFields';
 import { LayerSlider } from './LayerSlider';
 import { setSettings } from './lightActs';
 
@@ -23,7 +25,8 @@ const BLENDS = [
 /** How a layer mixes with those below it, and with the colours of the frame. */
 export function BlendFields({ index, layer }: { index: number; layer: Layer }) {
   const editing = useEditing();
-  const opacity = opacityOf(layer);
+  const curve = curveOf(layer);
+  const opacity = opacityOf(layer) ?? 1;
   return (
     <>
       <Select
@@ -34,28 +37,28 @@ export function BlendFields({ index, layer }: { index: number; layer: Layer }) {
         value={String(layer.settings.blend ?? 'normal')}
         onChange={(blend) => setSettings(editing, index, { blend: blend ?? undefined })}
       />
-      {opacity === null ? (
-        <Group gap="xs">
-          <Text size="xs">Opacity changes over time, as the file says.</Text>
+      {curve ? (
+        <CurveFields index={index} curve={curve} />
+      ) : (
+        <>
+          <LayerSlider
+            index={index}
+            setting="opacity"
+            label="Opacity"
+            text={`${Math.round(opacity * 100)} %`}
+            value={opacity}
+            min={0}
+            max={1}
+            step={0.01}
+          />
           <Button
             size="compact-xs"
             variant="default"
-            onClick={() => setSettings(editing, index, { opacity: 1 })}
+            onClick={() => setSettings(editing, index, { opacity: firstCurve(opacity) })}
           >
-            Make it even
+            Let it change over time
           </Button>
-        </Group>
-      ) : (
-        <LayerSlider
-          index={index}
-          setting="opacity"
-          label="Opacity"
-          text={`${Math.round(opacity * 100)} %`}
-          value={opacity}
-          min={0}
-          max={1}
-          step={0.01}
-        />
+        </>
       )}
     </>
   );

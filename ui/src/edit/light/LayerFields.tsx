@@ -5,6 +5,7 @@ import { useEditing } from '../context';
 import { BlendFields } from './BlendFields';
 import { setFields, setSettings } from './lightActs';
 import { LayerPictureField } from './LayerPictureField';
+import { MaskFields } from './MaskFields';
 import { MotionFields } from './MotionFields';
 import { PaletteField } from './PaletteField';
 import { SpotFields } from './SpotFields';
@@ -43,6 +44,7 @@ export function LayerFields({ index, layer }: { index: number; layer: Layer }) {
         onChange={(kind) => kind !== null && setFields(editing, index, { kind })}
       />
       <WhenFields index={index} layer={layer} />
+      <MaskFields index={index} layer={layer} />
       {layer.kind === 'picture' ? <LayerPictureField index={index} layer={layer} /> : null}
       <PaletteField index={index} layer={layer} />
       <MotionFields index={index} layer={layer} />
