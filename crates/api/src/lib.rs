@@ -23,6 +23,7 @@ mod make;
 mod operation;
 mod plan;
 mod plan_document;
+mod playlist;
 mod robots;
 mod runs;
 mod screen;
@@ -40,11 +41,14 @@ pub use make::{
     FilmAnswer, FilmPicture, FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile,
     MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
 };
-pub use operation::{Answer, Choice, FromScreen, Missing, Operation, Request};
+pub use operation::{Answer, Choice, FromScreen, Missing, Operation, RefusedOperation, Request};
 pub use plan::{
     Issue, LightAnswer, LightRequest, Path, Plan, PlanAnswer, PlanningRequest, Severity, Transition,
 };
 pub use plan_document::{plan_document, plan_summary, rounded};
+pub use playlist::{
+    PlaylistChange, PlaylistDay, PlaylistEntry, PlaylistNext, PlaylistResult, PlaylistState, PlaylistToday,
+};
 pub use robots::Robots;
 pub use runs::{RunEntry, RunEntryKind};
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};

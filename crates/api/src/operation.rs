@@ -1,4 +1,9 @@
-//! Requests of a screen, and their answers.
+//! Operations over HTTP.
+//!
+//! | request | body | answer |
+//! |---|---|---|
+//! | `POST /api/operate` | [`Operation`], without a number | 204: the operation was begun; 403 for a role that
+//! is not enough for this operation; 409 and [`RefusedOperation`] if it cannot be carried out now |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -181,6 +186,15 @@ pub struct Answer {
     pub ok: bool,
     /// Why it was refused: one line for people with cause and remedy; null if `ok`.
     pub error: Option<String>,
+    /// Another operation that would be carried out; null: none.
+    pub choice: Option<Choice>,
+}
+
+/// The refusal of an operation that came over HTTP.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct RefusedOperation {
+    /// Why it was refused: one line for people with cause and remedy.
+    pub error: String,
     /// Another operation that would be carried out; null: none.
     pub choice: Option<Choice>,
 }

@@ -9,8 +9,9 @@ use crate::{
     IncidentTone, Incidents, Issue, Level, LightAnswer, LightRequest, LogLine, MadePixel, MadeReadability,
     MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
     Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan, PlanAnswer, PlanningRequest,
-    Playback, Presence, Problem, Repeats, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity,
-    ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition, Whoami,
+    Playback, PlaylistChange, PlaylistDay, PlaylistEntry, PlaylistNext, PlaylistResult, PlaylistState,
+    PlaylistToday, Presence, Problem, RefusedOperation, Repeats, Request, RobotStatus, Robots, RunEntry,
+    RunEntryKind, Severity, ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition, Whoami,
 };
 
 /// The first line of the generated file.
@@ -77,6 +78,14 @@ fn messages() -> String {
         RunEntry,
         RunEntryKind,
         Problem,
+        PlaylistChange,
+        PlaylistEntry,
+        PlaylistDay,
+        PlaylistState,
+        PlaylistToday,
+        PlaylistResult,
+        PlaylistNext,
+        RefusedOperation,
         AccountRole,
         Whoami,
         AccountEntry,

@@ -22,6 +22,8 @@ mod numbers;
 mod open_files;
 mod own_program;
 mod played_shows;
+mod playlist;
+mod playlist_player;
 mod progress;
 mod run_report;
 mod say;

@@ -6,6 +6,8 @@ import type {
   NewPerson,
   PersonChange,
   Plan,
+  PlaylistChange,
+  PlaylistState,
   RunEntry,
   ShowEntry,
   ShowState,
@@ -137,3 +139,11 @@ export const removeAccount = (kind: 'people' | 'tokens', name: string) =>
 /** Makes a token of a program. It is in this answer only. */
 export const makeToken = async (token: AccountEntry) =>
   ((await (await request('/api/tokens', json('POST', token))).json()) as MadeToken).token;
+
+/** The playlist as it is. */
+export const getPlaylist = async () =>
+  (await (await request('/api/playlist')).json()) as PlaylistState;
+
+/** Replaces switch and entries of the playlist; the playlist afterwards. */
+export const putPlaylist = async (change: PlaylistChange) =>
+  (await (await request('/api/playlist', json('PUT', change))).json()) as PlaylistState;

@@ -957,6 +957,156 @@ export type Problem = {
 error: string, };
 
 /**
+ * The playlist as a client wants it.
+ */
+export type PlaylistChange = { 
+/**
+ * `PlaylistState.revision` of the playlist that this one replaces.
+ */
+revision: number, 
+/**
+ * Whether shows start by themselves. It survives a restart of the program.
+ */
+on: boolean, 
+/**
+ * The entries in order.
+ */
+entries: Array<PlaylistEntry>, };
+
+/**
+ * A show of a playlist. It has a time of day (`at`) or follows the entry before it (`pause_min`).
+ */
+export type PlaylistEntry = { 
+/**
+ * Number of the entry, given by the server; 0 or left out: a new entry.
+ */
+id?: number, 
+/**
+ * Name of the show in the library.
+ */
+show: string, 
+/**
+ * Local time of day of the server, `HH:MM`; null: it follows the entry before it.
+ */
+at?: string | null, 
+/**
+ * Days on which an entry with `at` is played; none: every day.
+ */
+weekdays?: Array<PlaylistDay>, 
+/**
+ * Minutes between the end of the entry before it and the start of this one; null: it has a time of day.
+ */
+pause_min?: number | null, 
+/**
+ * Robots drive to their starting places at the begin of that pause.
+ */
+home?: boolean, 
+/**
+ * Speed of drives, percent of the usual one.
+ */
+speed_percent: number, };
+
+/**
+ * A day of the week.
+ */
+export type PlaylistDay = "mon" | "tue" | "wed" | "thu" | "fri" | "sat" | "sun";
+
+/**
+ * The playlist as it is.
+ */
+export type PlaylistState = { 
+/**
+ * Increased with each change of switch and entries.
+ */
+revision: number, 
+/**
+ * Whether shows start by themselves.
+ */
+on: boolean, 
+/**
+ * The entries in order.
+ */
+entries: Array<PlaylistEntry>, 
+/**
+ * What became of each entry today, in their order.
+ */
+today: Array<PlaylistToday>, 
+/**
+ * The entry that starts next; null: none within a week, or none before the present one is over. Where the playlist is
+ * off: what would start next if it was switched on now.
+ */
+next: PlaylistNext | null, 
+/**
+ * Why no show starts, because a person stopped robots: one sentence; null: nothing holds the playlist. The operation
+ * `go_on` lets it continue.
+ */
+held: string | null, 
+/**
+ * Why the playlist cannot be read, with file, place and remedy; null: it can. Nothing is played meanwhile.
+ */
+fault: string | null, 
+/**
+ * Local time of day of the server, `HH:MM`.
+ */
+now: string, };
+
+/**
+ * What became of an entry today.
+ */
+export type PlaylistToday = { 
+/**
+ * What became of it.
+ */
+result: PlaylistResult, 
+/**
+ * Local time of day, `HH:MM`, at which it starts, began or ended; null: not known yet.
+ */
+time: string | null, 
+/**
+ * Why it failed or was skipped, with a remedy: one line; null: it did not, or was not.
+ */
+line: string | null, };
+
+/**
+ * What may become of an entry on a day.
+ */
+export type PlaylistResult = "not_today" | "waiting" | "past" | "playing" | "played" | "failed" | "skipped";
+
+/**
+ * The entry that starts next.
+ */
+export type PlaylistNext = { 
+/**
+ * Number of the entry.
+ */
+id: number, 
+/**
+ * Name of its show.
+ */
+show: string, 
+/**
+ * Local time of the server, such as `19:00` or `Fri 19:00`.
+ */
+time: string, 
+/**
+ * Time until then, seconds; 0: it is due.
+ */
+in_s: number, };
+
+/**
+ * The refusal of an operation that came over HTTP.
+ */
+export type RefusedOperation = { 
+/**
+ * Why it was refused: one line for people with cause and remedy.
+ */
+error: string, 
+/**
+ * Another operation that would be carried out; null: none.
+ */
+choice: Choice | null, };
+
+/**
  * What a person or a program may do. A greater role may do all that a smaller one may.
  */
 export type AccountRole = "viewer" | "editor" | "operator";

@@ -10,8 +10,9 @@ const DEPTH_MAX: usize = 16;
 /// Longest path in a backup, bytes: as long as Linux allows names of files.
 const PATH_MAX: usize = 4096;
 /// Files of a running program, which say nothing once it has ended. The journal, too: a folder that is brought back must
-/// not take up a run that robots drove on another day.
-pub const OF_A_RUNNING_PROGRAM: [&str; 3] = [".lock", ".accounts-lock", "runs/present.lbjournal"];
+/// not take up a run that robots drove on another day. The switch of the playlist, too: no show may start by itself then.
+pub const OF_A_RUNNING_PROGRAM: [&str; 4] =
+    [".lock", ".accounts-lock", "runs/present.lbjournal", "playlist-day.json"];
 /// The ending of files that take the place of others once they are complete.
 const DRAFT: &str = ".saving";
 
@@ -124,6 +125,7 @@ mod tests {
             "a\nb",
             ".lock",
             "runs/present.lbjournal",
+            "playlist-day.json",
             ".a.1.saving",
             LIST,
             &long,

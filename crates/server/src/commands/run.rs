@@ -30,7 +30,7 @@ use crate::live::recorder::RecordingTarget;
 use crate::played_shows::PlayedShows;
 use crate::stop::Stop;
 use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, Scheme, ScreenLog, Shared, WebCertificate};
-use crate::{open_files, say, show_file};
+use crate::{open_files, playlist_player, say, show_file};
 
 /// The example that is opened if no show is given.
 const FIRST: &str = "countdown";
@@ -144,6 +144,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
     started.follow(desk_light, &shared, stop);
+    started.tasks.push(tokio::spawn(playlist_player::play(shared.clone(), stop.clone())));
     let scheme = shared.names.scheme().name();
     say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));
     greet(&broker, robots, started.broker.as_ref().and_then(EmbeddedBroker::tls_address));

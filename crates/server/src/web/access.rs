@@ -18,7 +18,9 @@ pub fn of_route(route: &str, method: &Method) -> Need {
     match route {
         "/api/session" if *method == Method::POST => Need::Nothing,
         "/api/first" if *method == Method::POST => Need::Nothing,
-        "/ws" | "/api/session" => Need::Role(AccountRole::Viewer),
+        // The operation says which role it needs.
+        "/ws" | "/api/operate" | "/api/session" => Need::Role(AccountRole::Viewer),
+        "/api/playlist" if is_read => Need::Role(AccountRole::Viewer),
         "/api/check" | "/api/convert" => Need::Role(AccountRole::Editor),
         "/api/shows"
         | "/api/shows/{name}"

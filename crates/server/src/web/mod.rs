@@ -19,6 +19,7 @@ mod pages;
 mod people;
 mod picture;
 mod planner;
+mod playlist;
 mod refused;
 mod runs;
 mod scheme;
@@ -33,6 +34,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicUsize};
 
 use axum::Router;
+use axum::extract::DefaultBodyLimit;
 use axum::routing::{any, delete, get, post, put};
 use tokio::net::TcpListener;
 use tokio_rustls::TlsAcceptor;
@@ -45,6 +47,7 @@ pub use desk::{Desk, Shown};
 pub use incidents::IncidentBoard;
 pub use log::ScreenLog;
 pub use names::{Exposure, Names};
+pub use operate::operate;
 pub use planner::Planner;
 pub use scheme::Scheme;
 
@@ -53,6 +56,7 @@ use crate::fleet_book::FleetBook;
 use crate::library::Library;
 use crate::live::conductor::Handle;
 use crate::played_shows::PlayedShows;
+use crate::playlist::PlaylistStore;
 use connection::{Connections, Ends};
 use picture::Pictures;
 use runs::Runs;
@@ -70,6 +74,7 @@ pub struct Shared {
     pub pictures: Pictures,
     pub broker: BrokerDesk,
     pub runs: Runs,
+    pub playlist: PlaylistStore,
     /// The planner for requests of clients.
     pub planner: Planner,
     /// People and programs that may use this server.
@@ -102,6 +107,7 @@ impl Shared {
         tokio::spawn(played.clone().follow(handle.clone(), desk.clone()));
         tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone(), book.clone(), played));
         let runs = Runs::of(library.folder(), handle.clone());
+        let playlist = PlaylistStore::load(library.folder());
         let (screens, simulated) = (AtomicU32::new(0), Arc::default());
         Arc::new(Self {
             handle,
@@ -113,6 +119,7 @@ impl Shared {
             pictures,
             broker,
             runs,
+            playlist,
             admission: Arc::new(admission),
             names,
             planner,
@@ -151,12 +158,14 @@ pub async fn serve(listener: TcpListener, acceptor: Option<TlsAcceptor>, shared:
         .route("/api/convert", post(api::convert))
         .route("/api/plan", get(api::plan))
         .route("/api/broker", get(broker::settings))
+        .route("/api/operate", post(operate::post).layer(DefaultBodyLimit::max(operate::LONGEST)))
         .merge(accounts(shared.admission.clone()))
         .merge(recorded(shared.runs.clone()))
+        .merge(scheduled(shared.playlist.clone()))
         .route("/api/{*rest}", any(api::unknown))
         .fallback(pages::page)
         .layer(axum::middleware::from_fn_with_state(uploads::Uploads::new(), uploads::bound))
-        .layer(axum::extract::DefaultBodyLimit::max(api::BODY_MAX))
+        .layer(DefaultBodyLimit::max(api::BODY_MAX))
         .layer(axum::middleware::from_fn_with_state(shared.admission.clone(), admission::guard))
         .layer(axum::middleware::from_fn_with_state(shared.clone(), origin::guard))
         .with_state(shared);
@@ -184,4 +193,12 @@ fn recorded(runs: Runs) -> Router<Arc<Shared>> {
         .route("/api/runs", get(runs::list))
         .route("/api/runs/{number}/report", get(runs::read_report))
         .with_state(runs)
+}
+
+/// Routes of the playlist.
+fn scheduled(playlist: PlaylistStore) -> Router<Arc<Shared>> {
+    Router::new()
+        .route("/api/playlist", get(playlist::read).put(playlist::change))
+        .layer(DefaultBodyLimit::max(playlist::LONGEST))
+        .with_state(playlist)
 }

@@ -1,12 +1,23 @@
-//! Carries out the operations that screens ask for.
+//! Carries out the operations that screens and programs ask for.
 
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Response};
+use axum::{Extension, Json};
 use lightbots_api as api;
 use lightbots_base::RobotId;
 use lightbots_control::{MissingPolicy, Operation, Refusal};
 use lightbots_exchange::read_layer;
 
-use super::Shared;
+use super::admission::{Caller, not_allowed};
+use super::refused::refuse;
+use super::{Shared, access};
 use crate::broker_settings::Settings;
+
+/// Longest operation with what is around it, bytes: certificates of `connect` fit. Bounds memory for hostile clients.
+pub const LONGEST: usize = 64 << 10;
 
 /// Why an operation was refused, and another that would be carried out.
 type Refused = (String, Option<api::Choice>);
@@ -17,6 +28,24 @@ pub async fn operate(shared: &Shared, request: api::Request) -> api::Answer {
     match act(shared, operation).await {
         Ok(()) => api::Answer { id, ok: true, error: None, choice: None },
         Err((error, choice)) => api::Answer { id, ok: false, error: Some(error), choice },
+    }
+}
+
+/// `POST /api/operate`
+pub async fn post(
+    State(shared): State<Arc<Shared>>,
+    Extension(caller): Extension<Caller>,
+    Json(operation): Json<api::Operation>,
+) -> Response {
+    let needed = access::of_operation(&operation);
+    if caller.role < needed {
+        return refuse(StatusCode::FORBIDDEN, &not_allowed(needed, caller.role)).into_response();
+    }
+    match act(&shared, operation).await {
+        Ok(()) => StatusCode::NO_CONTENT.into_response(),
+        Err((error, choice)) => {
+            (StatusCode::CONFLICT, Json(api::RefusedOperation { error, choice })).into_response()
+        }
     }
 }
 
@@ -73,7 +102,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         Wish::Speed { percent } => Operation::Speed(percent),
         Wish::Loop { on } => Operation::Loop(on),
         Wish::Abort => Operation::Abort,
-        Wish::GoOn => Operation::GoOn,
+        Wish::GoOn => return go_on(shared).await.map_err(plain),
         Wish::StopAll => Operation::StopAll,
         Wish::DismissFailure => Operation::DismissFailure,
         Wish::Refresh => Operation::Refresh,
@@ -85,6 +114,14 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
         }
     };
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), None))
+}
+
+/// Lets an interrupted show go on; without one, the playlist that a stop holds.
+async fn go_on(shared: &Shared) -> Result<(), String> {
+    match shared.handle.operate(Operation::GoOn).await {
+        Err(refusal) if !shared.playlist.release() => Err(refusal.to_string()),
+        _ => Ok(()),
+    }
 }
 
 /// Switches on or off that only listed robots take part.

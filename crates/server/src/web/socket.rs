@@ -26,8 +26,6 @@ const AHEAD: usize = 2;
 /// Time between two checks that the session or token of a screen is still good. It bounds how long a screen sees the show
 /// after its sign-out; its operations are checked one by one.
 const CHECK_EVERY: Duration = Duration::from_secs(1);
-/// Longest message of a screen, bytes: certificates of `connect` fit. Bounds memory for hostile screens.
-const LONGEST: usize = 64 << 10;
 
 /// `/ws`
 pub async fn open(
@@ -35,11 +33,13 @@ pub async fn open(
     Extension(ticket): Extension<Ticket>,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
-        let mut screen = Screen { socket, shared, ticket, ahead: 0 };
-        // A screen that disconnects is a normal event.
-        let _ = screen.serve().await;
-    })
+    upgrade.max_message_size(operate::LONGEST).max_frame_size(operate::LONGEST).on_upgrade(
+        move |socket| async move {
+            let mut screen = Screen { socket, shared, ticket, ahead: 0 };
+            // A screen that disconnects is a normal event.
+            let _ = screen.serve().await;
+        },
+    )
 }
 
 /// The screen disconnected or is too slow.
@@ -135,7 +135,7 @@ impl Screen {
                     let error = Some(not_allowed(needed, caller.role));
                     Answer { id: request.id, ok: false, error, choice: None }
                 } else {
-                    operate::operate(&self.shared, request).await
+                    operate(&self.shared, request).await
                 };
                 self.send(text(&ToScreen::Answer(answer))).await
             }

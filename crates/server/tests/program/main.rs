@@ -33,6 +33,7 @@ mod mutations;
 mod original_controller;
 mod original_robot;
 mod plain_mqtt;
+mod playlist;
 mod python;
 #[cfg(unix)]
 mod rabbitmq;

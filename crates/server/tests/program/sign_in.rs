@@ -180,6 +180,10 @@ fn each_cell_of_the_access_table_holds() {
             let is_refused = answer["error"].as_str().is_some_and(|error| error.contains("needs the role"));
             assert_eq!(is_refused, !may[column], "{name} {}: {answer}", COLUMNS[column]);
             assert!(!may[0] && (name != "stop_all" || answer["ok"] == true), "{name}: {answer}");
+            let headers = [lines(column), vec![("Content-Type", "application/json")]].concat();
+            let by_http =
+                http::request(&site, "POST", "/api/operate", &headers, &operation(name).to_string());
+            assert_eq!(is_refused_for_role(&by_http), !may[column], "{name}: {}", by_http.body);
         }
     }
 }

@@ -27,7 +27,10 @@ const TOGETHER_MS: u64 = 4_000;
 /// What an incident is about. Events with the same subject change the same incident.
 #[derive(Clone, Debug, PartialEq)]
 enum Subject {
-    Dropouts { why: Trouble, frame: Option<usize> },
+    Dropouts {
+        why: Trouble,
+        frame: Option<usize>,
+    },
     Joining,
     Link,
     Broker,
@@ -38,6 +41,8 @@ enum Subject {
     Controller,
     Run,
     Place(RobotId),
+    /// By the number of the entry.
+    Playlist(u32),
 }
 
 #[derive(Debug)]
@@ -93,6 +98,20 @@ impl IncidentBoard {
             }
             changed
         });
+    }
+
+    /// An entry of the playlist was not played, or not to its end.
+    pub fn playlist_failed(&self, entry: u32, title: &str, why: &str) {
+        self.change(|book| {
+            let card = Card::new(title, why, "The playlist goes on with the next show.");
+            book.open(Subject::Playlist(entry), IncidentTone::Look, card, Vec::new(), unix_ms());
+            true
+        });
+    }
+
+    /// An entry of the playlist plays: what was wrong with it is over.
+    pub fn playlist_goes_on(&self, entry: u32) {
+        self.change(|book| book.end(|subject| *subject == Subject::Playlist(entry)));
     }
 
     /// Notes the conductor's events until it ends.

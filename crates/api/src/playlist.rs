@@ -1,0 +1,141 @@
+//! The playlist over HTTP.
+//!
+//! | request | body | answer |
+//! |---|---|---|
+//! | `GET /api/playlist` | | [`PlaylistState`] |
+//! | `PUT /api/playlist` | [`PlaylistChange`] | [`PlaylistState`]; 412 if another client changed the playlist first,
+//! 409 while its file cannot be read, 422 for an entry that is impossible |
+//!
+//! docs/operations.md says when an entry is played, skipped, or waits.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+/// The playlist as a client wants it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct PlaylistChange {
+    /// `PlaylistState.revision` of the playlist that this one replaces.
+    pub revision: u64,
+    /// Whether shows start by themselves. It survives a restart of the program.
+    pub on: bool,
+    /// The entries in order.
+    pub entries: Vec<PlaylistEntry>,
+}
+
+/// A show of a playlist. It has a time of day (`at`) or follows the entry before it (`pause_min`).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct PlaylistEntry {
+    /// Number of the entry, given by the server; 0 or left out: a new entry.
+    #[serde(default)]
+    #[ts(as = "Option<u32>", optional)]
+    pub id: u32,
+    /// Name of the show in the library.
+    pub show: String,
+    /// Local time of day of the server, `HH:MM`; null: it follows the entry before it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional = nullable)]
+    pub at: Option<String>,
+    /// Days on which an entry with `at` is played; none: every day.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[ts(as = "Option<Vec<PlaylistDay>>", optional)]
+    pub weekdays: Vec<PlaylistDay>,
+    /// Minutes between the end of the entry before it and the start of this one; null: it has a time of day.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional = nullable)]
+    pub pause_min: Option<u32>,
+    /// Robots drive to their starting places at the begin of that pause.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(as = "Option<bool>", optional)]
+    pub home: bool,
+    /// Speed of drives, percent of the usual one.
+    pub speed_percent: u32,
+}
+
+/// A day of the week.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaylistDay {
+    /// Monday.
+    Mon,
+    /// Tuesday.
+    Tue,
+    /// Wednesday.
+    Wed,
+    /// Thursday.
+    Thu,
+    /// Friday.
+    Fri,
+    /// Saturday.
+    Sat,
+    /// Sunday.
+    Sun,
+}
+
+/// The playlist as it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct PlaylistState {
+    /// Increased with each change of switch and entries.
+    pub revision: u64,
+    /// Whether shows start by themselves.
+    pub on: bool,
+    /// The entries in order.
+    pub entries: Vec<PlaylistEntry>,
+    /// What became of each entry today, in their order.
+    pub today: Vec<PlaylistToday>,
+    /// The entry that starts next; null: none within a week, or none before the present one is over. Where the playlist is
+    /// off: what would start next if it was switched on now.
+    pub next: Option<PlaylistNext>,
+    /// Why no show starts, because a person stopped robots: one sentence; null: nothing holds the playlist. The operation
+    /// `go_on` lets it continue.
+    pub held: Option<String>,
+    /// Why the playlist cannot be read, with file, place and remedy; null: it can. Nothing is played meanwhile.
+    pub fault: Option<String>,
+    /// Local time of day of the server, `HH:MM`.
+    pub now: String,
+}
+
+/// What became of an entry today.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct PlaylistToday {
+    /// What became of it.
+    pub result: PlaylistResult,
+    /// Local time of day, `HH:MM`, at which it starts, began or ended; null: not known yet.
+    pub time: Option<String>,
+    /// Why it failed or was skipped, with a remedy: one line; null: it did not, or was not.
+    pub line: Option<String>,
+}
+
+/// What may become of an entry on a day.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaylistResult {
+    /// It is not played on this day of the week.
+    NotToday,
+    /// Its time has not come, or the entry before it is not over.
+    Waiting,
+    /// Its time was over before the playlist was switched on.
+    Past,
+    /// It plays.
+    Playing,
+    /// It was played to its end.
+    Played,
+    /// It did not begin, or did not end as it should.
+    Failed,
+    /// It could not begin in time.
+    Skipped,
+}
+
+/// The entry that starts next.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct PlaylistNext {
+    /// Number of the entry.
+    pub id: u32,
+    /// Name of its show.
+    pub show: String,
+    /// Local time of the server, such as `19:00` or `Fri 19:00`.
+    pub time: String,
+    /// Time until then, seconds; 0: it is due.
+    pub in_s: u32,
+}
