@@ -80,17 +80,58 @@ export async function startServer(...more: string[]): Promise<Server> {
   return server;
 }
 
-/** Robots of a process of their own on the server's broker; ends them, as a power cut does. */
+export interface Broker {
+  url: string;
+  /** Ends it, as a crash does. */
+  kill(): Promise<void>;
+  /** Starts it again on the same address. */
+  restart(): Promise<void>;
+}
+
+/** Starts a broker of its own process on a free port. */
+export async function startBroker(): Promise<Broker> {
+  const start = async (port: string) => {
+    const child = spawn(program(), ['broker', '--mqtt-listen', `127.0.0.1:${port}`], {
+      stdio: ['ignore', 'pipe', 'pipe'],
+    });
+    const address = await new Promise<string>((resolve, reject) => {
+      let said = '';
+      const read = (bytes: Buffer) => {
+        said += bytes.toString();
+        const url = /mqtt:\/\/[\d.]+:\d+/.exec(said)?.[0];
+        if (url) resolve(url);
+      };
+      child.stdout.on('data', read);
+      child.stderr.on('data', read);
+      child.on('exit', (code) => reject(new Error(`The broker ended with ${code}: ${said}`)));
+    });
+    return { child, address };
+  };
+  let { child, address } = await start('0');
+  return {
+    url: address,
+    kill: () => end(child),
+    async restart() {
+      ({ child, address } = await start(new URL(address.replace('mqtt:', 'http:')).port));
+    },
+  };
+}
+
+/** Robots of a process of their own on a broker, or a server's; ends them, as a power cut does. */
 export async function startRobots(
-  server: Server,
+  on: Server | Broker,
   count: number,
   more: readonly string[] = ['--seed', '11'],
 ): Promise<() => Promise<void>> {
-  const settings = await fetch(`${server.url}/api/broker`);
-  const { embedded } = (await settings.json()) as { embedded: string };
-  const args = ['robots', '--count', String(count), '--broker', embedded, ...more];
+  const broker = 'data' in on ? await embeddedBroker(on) : on.url;
+  const args = ['robots', '--count', String(count), '--broker', broker, ...more];
   const child = spawn(program(), args, { stdio: 'ignore' });
   return () => end(child);
+}
+
+async function embeddedBroker(server: Server): Promise<string> {
+  const settings = await fetch(`${server.url}/api/broker`);
+  return ((await settings.json()) as { embedded: string }).embedded;
 }
 
 function launch(args: string[]): Promise<[ChildProcess, string, () => string]> {

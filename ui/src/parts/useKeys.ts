@@ -33,9 +33,12 @@ function keepFromButton(event: KeyboardEvent) {
   event.target?.addEventListener('keyup', (up) => up.preventDefault(), { once: true });
 }
 
-/** Whether Enter presses the focused button, as it always does. */
+/** Enter follows links, too. */
+const FOLLOWED = `${PRESSED}, a[href]`;
+
+/** Whether Enter presses the focused button or link, as it always does. */
 const isPress = ({ key, ctrlKey, metaKey, target }: KeyboardEvent) =>
-  key === 'Enter' && !ctrlKey && !metaKey && (target as HTMLElement | null)?.closest(PRESSED);
+  key === 'Enter' && !ctrlKey && !metaKey && (target as HTMLElement | null)?.closest(FOLLOWED);
 
 type Key = readonly [string, (event: KeyboardEvent) => void];
 
