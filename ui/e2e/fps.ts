@@ -3,20 +3,13 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, test } from 'vitest';
+import { crowdShow, LAYERS, sideOf } from './crowds';
+import { measure, noteDraws } from './drawnFrames';
 import { launchBrowser, openPage, startServer } from './harness';
 import { scaleOf } from './journeys';
 
-/** How long a scene is measured, milliseconds. */
-const MEASURED_MS = 6000;
 /** Frames a second that are promised, by number of robots; none for those that are only stated. */
 const GOALS: Record<number, number> = { 30: 58, 100: 58, 1000: 30 };
-/** Three layers that move; only in some scenes. */
-const LAYERS = [
-  { kind: 'rainbow', settings: { speed_hz: 0.2 } },
-  { kind: 'chase', settings: { palette: ['#000000', '#ffffff'], blend: 'add' } },
-  { kind: 'twinkle', settings: { palette: ['#000000', '#ffffff'], blend: 'add' } },
-];
-
 let browser: Browser;
 const folder = mkdtempSync(join(tmpdir(), 'lightbots-fps-'));
 beforeAll(async () => {
@@ -26,81 +19,6 @@ afterAll(async () => {
   await browser?.close();
   rmSync(folder, { recursive: true, force: true });
 });
-
-/** Side of the square floor for so many robots, metres. */
-const sideOf = (count: number) => Math.ceil(Math.sqrt(count)) * 0.12 + 1;
-
-/** Two crowds of `count` coloured pixels, each a turned copy of the other: all robots drive nearly all the time. Robots
- * start in the first, so that a crowd of thousands needs no minutes to get there. */
-function crowdShow(count: number, layers: readonly object[]): string {
-  const across = Math.ceil(Math.sqrt(count));
-  const side_m = sideOf(count);
-  const round = (n: number) => Math.round(n * 1e4) / 1e4;
-  const frame = (name: string, angle: number) => ({
-    name,
-    air_time_s: 0.2,
-    pixels: Array.from({ length: count }, (_, id) => {
-      const [u, v] = [(id % across) - (across - 1) / 2, Math.floor(id / across) - (across - 1) / 2];
-      const [x, y] = [u * 0.085, v * 0.085];
-      const [c, s] = [Math.cos(angle), Math.sin(angle)];
-      const hue = Math.floor((id * 0x9e3779) % 0xffffff) | 0x404040;
-      return {
-        id,
-        place: [round(c * x - s * y), round(s * x + c * y)],
-        color: `#${hue.toString(16).padStart(6, '0')}`,
-      };
-    }),
-  });
-  const stage = { width_m: side_m, depth_m: side_m };
-  const frames = [frame('One', 0), frame('Two', 0.7)];
-  const starts = frames[0]?.pixels.map((pixel) => pixel.place);
-  const name = `Crowd of ${count}`;
-  return JSON.stringify({ lightbots: 2, name, stage, starts, frames, layers });
-}
-
-/** Notes the moment of every frame in which the stage was drawn. */
-function noteDraws() {
-  const drawn: number[] = [];
-  Object.assign(globalThis, { drawn });
-  const prototype = CanvasRenderingContext2D.prototype;
-  const setTransform = prototype.setTransform as (...a: unknown[]) => void;
-  prototype.setTransform = function (this: CanvasRenderingContext2D, ...more: unknown[]) {
-    const now = Number(document.timeline.currentTime);
-    if (now !== drawn[drawn.length - 1] && this.canvas.closest('section')) drawn.push(now);
-    setTransform.apply(this, more);
-  } as never;
-}
-
-/** Frames a second with the stage drawn, the gap that one frame in twenty exceeds, and main-thread work a frame. */
-async function measure(page: Page) {
-  const client = await page.context().newCDPSession(page);
-  // Its own time on a core: what else the machine does is not its work.
-  await client.send('Performance.enable', { timeDomain: 'threadTicks' });
-  const busy_s = async () =>
-    (await client.send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration')
-      ?.value ?? 0;
-  const before_s = await busy_s();
-  const gaps = await page.evaluate(async (lasts_ms) => {
-    const { drawn } = globalThis as unknown as { drawn: number[] };
-    drawn.length = 0;
-    const began = performance.now();
-    await new Promise((resolve) => setTimeout(resolve, lasts_ms));
-    const span_ms = performance.now() - began;
-    return {
-      count: drawn.length,
-      span_ms,
-      all: drawn.slice(1).map((at, i) => at - (drawn[i] ?? at)),
-    };
-  }, MEASURED_MS);
-  const busy_ms = ((await busy_s()) - before_s) * 1000;
-  await client.detach();
-  const sorted = gaps.all.sort((a, b) => a - b);
-  return {
-    fps: (gaps.count / gaps.span_ms) * 1000,
-    late_ms: sorted[Math.floor(sorted.length * 0.95)] ?? null,
-    busy_ms: busy_ms / Math.max(1, gaps.count),
-  };
-}
 
 /** Size and number of the snapshots that a screen gets, and how fast the show clock goes: a machine that is too slow for
  * its simulated robots slows them down. */

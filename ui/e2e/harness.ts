@@ -47,6 +47,8 @@ export interface Server {
   url: string;
   /** Its library, gone after `remove`. */
   data: string;
+  /** Its process now. */
+  pid(): number;
   /** What it has printed since its last start, up to 20,000 characters. */
   said(): string;
   /** Ends it, as a crash does. */
@@ -67,6 +69,7 @@ export async function startServer(...more: string[]): Promise<Server> {
   const server: Server = {
     url,
     data,
+    pid: () => child.pid ?? 0,
     said: () => said(),
     kill: () => end(child),
     async restart() {

@@ -24,14 +24,14 @@ struct Part {
 enum Source {
     /// An example of a package.
     Example(&'static str, &'static str),
-    /// A browser with the built program.
-    Browser,
+    /// A browser with the built program: a script of `ui/package.json`.
+    Browser(&'static str),
     /// The WebAssembly module of the browser, in Node.js: a file of `ui/bench`.
     Module(&'static str),
 }
 
 /// All parts, in the order of the page.
-const PARTS: [Part; 14] = [
+const PARTS: [Part; 15] = [
     Part {
         name: "plan",
         title: "Planning",
@@ -145,10 +145,19 @@ const PARTS: [Part; 14] = [
     Part {
         name: "fps",
         title: "Frames a second",
-        source: Source::Browser,
+        source: Source::Browser("fps"),
         about: "The built screen in headless Chromium, 1440 × 900, drawn in software, with server, broker and \
                 simulated robots on the same cores. Counted are frames in which the stage was drawn, while all pixels \
                 are dragged in the editor, and while a show in which all robots drive is watched.",
+    },
+    Part {
+        name: "long-run",
+        title: "Half an hour",
+        source: Source::Browser("long-run"),
+        about: "A show with three moving layers is repeated for half an hour with simulated robots, watched in three pages \
+                of headless Chromium, one of them in front. Memory of the program and its broker is resident; that of the \
+                page is what its scripts use after a collection. `report s`: from asking for the report of that run to its \
+                heading.",
     },
 ];
 
@@ -180,7 +189,7 @@ fn measure(part: &Part) -> Outcome<Measured> {
     eprintln!("measuring {}", part.name);
     let mut command = match part.source {
         Source::Example(package, example) => example_command(part.name, package, example)?,
-        Source::Browser => browser_command()?,
+        Source::Browser(script) => browser_command(script)?,
         Source::Module(file) => module_command(file)?,
     };
     let (printed, failure) = shell::printed(&mut command)?;
@@ -217,13 +226,13 @@ fn example_command(part: &str, package: &str, example: &str) -> Outcome<Command>
     Ok(command)
 }
 
-fn browser_command() -> Outcome<Command> {
+fn browser_command(script: &str) -> Outcome<Command> {
     let chromium = tools::CHROMIUM.provide()?;
     demo::install_packages()?;
     demo::build_screen()?;
     build_server()?;
     let program = shell::program("release");
-    let mut command = shell::command("ui", demo::NPM, &["run", "--silent", "fps"]);
+    let mut command = shell::command("ui", demo::NPM, &["run", "--silent", script]);
     command.env("LIGHTBOTS_BIN", program).env("CHROMIUM", chromium);
     Ok(command)
 }

@@ -20,7 +20,7 @@ cargo xtask <command>
   demo [ARGS]      build everything and start `lightbots run` on an example show; ARGS are passed on
   test [PART…]     run the tests, all of them or some: tidy ui lint rust firmware e2e licences
   browser          build the module that the screen runs as WebAssembly; `npm run build` does this first
-  bench [PART…]    measure and write docs/benchmarks.md: plan rehearsal noise round light fps
+  bench [PART…]    measure and write docs/benchmarks.md; an unknown PART names them all
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
   simulate [--seeds N] [--from K] [--robots R] [--tell] [--mutant NAME|all]   the fault campaign: docs/campaign.md
   formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; see --help

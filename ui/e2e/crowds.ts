@@ -1,0 +1,37 @@
+/** Three layers that move. */
+export const LAYERS = [
+  { kind: 'rainbow', settings: { speed_hz: 0.2 } },
+  { kind: 'chase', settings: { palette: ['#000000', '#ffffff'], blend: 'add' } },
+  { kind: 'twinkle', settings: { palette: ['#000000', '#ffffff'], blend: 'add' } },
+];
+
+/** Side of the square floor for so many robots, metres. */
+export const sideOf = (count: number) => Math.ceil(Math.sqrt(count)) * 0.12 + 1;
+
+/** Two crowds of `count` coloured pixels, each a turned copy of the other: all robots drive nearly all the time. Robots
+ * start in the first, so that a crowd of thousands needs no minutes to get there. */
+export function crowdShow(count: number, layers: readonly object[]): string {
+  const across = Math.ceil(Math.sqrt(count));
+  const side_m = sideOf(count);
+  const round = (n: number) => Math.round(n * 1e4) / 1e4;
+  const frame = (name: string, angle: number) => ({
+    name,
+    air_time_s: 0.2,
+    pixels: Array.from({ length: count }, (_, id) => {
+      const [u, v] = [(id % across) - (across - 1) / 2, Math.floor(id / across) - (across - 1) / 2];
+      const [x, y] = [u * 0.085, v * 0.085];
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const hue = Math.floor((id * 0x9e3779) % 0xffffff) | 0x404040;
+      return {
+        id,
+        place: [round(c * x - s * y), round(s * x + c * y)],
+        color: `#${hue.toString(16).padStart(6, '0')}`,
+      };
+    }),
+  });
+  const stage = { width_m: side_m, depth_m: side_m };
+  const frames = [frame('One', 0), frame('Two', 0.7)];
+  const starts = frames[0]?.pixels.map((pixel) => pixel.place);
+  const name = `Crowd of ${count}`;
+  return JSON.stringify({ lightbots: 2, name, stage, starts, frames, layers });
+}

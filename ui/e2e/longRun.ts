@@ -1,0 +1,96 @@
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, test } from 'vitest';
+import type { RunEntry } from '../src/api/types.gen';
+import { crowdShow, LAYERS } from './crowds';
+import { measure, noteDraws } from './drawnFrames';
+import { eventually, launchBrowser, openPage, startServer, type Server } from './harness';
+
+const ROBOTS = Number(process.env.ROBOTS ?? 1000);
+const MINUTES = Number(process.env.MINUTES ?? 30);
+/** Minutes between two rows. */
+const EVERY = 5;
+
+let browser: Browser;
+const folder = mkdtempSync(join(tmpdir(), 'lightbots-long-'));
+beforeAll(async () => {
+  browser = await launchBrowser();
+});
+afterAll(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** Resident memory of a process, kB. */
+const resident_kB = (pid: number) =>
+  Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, 'utf8'))?.[1] ?? 0);
+
+/** Processes that a process started: the server's broker. */
+const children = (pid: number) =>
+  readFileSync(`/proc/${pid}/task/${pid}/children`, 'utf8').split(' ').filter(Boolean).map(Number);
+
+/** Memory of a page's scripts, bytes, without what is no longer used. */
+async function heapOf(page: Page): Promise<number> {
+  const client = await page.context().newCDPSession(page);
+  await client.send('HeapProfiler.collectGarbage');
+  const { usedSize } = await client.send('Runtime.getHeapUsage');
+  await client.detach();
+  return usedSize;
+}
+
+async function row(server: Server, front: Page, minute: number) {
+  const { fps, late_ms } = await measure(front, 10_000);
+  const heap_bytes = await heapOf(front);
+  print({
+    minute,
+    robots: ROBOTS,
+    frames_a_second: fps,
+    '95_%_of_gaps_below_ms': late_ms,
+    server_MB: resident_kB(server.pid()) / 1000,
+    broker_MB: children(server.pid()).reduce((sum, pid) => sum + resident_kB(pid), 0) / 1000,
+    page_MB: heap_bytes / 1e6,
+    report_s: null,
+  });
+}
+
+const print = (value: object) => process.stdout.write(`\n${JSON.stringify(value)}\n`);
+
+/** The run that ended. */
+const lastRun = (page: Page) =>
+  eventually(
+    () => page.evaluate(async () => ((await (await fetch('/api/runs')).json()) as RunEntry[])[0]),
+    (run) => typeof run?.ended_ms === 'number',
+    'the run is over',
+  );
+
+test(`${MINUTES} minutes of a show with ${ROBOTS} robots in three pages`, async () => {
+  const file = join(folder, 'long.lightbots.json');
+  writeFileSync(file, crowdShow(ROBOTS, LAYERS));
+  const server = await startServer(file, '--robots', String(ROBOTS));
+  try {
+    const behind = [await openPage(browser, server), await openPage(browser, server)];
+    const front = await openPage(browser, server, 'live', {}, noteDraws);
+    await front.bringToFront();
+    await front.getByText(`${ROBOTS} robots`, { exact: true }).waitFor();
+    await front.getByRole('button', { name: 'Loop (L)' }).click();
+    await front.getByRole('button', { name: 'Play', exact: true }).click();
+    await front.getByText(/Playing frame 2 of/).waitFor();
+    const began = Date.now();
+    for (let minute = 1; minute <= MINUTES; minute += minute === 1 ? EVERY - 1 : EVERY) {
+      await front.waitForTimeout(Math.max(0, began + minute * 60_000 - Date.now()));
+      await row(server, front, minute);
+    }
+    await front.keyboard.press('Escape');
+    const run = await lastRun(front);
+    const asked = Date.now();
+    const report = await browser.newPage();
+    await report.goto(`${server.url}/api/runs/${run?.number}/report`, { timeout: 120_000 });
+    await report.getByRole('heading').first().waitFor();
+    print({ minute: MINUTES, robots: ROBOTS, report_s: (Date.now() - asked) / 1000 });
+    await Promise.all([...behind, front, report].map((page) => page.close()));
+  } finally {
+    await server.remove();
+  }
+});
