@@ -9,6 +9,7 @@ import { GoOnNote } from './GoOnNote';
 import { useLiveLight } from './light/useLiveLight';
 import { JumpDialog } from './JumpDialog';
 import { LiveStage } from './LiveStage';
+import { PlaylistNote } from './PlaylistNote';
 import { RunNote } from './RunNote';
 import { StartDialog } from './StartDialog';
 import { StoppedNote } from './StoppedNote';
@@ -30,6 +31,7 @@ export function LivePage() {
           <FailureNote />
           <StoppedNote />
         </Gate>
+        <PlaylistNote />
         <RunNote onPast={showPast} />
         <Gate needs="operator" act="go on or give GO">
           <GoOnNote />

@@ -15,6 +15,7 @@ import { TemplateCard } from './TemplateCard';
 import { useFaces } from './useFaces';
 import { useMaker } from './useMaker';
 import { PastRuns } from './PastRuns';
+import { Playlist } from './Playlist';
 import { YourFleet } from './YourFleet';
 import styles from './Start.module.css';
 
@@ -73,6 +74,7 @@ export default function StartPage() {
         </section>
         <aside className={styles.aside}>
           <RecentShows />
+          <Playlist />
           <PastRuns />
           <YourFleet floor={floor} here={here} />
         </aside>
