@@ -56,8 +56,8 @@ pub use config::{Ageing, Config, UploadLimits};
 pub use controller::{Controller, PathsView};
 pub use event::{Event, EventKind, RunOutcome, Trouble};
 pub use input_log::{
-    Difference, HEAD_BYTES, LogEnd, LogError, RecordedController, ReplayObserver, ReplayReport, ReplayStep,
-    check_head, replay, replay_observed,
+    Difference, GrowingReplay, HEAD_BYTES, LogEnd, LogError, RecordedController, ReplayObserver,
+    ReplayReport, ReplayStep, check_head, replay, replay_observed,
 };
 pub use journal::{JournalError, JournalPiece, OnReturn, UnfinishedRun};
 pub use mutant::Mutant;

@@ -81,7 +81,7 @@ pub fn report_with_truth(
 
 impl ReportBuilder {
     /// Takes in a step of a replay.
-    fn step(&mut self, now: Instant, controller: &Controller, step: ReplayStep<'_>) {
+    pub fn step(&mut self, now: Instant, controller: &Controller, step: ReplayStep<'_>) {
         match step {
             ReplayStep::Message { topic, payload } if self.is_running => self.message(now, topic, payload),
             ReplayStep::Event(event) => self.event(event, controller),
@@ -256,7 +256,8 @@ impl ReportBuilder {
     }
 
     /// The report.
-    fn finish(mut self, replayed: ReplayReport) -> (ShowReport, Scrub) {
+    /// The replay is over.
+    pub fn finish(mut self, replayed: ReplayReport) -> (ShowReport, Scrub) {
         let began = self.began.unwrap_or(self.now);
         let since = |at: Instant| round((at - began).as_secs().max(0.0), 3);
         let mut incidents: Vec<ReportedEvent> = self

@@ -12,6 +12,7 @@ mod charts;
 mod escape;
 mod figures;
 mod frames;
+mod growing;
 mod html;
 mod model;
 mod robots;
@@ -20,6 +21,7 @@ mod truth;
 mod words;
 
 pub use builder::{report_of, report_with_truth};
+pub use growing::GrowingReport;
 pub use html::page;
 pub use model::{
     ClosestApproach, FrameFigures, Loss, MessageFigures, ReportBrakes, ReportedEvent, RobotFigures, RunKind,

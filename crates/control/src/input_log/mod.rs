@@ -9,6 +9,7 @@
 //! [`RecordedController`] writes a log, [`replay`] plays it.
 
 mod digest;
+mod growing;
 mod record;
 mod recorded;
 mod recording;
@@ -17,6 +18,7 @@ mod senders;
 #[cfg(test)]
 mod tests;
 
+pub use growing::GrowingReplay;
 pub use recorded::RecordedController;
 pub use replaying::{
     Difference, HEAD_BYTES, LogEnd, LogError, ReplayObserver, ReplayReport, ReplayStep, check_head, replay,

@@ -127,23 +127,21 @@ pub fn replay_observed(
 ) -> Result<ReplayReport, LogError> {
     check_head(log)?;
     let mut blocks = Blocks::new(log, HEAD_BYTES);
-    let header = blocks.next().and_then(|block| postcard::from_bytes::<LogHeader>(block).ok());
-    let mut replay = header.and_then(|header| Replay::new(header, observe)).ok_or(LogError::NoHeader)?;
+    let mut replay = blocks.next().and_then(Replay::new).ok_or(LogError::NoHeader)?;
     while let Some(block) = blocks.next() {
-        replay.block(block)?;
+        replay.block(block, observe)?;
         progress(blocks.at() as f64 / log.len() as f64);
         if replay.is_over() {
             break;
         }
     }
-    let end = if replay.is_complete { LogEnd::Complete } else { LogEnd::Cut(blocks.at() as u64) };
-    Ok(ReplayReport { end, ..replay.report() })
+    Ok(replay.report(blocks.at()))
 }
 
 /// A log that is being replayed.
-struct Replay<'o, 'e> {
+#[derive(Debug)]
+pub(super) struct Replay {
     header: LogHeader,
-    observe: &'o mut ReplayObserver<'e>,
     controller: Controller,
     now: Instant,
     senders: Senders,
@@ -159,10 +157,11 @@ struct Replay<'o, 'e> {
     difference: Option<Difference>,
 }
 
-impl<'o, 'e> Replay<'o, 'e> {
-    fn new(header: LogHeader, observe: &'o mut ReplayObserver<'e>) -> Option<Self> {
+impl Replay {
+    /// From the first block of a log.
+    pub fn new(block: &[u8]) -> Option<Self> {
+        let header: LogHeader = postcard::from_bytes(block).ok()?;
         Some(Self {
-            observe,
             controller: Controller::from_checkpoint(&header.checkpoint)?,
             now: Instant(header.began_us),
             header,
@@ -179,28 +178,30 @@ impl<'o, 'e> Replay<'o, 'e> {
         })
     }
 
-    fn is_over(&self) -> bool {
+    /// Whether nothing of what follows counts.
+    pub fn is_over(&self) -> bool {
         self.is_complete || self.difference.is_some()
     }
 
-    fn block(&mut self, mut block: &[u8]) -> Result<(), LogError> {
+    /// Plays the records of a block.
+    pub fn block(&mut self, mut block: &[u8], observe: &mut ReplayObserver<'_>) -> Result<(), LogError> {
         while !block.is_empty() && !self.is_over() {
             let bad = LogError::BadRecord { inputs: self.inputs };
             let Ok((record, rest)) = postcard::take_from_bytes(block) else { return Err(bad) };
-            self.record(record).ok_or(bad)?;
+            self.record(record, observe).ok_or(bad)?;
             block = rest;
         }
         Ok(())
     }
 
     /// Plays one record; `None`: no writer writes it.
-    fn record(&mut self, record: Record<'_>) -> Option<()> {
+    fn record(&mut self, record: Record<'_>, observe: &mut ReplayObserver<'_>) -> Option<()> {
         match record {
             Record::Wake(after) => {
                 self.input(after, || "time passed".into());
                 self.now += Span(i64::from(Mutant::ReplayOffByOne.is_planted()));
                 self.controller.wake(self.now);
-                (self.observe)(self.now, &self.controller, ReplayStep::Woken);
+                observe(self.now, &self.controller, ReplayStep::Woken);
             }
             Record::Message { after, topic, like, front, back, middle } => {
                 let payload = self.senders.restore(topic, Likeness { like, front, back }, middle)?;
@@ -210,9 +211,9 @@ impl<'o, 'e> Replay<'o, 'e> {
                     RobotTopic::Status => Topic::Status,
                     RobotTopic::Time => Topic::Time,
                 };
-                self.message(after, &topic.write(), &payload);
+                self.message((after, &topic.write(), &payload), observe);
             }
-            Record::OtherMessage { after, topic, payload } => self.message(after, topic, payload),
+            Record::OtherMessage { after, topic, payload } => self.message((after, topic, payload), observe),
             Record::Connected(after) => {
                 self.input(after, || "the broker was connected".into());
                 self.controller.connected(self.now);
@@ -233,7 +234,7 @@ impl<'o, 'e> Replay<'o, 'e> {
                 self.digest.answer(&answer);
             }
             Record::Planned { after, number, cancelled_at } => self.planned(after, number, cancelled_at),
-            Record::Outputs { taken, digest } => self.compare(taken, digest),
+            Record::Outputs { taken, digest } => self.compare(taken, digest, observe),
             Record::End { digest } => {
                 self.is_complete = true;
                 if digest != self.digest.value() {
@@ -250,14 +251,14 @@ impl<'o, 'e> Replay<'o, 'e> {
         self.last = what();
     }
 
-    fn message(&mut self, after: Span, topic: &str, payload: &[u8]) {
+    fn message(&mut self, (after, topic, payload): (Span, &str, &[u8]), observe: &mut ReplayObserver<'_>) {
         self.messages += 1;
         self.input(after, String::new);
         self.last.clear();
         self.last.push_str(topic);
         self.last.push(' ');
         self.last.push_str(&String::from_utf8_lossy(&payload[..payload.len().min(200)]));
-        (self.observe)(self.now, &self.controller, ReplayStep::Message { topic, payload });
+        observe(self.now, &self.controller, ReplayStep::Message { topic, payload });
         self.controller.message(self.now, topic, payload);
     }
 
@@ -273,7 +274,7 @@ impl<'o, 'e> Replay<'o, 'e> {
     }
 
     /// Takes outputs as the recorded controller's shell did, and compares the digest.
-    fn compare(&mut self, taken: u8, digest: [u8; 2]) {
+    fn compare(&mut self, taken: u8, digest: [u8; 2], observe: &mut ReplayObserver<'_>) {
         let mut lines = Vec::new();
         let mut line = |text: &dyn Fn() -> String| {
             if lines.len() < 5 {
@@ -289,7 +290,7 @@ impl<'o, 'e> Replay<'o, 'e> {
         }
         if taken & OutputKinds::EVENTS != 0 {
             while let Some(event) = self.controller.next_event() {
-                (self.observe)(self.now, &self.controller, ReplayStep::Event(&event));
+                observe(self.now, &self.controller, ReplayStep::Event(&event));
                 self.digest.event(&event);
                 self.outputs += 1;
                 line(&|| event.kind.to_string());
@@ -317,7 +318,8 @@ impl<'o, 'e> Replay<'o, 'e> {
         self.difference = Some(Difference { input: self.inputs, at: self.now, what, outputs });
     }
 
-    fn report(self) -> ReplayReport {
+    /// What came of it; `at`: number of bytes that were read.
+    pub fn report(self, at: usize) -> ReplayReport {
         ReplayReport {
             program: self.header.program,
             notes: self.header.notes,
@@ -328,7 +330,7 @@ impl<'o, 'e> Replay<'o, 'e> {
             robots: self.controller.robots(),
             lasted: self.now - Instant(self.header.began_us),
             digest: self.digest.value(),
-            end: LogEnd::Complete,
+            end: if self.is_complete { LogEnd::Complete } else { LogEnd::Cut(at as u64) },
             difference: self.difference,
         }
     }

@@ -45,6 +45,28 @@ fn a_replay_has_the_same_outputs() {
 }
 
 #[test]
+fn a_log_that_grows_is_replayed_as_its_bytes_come() {
+    let log = log();
+    let whole = replay(&log, &mut |_| {}).unwrap();
+    for piece in [1, 7, 1_000] {
+        let (mut growing, mut messages) = (GrowingReplay::default(), 0);
+        for bytes in log.chunks(piece) {
+            growing
+                .feed(bytes, &mut |_, _, step| {
+                    messages += u32::from(matches!(step, ReplayStep::Message { .. }))
+                })
+                .unwrap();
+        }
+        assert_eq!((growing.finish().unwrap(), messages), (whole.clone(), 3), "{piece} bytes at once");
+    }
+    let mut cut = GrowingReplay::default();
+    cut.feed(&log[..log.len() - 1], &mut |_, _, _| {}).unwrap();
+    assert!(matches!(cut.finish().unwrap().end, LogEnd::Cut(_)));
+    assert_eq!(GrowingReplay::default().feed(b"no log at all", &mut |_, _, _| {}), Err(LogError::NoLog));
+    assert_eq!(GrowingReplay::default().finish(), Err(LogError::NoHeader));
+}
+
+#[test]
 fn an_input_that_was_changed_is_found_with_its_place() {
     let log = log();
     let mut blocks = crate::block::Blocks::new(&log, MAGIC.len() + 2);

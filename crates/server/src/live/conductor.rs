@@ -47,8 +47,10 @@ impl Handle {
         let (done_sender, done) = mpsc::channel(4);
         let pace = Arc::new(Pace::default());
         let mut controller = RecordedController::new(Controller::new(config));
+        let recorder = Recorder::new(recording, &mut controller, clock.now());
+        let reports = recorder.reports();
         let conductor = Conductor {
-            recorder: Recorder::new(recording, &mut controller, clock.now()),
+            recorder,
             controller,
             clock: clock.clone(),
             pace: pace.clone(),
@@ -65,7 +67,7 @@ impl Handle {
             done_sender,
         };
         let task = tokio::spawn(conductor.run(stop));
-        (Self::new(orders, news, clock, pace), task)
+        (Self::new(orders, news, clock, pace, reports), task)
     }
 }
 

@@ -11,6 +11,7 @@ use super::clock::Clock;
 use super::desk_lights::DeskLights;
 use super::orders::{ConductorOrder, News};
 use super::pace::Pace;
+use super::run_reports::ReportsUnderWay;
 
 /// Reports that wait for a listener at most: one of each of many robots.
 const REPORTS: usize = 16_384;
@@ -23,6 +24,7 @@ pub struct Handle {
     clock: Clock,
     pace: Arc<Pace>,
     desk_lights: DeskLights,
+    reports: ReportsUnderWay,
 }
 
 impl Handle {
@@ -32,8 +34,14 @@ impl Handle {
         news: broadcast::Sender<News>,
         clock: Clock,
         pace: Arc<Pace>,
+        reports: ReportsUnderWay,
     ) -> Self {
-        Self { orders, news, clock, pace, desk_lights: DeskLights::default() }
+        Self { orders, news, clock, pace, desk_lights: DeskLights::default(), reports }
+    }
+
+    /// The logs of runs whose reports are being made.
+    pub fn reports(&self) -> &ReportsUnderWay {
+        &self.reports
     }
 
     /// Does something with show and fleet.

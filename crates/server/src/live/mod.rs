@@ -18,6 +18,7 @@ mod pace;
 pub mod recorder;
 mod rivals;
 pub mod run_facts;
+pub mod run_reports;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};
 

@@ -14,6 +14,7 @@ use lightbots_control::{Event, OnReturn, Operation, RecordedController, Refusal,
 use super::clock::unix_ms;
 use super::journal::JournalFile;
 use super::run_facts::{RunFacts, RunNotes};
+use super::run_reports::{ReportsUnderWay, RunReporter};
 use crate::disk;
 
 /// Folder of recorded runs in the data folder.
@@ -63,6 +64,7 @@ pub struct Recorder {
     journal: Option<JournalFile>,
     /// The run that is on.
     run: Option<RunNotes>,
+    reports: ReportsUnderWay,
 }
 
 impl Recorder {
@@ -72,7 +74,13 @@ impl Recorder {
             controller.begin_log(now, notes("play"));
         }
         let journal = recording.data_folder().map(|data| JournalFile::start(data, controller));
-        Self { recording, writer: None, journal, run: None }
+        let reports = ReportsUnderWay::default();
+        Self { recording, writer: None, journal, run: None, reports }
+    }
+
+    /// The logs whose reports are being made.
+    pub fn reports(&self) -> ReportsUnderWay {
+        self.reports.clone()
     }
 
     /// The operator asks for something: a run may begin.
@@ -153,7 +161,7 @@ impl Recorder {
             return None;
         }
         if self.writer.is_none() {
-            self.writer = Some(LogWriter::start(self.recording.clone())?);
+            self.writer = Some(LogWriter::start(self.recording.clone(), self.reports.clone())?);
             self.write_facts();
         }
         self.writer.as_mut().and_then(|writer| writer.write(bytes))
@@ -209,7 +217,7 @@ struct LogWriter {
 
 impl LogWriter {
     /// `None`: nothing is recorded.
-    fn start(recording: RecordingTarget) -> Option<Self> {
+    fn start(recording: RecordingTarget, reports: ReportsUnderWay) -> Option<Self> {
         if recording == RecordingTarget::Off {
             return None;
         }
@@ -218,7 +226,7 @@ impl LogWriter {
         let failure = Arc::new(OnceLock::new());
         let failed = failure.clone();
         let thread = std::thread::spawn(move || {
-            if let Err(error) = write_log(&recording, &inbox) {
+            if let Err(error) = write_log(&recording, &inbox, &reports) {
                 // The first failure is told.
                 let _ = failed.set(error.to_string());
             }
@@ -244,21 +252,33 @@ impl LogWriter {
     }
 }
 
-/// Writes pieces into a file until there are no more.
-fn write_log(recording: &RecordingTarget, inbox: &Receiver<Piece>) -> std::io::Result<()> {
+/// Writes pieces into a file until there are no more. That of a run becomes its report meanwhile.
+fn write_log(
+    recording: &RecordingTarget,
+    inbox: &Receiver<Piece>,
+    reports: &ReportsUnderWay,
+) -> std::io::Result<()> {
     let path = match recording {
         RecordingTarget::Off => return Ok(()),
         RecordingTarget::File(path) => path.clone(),
         RecordingTarget::Runs(data) => next_run(data)?,
     };
     let mut file = File::create(&path)?;
+    let mut reporter = recording.is_by_run().then(|| RunReporter::start(&path, report_file(&path), reports));
     for piece in inbox {
         match piece {
-            Piece::Log(bytes) => file.write_all(&bytes)?,
+            Piece::Log(bytes) => {
+                file.write_all(&bytes)?;
+                reporter = reporter.filter(|reporter| reporter.feed(bytes));
+            }
             Piece::Facts(facts) => facts.write(&facts_file(&path))?,
         }
     }
-    file.sync_all()
+    file.sync_all()?;
+    if let Some(reporter) = reporter {
+        reporter.end();
+    }
+    Ok(())
 }
 
 /// The file of the next run; old ones are deleted.

@@ -1,7 +1,7 @@
 //! The recorded runs and their reports over HTTP.
 //!
-//! A report is made from the recorded inputs when it is first asked for, and kept beside them. One is made at a time,
-//! on a thread of its own, because it takes a processor and the whole log in memory.
+//! A report is made while its run is on, or from the recorded inputs when it is first asked for, and kept beside them. Of
+//! the latter one is made at a time, on a thread of its own, because it takes a processor and the whole log in memory.
 
 use std::fs::File;
 use std::io::Read;
@@ -29,6 +29,8 @@ use crate::live::run_facts::RunFacts;
 const PAGE_MAX: u64 = 64 << 20;
 /// Longest wait for a report. It is made on, and the next request finds it.
 const PATIENCE: Duration = Duration::from_secs(60);
+/// Time between two looks at whether a report has been made.
+const POLL: Duration = Duration::from_millis(20);
 /// Content security policy of a report: it needs nothing, and its script gets nothing of this server.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
                       sandbox allow-scripts allow-downloads; frame-ancestors 'none'";
@@ -57,8 +59,13 @@ impl Runs {
     async fn report(&self, number: u64, is_running: bool) -> Result<Vec<u8>, Refused> {
         let failed = |line: String| refuse(StatusCode::INTERNAL_SERVER_ERROR, &line);
         let (data, turn) = (self.data.clone(), self.turn.clone());
+        let (log, reports) = (run_file(&self.data, number), self.handle.reports().clone());
         // A task of its own: a client that leaves, or waits no longer, does not stop it.
         let made = tokio::spawn(async move {
+            // That of a run that has just ended is nearly made.
+            while !is_running && reports.contains(&log) {
+                tokio::time::sleep(POLL).await;
+            }
             let turn = turn.acquire_owned().await;
             let made = tokio::task::spawn_blocking(move || {
                 let _turn = turn;

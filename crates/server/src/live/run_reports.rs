@@ -1,0 +1,170 @@
+//! Reports of runs, made while the runs are on.
+//!
+//! From its whole log, the report of half an hour with a thousand robots takes minutes. A thread that plays the log again as
+//! it is written is a second behind it, at a fraction of a core.
+
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use lightbots_report::{GrowingReport, page};
+
+use crate::disk::{self, Readers};
+
+/// Most pieces of a log, about a second each, that wait for their report.
+const WAITING_MAX: usize = 256;
+
+/// The logs whose reports are being made.
+#[derive(Clone, Debug, Default)]
+pub struct ReportsUnderWay(Arc<Mutex<BTreeSet<PathBuf>>>);
+
+impl ReportsUnderWay {
+    /// Whether the report of this log is being made: it is there soon after the run, or has to be made from the whole log.
+    pub fn contains(&self, log: &Path) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).contains(log)
+    }
+
+    fn begin(&self, log: &Path) -> UnderWay {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(log.to_owned());
+        UnderWay(self.clone(), log.to_owned())
+    }
+}
+
+/// A report that is being made until this is dropped.
+struct UnderWay(ReportsUnderWay, PathBuf);
+
+impl Drop for UnderWay {
+    fn drop(&mut self) {
+        self.0.0.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.1);
+    }
+}
+
+/// What the thread gets.
+enum Piece {
+    /// The next bytes of the log.
+    Log(Vec<u8>),
+    /// The run is over, and its log is whole.
+    End,
+}
+
+/// Makes the report of one run. Dropped before the end, there is none.
+pub struct RunReporter(SyncSender<Piece>);
+
+impl RunReporter {
+    /// Of the run with this log; the report goes to `file`.
+    pub fn start(log: &Path, file: PathBuf, reports: &ReportsUnderWay) -> Self {
+        let (pieces, inbox) = sync_channel(WAITING_MAX);
+        let under_way = reports.begin(log);
+        std::thread::spawn(move || {
+            let _under_way = under_way;
+            give_way();
+            // The controller may fail in the run as it failed in the recorded one.
+            let made = catch_unwind(AssertUnwindSafe(|| make(&inbox, &file)));
+            match made {
+                Ok(Ok(())) => {}
+                Ok(Err(line)) => tracing::warn!("no report was made during the run: {line}"),
+                Err(_) => tracing::warn!("no report was made during the run: the controller failed"),
+            }
+        });
+        Self(pieces)
+    }
+
+    /// Hands on bytes of the log; `false`: the thread is too slow, and gives up once this is dropped.
+    pub fn feed(&self, bytes: Vec<u8>) -> bool {
+        self.0.try_send(Piece::Log(bytes)).is_ok()
+    }
+
+    /// The log is whole.
+    pub fn end(self) {
+        // A thread that gave up has said why; one that is too slow gives up when this is dropped.
+        let _ = self.0.try_send(Piece::End);
+    }
+}
+
+fn make(inbox: &Receiver<Piece>, file: &Path) -> Result<(), String> {
+    let mut report = GrowingReport::default();
+    loop {
+        match inbox.recv() {
+            Ok(Piece::Log(bytes)) => report.feed(&bytes).map_err(|error| error.to_string())?,
+            Ok(Piece::End) => break,
+            Err(_) => return Err("this machine is too slow for it, or the log was cut off".into()),
+        }
+    }
+    let (report, scrub) = report.finish().map_err(|error| error.to_string())?;
+    let page = page(&report, &scrub).into_bytes();
+    disk::replace(file, &page, Readers::All).map_err(|error| error.to_string())
+}
+
+/// The show comes first.
+fn give_way() {
+    #[cfg(target_os = "linux")]
+    {
+        /// As `nice` gives by default: a fifth of the time of a thread that runs as usual.
+        const NICE: i32 = 10;
+        // On Linux, this is the calling thread alone. Without the right to it, the report takes its turn like all else.
+        let _ = rustix::process::setpriority_process(None, NICE);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use lightbots_base::Instant;
+    use lightbots_control::{Config, Controller, RecordedController};
+    use lightbots_report::report_of;
+
+    use super::*;
+
+    fn report_file(log: &Path) -> PathBuf {
+        log.with_extension("html")
+    }
+
+    fn log() -> Vec<u8> {
+        let mut controller = RecordedController::new(Controller::new(Config::default()));
+        assert!(controller.begin_log(Instant(1_000_000), Vec::new()));
+        for second in 1..40 {
+            controller.message(Instant(second * 1_000_000), "T/LightBot/UUID", b"a 0.5 1.3");
+            controller.wake(Instant(second * 1_000_000 + 1));
+            while controller.next_send().is_some() {}
+            while controller.next_event().is_some() {}
+            while controller.next_plan_request().is_some() {}
+        }
+        let mut log = controller.take_log();
+        log.extend(controller.end_log());
+        log
+    }
+
+    fn wait_for(reports: &ReportsUnderWay, log: &Path) {
+        while reports.contains(log) {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    #[test]
+    fn the_report_made_during_a_run_is_that_of_its_whole_log() {
+        let folder = std::env::temp_dir().join(format!("lightbots-reports-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let (reports, path) = (ReportsUnderWay::default(), folder.join("000001.lblog"));
+        let log = log();
+        let reporter = RunReporter::start(&path, report_file(&path), &reports);
+        for bytes in log.chunks(100) {
+            assert!(reporter.feed(bytes.to_vec()));
+        }
+        assert!(reports.contains(&path) && !report_file(&path).exists());
+        reporter.end();
+        wait_for(&reports, &path);
+        let (report, scrub) = report_of(&log, &mut |_| {}).unwrap();
+        assert_eq!(std::fs::read_to_string(report_file(&path)).unwrap(), page(&report, &scrub));
+
+        let other = folder.join("000002.lblog");
+        let reporter = RunReporter::start(&other, report_file(&other), &reports);
+        assert!(reporter.feed(log[..log.len() / 2].to_vec()));
+        drop(reporter);
+        wait_for(&reports, &other);
+        assert!(!report_file(&other).exists(), "the run was cut off");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}
