@@ -43,6 +43,30 @@ pub struct FleetRow {
     pub admitted: bool,
     /// Whether the robot reports that it is simulated. A robot that does not report it counts as real.
     pub simulated: bool,
+    /// What the last preflight found of the robot; null: it was not in it, or one is under way.
+    pub preflight: Option<PreflightResult>,
+}
+
+/// What a preflight found of a robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct PreflightResult {
+    /// What is wrong with the robot; empty: it passed.
+    pub faults: Vec<PreflightFault>,
+    /// How far it stood from its planned places at most, millimetres; null: not measured.
+    pub off_mm: Option<f64>,
+    /// How far its heading was off at most, degrees; null: not measured.
+    pub off_deg: Option<f64>,
+    /// Whether Stop, heading and blinking were not tested, because the robot knows TARGET and COLOR only.
+    pub limited: bool,
+}
+
+/// Something wrong with a robot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+pub struct PreflightFault {
+    /// What it is, for people: a sentence whose subject is the robot, without a full stop.
+    pub cause: String,
+    /// What to do about it: a sentence.
+    pub remedy: String,
 }
 
 /// What a robot does. `Robots.status` holds the index in this order, from 0.

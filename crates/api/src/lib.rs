@@ -34,7 +34,7 @@ pub use account::{
     AccountEntry, AccountRole, Credentials, FirstOperator, MadeToken, NewPerson, PersonChange, Whoami,
 };
 pub use broker::BrokerSettings;
-pub use fleet::{Abilities, Fleet, FleetRow, Presence, RobotStatus};
+pub use fleet::{Abilities, Fleet, FleetRow, PreflightFault, PreflightResult, Presence, RobotStatus};
 pub use incident::{Incident, IncidentTone, Incidents};
 pub use library::{Problem, ShowEntry, ShowOrigin, ShowState};
 pub use make::{
@@ -52,5 +52,5 @@ pub use playlist::{
 pub use robots::Robots;
 pub use runs::{RunEntry, RunEntryKind};
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
-pub use state::{Broker, BrokerPhase, Phase, Playback, Repeats, State};
+pub use state::{Broker, BrokerPhase, Phase, Playback, PreflightState, Repeats, State};
 pub use typescript::typescript;

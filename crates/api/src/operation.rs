@@ -82,6 +82,9 @@ pub enum Operation {
     },
     /// Drive all robots to their starting places.
     Home,
+    /// Test all robots: each drives 50 mm out and back, is stopped on its way, and blinks. `Playback.preflight` has the
+    /// progress, `FleetRow.preflight` what was found.
+    Preflight,
     /// End the run. Robots stop at their places.
     Abort,
     /// Stop the wheels of every robot at once, in any phase.

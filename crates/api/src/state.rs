@@ -72,6 +72,8 @@ pub struct Playback {
     pub failure: Option<String>,
     /// Index of the frame in which the last run of the show was stopped; null: it was not, or `dismiss_failure` was asked.
     pub stopped_in: Option<usize>,
+    /// The preflight that is under way, or the last one since the server's start; null: there was none.
+    pub preflight: Option<PreflightState>,
     /// Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
     pub cue: Option<String>,
     /// Names of the layers of live light that are on, lowest first.
@@ -88,6 +90,23 @@ pub struct Playback {
     pub looping: bool,
     /// Names of late robots that the fleet waits for; at most 20.
     pub late: Vec<String>,
+}
+
+/// A preflight.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+pub struct PreflightState {
+    /// What robots do, for people, such as `driving out`; null: the preflight is over.
+    pub doing: Option<String>,
+    /// The round under way, counted from 1. Robots in each other's way take turns.
+    pub round: usize,
+    /// Number of rounds.
+    pub rounds: usize,
+    /// Whether it was carried out to its end.
+    pub finished: bool,
+    /// Number of robots that passed; 0 while it is under way.
+    pub passed: usize,
+    /// Number of robots with findings; 0 while it is under way.
+    pub named: usize,
 }
 
 /// Frames that repeat until `go`.

@@ -10,8 +10,9 @@ use crate::{
     MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
     Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan, PlanAnswer, PlanningRequest,
     Playback, PlaylistChange, PlaylistDay, PlaylistEntry, PlaylistNext, PlaylistResult, PlaylistState,
-    PlaylistToday, Presence, Problem, RefusedOperation, Repeats, Request, RobotStatus, Robots, RunEntry,
-    RunEntryKind, Severity, ShowEntry, ShowOrigin, ShowState, State, ToScreen, Transition, Whoami,
+    PlaylistToday, PreflightFault, PreflightResult, PreflightState, Presence, Problem, RefusedOperation,
+    Repeats, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity, ShowEntry, ShowOrigin,
+    ShowState, State, ToScreen, Transition, Whoami,
 };
 
 /// The first line of the generated file.
@@ -51,6 +52,8 @@ fn messages() -> String {
         Severity,
         Fleet,
         FleetRow,
+        PreflightResult,
+        PreflightFault,
         RobotStatus,
         Presence,
         Abilities,
@@ -59,6 +62,7 @@ fn messages() -> String {
         BrokerPhase,
         BrokerSettings,
         Playback,
+        PreflightState,
         Repeats,
         Phase,
         Robots,

@@ -8,11 +8,11 @@ use crate::journal::{Journal, JournalPiece};
 use crate::operation::ControllerState;
 use crate::outbox::Send;
 use crate::plan_request::{PlanRequest, PlanResult};
+use crate::preflight::PreflightReport;
 use crate::run::{Run, RunPhase, RunPurpose};
-use crate::snapshot::{Age, Counters, RobotView, Snapshot};
+use crate::snapshot::{Age, Counters};
 use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span};
-use lightbots_plan::Path;
 use lightbots_show::Show;
 use lightbots_wire::{Command, Report, TimeQuestion, Topic};
 use serde::{Deserialize, Serialize};
@@ -54,6 +54,9 @@ pub struct Controller {
     /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on, or while they were
     /// told to stop.
     pub(crate) stops_when_connected: bool,
+    /// What the last preflight found.
+    #[serde(skip)]
+    pub(crate) preflight: Option<Arc<PreflightReport>>,
     #[serde(skip)]
     pub(crate) journal: Journal,
     said: ControllerState,
@@ -62,17 +65,6 @@ pub struct Controller {
     woken: Instant,
     received: u64,
     junk: u64,
-}
-
-/// The paths of the drive under way or about to begin.
-#[derive(Clone, Debug)]
-pub struct PathsView<'a> {
-    /// The frame they lead to, counted from 0.
-    pub frame: usize,
-    /// When they begin, show clock; holds come on top.
-    pub began: Instant,
-    /// The robots that drive, and their paths.
-    pub paths: Vec<(RobotId, &'a Path)>,
 }
 
 impl Controller {
@@ -88,6 +80,7 @@ impl Controller {
             failure: None,
             stopped_in: None,
             stops_when_connected: false,
+            preflight: None,
             journal: Journal::default(),
             said: ControllerState::Idle,
             patrol_at: Instant::ZERO,
@@ -250,13 +243,18 @@ impl Controller {
         if outcome == RunOutcome::Finished {
             run.end_live_light(&mut self.context, now);
         }
+        let is_whole = outcome == RunOutcome::Finished;
+        let tested = run.preflight.as_ref().map(|check| check.report(&run.roster, &self.context, is_whole));
         run.leave(&mut self.context);
         let is_show = run.playback.purpose == RunPurpose::Play;
         self.stopped_in = Some(frame).filter(|_| is_show && outcome != RunOutcome::Finished);
         self.context.plan_request = None;
         let outcome = match outcome {
             RunOutcome::Failed(why) => {
-                let line = format!("Show stopped in frame {}: {why}", frame + 1);
+                let line = match tested {
+                    Some(_) => format!("Preflight stopped: {why}"),
+                    None => format!("Show stopped in frame {}: {why}", frame + 1),
+                };
                 self.failure = Some(format!("{line}."));
                 RunOutcome::Failed(line)
             }
@@ -266,6 +264,11 @@ impl Controller {
         let (frames_played, dropouts) = (run.tally.frames_played, run.tally.dropouts);
         // A robot that lost the last STOP on its way keeps a route.
         let stops = matches!(outcome, RunOutcome::Failed(_)) && self.context.outbox.linked();
+        if let Some(report) = tested {
+            let (passed, robots) = (report.passed(), report.robots.len());
+            self.context.log.record(now, EventKind::PreflightEnded { passed, robots });
+            self.preflight = Some(Arc::new(report));
+        }
         self.context.log.record(now, EventKind::RunEnded { outcome, frames_played, dropouts });
         if stops {
             self.stopping = Some(Stopping::begin(&mut self.context, now));
@@ -358,43 +361,5 @@ impl Controller {
             flooded: self.context.fleet.flooded,
             unexpected: self.context.unexpected,
         }
-    }
-
-    /// How everything is. Costs time in proportion to the fleet.
-    pub fn snapshot(&self, now: Instant) -> Snapshot {
-        Snapshot {
-            at: now,
-            state: self.state(),
-            connected: self.context.outbox.linked(),
-            show: self.show.as_ref().map(|show| show.name.clone()),
-            frames: self.show.as_ref().map_or(0, |show| show.frames.len()),
-            looping: self.looping,
-            speed_percent: self.speed_percent,
-            run: self.run.as_ref().map(|run| run.view(&self.context, now)),
-            failure: self.failure.clone(),
-            stopped_in: self.stopped_in,
-            robots: self.robot_views(now),
-            counters: self.counters(),
-        }
-    }
-
-    fn robot_views(&self, now: Instant) -> Vec<RobotView> {
-        let view = |robot: &crate::robot::KnownRobot| {
-            let mut view = robot.view();
-            if let (Some(run), Some(participant)) = (&self.run, robot.participant) {
-                run.complete(&mut view, participant as usize, now);
-            }
-            view
-        };
-        self.context.fleet.robots().iter().map(view).collect()
-    }
-
-    /// The paths of the drive under way, for drawing; `None` while no robot drives a path.
-    pub fn paths(&self) -> Option<PathsView<'_>> {
-        let run = self.run.as_ref()?;
-        let (leg, began) = run.driven_paths()?;
-        let name = |participant: usize| run.roster.robot(&self.context, participant).id;
-        let paths = (0..leg.robots.len()).filter_map(|one| Some((name(one), leg.path(one)?))).collect();
-        Some(PathsView { frame: leg.frame, began, paths })
     }
 }

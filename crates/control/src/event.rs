@@ -219,6 +219,18 @@ pub enum EventKind {
         /// The last frame, counted from 0.
         last: usize,
     },
+    /// A preflight began.
+    PreflightBegun {
+        /// Robots that take part.
+        robots: usize,
+    },
+    /// A preflight is over.
+    PreflightEnded {
+        /// Robots that passed.
+        passed: usize,
+        /// Robots that were to be tested.
+        robots: usize,
+    },
 }
 
 /// What is wrong with a robot in a run.

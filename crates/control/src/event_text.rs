@@ -39,6 +39,13 @@ impl fmt::Display for Count<'_> {
     }
 }
 
+/// The line of a frame with `count` pixels that stay dark, of which `pixels` are listed.
+fn write_dark(f: &mut fmt::Formatter<'_>, (frame, count): (usize, usize), pixels: &[u32]) -> fmt::Result {
+    let more = if count > pixels.len() { " and more" } else { "" };
+    let dark = if count == 1 { "1 pixel stays dark" } else { &format!("{count} pixels stay dark") };
+    write!(f, "Frame {}: {dark}: {pixels:?}{more}.", frame + 1)
+}
+
 impl EventKind {
     /// What a robot did that is news by itself.
     fn of_robot(&self) -> &'static str {
@@ -51,6 +58,17 @@ impl EventKind {
             Self::RobotBack(_) => "is back",
             Self::Flooding(_) => "floods the broker with messages: only 100 a second count; switch it off",
             _ => "",
+        }
+    }
+
+    /// The line of a preflight.
+    fn write_preflight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::PreflightBegun { robots } => write!(f, "Preflight of {}.", Count(*robots, "robot")),
+            Self::PreflightEnded { passed, robots } => {
+                write!(f, "Preflight over: {passed} of {} passed.", Count(*robots, "robot"))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -146,12 +164,7 @@ impl fmt::Display for EventKind {
             }
             Planned { frames } => write!(f, "Planned the drive to {}.", Count(*frames, "frame")),
             PlanFailed { frame, message } => write!(f, "No plan for frame {}: {message}", frame + 1),
-            LeftOut { frame, pixels, count } => {
-                let more = if *count > pixels.len() { " and more" } else { "" };
-                let dark =
-                    if *count == 1 { "1 pixel stays dark" } else { &format!("{count} pixels stay dark") };
-                write!(f, "Frame {}: {dark}: {pixels:?}{more}.", frame + 1)
-            }
+            LeftOut { frame, pixels, count } => write_dark(f, (*frame, *count), pixels),
             TransitionStarted { frame, duration, .. } => {
                 write!(f, "To frame {} in {:.2} s.", frame + 1, duration.as_secs())
             }
@@ -159,8 +172,10 @@ impl fmt::Display for EventKind {
                 write!(f, "Frame {} stands; arrivals within {:.2} s.", frame + 1, spread.as_secs())
             }
             GoingHome { .. } | PlannedHome | AtHome | WaitsForGo { .. } => self.write_stand(f),
-            GoesTo { .. } | Skipped { .. } | JumpGivenUp { .. } => self.write_jump(f),
-            LoopBegun { .. } | LeavesLoop { .. } => self.write_jump(f),
+            PreflightBegun { .. } | PreflightEnded { .. } => self.write_preflight(f),
+            GoesTo { .. } | Skipped { .. } | JumpGivenUp { .. } | LoopBegun { .. } | LeavesLoop { .. } => {
+                self.write_jump(f)
+            }
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,
@@ -172,7 +187,7 @@ impl fmt::Display for EventKind {
             Rejoined(id) => write!(f, "Robot {id} takes part from the next frame on."),
             Replanning { frame } => write!(f, "Planning the way to frame {} again.", frame + 1),
             Misaligned { robot, off_m } => {
-                write!(f, "Robot {robot} stands {:.0} mm off its goal.", off_m * 1000.0)
+                write!(f, "Robot {robot} stands {:.0} mm off its goal.", off_m * 1e3)
             }
             UnexpectedArrival(id) => write!(f, "Robot {id} arrived unexpectedly."),
             Suppressed(1) => write!(f, "One more event was not listed."),

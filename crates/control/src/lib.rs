@@ -42,6 +42,7 @@ mod outbox;
 mod own_clocks;
 mod plan_builder;
 mod plan_request;
+mod preflight;
 mod report_rate;
 mod robot;
 mod run;
@@ -53,7 +54,7 @@ mod surroundings;
 mod view;
 
 pub use config::{Ageing, Config, UploadLimits};
-pub use controller::{Controller, PathsView};
+pub use controller::Controller;
 pub use event::{Event, EventKind, RunOutcome, Trouble};
 pub use input_log::{
     Difference, GrowingReplay, HEAD_BYTES, LogEnd, LogError, RecordedController, ReplayObserver,
@@ -64,4 +65,8 @@ pub use mutant::Mutant;
 pub use operation::{ControllerState, MissingPolicy, Operation, Refusal};
 pub use outbox::Send;
 pub use plan_request::{PlanRequest, PlanResult};
-pub use snapshot::{Age, Counters, LastContact, RepeatView, Reported, RobotView, RunView, Snapshot};
+pub use preflight::{PreflightFinding, PreflightReport, PreflightRobot};
+pub use snapshot::{
+    Age, Counters, LastContact, PreflightProgress, RepeatView, Reported, RobotView, RunView, Snapshot,
+};
+pub use view::PathsView;

@@ -6,9 +6,12 @@ use crate::event::EventKind;
 use crate::frame_cursor::FrameCursor;
 use crate::home;
 use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
-use crate::run::{LIVE_MAX, NAME_MAX, PlayedShow, Run, RunPurpose};
+use crate::preflight::{self, TestedRobot};
+use crate::robot::KnownRobot;
+use crate::run::{LIVE_MAX, NAME_MAX, PlayedShow, PreflightCheck, Run, RunPurpose};
+use crate::snapshot::Age;
 use crate::stopping::Stopping;
-use lightbots_base::{Instant, RobotId, Span};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_show::{Issue, Layer, SPEED_MIN_PERCENT, Show, slowed, validate};
 use lightbots_wire::{Blink, Command, Topic};
 use std::sync::Arc;
@@ -56,6 +59,7 @@ impl Controller {
             Operation::Skip => self.skip(now),
             Operation::LiveLight { name, layer } => self.change_live_light(now, &name, layer.as_ref()),
             Operation::Home => self.go_home(now),
+            Operation::Preflight => self.begin_preflight(now),
             Operation::Speed(percent) => self.set_speed(percent),
             Operation::Pin { pixel, robot } => {
                 match robot {
@@ -135,6 +139,41 @@ impl Controller {
         }
         let home = slowed(&home::show(show, robots), self.speed_percent);
         self.start(now, Arc::new(home), RunPurpose::Home, (0, MissingPolicy::LeaveOut));
+        Ok(())
+    }
+
+    /// All robots that can are tested where they stand, on the floor of the open show.
+    fn begin_preflight(&mut self, now: Instant) -> Result<(), Refusal> {
+        self.linked()?;
+        self.idle()?;
+        if self.failure.is_some() || self.stopped_in.is_some() {
+            return Err(Refusal::NotDismissed);
+        }
+        let show = self.show.clone().ok_or(Refusal::NoShow)?;
+        // In the order in which a run numbers its participants.
+        let fleet = self.context.fleet.robots();
+        let takes_part = |robot: &&KnownRobot| robot.can_take_part();
+        let (mut robots, mut candidates): (Vec<(RobotId, Vec2)>, Vec<TestedRobot>) = Default::default();
+        for robot in fleet.iter().filter(takes_part) {
+            let at = robot.reported.at.unwrap_or_default();
+            robots.push((robot.id, at));
+            candidates.push(TestedRobot { at, heading: robot.reported.heading.unwrap_or(0.0) });
+        }
+        if robots.is_empty() {
+            return Err(Refusal::NoRobot);
+        }
+        let stands = fleet.iter().filter(|robot| !robot.can_take_part() && robot.contact.age != Age::Gone);
+        let standing: Vec<Vec2> = stands.filter_map(|robot| robot.standstill.at).collect();
+        let rounds = preflight::rounds(&show.stage, &candidates, &standing);
+        if rounds.is_empty() {
+            return Err(Refusal::NoRoom);
+        }
+        let tested = preflight::show(show.name.clone(), show.stage.clone(), &robots, &rounds);
+        self.preflight = None;
+        self.start(now, Arc::new(tested), RunPurpose::Preflight, (0, MissingPolicy::LeaveOut));
+        if let Some(run) = &mut self.run {
+            run.preflight = Some(PreflightCheck::new(&rounds, robots.iter().map(|robot| robot.1)));
+        }
         Ok(())
     }
 

@@ -75,6 +75,9 @@ pub enum Operation {
         /// The layer; its span does not count.
         layer: Option<Layer>,
     },
+    /// Test all robots that can take part: each drives 50 mm out and back, is stopped on its way, and blinks. Refused during
+    /// a run, and until a failure or a stop was dismissed.
+    Preflight,
 }
 
 /// What happens to pixels no robot can show.
@@ -180,6 +183,10 @@ pub enum Refusal {
     UnknownRobot(RobotId),
     /// That robot takes part in the run.
     TakesPart(RobotId),
+    /// The last run failed or was stopped, and the operator has not read it.
+    NotDismissed,
+    /// No robot has room to drive out.
+    NoRoom,
 }
 
 impl Operation {
@@ -208,6 +215,7 @@ impl Operation {
             Self::GoTo(_) => "go to a frame",
             Self::Skip => "skip",
             Self::LiveLight { .. } => "change live light",
+            Self::Preflight => "preflight",
         }
     }
 }
@@ -273,6 +281,15 @@ impl fmt::Display for Refusal {
             ),
             Self::UnknownRobot(id) => write!(f, "No robot {id} is known: refresh the fleet."),
             Self::TakesPart(id) => write!(f, "Robot {id} takes part in the run: abort first."),
+            Self::NotDismissed => {
+                write!(f, "The last run was stopped: look at the floor, then dismiss the message about it.")
+            }
+            Self::NoRoom => {
+                write!(
+                    f,
+                    "No robot has room to drive 50 mm: move robots at least 12 cm away from each other."
+                )
+            }
         }
     }
 }

@@ -1,9 +1,11 @@
 //! The controller's state as plain data, for screens and reports.
 
 use crate::operation::ControllerState;
+use crate::preflight::PreflightReport;
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Everything a screen shows, at one moment. What happened is told by [`crate::Event`]s.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,6 +31,8 @@ pub struct Snapshot {
     /// The frame in which the last run of a show ended before its end; `None` as in `failure`, and while a show of another
     /// name is open.
     pub stopped_in: Option<usize>,
+    /// What the last preflight found; `None`: there was none since the controller's start, or one is under way.
+    pub preflight: Option<Arc<PreflightReport>>,
     /// Every known robot, in the order they were found.
     pub robots: Vec<RobotView>,
     /// What came and went.
@@ -46,6 +50,8 @@ pub struct RunView {
     pub may_jump: bool,
     /// Robots drive to their starting places; `frame` says nothing then.
     pub home: bool,
+    /// How far a preflight is; `frame` says nothing then. `None`: the run is none.
+    pub preflight: Option<PreflightProgress>,
     /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
     /// Share of the drive or of the air time that is over, 0 to 1. Where robots drive by TARGET it is the share of their
@@ -69,6 +75,17 @@ pub struct RunView {
     pub frames_played: usize,
     /// Number of dropouts.
     pub dropouts: usize,
+}
+
+/// A preflight at one moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PreflightProgress {
+    /// The round under way, counted from 0. Robots in each other's way take turns.
+    pub round: usize,
+    /// Number of rounds.
+    pub rounds: usize,
+    /// What robots do, for people: `driving out`, `driving back`, `blinking`, …
+    pub doing: &'static str,
 }
 
 /// Frames that repeat until GO, at one moment.

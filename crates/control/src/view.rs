@@ -5,11 +5,23 @@ use crate::controller::Controller;
 use crate::leg::LegKind;
 use crate::operation::ControllerState;
 use crate::run::{Run, RunPhase, RunPurpose};
-use crate::snapshot::{RobotView, RunView};
+use crate::snapshot::{PreflightProgress, RobotView, RunView, Snapshot};
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
+use lightbots_plan::Path;
 
 /// Most robots that a view names others wait for.
 const WAITING_MAX: usize = 8;
+
+/// The paths of the drive under way or about to begin.
+#[derive(Clone, Debug)]
+pub struct PathsView<'a> {
+    /// The frame they lead to, counted from 0.
+    pub frame: usize,
+    /// When they begin, show clock; holds come on top.
+    pub began: Instant,
+    /// The robots that drive, and their paths.
+    pub paths: Vec<(RobotId, &'a Path)>,
+}
 
 impl Run {
     /// What the controller is doing, as people see it.
@@ -38,6 +50,10 @@ impl Run {
             next: self.next_frame(),
             may_jump: self.playback.purpose == RunPurpose::Play && self.may_jump(),
             home: self.playback.purpose == RunPurpose::Home,
+            preflight: self.preflight.as_ref().map(|check| {
+                let (round, rounds) = check.round();
+                PreflightProgress { round, rounds, doing: check.doing() }
+            }),
             doing: self.doing(context),
             progress: self.progress(now),
             drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
@@ -124,20 +140,59 @@ impl Run {
         view.takes_part = !known.is_excluded();
         let Some(leg) = self.pipeline.leg() else { return };
         let Some(step) = leg.robots.get(participant).filter(|_| !known.is_excluded()) else { return };
-        view.pixel = step.pixel.filter(|_| self.playback.purpose != RunPurpose::Home);
+        view.pixel = step.pixel.filter(|_| self.playback.purpose.is_of_show());
         view.goal = Some(step.goal);
         if let Some(colour) = self.pipeline.light.colour(now, (leg, self.pipeline.queue.front()), participant)
         {
             view.light = colour;
         }
         if let (RunPhase::Driving(drive), LegKind::Routes) = (&self.phase, leg.kind) {
-            let place = |path: &lightbots_plan::Path| path.as_ref().at(drive.clock.path_time(now)).position;
+            let place = |path: &Path| path.as_ref().at(drive.clock.path_time(now)).position;
             view.planned = leg.path(participant).map(place);
         }
     }
 }
 
 impl Controller {
+    /// How everything is. Costs time in proportion to the fleet.
+    pub fn snapshot(&self, now: Instant) -> Snapshot {
+        Snapshot {
+            at: now,
+            state: self.state(),
+            connected: self.context.outbox.linked(),
+            show: self.show.as_ref().map(|show| show.name.clone()),
+            frames: self.show.as_ref().map_or(0, |show| show.frames.len()),
+            looping: self.looping,
+            speed_percent: self.speed_percent,
+            run: self.run.as_ref().map(|run| run.view(&self.context, now)),
+            failure: self.failure.clone(),
+            stopped_in: self.stopped_in,
+            preflight: self.preflight.clone(),
+            robots: self.robot_views(now),
+            counters: self.counters(),
+        }
+    }
+
+    fn robot_views(&self, now: Instant) -> Vec<RobotView> {
+        let view = |robot: &crate::robot::KnownRobot| {
+            let mut view = robot.view();
+            if let (Some(run), Some(participant)) = (&self.run, robot.participant) {
+                run.complete(&mut view, participant as usize, now);
+            }
+            view
+        };
+        self.context.fleet.robots().iter().map(view).collect()
+    }
+
+    /// The paths of the drive under way, for drawing; `None` while no robot drives a path.
+    pub fn paths(&self) -> Option<PathsView<'_>> {
+        let run = self.run.as_ref()?;
+        let (leg, began) = run.driven_paths()?;
+        let name = |participant: usize| run.roster.robot(&self.context, participant).id;
+        let paths = (0..leg.robots.len()).filter_map(|one| Some((name(one), leg.path(one)?))).collect();
+        Some(PathsView { frame: leg.frame, began, paths })
+    }
+
     /// Which time the frames of the loop under way are played, counted from 1; `None`: no frames repeat, or GO was given.
     pub fn loop_round(&self) -> Option<u32> {
         let repeats = self.run.as_ref()?.repeats()?;

@@ -312,6 +312,11 @@ fn all_robots_drive_home_and_the_show_stays_open() {
     assert_eq!(world.operate(Operation::Home), Err(Refusal::Busy(ControllerState::Playing)));
     world.operate(Operation::StopAll).unwrap();
     world.run_for(5.0);
+    assert_eq!(
+        world.operate(Operation::Preflight),
+        Err(Refusal::NotDismissed),
+        "the floor was not looked at"
+    );
     world.operate(Operation::Home).unwrap();
     world.run_for(1.0);
     assert!(world.story().contains("Planned the drive home."), "{}", world.story());

@@ -24,6 +24,10 @@ pub struct Conditions {
     pub muted: Vec<Breakdown>,
     /// Robots whose wheels stop turning. They still receive and send.
     pub stuck: Vec<Breakdown>,
+    /// Robots whose left wheel moves the body by this share of its turning only, because it is bent or worn.
+    pub worn: Vec<(usize, f64)>,
+    /// Robots whose markers are turned on them: the headings of their fixes are off by this, radians.
+    pub turned_markers: Vec<(usize, f64)>,
     /// Robots whose link breaks, with the duration.
     pub cut: Vec<(Breakdown, Span)>,
     /// Robots whose fixes stay away, with the duration.
@@ -133,6 +137,8 @@ impl Default for Conditions {
             killed: Vec::new(),
             muted: Vec::new(),
             stuck: Vec::new(),
+            worn: Vec::new(),
+            turned_markers: Vec::new(),
             cut: Vec::new(),
             blind: Vec::new(),
             frozen: Vec::new(),

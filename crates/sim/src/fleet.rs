@@ -94,6 +94,13 @@ impl Fleet {
         (0..self.robots.len()).map(|robot| self.robots.light(robot)).collect()
     }
 
+    /// A robot's power fails.
+    pub fn kill(&mut self, robot: usize) {
+        if robot < self.robots.len() {
+            self.robots.kill(robot);
+        }
+    }
+
     /// Number of contacts between robots.
     pub fn contacts(&self) -> u64 {
         self.robots.world.contacts().count()

@@ -33,6 +33,8 @@ const AHEAD: [usize; 2] = [5, 2];
 pub(crate) struct RobotSet {
     pub world: World,
     sensors: FixSensors,
+    /// `[robot]`: by how much the headings of its fixes are off, radians; empty where no marker is turned.
+    markers_rad: Vec<f64>,
     robots: Vec<SimulatedRobot>,
     /// Number of robots up to which none is prefetched.
     pub cached: usize,
@@ -116,8 +118,17 @@ impl RobotSet {
             SimulatedRobot::new(stage, conditions, robot >= first_original, name, says_simulated, &mut dice)
         };
         let robots = (0..starts.len()).map(simulated).collect();
+        let mut world = World::with_people(stage, &poses, conditions.has_people(), conditions.slip, seed);
+        conditions.worn.iter().for_each(|&(robot, share)| world.wear(robot, share));
+        let mut markers_rad = vec![0.0; if conditions.turned_markers.is_empty() { 0 } else { starts.len() }];
+        for &(robot, turned_rad) in
+            conditions.turned_markers.iter().filter(|(robot, _)| *robot < starts.len())
+        {
+            markers_rad[robot] = turned_rad;
+        }
         Self {
-            world: World::with_people(stage, &poses, conditions.has_people(), conditions.slip, seed),
+            world,
+            markers_rad,
             sensors: FixSensors::new(&conditions.fixes, &poses, seed),
             robots,
             cached: CACHED,
@@ -275,12 +286,16 @@ impl RobotSet {
     /// One robot's turn within a step.
     #[inline]
     fn turn(&mut self, now: Instant, index: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
-        let Self { world, sensors, robots, alive, errors, brakes, payload, steps, .. } = self;
+        let Self { world, sensors, markers_rad, robots, alive, errors, brakes, payload, steps, .. } = self;
         if !alive[index] {
             return;
         }
         let (simulated, steps) = (&mut robots[index], *steps);
         let fix = sensors.fix(index, world.pose(index)).filter(|_| !simulated.blind);
+        let fix = match markers_rad.get(index) {
+            Some(turned_rad) => fix.map(|fix| Pose::new(fix.at, fix.heading + turned_rad)),
+            None => fix,
+        };
         let robot = match &mut simulated.firmware {
             RobotFirmware::Ours(robot) => robot,
             RobotFirmware::Original(robot) => {

@@ -48,6 +48,8 @@ struct Axle {
 struct Body {
     drive: DriveTrain,
     slip: WheelSlip,
+    /// Share of the left wheel's turning that moves the body, besides slip: 1 unless that wheel is worn.
+    left_share: f64,
     /// What it is pressed against.
     against: Option<Against>,
 }
@@ -75,6 +77,7 @@ impl World {
         let body = |_: &Pose| Body {
             drive: DriveTrain::default(),
             slip: WheelSlip::new(slip, &mut dice),
+            left_share: 1.0,
             against: None,
         };
         let axle =
@@ -93,6 +96,13 @@ impl World {
             bodies,
             slip,
             dice,
+        }
+    }
+
+    /// The left wheel of a robot moves the body by this share of its turning from now on.
+    pub(crate) fn wear(&mut self, robot: usize, share: f64) {
+        if let Some(body) = self.bodies.get_mut(robot) {
+            body.left_share = share;
         }
     }
 
@@ -196,8 +206,8 @@ impl World {
             contact_state.stands = true;
             return None;
         }
-        let grip = body.slip.grip(self.slip, &mut self.dice);
-        let twist = body.drive.step(axle.commanded, grip);
+        let [left, right] = body.slip.grip(self.slip, &mut self.dice);
+        let twist = body.drive.step(axle.commanded, [left * body.left_share, right]);
         axle.wheels = body.drive.wheels();
         contact_state.stands = twist.speed_mps == 0.0 && twist.turn_radps == 0.0;
         let half_turn = 0.5 * STEP_S * twist.turn_radps;

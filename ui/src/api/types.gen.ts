@@ -313,7 +313,45 @@ admitted: boolean,
 /**
  * Whether the robot reports that it is simulated. A robot that does not report it counts as real.
  */
-simulated: boolean, };
+simulated: boolean, 
+/**
+ * What the last preflight found of the robot; null: it was not in it, or one is under way.
+ */
+preflight: PreflightResult | null, };
+
+/**
+ * What a preflight found of a robot.
+ */
+export type PreflightResult = { 
+/**
+ * What is wrong with the robot; empty: it passed.
+ */
+faults: Array<PreflightFault>, 
+/**
+ * How far it stood from its planned places at most, millimetres; null: not measured.
+ */
+off_mm: number | null, 
+/**
+ * How far its heading was off at most, degrees; null: not measured.
+ */
+off_deg: number | null, 
+/**
+ * Whether Stop, heading and blinking were not tested, because the robot knows TARGET and COLOR only.
+ */
+limited: boolean, };
+
+/**
+ * Something wrong with a robot.
+ */
+export type PreflightFault = { 
+/**
+ * What it is, for people: a sentence whose subject is the robot, without a full stop.
+ */
+cause: string, 
+/**
+ * What to do about it: a sentence.
+ */
+remedy: string, };
 
 /**
  * What a robot does. `Robots.status` holds the index in this order, from 0.
@@ -476,6 +514,10 @@ failure: string | null,
  */
 stopped_in: number | null, 
 /**
+ * The preflight that is under way, or the last one since the server's start; null: there was none.
+ */
+preflight: PreflightState | null, 
+/**
  * Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
  */
 cue: string | null, 
@@ -507,6 +549,35 @@ looping: boolean,
  * Names of late robots that the fleet waits for; at most 20.
  */
 late: Array<string>, };
+
+/**
+ * A preflight.
+ */
+export type PreflightState = { 
+/**
+ * What robots do, for people, such as `driving out`; null: the preflight is over.
+ */
+doing: string | null, 
+/**
+ * The round under way, counted from 1. Robots in each other's way take turns.
+ */
+round: number, 
+/**
+ * Number of rounds.
+ */
+rounds: number, 
+/**
+ * Whether it was carried out to its end.
+ */
+finished: boolean, 
+/**
+ * Number of robots that passed; 0 while it is under way.
+ */
+passed: number, 
+/**
+ * Number of robots with findings; 0 while it is under way.
+ */
+named: number, };
 
 /**
  * Frames that repeat until `go`.
@@ -720,7 +791,7 @@ on: boolean, } | { "do": "speed",
 /**
  * Percent of the usual speed.
  */
-percent: number, } | { "do": "home" } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "read_incident", 
+percent: number, } | { "do": "home" } | { "do": "preflight" } | { "do": "abort" } | { "do": "stop_all" } | { "do": "go_on" } | { "do": "dismiss_failure" } | { "do": "read_incident", 
 /**
  * Number of the incident.
  */

@@ -7,6 +7,7 @@ import { useKeys } from '../parts/useKeys';
 import { useSession } from '../session/session';
 import { arranged, type Arrangement, type Order } from './fleetOrder';
 import { FleetLine } from './FleetLine';
+import { PreflightButton } from './PreflightButton';
 import { RobotDialog } from './RobotDialog';
 import styles from './FleetTable.module.css';
 
@@ -54,6 +55,7 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
           value={order.search}
           onChange={(event) => setOrder({ ...order, search: event.currentTarget.value })}
         />
+        <PreflightButton />
         <Button
           size="compact-xs"
           variant={wide ? 'light' : 'subtle'}

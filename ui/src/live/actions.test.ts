@@ -17,6 +17,7 @@ const playback = (phase: Phase): Playback => ({
   speed_percent: 100,
   first_run: false,
   stopped_in: null,
+  preflight: null,
   cue: null,
   repeats: null,
   may_go_on: false,
@@ -62,6 +63,17 @@ test('words', () => {
   expect(phaseText(playback('playing'))).toBe('Playing frame 2 of 12');
   expect(phaseText({ ...playback('paused'), frame: null })).toBe('Paused');
   expect(phaseText(playback('preview'))).toBe('Driving to frame 2 of 12');
+  const preflight = {
+    doing: 'driving out',
+    round: 1,
+    rounds: 1,
+    finished: false,
+    passed: 0,
+    named: 0,
+  };
+  expect(phaseText({ ...playback('preview'), frame: null, preflight })).toBe(
+    'Preflight: driving out',
+  );
   expect(phaseText(playback('link_lost'))).toBe('Link lost');
   expect(phaseText({ ...playback('link_lost'), doing: 'waiting for you to go on' })).toBe(
     'Link lost, waiting for you to go on',

@@ -72,9 +72,13 @@ export function asksToGoOn({ phase, doing }: Pick<Playback, 'phase' | 'doing'>):
 
 /** The state of the show in a few words. */
 export function phaseText(
-  playback: Pick<Playback, 'phase' | 'doing' | 'frame' | 'frames' | 'failure' | 'stopped_in'>,
+  playback: Pick<
+    Playback,
+    'phase' | 'doing' | 'frame' | 'frames' | 'failure' | 'stopped_in' | 'preflight'
+  >,
 ): string {
   const { phase, doing, frame, frames, failure, stopped_in } = playback;
+  const tested = playback.preflight?.doing ?? null;
   const where = frame === null ? '' : `frame ${frame + 1} of ${frames}`;
   switch (phase) {
     case 'idle':
@@ -89,6 +93,7 @@ export function phaseText(
     case 'paused':
       return `Paused, ${where}`.replace(/, $/, '');
     case 'preview':
+      if (tested !== null) return `Preflight: ${tested}`;
       return frame === null ? 'Driving home' : `Driving to ${where}`;
     case 'aborting':
       return failure === null ? 'Stopping' : 'Show stopped';

@@ -20,6 +20,7 @@ const row = (presence: Presence): FleetRow => ({
   called: null,
   admitted: true,
   simulated: false,
+  preflight: null,
 });
 
 test('silent robots fade', () => {

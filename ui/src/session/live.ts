@@ -62,6 +62,7 @@ const NO_PLAYBACK: Playback = {
   speed_percent: 100,
   first_run: false,
   stopped_in: null,
+  preflight: null,
   cue: null,
   repeats: null,
   may_go_on: false,

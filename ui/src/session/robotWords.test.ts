@@ -26,6 +26,7 @@ test('an original robot is described too', () => {
     called: null,
     admitted: true,
     simulated: false,
+    preflight: null,
   };
   expect(words.stateText(row)).toBe('silent, 9 s');
   expect(words.abilitiesText(row)).toBe('targets and colours');

@@ -32,5 +32,6 @@ export const robotRow = (over: Partial<FleetRow> = {}): FleetRow => ({
   called: null,
   admitted: true,
   simulated: true,
+  preflight: null,
   ...over,
 });

@@ -6,7 +6,7 @@ use crate::controller::Controller;
 use crate::event::EventKind;
 use crate::mutant::Mutant;
 use crate::operation::Refusal;
-use crate::run::{Participant, PlayedShow, Roster, Run, StopTimes};
+use crate::run::{Participant, PlayedShow, Roster, Run, RunPurpose, StopTimes};
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
@@ -49,7 +49,9 @@ impl Controller {
         self.show = Some(state.begun.show.clone());
         self.looping = state.progress.looping;
         restore_mapping(&mut self.context, state);
-        let goes_on = on_return != OnReturn::Stop;
+        // What a preflight had measured is lost: it is begun again.
+        let is_preflight = state.begun.purpose == RunPurpose::Preflight;
+        let goes_on = on_return != OnReturn::Stop && !is_preflight;
         let robots = state.participants.iter().filter(|entry| !entry.membership.excluded).count();
         let frame = unfinished.frame();
         self.context.log.record(now, EventKind::TakenUp { frame, robots, away, goes_on });

@@ -14,7 +14,8 @@ use crate::run::link_loss::{self, Verdict};
 use crate::run::membership::Probation;
 use crate::run::next::{AirTime, Dropout, Next};
 use crate::run::pipeline::Pipeline;
-use crate::run::playback::PlayedShow;
+use crate::run::playback::{PlayedShow, RunPurpose};
+use crate::run::preflight_check::PreflightCheck;
 use crate::run::roster::{Roster, Whereabouts};
 use crate::run::run_context::RunContext;
 use crate::run::standing::Standing;
@@ -55,11 +56,13 @@ pub(crate) struct Run {
     pub phase: RunPhase,
     /// What is counted.
     pub tally: Tally,
+    /// The tests of a preflight; `None`: the run is none.
+    pub preflight: Option<PreflightCheck>,
 }
 
 impl Run {
     pub fn split<'a>(&'a mut self, io: &'a mut Context, now: Instant) -> (&'a mut RunPhase, RunContext<'a>) {
-        let Self { playback, roster, pipeline, link, phase, tally } = self;
+        let Self { playback, roster, pipeline, link, phase, tally, .. } = self;
         (phase, RunContext { now, io, playback, roster, pipeline, link, tally })
     }
 
@@ -73,6 +76,10 @@ impl Run {
         if matches!(self.phase, RunPhase::Standing(_)) {
             self.update_roster(io, now);
         }
+        let next = self.check_preflight(io, now);
+        if !next.stays() {
+            return next;
+        }
         let (phase, mut cx) = self.split(io, now);
         match phase {
             RunPhase::Gathering(gathering) => gathering.on_tick(&mut cx),
@@ -82,6 +89,23 @@ impl Run {
             RunPhase::Interrupted(interrupted) => interrupted.on_tick(&mut cx),
             RunPhase::Over(..) => Next::Stay,
         }
+    }
+
+    fn check_preflight(&mut self, io: &mut Context, now: Instant) -> Next {
+        let Some(mut check) = self.preflight.take() else { return Next::Stay };
+        let is_frame_reached = self.is_frame_reached();
+        let (phase, mut cx) = self.split(io, now);
+        let next = match phase {
+            RunPhase::Driving(drive) => check.on_driving(drive, &mut cx),
+            RunPhase::Standing(_) => check.on_standing(&mut cx, is_frame_reached),
+            RunPhase::Starting(_) => {
+                check.on_starting(&cx);
+                Next::Stay
+            }
+            RunPhase::Gathering(_) | RunPhase::Interrupted(_) | RunPhase::Over(..) => Next::Stay,
+        };
+        self.preflight = Some(check);
+        next
     }
 
     fn update_roster(&mut self, io: &mut Context, now: Instant) {
@@ -190,6 +214,9 @@ impl Run {
         known.probation = Probation::after(why);
         self.pipeline.lights.settle(participant);
         self.tally.dropouts += 1;
+        if let Some(check) = &mut self.preflight {
+            check.drop_out(participant, why);
+        }
         self.roster.changes += 1;
         self.roster.participants[participant].last_seen = self.whereabouts(io, now, participant, why);
         let robot = self.roster.robot(io, participant).id;
@@ -340,7 +367,9 @@ impl Run {
     }
 
     pub fn report_replanning(&self, io: &mut Context, now: Instant) {
-        if let Some(next) = self.pipeline.planning.next {
+        // A preflight stops robots on purpose.
+        let is_news = self.playback.purpose != RunPurpose::Preflight;
+        if let Some(next) = self.pipeline.planning.next.filter(|_| is_news) {
             io.log.record_limited(now, EventKind::Replanning { frame: next.frame });
         }
     }

@@ -22,6 +22,7 @@ mod path_clock;
 mod pipeline;
 mod playback;
 mod position;
+mod preflight_check;
 mod probation;
 mod readiness;
 mod recovery_bound;
@@ -43,6 +44,7 @@ pub(crate) use membership::{Membership, Probation};
 pub(crate) use next::AirTime;
 pub(crate) use path_clock::PathClock;
 pub(crate) use playback::{PlayedShow, RunPurpose};
+pub(crate) use preflight_check::PreflightCheck;
 pub(crate) use roster::{Participant, Roster, Whereabouts};
 pub(crate) use silence::StopTimes;
 
@@ -77,6 +79,7 @@ impl Run {
             now,
             match playback.purpose {
                 RunPurpose::Home => EventKind::GoingHome { robots },
+                RunPurpose::Preflight => EventKind::PreflightBegun { robots },
                 _ => EventKind::RunBegun { from, robots },
             },
         );
@@ -92,6 +95,7 @@ impl Run {
             link: LinkEstimate::default(),
             phase: RunPhase::Gathering(Gathering::at_begin(now)),
             tally: Tally::default(),
+            preflight: None,
         };
         if may_drive {
             run.gather(context, now, Position::default());
@@ -118,6 +122,7 @@ impl Run {
                 Interrupted::begin(now, left, by_itself).stopped(stops).heard(heard),
             ),
             tally: Tally::default(),
+            preflight: None,
         }
     }
 
@@ -128,8 +133,7 @@ impl Run {
             let step = step.filter(|_| !known.is_excluded());
             let robot = context.fleet.robot_mut(known.robot);
             robot.participant = None;
-            robot.pixel =
-                step.and_then(|step| step.pixel).filter(|_| self.playback.purpose != RunPurpose::Home);
+            robot.pixel = step.and_then(|step| step.pixel).filter(|_| self.playback.purpose.is_of_show());
             robot.goal = step.map(|step| step.goal);
         }
     }
@@ -194,6 +198,9 @@ impl Run {
         report: &Report,
     ) {
         let Some(details) = &report.details else { return };
+        if let Some(check) = &mut self.preflight {
+            check.on_report(now, participant, report.at, details);
+        }
         let (_, mut cx) = self.split(io, now);
         let may_send = cx.pipeline.acknowledge(cx.link, now, participant, details);
         let next = if may_send { cx.pump() } else { Next::Stay };
@@ -231,6 +238,11 @@ impl Run {
 
     /// When time has to pass next.
     pub fn due(&self, io: &Context, now: Instant) -> Instant {
+        let checked = self.preflight.as_ref().map_or(Instant::FAR, PreflightCheck::due);
+        checked.min(self.phase_due(io, now))
+    }
+
+    fn phase_due(&self, io: &Context, now: Instant) -> Instant {
         match &self.phase {
             RunPhase::Gathering(gathering) => gathering.due(now),
             RunPhase::Standing(standing) => {

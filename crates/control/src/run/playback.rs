@@ -19,6 +19,15 @@ pub(crate) enum RunPurpose {
     Preview,
     /// The starting places, which are a frame of their own.
     Home,
+    /// All frames of a preflight.
+    Preflight,
+}
+
+impl RunPurpose {
+    /// Whether robots drive to frames of the open show.
+    pub fn is_of_show(self) -> bool {
+        matches!(self, Self::Play | Self::Preview)
+    }
 }
 
 /// The operator chose the frame that is reached next. This ends when robots leave for it.
@@ -86,6 +95,8 @@ impl PlayedShow {
         let is_last = repeats.is_some_and(|repeats| repeats.last == frame);
         match (self.purpose, repeats) {
             (RunPurpose::Preview | RunPurpose::Home, _) => None,
+            (RunPurpose::Preflight, _) => (frame.saturating_add(1) < self.show.frames.len())
+                .then(|| FrameCursor { frame: frame + 1, round, pass }),
             (RunPurpose::Play, Some(repeats)) if is_last && self.leaves_loop != Some(cursor) => {
                 Some(FrameCursor { frame: repeats.first, round, pass: pass.saturating_add(1) })
             }
@@ -176,7 +187,8 @@ impl PlayedShow {
 
     /// How long a frame stands in this run.
     pub fn standing_time(&self, frame: usize) -> Span {
-        if self.purpose == RunPurpose::Play { self.air_time(frame) } else { Span::ZERO }
+        let stands = matches!(self.purpose, RunPurpose::Play | RunPurpose::Preflight);
+        if stands { self.air_time(frame) } else { Span::ZERO }
     }
 
     /// Distance of two centres at which rims touch, metres.

@@ -89,11 +89,11 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
     remember_ends(cx, &legs);
     report_dark(cx, &dark);
     queue_legs(cx, legs, stopped);
-    let planned = match cx.playback.purpose {
-        RunPurpose::Home => EventKind::PlannedHome,
-        _ => EventKind::Planned { frames },
-    };
-    cx.io.log.record(cx.now, planned);
+    match cx.playback.purpose {
+        RunPurpose::Home => cx.io.log.record(cx.now, EventKind::PlannedHome),
+        RunPurpose::Preflight => {}
+        RunPurpose::Play | RunPurpose::Preview => cx.io.log.record(cx.now, EventKind::Planned { frames }),
+    }
     match failed {
         Some(failed) => on_failure(cx, failed, is_standing),
         None if cx.pipeline.driven.is_none()

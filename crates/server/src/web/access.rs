@@ -54,6 +54,7 @@ pub fn of_operation(operation: &Operation) -> AccountRole {
         | Operation::Loop { .. }
         | Operation::Speed { .. }
         | Operation::Home
+        | Operation::Preflight
         | Operation::Abort
         | Operation::GoOn
         | Operation::DismissFailure

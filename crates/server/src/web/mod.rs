@@ -20,6 +20,7 @@ mod people;
 mod picture;
 mod planner;
 mod playlist;
+mod preflight;
 mod refused;
 mod runs;
 mod scheme;

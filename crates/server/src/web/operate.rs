@@ -88,9 +88,9 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
             shared.broker.disconnect(&shared.handle).await;
             return Ok(());
         }
-        Wish::Home => {
+        Wish::Home | Wish::Preflight => {
             shared.desk.hand_over().await.map_err(|refusal| plain(refusal.to_string()))?;
-            Operation::Home
+            if matches!(operation, Wish::Home) { Operation::Home } else { Operation::Preflight }
         }
         Wish::Pause => Operation::Pause,
         Wish::Resume => Operation::Resume,

@@ -7,13 +7,14 @@ use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_api::rounded;
 use lightbots_base::{RobotId, Vec2};
-use lightbots_control::{Age, ControllerState, RepeatView, RobotView, Snapshot};
+use lightbots_control::{Age, ControllerState, PreflightRobot, RepeatView, RobotView, RunView, Snapshot};
 use lightbots_wire::RobotState;
 use tokio::sync::{broadcast, watch};
 use tokio::time::MissedTickBehavior;
 
 use super::Desk;
 use super::message::text;
+use super::preflight;
 use crate::fleet_book::FleetBook;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 use crate::played_shows::{Played, PlayedShows};
@@ -154,7 +155,9 @@ impl Pictures {
         if !same || due || !painter.looked {
             painter.since_fleet = 0;
             painter.looked = true;
-            let rows = snapshot.robots.iter().map(|robot| row(robot, snapshot, &painter.book)).collect();
+            let found = preflight::results(snapshot);
+            let row = |robot| row(robot, snapshot, &painter.book, found.get(&robot.id).copied());
+            let rows = snapshot.robots.iter().map(row).collect();
             let only_listed = painter.book.is_only_listed();
             let fleet = api::Fleet { revision: painter.revision, only_listed, rows };
             self.fleets.send_replace(text(&api::ToScreen::Fleet(fleet)));
@@ -191,13 +194,14 @@ impl Painter {
 
     fn playback(&self, snapshot: &Snapshot) -> api::Playback {
         let run = snapshot.run.as_ref();
+        let of_show = run.filter(|run| !run.home && run.preflight.is_none());
         let is_showing = run.is_some_and(|run| run.doing == "showing" || run.cue.is_some());
         let progress = run.map_or(0.0, |run| if is_showing { 1.0 } else { run.progress });
         api::Playback {
             phase: phase(snapshot.state),
             doing: run.map(|run| run.doing.to_owned()),
-            frame: run.filter(|run| !run.home).map(|run| run.frame),
-            next: run.filter(|run| !run.home).and_then(|run| run.next),
+            frame: of_show.map(|run| run.frame),
+            next: of_show.and_then(|run| run.next),
             live_light: run.map(|run| run.live_light.clone()).unwrap_or_default(),
             may_jump: run.is_some_and(|run| run.may_jump),
             frames: self.desk.shown().show.frames.len(),
@@ -205,6 +209,7 @@ impl Painter {
             left_s: self.left_s(snapshot, is_showing),
             failure: snapshot.failure.clone(),
             stopped_in: snapshot.stopped_in,
+            preflight: preflight::state(snapshot),
             cue: run.and_then(|run| run.cue.clone()),
             repeats: run.and_then(|run| run.repeats).map(repeats),
             may_go_on: run.is_some_and(|run| run.may_go_on),
@@ -218,7 +223,9 @@ impl Painter {
     /// Planned time to the end of the show, seconds: the rest of the transition or air time, and all later ones. `None` for
     /// a preview.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
-        let run = snapshot.run.as_ref().filter(|_| snapshot.state != ControllerState::Preview)?;
+        let is_of_show =
+            |run: &&RunView| snapshot.state != ControllerState::Preview && run.preflight.is_none();
+        let run = snapshot.run.as_ref().filter(is_of_show)?;
         let (shown, plan) = (self.desk.shown(), self.desk.plan());
         let frames = &shown.show.frames;
         let air_s = frames.get(run.frame)?.air_time_s;
@@ -283,7 +290,12 @@ fn robots(snapshot: &Snapshot) -> api::Robots {
     }
 }
 
-fn row(robot: &RobotView, snapshot: &Snapshot, book: &FleetBook) -> api::FleetRow {
+fn row(
+    robot: &RobotView,
+    snapshot: &Snapshot,
+    book: &FleetBook,
+    tested: Option<&PreflightRobot>,
+) -> api::FleetRow {
     let firmware = robot.reported.firmware.as_str();
     api::FleetRow {
         id: robot.id.to_string(),
@@ -307,6 +319,7 @@ fn row(robot: &RobotView, snapshot: &Snapshot, book: &FleetBook) -> api::FleetRo
         called: book.called(robot.id),
         admitted: robot.is_admitted,
         simulated: robot.reported.simulated,
+        preflight: tested.map(preflight::result),
     }
 }
 

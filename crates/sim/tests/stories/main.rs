@@ -19,6 +19,7 @@ mod noise;
 mod originals;
 mod outages;
 mod pairs;
+mod preflight;
 mod rapier;
 mod recovery;
 mod rehearsals;

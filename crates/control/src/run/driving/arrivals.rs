@@ -100,13 +100,13 @@ impl Driving {
 fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     let spread = cx.tally.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
     let wait = (cx.now - ends).max(Span::ZERO);
-    cx.io.log.record(
-        cx.now,
-        match cx.playback.purpose {
-            RunPurpose::Home => EventKind::AtHome,
-            _ => EventKind::FrameReached { frame, spread, wait },
-        },
-    );
+    match cx.playback.purpose {
+        RunPurpose::Home => cx.io.log.record(cx.now, EventKind::AtHome),
+        RunPurpose::Preflight => {}
+        RunPurpose::Play | RunPurpose::Preview => {
+            cx.io.log.record(cx.now, EventKind::FrameReached { frame, spread, wait });
+        }
+    }
     cx.tally.frames_played += 1;
     cx.tally.recovery.reached(cx.now);
     cx.link.fade();

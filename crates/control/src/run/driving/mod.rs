@@ -19,7 +19,6 @@ use crate::run::lights;
 use crate::run::next::Next;
 use crate::run::path_clock::PathClock;
 use crate::run::pipeline::{DrivenLeg, Pipeline};
-use crate::run::playback::RunPurpose;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
 use crate::run::silence::{self, StopTimes};
@@ -46,7 +45,7 @@ impl Driving {
         let heartbeat_at = if leg.kind == LegKind::Routes { cx.now + HEARTBEAT } else { Instant::FAR };
         let mut drive = Self::new(clock, cx.now, heartbeat_at, cx.roster.len());
         let (frame, duration) = (leg.frame, leg.duration);
-        if cx.playback.purpose != RunPurpose::Home {
+        if cx.playback.purpose.is_of_show() {
             cx.io.log.record(cx.now, EventKind::TransitionStarted { frame, starts: began, duration });
         }
         let targets = TargetProgress::new(&leg);

@@ -73,7 +73,7 @@ impl LightPlayer {
     pub fn new(playback: &PlayedShow) -> Self {
         let show = match playback.purpose {
             RunPurpose::Play => ShowLight::new(&playback.show).0,
-            RunPurpose::Preview | RunPurpose::Home => ShowLight::default(),
+            RunPurpose::Preview | RunPurpose::Home | RunPurpose::Preflight => ShowLight::default(),
         };
         Self { show, again_at: Instant::FAR, renew_at: Instant::FAR, ..Self::default() }
     }

@@ -1,0 +1,86 @@
+//! How the headings that a robot reports on a drive agree with the direction in which it really drove.
+//!
+//! A robot whose marker is turned still reaches its goals: its feedback bends its path. While it drives, its estimate
+//! follows its wheels along its heading. Where it stands afterwards is measured by its fixes, and tells the direction of
+//! the drive.
+
+use lightbots_base::{Vec2, difference};
+
+/// Displacements between two reports below this are noise, or turns on the spot, metres.
+const STANDS_M: f64 = 0.001;
+/// Displacements from this on count, metres.
+const COUNTS_M: f64 = 0.003;
+/// Between two reports whose headings differ by more, the robot turned, radians.
+const TURNS_RAD: f64 = 0.2;
+/// Shortest drive that shows a direction, metres. An error of a place of 1 mm is two degrees on it.
+const LEAST_M: f64 = 0.03;
+
+/// One drive of one robot by its reports.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct DrivenTrack {
+    /// Place and heading from which the next displacement counts.
+    from: Option<(Vec2, f64)>,
+    /// Sum of the displacements along the reported headings, stage metres.
+    along: Vec2,
+}
+
+impl DrivenTrack {
+    /// The robot reports a place and a heading.
+    pub fn add(&mut self, at: Vec2, heading: f64) {
+        let Some((from, before)) = self.from else {
+            self.from = Some((at, heading));
+            return;
+        };
+        let (moved, turned) = (at - from, difference(heading, before));
+        let moved_m = moved.length();
+        if (STANDS_M..COUNTS_M).contains(&moved_m) && turned.abs() < TURNS_RAD {
+            return;
+        }
+        self.from = Some((at, heading));
+        if moved_m >= COUNTS_M && turned.abs() < TURNS_RAD {
+            let forward = Vec2::unit(before + turned / 2.0);
+            self.along += forward * moved.dot(forward);
+        }
+    }
+
+    /// The angle from the reported headings to the direction of the drive, which displaced the robot by `displacement` in
+    /// the stage; radians. `None`: the drive was too short.
+    pub fn askew_rad(&self, displacement: Vec2) -> Option<f64> {
+        let is_long = self.along.length() >= LEAST_M && displacement.length() >= LEAST_M;
+        is_long.then(|| difference(displacement.angle(), self.along.angle()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The angle that is found for a robot that drives on an arc, and whose headings are off.
+    fn askew_deg(off_deg: f64, backwards: bool) -> f64 {
+        let mut track = DrivenTrack::default();
+        let place = |heading: f64| Vec2::new(heading.sin(), -heading.cos()) * 0.22;
+        let headings: Vec<f64> = (0..=12).map(|step| 0.4 + 0.02 * f64::from(step)).collect();
+        let order: Vec<f64> = if backwards { headings.into_iter().rev().collect() } else { headings };
+        order.iter().for_each(|heading| track.add(place(*heading), heading + off_deg.to_radians()));
+        track.askew_rad(place(order[12]) - place(order[0])).unwrap().to_degrees()
+    }
+
+    #[test]
+    fn headings_that_are_off_are_found_on_bends_and_backwards() {
+        for off_deg in [0.0, 3.0, -8.0, 15.0_f64] {
+            for backwards in [false, true] {
+                assert!((askew_deg(off_deg, backwards) + off_deg).abs() < 0.2, "{off_deg} {backwards}");
+            }
+        }
+    }
+
+    #[test]
+    fn turns_on_the_spot_and_noise_of_a_robot_that_stands_do_not_count() {
+        let mut track = DrivenTrack::default();
+        for step in 0..200 {
+            let noise_m = 0.0004 * f64::from(step % 3);
+            track.add(Vec2::new(noise_m, -noise_m), f64::from(step) * 0.1);
+        }
+        assert_eq!(track.askew_rad(Vec2::new(0.1, 0.0)), None);
+    }
+}

@@ -1,0 +1,56 @@
+//! The preflight: each robot drives 50 mm out and back, is stopped on its way out, and blinks.
+//!
+//! [`rounds`](rounds::rounds) chooses directions, [`show`] makes frames of them, which the planner plans and proves like any
+//! show, `run/preflight_check` compares reports with the plan, and [`PreflightReport`] is the result.
+
+mod driven_track;
+mod report;
+mod rounds;
+
+pub(crate) use driven_track::DrivenTrack;
+pub(crate) use report::{OFF_M, OFF_RAD};
+pub use report::{PreflightFinding, PreflightReport, PreflightRobot};
+pub(crate) use rounds::{TestedRobot, rounds};
+
+use lightbots_base::{Rgb, RobotId, Vec2};
+use lightbots_show::{Frame, Pixel, Show, Stage};
+
+/// Ids of the pixels: shows count from 0, so that no pin is meant by them.
+const FIRST_ID: u32 = 4_100_000_000;
+/// The light of robots that stand …
+const RESTS: Rgb = Rgb::new(0x18, 0x18, 0x18);
+/// … and of those that drive.
+const DRIVES: Rgb = Rgb::new(0x20, 0x60, 0xa0);
+/// Duration of each drive, seconds. 50 mm take 0.5 s at full speed; a robot that is not known yet is driven slowly, and
+/// there is time for a stop on its way.
+const DRIVE_S: f64 = 2.5;
+/// How long robots stand after a drive, seconds: their places settle, and there is time for several questions and their
+/// answers before START is stated.
+const STANDS_S: f64 = 4.6;
+
+/// The frames of a preflight: for each round one with the robots' goals, and one with the places where they stand now.
+/// `robots`: names and places of the robots of the rounds.
+pub(crate) fn show(
+    name: String,
+    stage: Stage,
+    robots: &[(RobotId, Vec2)],
+    rounds: &[Vec<Option<Vec2>>],
+) -> Show {
+    let frame = |name: String, goals: &[Option<Vec2>], is_out: bool| {
+        let pixel = |(index, (&(robot, at), goal)): (u32, (&(RobotId, Vec2), &Option<Vec2>))| Pixel {
+            id: FIRST_ID + index,
+            at: goal.filter(|_| is_out).unwrap_or(at),
+            color: if goal.is_some() { DRIVES } else { RESTS },
+            robot: Some(robot.as_str().to_owned()),
+            ..Pixel::default()
+        };
+        let pixels = (0..).zip(robots.iter().zip(goals)).map(pixel).collect();
+        Frame { name, air_time_s: STANDS_S, transition_s: Some(DRIVE_S), pixels, ..Frame::default() }
+    };
+    let mut frames = Vec::new();
+    for (round, goals) in rounds.iter().enumerate() {
+        frames.push(frame(format!("Out {}", round + 1), goals, true));
+        frames.push(frame(format!("Back {}", round + 1), goals, false));
+    }
+    Show { name, stage, frames, ..Show::default() }
+}

@@ -1,0 +1,145 @@
+//! What a preflight found, robot by robot, with cause and remedy for people.
+
+use crate::event::Trouble;
+use core::fmt;
+use lightbots_base::RobotId;
+
+/// A robot farther from where it was planned is named, metres.
+pub(crate) const OFF_M: f64 = 0.005;
+/// A robot turned farther from where it was planned is named, radians: three degrees.
+pub(crate) const OFF_RAD: f64 = 3.0 * core::f64::consts::PI / 180.0;
+
+/// The result of a preflight.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PreflightReport {
+    /// Whether it was carried out to its end.
+    pub finished: bool,
+    /// Every robot that was to be tested, in the order of the fleet.
+    pub robots: Vec<PreflightRobot>,
+}
+
+/// What a preflight found of one robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PreflightRobot {
+    /// Its name.
+    pub id: RobotId,
+    /// What is wrong with it; empty: it passed.
+    pub findings: Vec<PreflightFinding>,
+    /// How far it stood from its planned places at most, metres; `None`: not measured.
+    pub off_m: Option<f64>,
+    /// How far it was turned from its planned headings at most, radians; `None`: not measured.
+    pub off_rad: Option<f64>,
+    /// It knows TARGET and COLOR only: its heading, Stop and blinking were not tested.
+    pub limited: bool,
+}
+
+/// What is wrong with a robot. `Display` is the cause for people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PreflightFinding {
+    /// It stood too far from its planned place.
+    OffPlace {
+        /// Metres.
+        off_m: f64,
+    },
+    /// It was turned too far from its planned heading.
+    OffHeading {
+        /// Radians.
+        off_rad: f64,
+    },
+    /// The heading that it reports is not the direction in which it drives.
+    DrivesAskew {
+        /// Radians.
+        off_rad: f64,
+    },
+    /// It did not stand where and when it was told to stop.
+    DidNotStop,
+    /// It could not take part, or not to the end.
+    Failed(Trouble),
+    /// There is no room around it to drive.
+    NoRoom,
+    /// The preflight ended before it was tested.
+    Unfinished,
+}
+
+impl PreflightReport {
+    /// Number of robots that passed.
+    pub fn passed(&self) -> usize {
+        self.robots.iter().filter(|robot| robot.passed()).count()
+    }
+
+    /// What was found of a robot.
+    pub fn of(&self, robot: RobotId) -> Option<&PreflightRobot> {
+        self.robots.iter().find(|tested| tested.id == robot)
+    }
+}
+
+impl PreflightRobot {
+    /// Whether nothing was found.
+    pub fn passed(&self) -> bool {
+        self.findings.is_empty()
+    }
+}
+
+impl PreflightFinding {
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::OffPlace { .. } => {
+                "Clean its wheels and the floor, and look at its marker and the camera over it."
+            }
+            Self::OffHeading { .. } => "Look whether one wheel is bent, worn or blocked.",
+            Self::DrivesAskew { .. } => "Turn its marker straight, and look whether one wheel is bent.",
+            Self::DidNotStop => "Keep it off the floor until its firmware is updated or replaced.",
+            Self::Failed(Trouble::Silent | Trouble::Deaf | Trouble::Cut) => {
+                "Charge it, switch it off and on, and look at the network."
+            }
+            Self::Failed(Trouble::Lost | Trouble::Unsure) => "Bring it into sight of the positioning.",
+            Self::Failed(Trouble::Faulty) => "Look at its wheels and sensors, then switch it off and on.",
+            Self::Failed(Trouble::Shared) => "Give one of the two robots another name.",
+            Self::Failed(Trouble::Late | Trouble::Missed | Trouble::Blocked) => {
+                "Look whether its wheels turn freely, and clear the floor around it."
+            }
+            Self::NoRoom => "Move it 12 cm away from robots, walls and no-go areas.",
+            Self::Unfinished => "Run the preflight again.",
+        }
+    }
+}
+
+impl fmt::Display for PreflightFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OffPlace { off_m } => {
+                write!(f, "stood {:.1} mm off its planned place (at most {:.0} mm)", off_m * 1e3, OFF_M * 1e3)
+            }
+            Self::OffHeading { off_rad } => {
+                let (off, most) = (off_rad.to_degrees(), OFF_RAD.to_degrees());
+                write!(f, "was turned {off:.1}° off its planned heading (at most {most:.0}°)")
+            }
+            Self::DrivesAskew { off_rad } => {
+                let (off, most) = (off_rad.to_degrees(), OFF_RAD.to_degrees());
+                write!(
+                    f,
+                    "reports a heading {off:.1}° off the direction in which it drives (at most {most:.0}°)"
+                )
+            }
+            Self::DidNotStop => f.write_str("did not stop when it was told to"),
+            Self::Failed(why) => write!(f, "{why}"),
+            Self::NoRoom => f.write_str("has no room to drive 50 mm in any direction"),
+            Self::Unfinished => f.write_str("was not tested, because the preflight ended before"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn causes_state_the_measure_and_the_bound() {
+        let off = PreflightFinding::OffPlace { off_m: 0.0123 };
+        assert_eq!(off.to_string(), "stood 12.3 mm off its planned place (at most 5 mm)");
+        let turned = PreflightFinding::OffHeading { off_rad: 0.2 };
+        assert_eq!(turned.to_string(), "was turned 11.5° off its planned heading (at most 3°)");
+        assert_eq!(PreflightFinding::Failed(Trouble::Silent).to_string(), "does not report");
+    }
+}

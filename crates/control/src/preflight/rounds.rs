@@ -1,0 +1,212 @@
+//! Which way each robot drives out, and which robots drive in the same round.
+//!
+//! The robots are unknown: one of them may not stop, or drive too far. So the lines of robots that drive in one round, and
+//! the places of all that stand, are apart along their whole lengths. Whatever a robot does on its line, it meets none.
+
+use lightbots_base::Vec2;
+use lightbots_base::shape::segment_to_segment;
+use lightbots_plan::unsynchronised::FreeSpace;
+use lightbots_show::Stage;
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_4;
+
+/// How far each robot drives out, metres.
+pub(crate) const OUT_M: f64 = 0.05;
+/// Gap between the rims of robots whatever they do on their lines, metres: twice the 5 mm by which a robot that passes may
+/// be off.
+const GAP_M: f64 = 0.01;
+/// Gap to the floor's edge, metres: what the planner keeps at goals, and its rounding.
+const EDGE_M: f64 = 0.004;
+/// Directions that are tried, in eighths of a turn from straight ahead: ahead, back, aside, and what is between them.
+const DIRECTIONS: [i32; 8] = [0, 4, 2, 6, 1, 7, 3, 5];
+/// A robot that drives away beside another one comes nearer by this at first, metres, because its heading is not exact.
+const NEARER_M: f64 = 0.000_5;
+/// Most rounds. A robot needs more only where so many cross its line that the preflight would take minutes.
+const ROUNDS_MAX: usize = 12;
+/// Side of a cell in which robots are looked up, metres: two robots farther apart than this never come near.
+const CELL_M: f64 = 0.25;
+
+/// A robot that is to be tested.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TestedRobot {
+    /// Its place, stage metres.
+    pub at: Vec2,
+    /// Its heading, radians; 0 where it does not say.
+    pub heading: f64,
+}
+
+/// `[round][robot]`: where the robot drives in that round; `None`: it stands. Robots without room drive in none. `standing`:
+/// what else stands on the floor, stage metres.
+pub(crate) fn rounds(stage: &Stage, robots: &[TestedRobot], standing: &[Vec2]) -> Vec<Vec<Option<Vec2>>> {
+    let floor = TestFloor::new(stage, robots, standing);
+    let mut left: Vec<(usize, Vec<Vec2>)> =
+        (0..robots.len()).map(|robot| (robot, floor.free_goals(robot))).collect();
+    left.retain(|(_, goals)| !goals.is_empty());
+    let mut rounds = Vec::new();
+    while !left.is_empty() && rounds.len() < ROUNDS_MAX {
+        let mut goals_of: Vec<Option<Vec2>> = vec![None; robots.len()];
+        left.retain(|(robot, goals)| {
+            goals_of[*robot] = goals.iter().copied().find(|&goal| floor.is_apart(*robot, goal, &goals_of));
+            goals_of[*robot].is_none()
+        });
+        rounds.push(goals_of);
+    }
+    rounds
+}
+
+/// The floor, and what stands near each robot.
+struct TestFloor<'a> {
+    space: FreeSpace<'a>,
+    gap_m: f64,
+    robots: &'a [TestedRobot],
+    /// `[robot]`: the other robots within [`CELL_M`].
+    near: Vec<Vec<usize>>,
+    /// `[robot]`: the other things that stand within [`CELL_M`].
+    near_standing: Vec<Vec<Vec2>>,
+}
+
+impl<'a> TestFloor<'a> {
+    fn new(stage: &'a Stage, robots: &'a [TestedRobot], standing: &[Vec2]) -> Self {
+        let half_floor = Vec2::new(stage.width_m, stage.depth_m) / 2.0;
+        let places: Vec<Vec2> = robots.iter().map(|robot| robot.at).collect();
+        let near = neighbours(&places, &places);
+        let others =
+            |(robot, near): (usize, Vec<usize>)| near.into_iter().filter(|&one| one != robot).collect();
+        let near_standing = neighbours(&places, standing);
+        Self {
+            space: FreeSpace::new(half_floor, &stage.obstacles, &stage.limits),
+            gap_m: stage.limits.contact_m() + GAP_M,
+            robots,
+            near: near.into_iter().enumerate().map(others).collect(),
+            near_standing: near_standing
+                .into_iter()
+                .map(|near| near.into_iter().map(|one| standing[one]).collect())
+                .collect(),
+        }
+    }
+
+    /// The goals of a robot to which its line is clear of all that stands, the preferred one first.
+    fn free_goals(&self, robot: usize) -> Vec<Vec2> {
+        let TestedRobot { at, heading } = self.robots[robot];
+        let goal = |eighths: &i32| at + Vec2::unit(heading + f64::from(*eighths) * FRAC_PI_4) * OUT_M;
+        let near = self.near[robot].iter().map(|&other| self.robots[other].at);
+        let stands: Vec<Vec2> = near.chain(self.near_standing[robot].iter().copied()).collect();
+        let is_free = |goal: &Vec2| {
+            let is_clear = stands.iter().all(|&disc| self.are_apart((at, *goal), (disc, disc)));
+            is_clear && self.is_inside(*goal) && self.space.clears_obstacles(at, *goal)
+        };
+        DIRECTIONS.iter().map(goal).filter(is_free).collect()
+    }
+
+    fn is_inside(&self, at: Vec2) -> bool {
+        let most = self.space.half_floor - Vec2::new(1.0, 1.0) * (self.space.radius_m + EDGE_M);
+        at.x.abs() <= most.x && at.y.abs() <= most.y
+    }
+
+    /// Whether the line of a robot is apart from the lines that others drive in the same round.
+    fn is_apart(&self, robot: usize, goal: Vec2, goals_of: &[Option<Vec2>]) -> bool {
+        let at = self.robots[robot].at;
+        self.near[robot].iter().all(|&other| {
+            goals_of[other].is_none_or(|to| self.are_apart((at, goal), (self.robots[other].at, to)))
+        })
+    }
+
+    /// Robots that stand closer than the gap only keep their own distance.
+    fn are_apart(&self, one: (Vec2, Vec2), other: (Vec2, Vec2)) -> bool {
+        let needed_m = self.gap_m.min(one.0.distance(other.0) - NEARER_M);
+        segment_to_segment(one, other) >= needed_m
+    }
+}
+
+/// `[place]`: indices of the `others` within [`CELL_M`], in ascending order.
+fn neighbours(places: &[Vec2], others: &[Vec2]) -> Vec<Vec<usize>> {
+    let cell = |at: Vec2| ((at.x / CELL_M).floor() as i64, (at.y / CELL_M).floor() as i64);
+    let mut cells: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
+    for (index, &at) in others.iter().enumerate() {
+        cells.entry(cell(at)).or_default().push(index);
+    }
+    let near = |at: &Vec2| {
+        let (x, y) = cell(*at);
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+        let found = around.filter_map(|cell| cells.get(&cell)).flatten().copied();
+        let mut found: Vec<usize> = found.filter(|&other| others[other].distance(*at) < CELL_M).collect();
+        found.sort_unstable();
+        found
+    };
+    places.iter().map(near).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn grid(side: usize, spacing_m: f64) -> Vec<TestedRobot> {
+        let centred = |index: usize| (index as f64 - 0.5 * (side as f64 - 1.0)) * spacing_m;
+        let place = |index: usize| Vec2::new(centred(index % side), centred(index / side));
+        (0..side * side).map(|index| TestedRobot { at: place(index), heading: FRAC_PI_2 }).collect()
+    }
+
+    fn driven(rounds: &[Vec<Option<Vec2>>], robot: usize) -> usize {
+        rounds.iter().filter(|goals| goals[robot].is_some()).count()
+    }
+
+    #[test]
+    fn robots_with_room_drive_straight_ahead_together() {
+        let robots = grid(4, 0.2);
+        let rounds = rounds(&Stage::default(), &robots, &[]);
+        assert_eq!(rounds.len(), 1);
+        for (robot, goal) in robots.iter().zip(&rounds[0]) {
+            assert!(goal.unwrap().distance(robot.at + Vec2::new(0.0, OUT_M)) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn lines_of_a_round_never_come_near_whatever_robots_do_on_them() {
+        let contact_m = Stage::default().limits.contact_m();
+        for spacing_mm in (56..200).step_by(4) {
+            let robots = grid(5, f64::from(spacing_mm) / 1000.0);
+            let rounds = rounds(&Stage::default(), &robots, &[]);
+            for goals in &rounds {
+                let line = |robot: usize| (robots[robot].at, goals[robot].unwrap_or(robots[robot].at));
+                for (one, other) in (0..25).flat_map(|one| (0..one).map(move |other| (one, other))) {
+                    let moves = goals[one].is_some() || goals[other].is_some();
+                    let needed_m =
+                        (contact_m + GAP_M).min(robots[one].at.distance(robots[other].at) - NEARER_M);
+                    let apart_m = segment_to_segment(line(one), line(other));
+                    assert!(!moves || apart_m >= needed_m, "{spacing_mm} mm: {apart_m}");
+                }
+            }
+            let most = (0..25).map(|robot| driven(&rounds, robot)).max();
+            assert!(most <= Some(1), "no robot is tested twice");
+            let tested = (0..25).filter(|&robot| driven(&rounds, robot) == 1).count();
+            assert!(tested >= 4, "the corners have room outside: {tested} at {spacing_mm} mm");
+            assert!(spacing_mm < 92 || tested == 25, "{tested} at {spacing_mm} mm");
+        }
+    }
+
+    #[test]
+    fn robots_in_each_others_way_take_turns() {
+        let at = |x, heading| TestedRobot { at: Vec2::new(x, 0.0), heading };
+        let facing = [at(-0.08, 0.0), at(0.08, std::f64::consts::PI)];
+        let free = rounds(&Stage::default(), &facing, &[]);
+        assert_eq!(free.len(), 1, "one of them finds another direction");
+        let stage = Stage { depth_m: 0.07, ..Stage::default() };
+        let narrow =
+            rounds(&stage, &[at(-0.08, 0.0), at(0.08, 0.0)], &[Vec2::new(-0.15, 0.0), Vec2::new(0.15, 0.0)]);
+        assert_eq!(narrow.len(), 2, "{narrow:?}");
+    }
+
+    #[test]
+    fn neither_walls_nor_no_go_areas_nor_strangers_are_driven_into() {
+        let stage = Stage { width_m: 1.0, depth_m: 1.0, ..Stage::default() };
+        let corner = TestedRobot { at: Vec2::new(0.46, 0.46), heading: FRAC_PI_2 };
+        let goal = rounds(&stage, &[corner], &[])[0][0].unwrap();
+        assert!(goal.y < 0.42, "back from the wall: {goal:?}");
+        let stranger = Vec2::new(0.46, 0.39);
+        let goal = rounds(&stage, &[corner], &[stranger])[0][0].unwrap();
+        assert!(goal.x < 0.42, "aside: {goal:?}");
+        let boxed = Stage { width_m: 0.08, depth_m: 0.08, ..Stage::default() };
+        assert!(rounds(&boxed, &[TestedRobot { at: Vec2::ZERO, heading: 0.3 }], &[]).is_empty());
+    }
+}

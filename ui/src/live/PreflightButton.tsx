@@ -1,0 +1,29 @@
+import { Button } from '@mantine/core';
+import { useState } from 'react';
+import { useStore } from '../base/store';
+import { useWhyNot } from '../parts/Gate';
+import { useSession } from '../session/session';
+import { PreflightDialog } from './PreflightDialog';
+
+/** Opens the preflight: what it does, its progress, and what it found. */
+export function PreflightButton() {
+  const { live } = useSession();
+  const [opened, setOpened] = useState(false);
+  const named = useStore(live.playback, (p) => p.preflight?.named ?? 0);
+  const reason = useWhyNot('operator', 'test robots');
+  return (
+    <>
+      <Button
+        size="compact-xs"
+        variant={named > 0 ? 'light' : 'subtle'}
+        color={named > 0 ? 'care' : 'gray'}
+        disabled={reason !== null}
+        title={reason ?? undefined}
+        onClick={() => setOpened(true)}
+      >
+        Preflight…
+      </Button>
+      <PreflightDialog opened={opened} onClose={() => setOpened(false)} />
+    </>
+  );
+}
