@@ -83,6 +83,15 @@ export async function startServer(...more: string[]): Promise<Server> {
   return server;
 }
 
+/** Processes that tests started beside the server. */
+const others = new Set<ChildProcess>();
+
+/** Ends the robots and brokers that tests of this file started and left. */
+export async function endOthers(): Promise<void> {
+  await Promise.all([...others].map(end));
+  others.clear();
+}
+
 export interface Broker {
   url: string;
   /** Ends it, as a crash does. */
@@ -97,6 +106,7 @@ export async function startBroker(): Promise<Broker> {
     const child = spawn(program(), ['broker', '--mqtt-listen', `127.0.0.1:${port}`], {
       stdio: ['ignore', 'pipe', 'pipe'],
     });
+    others.add(child);
     const address = await new Promise<string>((resolve, reject) => {
       let said = '';
       const read = (bytes: Buffer) => {
@@ -129,6 +139,7 @@ export async function startRobots(
   const broker = 'data' in on ? await embeddedBroker(on) : on.url;
   const args = ['robots', '--count', String(count), '--broker', broker, ...more];
   const child = spawn(program(), args, { stdio: 'ignore' });
+  others.add(child);
   return () => end(child);
 }
 

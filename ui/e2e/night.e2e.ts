@@ -5,6 +5,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { findings } from './axe';
 import {
+  endOthers,
   launchBrowser,
   PATIENCE_MS,
   startBroker,
@@ -174,5 +175,5 @@ for (const [width, height, means, scheme] of SCREENS)
     await readReport(night, width, height);
     await page.close();
     await server.remove();
-    await broker.kill();
+    await endOthers();
   });

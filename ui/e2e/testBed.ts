@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect } from 'vitest';
-import { launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
+import { endOthers, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
 
 type View = Parameters<typeof openPage>[2];
 type Options = Parameters<typeof openPage>[3];
@@ -31,6 +31,7 @@ export function createTestBed(...serverArguments: string[]): TestBed {
   afterAll(async () => {
     await browser?.close();
     await server?.remove();
+    await endOthers();
     expect(mistakes).toEqual([]);
   });
   return {
