@@ -76,6 +76,12 @@ async function admitRobots({ page, hand, broker, see, look }: Night) {
   await look('new-robot');
   expect(await findings(page)).toEqual([]);
   await hand.push('Let it join');
+  await hand.push('Places…');
+  const places = page.getByRole('dialog', { name: 'Compare places' });
+  await see(/of 7 robots in their starting places/);
+  await look('places');
+  await hand.press(places.getByRole('button', { name: 'Close', exact: true }).last());
+  await places.waitFor({ state: 'hidden' });
   return [endOne, endThree] as const;
 }
 

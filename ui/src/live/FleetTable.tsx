@@ -7,6 +7,7 @@ import { useKeys } from '../parts/useKeys';
 import { useSession } from '../session/session';
 import { arranged, type Arrangement, type Order } from './fleetOrder';
 import { FleetLine } from './FleetLine';
+import { PlacesButton } from './PlacesButton';
 import { PreflightButton } from './PreflightButton';
 import { RobotDialog } from './RobotDialog';
 import styles from './FleetTable.module.css';
@@ -55,9 +56,9 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
           value={order.search}
           onChange={(event) => setOrder({ ...order, search: event.currentTarget.value })}
         />
-        <PreflightButton />
         <Button
           size="compact-xs"
+          style={{ flex: 'none' }}
           variant={wide ? 'light' : 'subtle'}
           color="gray"
           aria-expanded={wide}
@@ -65,6 +66,10 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
         >
           Details
         </Button>
+      </Group>
+      <Group gap={4} px={6} pt={4}>
+        <PlacesButton />
+        <PreflightButton />
       </Group>
       <table className={styles.table}>
         <thead>
