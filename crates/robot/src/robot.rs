@@ -175,13 +175,12 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// The light where no piece says it.
     #[inline(never)]
     fn change_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
-        let next = show.filter(|_| !self.hot.light_piece.is_none());
-        let next = next.and_then(|show| self.light.tracks.next_piece(show, &self.storage.borrow().tracks));
-        if let Some(piece) = next {
-            self.hot.light_piece = piece;
-            if let Some(colour) = self.piece_colour(show) {
-                return colour;
-            }
+        if let Some(show) = show.filter(|_| !self.hot.light_piece.is_none())
+            && let Some(piece) = self.light.tracks.next_piece(show, &self.storage.borrow().tracks)
+            && let Some(colour) = piece.colour(show)
+        {
+            (self.hot.light_piece, self.hot.piece_shown_at) = (piece, show);
+            return colour;
         }
         self.end_light_piece();
         let tracks = &self.storage.borrow().tracks;
