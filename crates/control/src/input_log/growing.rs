@@ -1,7 +1,35 @@
-//! A log that is played again while it grows.
+//! A log that is played again, whole or while it grows.
 
 use super::replaying::{HEAD_BYTES, LogError, Replay, ReplayObserver, ReplayReport, check_head};
 use crate::block::Blocks;
+
+/// Bytes of a whole log that are played at once: between them, the share that is done is told.
+const PIECE: usize = 1 << 18;
+
+/// Plays a log again and compares the outputs. `progress` is called again and again with the share that is done.
+pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport, LogError> {
+    replay_observed(log, progress, &mut |_, _, _| {})
+}
+
+/// [`replay`] with an observer.
+pub fn replay_observed(
+    log: &[u8],
+    progress: &mut dyn FnMut(f64),
+    observe: &mut ReplayObserver<'_>,
+) -> Result<ReplayReport, LogError> {
+    check_head(log)?;
+    let mut replay = GrowingReplay::default();
+    let mut read = 0;
+    for piece in log.chunks(PIECE) {
+        replay.feed(piece, observe)?;
+        read += piece.len();
+        progress(read as f64 / log.len() as f64);
+        if replay.is_over() {
+            break;
+        }
+    }
+    replay.finish()
+}
 
 /// Plays a log again as its bytes come, a second or so behind the controller that writes it.
 #[derive(Debug, Default)]
@@ -14,20 +42,30 @@ pub struct GrowingReplay {
 }
 
 impl GrowingReplay {
+    /// Whether nothing of what follows counts: the log is over, or had other outputs.
+    pub fn is_over(&self) -> bool {
+        self.replay.as_ref().is_some_and(Replay::is_over)
+    }
+
     /// Takes in the next bytes of the log, and plays all blocks that are whole.
     pub fn feed(&mut self, bytes: &[u8], observe: &mut ReplayObserver<'_>) -> Result<(), LogError> {
+        if self.is_over() {
+            return Ok(());
+        }
         self.pending.extend_from_slice(bytes);
+        let mut from = 0;
         if self.read == 0 {
             if self.pending.len() < HEAD_BYTES {
                 return Ok(());
             }
             check_head(&self.pending)?;
+            from = HEAD_BYTES;
         }
-        let from = if self.read == 0 { HEAD_BYTES } else { 0 };
         let mut blocks = Blocks::new(&self.pending, from);
-        for block in blocks.by_ref() {
+        while self.replay.as_ref().is_none_or(|replay| !replay.is_over())
+            && let Some(block) = blocks.next()
+        {
             match &mut self.replay {
-                Some(replay) if replay.is_over() => break,
                 Some(replay) => replay.block(block, observe)?,
                 None => self.replay = Some(Replay::new(block).ok_or(LogError::NoHeader)?),
             }

@@ -18,11 +18,10 @@ mod senders;
 #[cfg(test)]
 mod tests;
 
-pub use growing::GrowingReplay;
+pub use growing::{GrowingReplay, replay, replay_observed};
 pub use recorded::RecordedController;
 pub use replaying::{
-    Difference, HEAD_BYTES, LogEnd, LogError, ReplayObserver, ReplayReport, ReplayStep, check_head, replay,
-    replay_observed,
+    Difference, HEAD_BYTES, LogEnd, LogError, ReplayObserver, ReplayReport, ReplayStep, check_head,
 };
 
 use serde::{Deserialize, Serialize};

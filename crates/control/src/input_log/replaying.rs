@@ -4,7 +4,6 @@ use super::digest::OutputDigest;
 use super::record::{OutputKinds, Record, RobotTopic};
 use super::senders::{Likeness, Senders};
 use super::{LogHeader, MAGIC, VERSION};
-use crate::block::Blocks;
 use crate::controller::Controller;
 use crate::event::Event;
 use crate::mutant::Mutant;
@@ -104,11 +103,6 @@ pub enum ReplayStep<'a> {
 /// Is told what a replay does, with the controller as it is then.
 pub type ReplayObserver<'o> = dyn FnMut(Instant, &Controller, ReplayStep<'_>) + 'o;
 
-/// Plays a log again and compares the outputs. `progress` is called after each block with the share that is done.
-pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport, LogError> {
-    replay_observed(log, progress, &mut |_, _, _| {})
-}
-
 /// Whether this program replays a log that begins with these bytes (at least the first [`HEAD_BYTES`]).
 pub fn check_head(head: &[u8]) -> Result<(), LogError> {
     let rest = head.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
@@ -117,25 +111,6 @@ pub fn check_head(head: &[u8]) -> Result<(), LogError> {
         VERSION => Ok(()),
         version => Err(LogError::OtherVersion(version)),
     }
-}
-
-/// [`replay`] with an observer.
-pub fn replay_observed(
-    log: &[u8],
-    progress: &mut dyn FnMut(f64),
-    observe: &mut ReplayObserver<'_>,
-) -> Result<ReplayReport, LogError> {
-    check_head(log)?;
-    let mut blocks = Blocks::new(log, HEAD_BYTES);
-    let mut replay = blocks.next().and_then(Replay::new).ok_or(LogError::NoHeader)?;
-    while let Some(block) = blocks.next() {
-        replay.block(block, observe)?;
-        progress(blocks.at() as f64 / log.len() as f64);
-        if replay.is_over() {
-            break;
-        }
-    }
-    Ok(replay.report(blocks.at()))
 }
 
 /// A log that is being replayed.
