@@ -27,6 +27,7 @@ mod controller;
 mod event;
 mod event_text;
 mod fleet;
+mod floor_cells;
 mod frame_cursor;
 mod home;
 mod input_log;

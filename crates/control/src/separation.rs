@@ -3,8 +3,7 @@
 //! Two robots that begin a drive close to each other may stay that close all the way, because the proof asks no more of a
 //! pair than its start leaves. After a death in a queue whole rows stand rim to rim, and would touch again and again.
 
-use std::collections::BTreeMap;
-
+use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
@@ -60,14 +59,14 @@ impl Place<'_> {
 
     /// Whether two robots, or a robot and a standing disc, are closer than a distance between centres.
     fn has_pair_within(&self, robots: &[Vec2], apart_m: f64) -> bool {
-        let cells = Cells::new(robots, self.standing, apart_m);
+        let cells = FloorCells::new(robots, self.standing, apart_m);
         let close = |(a, b): (usize, usize)| cells.all[a].distance(cells.all[b]) < apart_m;
         (0..robots.len()).any(|robot| cells.near(robot).any(|other| close((robot, other))))
     }
 
     /// One sweep: each pair that is too close moves apart along the line between its centres. Whether any was.
     fn push_apart(&self, robots: &mut [Vec2], apart_m: f64) -> bool {
-        let mut cells = Cells::new(robots, self.standing, apart_m);
+        let mut cells = FloorCells::new(robots, self.standing, apart_m);
         let mut pushed = false;
         for robot in 0..robots.len() {
             let near: Vec<usize> = cells.near(robot).collect();
@@ -113,40 +112,6 @@ impl Place<'_> {
         };
         if self.obstacles.iter().any(is_in) { from } else { place }
     }
-}
-
-/// Robots and standing discs by the squares of a grid.
-struct Cells {
-    /// Robots first, then standing discs.
-    all: Vec<Vec2>,
-    side_m: f64,
-    cells: BTreeMap<(i64, i64), Vec<usize>>,
-}
-
-impl Cells {
-    fn new(robots: &[Vec2], standing: &[Vec2], side_m: f64) -> Self {
-        let all: Vec<Vec2> = robots.iter().chain(standing).copied().collect();
-        let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-        for (index, at) in all.iter().enumerate() {
-            cells.entry(cell(*at, side_m)).or_default().push(index);
-        }
-        Self { all, side_m, cells }
-    }
-
-    /// What is in the squares around one, itself left out.
-    fn near(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
-        let (x, y) = cell(self.all[index], self.side_m);
-        (y - 1..=y + 1)
-            .flat_map(move |y| (x - 1..=x + 1).map(move |x| (x, y)))
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .copied()
-            .filter(move |other| *other != index)
-    }
-}
-
-fn cell(at: Vec2, side_m: f64) -> (i64, i64) {
-    ((at.x / side_m).floor() as i64, (at.y / side_m).floor() as i64)
 }
 
 #[cfg(test)]

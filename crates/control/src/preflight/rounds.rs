@@ -3,11 +3,11 @@
 //! The robots are unknown: one of them may not stop, or drive too far. So the lines of robots that drive in one round, and
 //! the places of all that stand, are apart along their whole lengths. Whatever a robot does on its line, it meets none.
 
+use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
 use lightbots_base::shape::segment_to_segment;
 use lightbots_plan::unsynchronised::FreeSpace;
 use lightbots_show::Stage;
-use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
 /// How far each robot drives out, metres.
@@ -21,7 +21,7 @@ const EDGE_M: f64 = 0.004;
 const DIRECTIONS: [i32; 8] = [0, 4, 2, 6, 1, 7, 3, 5];
 /// A robot that drives away beside another one comes nearer by this at first, metres, because its heading is not exact.
 const NEARER_M: f64 = 0.000_5;
-/// Most rounds. A robot needs more only where so many cross its line that the preflight would take minutes.
+/// Most rounds. Robots need more only where the lines of still more cross: the preflight would take minutes.
 const ROUNDS_MAX: usize = 12;
 /// Side of a cell in which robots are looked up, metres: two robots farther apart than this never come near.
 const CELL_M: f64 = 0.25;
@@ -69,19 +69,22 @@ impl<'a> TestFloor<'a> {
     fn new(stage: &'a Stage, robots: &'a [TestedRobot], standing: &[Vec2]) -> Self {
         let half_floor = Vec2::new(stage.width_m, stage.depth_m) / 2.0;
         let places: Vec<Vec2> = robots.iter().map(|robot| robot.at).collect();
-        let near = neighbours(&places, &places);
-        let others =
-            |(robot, near): (usize, Vec<usize>)| near.into_iter().filter(|&one| one != robot).collect();
-        let near_standing = neighbours(&places, standing);
+        let cells = FloorCells::new(&places, standing, CELL_M);
+        let (mut near, mut near_standing) = (Vec::new(), Vec::new());
+        for (robot, at) in places.iter().enumerate() {
+            let is_near = |&other: &usize| cells.all[other].distance(*at) < CELL_M;
+            let mut around: Vec<usize> = cells.near(robot).filter(is_near).collect();
+            around.sort_unstable();
+            let discs = around.split_off(around.partition_point(|&other| other < places.len()));
+            near.push(around);
+            near_standing.push(discs.into_iter().map(|disc| cells.all[disc]).collect());
+        }
         Self {
             space: FreeSpace::new(half_floor, &stage.obstacles, &stage.limits),
             gap_m: stage.limits.contact_m() + GAP_M,
             robots,
-            near: near.into_iter().enumerate().map(others).collect(),
-            near_standing: near_standing
-                .into_iter()
-                .map(|near| near.into_iter().map(|one| standing[one]).collect())
-                .collect(),
+            near,
+            near_standing,
         }
     }
 
@@ -116,24 +119,6 @@ impl<'a> TestFloor<'a> {
         let needed_m = self.gap_m.min(one.0.distance(other.0) - NEARER_M);
         segment_to_segment(one, other) >= needed_m
     }
-}
-
-/// `[place]`: indices of the `others` within [`CELL_M`], in ascending order.
-fn neighbours(places: &[Vec2], others: &[Vec2]) -> Vec<Vec<usize>> {
-    let cell = |at: Vec2| ((at.x / CELL_M).floor() as i64, (at.y / CELL_M).floor() as i64);
-    let mut cells: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
-    for (index, &at) in others.iter().enumerate() {
-        cells.entry(cell(at)).or_default().push(index);
-    }
-    let near = |at: &Vec2| {
-        let (x, y) = cell(*at);
-        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
-        let found = around.filter_map(|cell| cells.get(&cell)).flatten().copied();
-        let mut found: Vec<usize> = found.filter(|&other| others[other].distance(*at) < CELL_M).collect();
-        found.sort_unstable();
-        found
-    };
-    places.iter().map(near).collect()
 }
 
 #[cfg(test)]

@@ -2,22 +2,24 @@
 //!
 //! The drives are those of any run. This only looks on, except that it asks for reports, and for the stop on the way out.
 
+mod robot_test;
+
 use crate::context::Context;
 use crate::event::Trouble;
 use crate::leg::{Leg, LegKind};
-use crate::preflight::{DrivenTrack, OFF_M, OFF_RAD, PreflightFinding, PreflightReport, PreflightRobot};
+use crate::preflight::{OFF_M, PreflightFinding, PreflightReport};
 use crate::robot::KnownRobot;
 use crate::run::driving::Driving;
 use crate::run::next::Next;
 use crate::run::roster::Roster;
 use crate::run::run_context::RunContext;
-use lightbots_base::shape::point_to_segment;
-use lightbots_base::{Instant, RobotId, Span, Vec2, difference};
+use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_wire::{Blink, Command, Details, RobotState, Route, Topic};
-use std::f64::consts::FRAC_PI_2;
+use robot_test::{RobotTest, untested};
+use std::collections::BTreeMap;
 
-/// Robots are stopped with this much of their way out before them, metres: those that do not stop drive on so far that it
-/// shows, and all are still fast.
+/// Robots are stopped this far before the end of their way out, metres. One that does not stop drives on by this, which is
+/// seen, and all are still fast.
 const STOP_LEFT_M: f64 = 0.033;
 /// How long after STOP a robot may take to say that it stands; two round trips come on top. R40 asks for it at once; on a
 /// lossy link the robot has to be asked for it again.
@@ -33,18 +35,11 @@ const ASK_EVERY: Span = Span::from_millis(150);
 const JUDGE_AT: Span = Span::from_millis(4_100);
 /// How long robots blink at the end.
 const BLINK: Span = Span::from_millis(4_000);
-/// A path that leaves the line between its ends by no more than this is straight, metres. On a bend close to its end a robot
-/// cannot turn as fast as the path (R35), so its heading is not judged.
-const STRAIGHT_M: f64 = 0.000_5;
-/// A robot with another rim nearer than this by plan may give way by turning (R49): its heading is not judged, metres.
-const ROOM_M: f64 = 0.01;
 /// While they drive, robots are asked to report this often: their headings are compared with the directions in which
 /// they drive …
 const ASK_DRIVERS_EVERY: Span = Span::from_millis(120);
 /// … and less often by this for each robot, because their answers share one link.
 const ASK_DRIVERS_PER_ROBOT: Span = Span(400);
-/// Number of moments at which a path is looked at for that.
-const MOMENTS: i64 = 40;
 
 /// The preflight under way.
 #[derive(Clone, Debug)]
@@ -63,22 +58,6 @@ pub(crate) struct PreflightCheck {
     judged: usize,
     /// When robots on their way are asked to report next.
     ask_drivers_at: Instant,
-}
-
-/// What was found of a participant.
-#[derive(Clone, Debug, Default)]
-struct RobotTest {
-    findings: Vec<PreflightFinding>,
-    off_m: Option<f64>,
-    off_rad: Option<f64>,
-    /// The drive under way.
-    track: DrivenTrack,
-    /// Where the robot stood before that drive, stage metres.
-    stood: Option<Vec2>,
-    /// Sum of the angles between headings and directions of its drives, radians, and their number.
-    askew: (f64, u32),
-    /// It drove out and back, and both places were judged.
-    is_done: bool,
 }
 
 /// Robots were told to stop on their way.
@@ -104,10 +83,9 @@ impl PreflightCheck {
     /// A preflight that is about to begin. `rounds`: `[round][participant]`, where the robot drives. `places`:
     /// where each participant stands, stage metres.
     pub fn new(rounds: &[Vec<Option<Vec2>>], places: impl Iterator<Item = Vec2>) -> Self {
-        let test = |at| RobotTest { stood: Some(at), ..RobotTest::default() };
         Self {
             drives: rounds.iter().map(|goals| goals.iter().map(Option::is_some).collect()).collect(),
-            tests: places.map(test).collect(),
+            tests: places.map(RobotTest::new).collect(),
             stop: None,
             stopped: 0,
             standing: None,
@@ -144,7 +122,9 @@ impl PreflightCheck {
     pub fn drop_out(&mut self, participant: usize, why: Trouble) {
         let is_stopping = self.stop.is_some() && why == Trouble::Deaf;
         let finding = if is_stopping { PreflightFinding::DidNotStop } else { PreflightFinding::Failed(why) };
-        self.find(participant, finding);
+        if let Some(test) = self.tests.get_mut(participant) {
+            test.find(finding);
+        }
     }
 
     /// A participant reports its state.
@@ -162,18 +142,6 @@ impl PreflightCheck {
             && now >= stop.stand_at
         {
             stood.get_or_insert(now);
-        }
-    }
-
-    /// Findings of one kind are one: the first counts.
-    fn find(&mut self, participant: usize, finding: PreflightFinding) {
-        let Some(test) = self.tests.get_mut(participant) else { return };
-        let same = |known: &PreflightFinding| {
-            std::mem::discriminant(known) == std::mem::discriminant(&finding)
-                || matches!((known, &finding), (PreflightFinding::DidNotStop, PreflightFinding::Failed(_)))
-        };
-        if !test.findings.iter().any(same) {
-            test.findings.push(finding);
         }
     }
 
@@ -264,7 +232,7 @@ impl PreflightCheck {
             let is_there = robot.reported.at.is_some_and(|at| at.distance(place) <= OFF_M);
             let is_in_time = stop.stood[participant].is_some_and(|at| at - stop.stand_at <= within);
             if !is_there || !is_in_time {
-                self.find(participant, PreflightFinding::DidNotStop);
+                self.tests[participant].find(PreflightFinding::DidNotStop);
                 failed.push(participant);
             }
         }
@@ -305,92 +273,41 @@ impl PreflightCheck {
         let active = cx.roster.active().map(|(participant, _)| participant);
         let drivers: Vec<usize> = active.filter(|&one| self.drives(leg.frame, one)).collect();
         for participant in drivers {
-            let step = &leg.robots[participant];
+            let (step, test) = (&leg.robots[participant], &mut self.tests[participant]);
             if step.pixel.is_none() {
                 // The planner left its pixel out, because there is no path that it can prove.
-                self.find(participant, PreflightFinding::NoRoom);
+                test.find(PreflightFinding::NoRoom);
                 continue;
             }
             let robot = cx.robot(participant);
             let Some(at) = robot.reported.at.filter(|_| robot.contact.heard >= fresh_from) else {
-                self.find(participant, PreflightFinding::Failed(Trouble::Silent));
+                test.find(PreflightFinding::Failed(Trouble::Silent));
                 continue;
             };
             let off_m = at.distance(step.goal);
-            let test = &mut self.tests[participant];
             test.off_m = Some(test.off_m.unwrap_or(0.0).max(off_m));
             test.is_done |= leg.frame % 2 == 1;
             if off_m > OFF_M {
-                self.find(participant, PreflightFinding::OffPlace { off_m });
+                test.find(PreflightFinding::OffPlace { off_m });
             }
             if let Some(heading) = robot.reported.heading {
-                self.judge_heading(leg, participant, (at, heading));
+                test.judge_heading(leg, participant, (at, heading));
             }
-        }
-    }
-
-    /// Compares a reported heading with the planned one, and after the way back with the directions of both drives.
-    fn judge_heading(&mut self, leg: &Leg, participant: usize, (at, heading): (Vec2, f64)) {
-        let has_room = leg.robots[participant].room_m >= ROOM_M;
-        let planned = straight_direction(leg, participant).filter(|_| has_room);
-        let test = &mut self.tests[participant];
-        let off_planned = planned.map(|planned| off_line(heading, planned));
-        let before = test.stood.replace(at);
-        if let Some(askew_rad) = before.and_then(|before| test.track.askew_rad(at - before)) {
-            test.askew = (test.askew.0 + askew_rad, test.askew.1 + 1);
-        }
-        test.track = DrivenTrack::default();
-        let is_back = leg.frame % 2 == 1 && test.askew.1 > 0;
-        let off_driven = is_back.then(|| (test.askew.0 / f64::from(test.askew.1)).abs());
-        test.off_rad = [test.off_rad, off_planned, off_driven].into_iter().flatten().reduce(f64::max);
-        if let Some(off_rad) = off_planned.filter(|off| *off > OFF_RAD) {
-            self.find(participant, PreflightFinding::OffHeading { off_rad });
-        }
-        if let Some(off_rad) = off_driven.filter(|off| *off > OFF_RAD) {
-            self.find(participant, PreflightFinding::DrivesAskew { off_rad });
         }
     }
 
     /// What was found. `finished`: the run was not broken off.
     pub fn report(&self, roster: &Roster, io: &Context, finished: bool) -> PreflightReport {
-        let tested = |participant: usize, robot: &KnownRobot| {
-            let test = self.tests.get(participant).cloned().unwrap_or_default();
-            let mut findings = test.findings;
-            if findings.is_empty() && !test.is_done {
-                let has_room = self.drives.iter().any(|round| round[participant]);
-                findings.push(if has_room { PreflightFinding::Unfinished } else { PreflightFinding::NoRoom });
-            }
-            let (off_m, off_rad) = (test.off_m, test.off_rad);
-            PreflightRobot { id: robot.id, findings, off_m, off_rad, limited: robot.is_original() }
-        };
-        let part: std::collections::BTreeMap<RobotId, usize> = (0..self.tests.len().min(roster.len()))
+        let part: BTreeMap<RobotId, usize> = (0..self.tests.len().min(roster.len()))
             .map(|participant| (roster.robot(io, participant).id, participant))
             .collect();
+        let has_room = |participant: usize| self.drives.iter().any(|round| round[participant]);
         let row = |robot: &KnownRobot| match part.get(&robot.id) {
-            Some(&participant) => Some(tested(participant, robot)),
+            Some(&participant) => Some(self.tests[participant].result(robot, has_room(participant))),
             None => untested(robot),
         };
         PreflightReport { finished, robots: io.fleet.robots().iter().filter_map(row).collect() }
     }
-}
-
-/// A robot that could not take part; `None`: it is not to take part.
-fn untested(robot: &KnownRobot) -> Option<PreflightRobot> {
-    let why = match robot.reported.state {
-        _ if !robot.is_admitted => return None,
-        _ if robot.namesakes.are_there() => Trouble::Shared,
-        _ if !robot.is_heard() => Trouble::Silent,
-        Some(RobotState::Faulty) => Trouble::Faulty,
-        _ if robot.reported.at.is_none() => Trouble::Lost,
-        // It came while others were tested.
-        _ => return Some(row(robot, PreflightFinding::Unfinished)),
-    };
-    Some(row(robot, PreflightFinding::Failed(why)))
-}
-
-fn row(robot: &KnownRobot, finding: PreflightFinding) -> PreflightRobot {
-    let limited = robot.is_original();
-    PreflightRobot { id: robot.id, findings: vec![finding], off_m: None, off_rad: None, limited }
 }
 
 /// Asks robots to report where they are; whether any was to be asked.
@@ -414,18 +331,4 @@ fn blink(cx: &mut RunContext) {
             cx.io.outbox.send(topic, &[Command::Blink(Blink { over: BLINK })]);
         }
     }
-}
-
-/// The direction of a participant's path, radians; `None`: it drives no path, or one with bends.
-fn straight_direction(leg: &Leg, participant: usize) -> Option<f64> {
-    let path = leg.path(participant).filter(|path| !path.as_ref().rests())?.as_ref();
-    let (start, end, duration) = (path.start, path.end(), path.duration());
-    let mut between = (1..MOMENTS).map(|moment| path.at(duration * moment / MOMENTS).position);
-    between.all(|at| point_to_segment(at, start, end) <= STRAIGHT_M).then(|| (end - start).angle())
-}
-
-/// The angle between a heading and the line of a direction, 0 to a quarter turn: robots also drive backwards.
-fn off_line(heading: f64, direction: f64) -> f64 {
-    let off = difference(heading, direction).abs();
-    if off > FRAC_PI_2 { std::f64::consts::PI - off } else { off }
 }

@@ -1,0 +1,116 @@
+//! What is found of one robot of a preflight.
+
+use crate::event::Trouble;
+use crate::leg::Leg;
+use crate::preflight::{DrivenTrack, OFF_RAD, PreflightFinding, PreflightRobot};
+use crate::robot::KnownRobot;
+use lightbots_base::shape::point_to_segment;
+use lightbots_base::{Vec2, difference};
+use lightbots_wire::RobotState;
+use std::f64::consts::FRAC_PI_2;
+
+/// A path that leaves the line between its ends by no more than this is straight, metres. On a bend close to its end a robot
+/// cannot turn as fast as the path (R35), so its heading is not judged.
+const STRAIGHT_M: f64 = 0.000_5;
+/// A robot with another rim nearer than this by plan may give way by turning (R49): its heading is not judged, metres.
+const ROOM_M: f64 = 0.01;
+/// Number of moments at which a path is looked at for that.
+const MOMENTS: i64 = 40;
+
+/// What was found of a participant.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RobotTest {
+    pub findings: Vec<PreflightFinding>,
+    pub off_m: Option<f64>,
+    off_rad: Option<f64>,
+    /// The drive under way.
+    pub track: DrivenTrack,
+    /// Where the robot stood before that drive, stage metres.
+    stood: Option<Vec2>,
+    /// Sum of the angles between headings and directions of its drives, radians, and their number.
+    askew: (f64, u32),
+    /// It drove out and back, and both places were judged.
+    pub is_done: bool,
+}
+
+impl RobotTest {
+    /// Of a robot that stands there, stage metres.
+    pub fn new(stood: Vec2) -> Self {
+        Self { stood: Some(stood), ..Self::default() }
+    }
+
+    /// Findings of one kind are one: the first counts.
+    pub fn find(&mut self, finding: PreflightFinding) {
+        let same = |known: &PreflightFinding| {
+            std::mem::discriminant(known) == std::mem::discriminant(&finding)
+                || matches!((known, &finding), (PreflightFinding::DidNotStop, PreflightFinding::Failed(_)))
+        };
+        if !self.findings.iter().any(same) {
+            self.findings.push(finding);
+        }
+    }
+
+    /// Compares a reported heading with the planned one, and after the way back with the directions of both drives.
+    pub fn judge_heading(&mut self, leg: &Leg, participant: usize, (at, heading): (Vec2, f64)) {
+        let has_room = leg.robots[participant].room_m >= ROOM_M;
+        let planned = straight_direction(leg, participant).filter(|_| has_room);
+        let off_planned = planned.map(|planned| off_line(heading, planned));
+        let before = self.stood.replace(at);
+        if let Some(askew_rad) = before.and_then(|before| self.track.askew_rad(at - before)) {
+            self.askew = (self.askew.0 + askew_rad, self.askew.1 + 1);
+        }
+        self.track = DrivenTrack::default();
+        let is_back = leg.frame % 2 == 1 && self.askew.1 > 0;
+        let off_driven = is_back.then(|| (self.askew.0 / f64::from(self.askew.1)).abs());
+        self.off_rad = [self.off_rad, off_planned, off_driven].into_iter().flatten().reduce(f64::max);
+        if let Some(off_rad) = off_planned.filter(|off| *off > OFF_RAD) {
+            self.find(PreflightFinding::OffHeading { off_rad });
+        }
+        if let Some(off_rad) = off_driven.filter(|off| *off > OFF_RAD) {
+            self.find(PreflightFinding::DrivesAskew { off_rad });
+        }
+    }
+
+    /// What was found of the robot. `has_room`: it drove in a round.
+    pub fn result(&self, robot: &KnownRobot, has_room: bool) -> PreflightRobot {
+        let mut findings = self.findings.clone();
+        if findings.is_empty() && !self.is_done {
+            findings.push(if has_room { PreflightFinding::Unfinished } else { PreflightFinding::NoRoom });
+        }
+        let (off_m, off_rad) = (self.off_m, self.off_rad);
+        PreflightRobot { id: robot.id, findings, off_m, off_rad, limited: robot.is_original() }
+    }
+}
+
+/// A robot that could not take part; `None`: it is not to take part.
+pub(super) fn untested(robot: &KnownRobot) -> Option<PreflightRobot> {
+    let why = match robot.reported.state {
+        _ if !robot.is_admitted => return None,
+        _ if robot.namesakes.are_there() => Trouble::Shared,
+        _ if !robot.is_heard() => Trouble::Silent,
+        Some(RobotState::Faulty) => Trouble::Faulty,
+        _ if robot.reported.at.is_none() => Trouble::Lost,
+        // It came while others were tested.
+        _ => return Some(row(robot, PreflightFinding::Unfinished)),
+    };
+    Some(row(robot, PreflightFinding::Failed(why)))
+}
+
+fn row(robot: &KnownRobot, finding: PreflightFinding) -> PreflightRobot {
+    let limited = robot.is_original();
+    PreflightRobot { id: robot.id, findings: vec![finding], off_m: None, off_rad: None, limited }
+}
+
+/// The direction of a participant's path, radians; `None`: it drives no path, or one with bends.
+fn straight_direction(leg: &Leg, participant: usize) -> Option<f64> {
+    let path = leg.path(participant).filter(|path| !path.as_ref().rests())?.as_ref();
+    let (start, end, duration) = (path.start, path.end(), path.duration());
+    let mut between = (1..MOMENTS).map(|moment| path.at(duration * moment / MOMENTS).position);
+    between.all(|at| point_to_segment(at, start, end) <= STRAIGHT_M).then(|| (end - start).angle())
+}
+
+/// The angle between a heading and the line of a direction, 0 to a quarter turn: robots also drive backwards.
+fn off_line(heading: f64, direction: f64) -> f64 {
+    let off = difference(heading, direction).abs();
+    if off > FRAC_PI_2 { std::f64::consts::PI - off } else { off }
+}
