@@ -27,6 +27,7 @@ mod playlist_player;
 mod progress;
 mod run_report;
 mod say;
+mod sentences;
 mod show_file;
 mod show_plan;
 mod stop;

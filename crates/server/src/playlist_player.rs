@@ -9,9 +9,9 @@ use lightbots_control::{ControllerState, EventKind, RunOutcome, Snapshot};
 use tokio::sync::broadcast::{self, error::RecvError, error::TryRecvError};
 use tokio::time::MissedTickBehavior;
 
-use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
-use crate::playlist::{PlaylistAct, PlaylistTurn, TurnEnd, TurnKey, clock_text};
+use crate::playlist::{PlaylistAct, PlaylistTurn, TurnEnd, TurnKey, clock_text, now_s};
+use crate::sentences::sentence;
 use crate::stop::Stop;
 use crate::web::{Shared, operate};
 
@@ -67,10 +67,6 @@ pub async fn play(shared: Arc<Shared>, stop: Stop) {
     }
 }
 
-fn now_s() -> i64 {
-    (unix_ms() / 1_000) as i64
-}
-
 impl Player {
     /// At the start: a turn was playing when the program ended. Its run goes on, or the turn is over.
     async fn find_run(&mut self) {
@@ -117,6 +113,10 @@ impl Player {
     }
 
     async fn look(&mut self, news: &mut broadcast::Receiver<News>) {
+        if !self.shared.playlist.is_on() && self.settings.is_none() {
+            // A look costs time in proportion to the fleet.
+            return self.attempt = None;
+        }
         let Some(snapshot) = self.shared.handle.look().await else { return };
         if self.shared.playlist.playing().is_some() {
             return self.watch(&snapshot);
@@ -165,7 +165,7 @@ impl Player {
             self.attempt.take().filter(|attempt| attempt.key == key).and_then(|attempt| attempt.refusal);
         let end = match refusal {
             Some(line) => TurnEnd::Failed(line),
-            None if self.shared.playlist.state().held.is_some() => {
+            None if self.shared.playlist.is_held() => {
                 TurnEnd::Skipped("the playlist was held: press Go on".into())
             }
             None if !is_free => TurnEnd::Skipped(
@@ -232,7 +232,7 @@ impl Player {
         }
         // The ends of earlier runs are not those of this one.
         self.hear_waiting(news);
-        if self.shared.playlist.state().held.is_some() {
+        if self.shared.playlist.is_held() {
             return Ok(());
         }
         self.operate(play).await.map_err(Refused::ForNow)?;
@@ -297,13 +297,6 @@ impl Player {
         let answer = operate(&self.shared, Request { id: 0, operation }).await;
         answer.error.map_or(Ok(()), Err)
     }
-}
-
-/// A line as a sentence: a capital letter first, a full stop last.
-fn sentence(line: &str) -> String {
-    let mut letters = line.trim_end_matches('.').chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }
 
 /// Why a turn does not begin, with a remedy.

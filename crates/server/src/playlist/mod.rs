@@ -11,5 +11,5 @@ mod view;
 
 pub use day::{PlaylistAct, TurnEnd, TurnKey};
 pub use list::PlaylistTurn;
-pub use store::{ChangeRefused, PlaylistStore};
+pub use store::{ChangeRefused, PlaylistStore, now_s};
 pub use times::clock_text;

@@ -119,6 +119,17 @@ impl PlaylistStore {
         Ok(())
     }
 
+    /// Whether shows start by themselves, or one of them plays.
+    pub fn is_on(&self) -> bool {
+        let kept = self.refreshed();
+        kept.log.on_since_s.is_some() || kept.log.playing().is_some()
+    }
+
+    /// Whether a person has to let it go on.
+    pub fn is_held(&self) -> bool {
+        self.lock().log.held.is_some()
+    }
+
     /// What is to be done now. `is_free`: robots do nothing.
     pub fn next_act(&self, is_free: bool) -> PlaylistAct {
         let kept = self.refreshed();
@@ -169,7 +180,7 @@ impl PlaylistStore {
 
     /// Lets a held playlist go on. Whether it was held.
     pub fn release(&self) -> bool {
-        let was_held = self.lock().log.held.is_some();
+        let was_held = self.is_held();
         if was_held {
             self.note(|log| log.held = None);
         }
@@ -277,7 +288,7 @@ fn number(list: &mut [PlaylistTurn], kept: &Kept) {
 }
 
 /// Seconds since 1970.
-fn now_s() -> i64 {
+pub fn now_s() -> i64 {
     (unix_ms() / 1_000) as i64
 }
 

@@ -12,6 +12,7 @@ use tokio::time::Instant;
 use super::sums::{Sum, Sums};
 use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
+use crate::sentences::sentence;
 
 /// Lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
 const KEPT: usize = 300;
@@ -121,7 +122,7 @@ impl ScreenLog {
             News::Event(event) => self.say(level(event.kind.severity()), event.kind.to_string()),
             News::Link(link) => {
                 if let Some(reason) = link.reason.clone().filter(|_| !link.is_connected()) {
-                    self.say(Level::Warn, capitalised(&reason));
+                    self.say(Level::Warn, sentence(&reason));
                 }
             }
             News::Warning(line) => self.say(Level::Warn, line),
@@ -149,12 +150,6 @@ fn level(severity: Severity) -> Level {
         Severity::Warning => Level::Warn,
         Severity::Error => Level::Error,
     }
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }
 
 #[cfg(test)]

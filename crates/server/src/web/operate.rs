@@ -15,6 +15,7 @@ use super::admission::{Caller, not_allowed};
 use super::refused::refuse;
 use super::{Shared, access};
 use crate::broker_settings::Settings;
+use crate::sentences::capitalised;
 
 /// Longest operation with what is around it, bytes: certificates of `connect` fit. Bounds memory for hostile clients.
 pub const LONGEST: usize = 64 << 10;
@@ -198,10 +199,4 @@ async fn open(shared: &Shared, name: String) -> Result<(), String> {
 
 fn robot_id(text: &str) -> Result<RobotId, String> {
     RobotId::new(text).ok_or_else(|| "That is no robot's name.".into())
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    first + letters.as_str()
 }
