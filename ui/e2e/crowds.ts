@@ -5,7 +5,7 @@ export const LAYERS = [
   { kind: 'twinkle', settings: { palette: ['#000000', '#ffffff'], blend: 'add' } },
 ];
 
-/** Side of the square floor for so many robots, metres. */
+/** Side of the square floor for a number of robots, metres. */
 export const sideOf = (count: number) => Math.ceil(Math.sqrt(count)) * 0.12 + 1;
 
 /** Two crowds of `count` coloured pixels, each a turned copy of the other: all robots drive nearly all the time. Robots

@@ -1,24 +1,17 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, test } from 'vitest';
+import type { Page } from 'playwright-core';
+import { test } from 'vitest';
 import { crowdShow, LAYERS, sideOf } from './crowds';
 import { measure, noteDraws } from './drawnFrames';
-import { launchBrowser, openPage, startServer } from './harness';
+import { openPage, startServer } from './harness';
 import { scaleOf } from './journeys';
+import { createBrowserBed } from './testBed';
 
 /** Frames a second that are promised, by number of robots; none for those that are only stated. */
 const GOALS: Record<number, number> = { 30: 58, 100: 58, 1000: 30 };
-let browser: Browser;
-const folder = mkdtempSync(join(tmpdir(), 'lightbots-fps-'));
-beforeAll(async () => {
-  browser = await launchBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-  rmSync(folder, { recursive: true, force: true });
-});
+
+const bed = createBrowserBed('fps');
 
 /** Size and number of the snapshots that a screen gets, and how fast the show clock goes: a machine that is too slow for
  * its simulated robots slows them down. */
@@ -136,11 +129,11 @@ async function withCrowd(
   layers: readonly object[],
   scenes: (page: Page, live: () => Promise<unknown>) => Promise<void>,
 ) {
-  const file = join(folder, `crowd ${robots} ${layers.length}.lightbots.json`);
+  const file = join(bed.folder, `crowd ${robots} ${layers.length}.lightbots.json`);
   writeFileSync(file, crowdShow(robots, layers));
   const server = await startServer(file, '--robots', String(robots));
   try {
-    const page = await openPage(browser, server, 'edit', {}, noteDraws);
+    const page = await openPage(bed.browser, server, 'edit', {}, noteDraws);
     await page.getByTestId('stage').waitFor();
     await page.getByText(`${robots} robots`, { exact: true }).waitFor();
     await scenes(page, () => page.goto(`${server.url}/#/live`));

@@ -21,7 +21,7 @@ export function createHand(page: Page, means: Means): Hand {
     await thing.waitFor();
     if (means === 'mouse') return thing.click();
     if (means === 'touch') return thing.tap();
-    await tabTo(page, thing);
+    await focusByTab(page, thing);
     // A switch knows only the blank.
     const isSwitch = (await thing.getAttribute('role')) === 'switch';
     await page.keyboard.press(isSwitch ? 'Space' : 'Enter');
@@ -31,14 +31,14 @@ export function createHand(page: Page, means: Means): Hand {
     push: (name) => press(page.getByRole('button', { name }).filter({ visible: true }).first()),
     async type(field, text) {
       if (means !== 'keyboard') return field.fill(text);
-      await tabTo(page, field);
+      await focusByTab(page, field);
       await page.keyboard.type(text);
     },
   };
 }
 
 /** Presses Tab until a control has the focus. */
-async function tabTo(page: Page, thing: Locator) {
+export async function focusByTab(page: Page, thing: Locator) {
   for (let i = 0; i < TABS_MAX; i++) {
     if (await thing.evaluate((element) => element === document.activeElement)) return;
     await page.keyboard.press('Tab');

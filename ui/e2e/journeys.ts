@@ -1,5 +1,6 @@
 import type { Locator, Page } from 'playwright-core';
 import type { Phase } from '../src/api/types.gen';
+import { focusByTab } from './hand';
 import { eventually } from './harness';
 
 /** Two frames of `count` pixels in rows; the second 0.4 m behind the first, shown for `air_s`. */
@@ -222,14 +223,8 @@ export interface StoredFrame {
 }
 
 /** Presses Tab until the control of that name has the focus. */
-export async function tabTo(page: Page, role: string, name: string) {
-  const wanted = page.getByRole(role as 'button', { name, exact: true }).first();
-  for (let i = 0; i < 90; i++) {
-    if (await wanted.evaluate((element) => element === document.activeElement)) return;
-    await page.keyboard.press('Tab');
-  }
-  throw new Error(`Tab never came to ${role} ${name}.`);
-}
+export const tabTo = (page: Page, role: string, name: string) =>
+  focusByTab(page, page.getByRole(role as 'button', { name, exact: true }).first());
 
 /** Begins a show of 30 robots; answers its name in the library. */
 export async function beginShow(page: Page): Promise<string> {

@@ -1,27 +1,19 @@
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, test } from 'vitest';
+import type { Page } from 'playwright-core';
+import { test } from 'vitest';
 import type { RunEntry } from '../src/api/types.gen';
 import { crowdShow, LAYERS } from './crowds';
 import { measure, noteDraws } from './drawnFrames';
-import { eventually, launchBrowser, openPage, startServer, type Server } from './harness';
+import { eventually, openPage, startServer, type Server } from './harness';
+import { createBrowserBed } from './testBed';
 
 const ROBOTS = Number(process.env.ROBOTS ?? 1000);
 const MINUTES = Number(process.env.MINUTES ?? 30);
 /** Minutes between two rows. */
 const EVERY = 5;
 
-let browser: Browser;
-const folder = mkdtempSync(join(tmpdir(), 'lightbots-long-'));
-beforeAll(async () => {
-  browser = await launchBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-  rmSync(folder, { recursive: true, force: true });
-});
+const bed = createBrowserBed('long');
 
 /** Resident memory of a process, kB. */
 const resident_kB = (pid: number) =>
@@ -66,12 +58,12 @@ const lastRun = (page: Page) =>
   );
 
 test(`${MINUTES} minutes of a show with ${ROBOTS} robots in three pages`, async () => {
-  const file = join(folder, 'long.lightbots.json');
+  const file = join(bed.folder, 'long.lightbots.json');
   writeFileSync(file, crowdShow(ROBOTS, LAYERS));
   const server = await startServer(file, '--robots', String(ROBOTS));
   try {
-    const behind = [await openPage(browser, server), await openPage(browser, server)];
-    const front = await openPage(browser, server, 'live', {}, noteDraws);
+    const behind = [await openPage(bed.browser, server), await openPage(bed.browser, server)];
+    const front = await openPage(bed.browser, server, 'live', {}, noteDraws);
     await front.bringToFront();
     await front.getByText(`${ROBOTS} robots`, { exact: true }).waitFor();
     await front.getByRole('button', { name: 'Loop (L)' }).click();
@@ -85,7 +77,7 @@ test(`${MINUTES} minutes of a show with ${ROBOTS} robots in three pages`, async 
     await front.keyboard.press('Escape');
     const run = await lastRun(front);
     const asked = Date.now();
-    const report = await browser.newPage();
+    const report = await bed.browser.newPage();
     await report.goto(`${server.url}/api/runs/${run?.number}/report`, { timeout: 120_000 });
     await report.getByRole('heading').first().waitFor();
     print({ minute: MINUTES, robots: ROBOTS, report_s: (Date.now() - asked) / 1000 });

@@ -1,12 +1,10 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
 import { findings } from './axe';
 import {
   endOthers,
-  launchBrowser,
   PATIENCE_MS,
   startBroker,
   startRobots,
@@ -14,6 +12,7 @@ import {
   type Broker,
 } from './harness';
 import { phaseIs, smallShow } from './journeys';
+import { createBrowserBed } from './testBed';
 import { createHand, type Hand, type Means } from './hand';
 
 /** Width and height of the screen, what it is operated by, and its colours. */
@@ -35,20 +34,9 @@ interface Night {
   look(what: string): Promise<void>;
 }
 
-let browser: Browser;
-let folder: string;
-let show: string;
-
-beforeAll(async () => {
-  folder = mkdtempSync(join(tmpdir(), 'lightbots-night-'));
-  show = join(folder, 'night.lightbots.json');
-  writeFileSync(show, smallShow(6, 60));
-  browser = await launchBrowser();
-});
-afterAll(async () => {
-  await browser.close();
-  rmSync(folder, { recursive: true, force: true });
-});
+const bed = createBrowserBed('night');
+const show = join(bed.folder, 'night.lightbots.json');
+writeFileSync(show, smallShow(6, 60));
 
 async function signIn({ page, hand, look }: Night, address: string) {
   await page.goto(address);
@@ -150,7 +138,7 @@ for (const [width, height, means, scheme] of SCREENS)
     const broker = await startBroker();
     const there = ['--listen', '0.0.0.0:0', '--robots', '0', '--broker', broker.url];
     const server = await startServer(show, ...there);
-    const page = await browser.newPage({
+    const page = await bed.browser.newPage({
       ignoreHTTPSErrors: true,
       viewport: { width, height },
       hasTouch: means === 'touch',

@@ -1,3 +1,6 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect } from 'vitest';
 import { endOthers, launchBrowser, mistakes, openPage, startServer, type Server } from './harness';
@@ -45,6 +48,27 @@ export function createTestBed(...serverArguments: string[]): TestBed {
       const page = await openPage(there(browser), there(server), view, options);
       pages.push(page);
       return page;
+    },
+  };
+}
+
+/** What a file of tests stands on that starts servers of its own: a browser, and a folder for files. */
+export function createBrowserBed(name: string) {
+  let browser: Browser | undefined;
+  const folder = mkdtempSync(join(tmpdir(), `lightbots-${name}-`));
+  beforeAll(async () => {
+    browser = await launchBrowser();
+  });
+  afterAll(async () => {
+    await browser?.close();
+    await endOthers();
+    rmSync(folder, { recursive: true, force: true });
+  });
+  return {
+    folder,
+    get browser() {
+      if (!browser) throw new Error('It is there only while tests run.');
+      return browser;
     },
   };
 }
