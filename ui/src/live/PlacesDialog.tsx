@@ -1,19 +1,16 @@
 import { Button, Group, Modal, Stack, Text } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { useStore } from '../base/store';
-import { useWhyNot } from '../parts/Gate';
-import { changeShow } from '../session/changeShow';
-import { driveTo } from '../session/drives';
 import { createFullPlan } from '../session/fullPlan';
 import {
   comparePlaces,
   placedRobots,
   placesVerdict,
   startsOf,
-  withStarts,
   type Comparison,
 } from '../session/places';
 import { useSession } from '../session/session';
+import { DriveHome, TakeLayout } from './PlacesActs';
 import { PlacesMap } from './PlacesMap';
 import styles from './Preflight.module.css';
 
@@ -24,92 +21,63 @@ const LISTED_MAX = 50;
 
 /** Compares where robots stand with where the show expects them, and offers what to do about it. */
 export function PlacesDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
-  const session = useSession();
-  const { live } = session;
-  const [full] = useState(() => createFullPlan(live.plan));
-  const plan = useStore(full.plan);
-  const show = useStore(live.opened, (o) => o.show);
-  const readOnly = useStore(live.opened, (o) => o.readOnly);
-  const isReady = useStore(live.playback, (p) => p.phase === 'ready');
-  const whyNotEdit = useWhyNot('editor', 'change the show');
-  const whyNotDrive = useWhyNot('operator', 'drive robots');
-  useEffect(() => (opened ? full.follow() : undefined), [full, opened]);
-  const robots = usePlaced(opened);
-  const starts = startsOf(plan);
-  const found = starts && comparePlaces(starts, ...robots);
-  const [placed, unknown] = robots;
-  const take = () => {
-    onClose();
-    void changeShow(session, 'Starting places', (now) => withStarts(now, placed));
-  };
   return (
     <Modal opened={opened} onClose={onClose} title="Compare places" size="lg">
-      <Stack>
-        {show === null || !found ? (
-          <Text role="status">
-            {show === null
-              ? 'Open a show first.'
-              : 'Its starting places are known once the show is planned.'}
-          </Text>
-        ) : (
-          <>
-            <Text fw={600} role="status" data-testid="places-verdict">
-              {placesVerdict(found)}
-            </Text>
-            <PlacesMap stage={show.stage} found={found} />
-            <Away found={found} />
-            <Text size="sm" c="dimmed">
-              Play drives robots from wherever they stand. Home takes them to the starting places;
-              or the show begins from where they stand now.
-            </Text>
-          </>
-        )}
-        <Group justify="flex-end">
-          <Button variant="default" onClick={onClose}>
-            Close
-          </Button>
-          <Button
-            variant="default"
-            disabled={
-              !found ||
-              placed.length === 0 ||
-              unknown.length > 0 ||
-              readOnly !== null ||
-              whyNotEdit !== null
-            }
-            title={whyNotEdit ?? undefined}
-            onClick={take}
-          >
-            Take this layout
-          </Button>
-          <Button
-            disabled={!isReady || !found || found.away.length === 0 || whyNotDrive !== null}
-            title={whyNotDrive ?? undefined}
-            onClick={() => {
-              onClose();
-              driveTo(session, 'home');
-            }}
-          >
-            Home
-          </Button>
-        </Group>
-      </Stack>
+      <Places onClose={onClose} />
     </Modal>
   );
 }
 
-/** Where robots stand, looked at again and again while the dialog is open. */
-function usePlaced(opened: boolean) {
+function Places({ onClose }: { onClose: () => void }) {
   const { live } = useSession();
-  const read = () => placedRobots(live.fleet.get(), live.track.latest());
-  const [robots, setRobots] = useState(read);
+  const [full] = useState(() => createFullPlan(live.plan));
+  useEffect(() => full.follow(), [full]);
+  const starts = startsOf(useStore(full.plan));
+  const show = useStore(live.opened, (o) => o.show);
+  const robots = usePlaced();
+  const found = starts && comparePlaces(starts, ...robots);
+  return (
+    <Stack>
+      {show === null || !found ? (
+        <Text role="status">
+          {show === null
+            ? 'Open a show first.'
+            : 'Its starting places are known once the show is planned.'}
+        </Text>
+      ) : (
+        <>
+          <Text fw={600} role="status" data-testid="places-verdict">
+            {placesVerdict(found)}
+          </Text>
+          <PlacesMap stage={show.stage} found={found} />
+          <Away found={found} />
+          <Text size="sm" c="dimmed">
+            Play drives robots from wherever they stand. Home takes them to the starting places; or
+            the show begins from where they stand now.
+          </Text>
+        </>
+      )}
+      <Group justify="flex-end">
+        <Button variant="default" onClick={onClose}>
+          Close
+        </Button>
+        <TakeLayout robots={robots} places={starts?.length ?? Infinity} onClose={onClose} />
+        <DriveHome isNeeded={(found?.away.length ?? 0) > 0} onClose={onClose} />
+      </Group>
+    </Stack>
+  );
+}
+
+/** Where robots stand, looked at again and again. */
+function usePlaced() {
+  const { live } = useSession();
+  const [robots, setRobots] = useState<ReturnType<typeof placedRobots>>([[], []]);
   useEffect(() => {
-    if (!opened) return;
     const look = () => setRobots(placedRobots(live.fleet.get(), live.track.latest()));
     look();
     const timer = setInterval(look, EVERY_MS);
     return () => clearInterval(timer);
-  }, [live, opened]);
+  }, [live]);
   return robots;
 }
 

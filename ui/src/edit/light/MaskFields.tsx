@@ -98,23 +98,14 @@ function PixelsOf({ mask, set }: Of) {
 function AreaOf({ mask, set, isCircle }: Of & { isCircle: boolean }) {
   const [x, y] = pair(mask.center);
   const [width, depth] = pair(mask.size_m);
-  const place = (label: string, value: number, to: (metres: number) => Json) => (
-    <LengthInput
-      label={label}
-      min={-FAR_M}
-      max={FAR_M}
-      value={value}
-      onChange={(m) => set(to(m))}
-    />
-  );
   const length = (label: string, value: number, least: number, to: (metres: number) => Json) => (
     <LengthInput label={label} min={least} max={FAR_M} value={value} onChange={(m) => set(to(m))} />
   );
   return (
     <>
       <div className={styles.pair}>
-        {place('Middle x', x, (to) => ({ center: [to, y] }))}
-        {place('Middle y', y, (to) => ({ center: [x, to] }))}
+        {length('Middle x', x, -FAR_M, (to) => ({ center: [to, y] }))}
+        {length('Middle y', y, -FAR_M, (to) => ({ center: [x, to] }))}
       </div>
       <div className={styles.pair}>
         {isCircle ? (
