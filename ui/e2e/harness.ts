@@ -178,7 +178,16 @@ function end(child: ChildProcess): Promise<void> {
 }
 
 export const launchBrowser = (): Promise<Browser> =>
-  chromium.launch({ executablePath: browserPath(), args: CHROMIUM_ARGS, timeout: PATIENCE_MS });
+  chromium.launch({
+    executablePath: browserPath(),
+    args: CHROMIUM_ARGS,
+    // Hidden tabs are slowed as everywhere.
+    ignoreDefaultArgs: [
+      '--disable-renderer-backgrounding',
+      '--disable-background-timer-throttling',
+    ],
+    timeout: PATIENCE_MS,
+  });
 
 /** What went wrong inside pages; every suite ends by finding it empty. */
 export const mistakes: string[] = [];

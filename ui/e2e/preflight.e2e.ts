@@ -23,6 +23,8 @@ test('a preflight is explained, shows its progress, passes healthy robots and na
   await dialog.getByRole('button', { name: 'Again: Drive real robots' }).click();
   await verdict.getByText('4 of 5 robots passed.').waitFor({ timeout: 120_000 });
   const named = dialog.getByRole('list', { name: 'Robots with faults' }).getByRole('listitem');
+  // The list comes with the next message about the robots, a moment after the verdict.
+  await named.first().waitFor();
   expect(await named.count()).toBe(1);
   expect(await named.textContent()).toMatch(/mute-rob.*It does not report\. Charge it/s);
   expect(await named.getByRole('button', { name: 'Identify' }).isDisabled()).toBe(true);

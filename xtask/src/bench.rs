@@ -154,8 +154,8 @@ const PARTS: [Part; 15] = [
         name: "long-run",
         title: "Half an hour",
         source: Source::Browser("long-run"),
-        about: "A show with three moving layers is repeated for half an hour with simulated robots, watched in three pages \
-                of headless Chromium, one of them in front. Memory of the program and its broker is resident; that of the \
+        about: "A show with three moving layers is repeated for half an hour with simulated robots, watched in three tabs \
+                of headless Chromium, two of them hidden. Memory of the program and its broker is resident; that of the \
                 page is what its scripts use after a collection. `report s`: from asking for the report of that run to its \
                 heading.",
     },
