@@ -38,8 +38,8 @@ pub use fleet::{Abilities, Fleet, FleetRow, PreflightFault, PreflightResult, Pre
 pub use incident::{Incident, IncidentTone, Incidents};
 pub use library::{Problem, ShowEntry, ShowOrigin, ShowState};
 pub use make::{
-    FilmAnswer, FilmPicture, FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices, MakeFile,
-    MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
+    BeatsAnswer, FilmAnswer, FilmPicture, FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices,
+    MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
 };
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, RefusedOperation, Request};
 pub use plan::{
@@ -52,5 +52,5 @@ pub use playlist::{
 pub use robots::Robots;
 pub use runs::{RunEntry, RunEntryKind};
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
-pub use state::{Broker, BrokerPhase, Phase, Playback, PreflightState, Repeats, State};
+pub use state::{Broker, BrokerPhase, Phase, Playback, PreflightState, Repeats, ShowTime, State};
 pub use typescript::typescript;

@@ -158,8 +158,21 @@ pub struct MakeFile {
     /// SHA-256 of its bytes as 64 hexadecimal digits.
     pub hash: String,
     /// `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a show;
-    /// null: it is of no use here.
+    /// `music`: it is the music of a show; null: it is of no use here.
     pub kind: Option<String>,
     /// Why it is of no use, and what to do; null: it is.
+    pub error: Option<MakeRemark>,
+}
+
+/// Beats that were found in music.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+pub struct BeatsAnswer {
+    /// Tempo, beats a minute.
+    pub bpm: f64,
+    /// The first beat, seconds of the music file, if all keep one tempo; null: `times_s` has each beat.
+    pub offset_s: Option<f64>,
+    /// Each beat, seconds of the music file, increasing; empty if all keep one tempo.
+    pub times_s: Vec<f64>,
+    /// Why no beats were found, and what to do; null: they were.
     pub error: Option<MakeRemark>,
 }

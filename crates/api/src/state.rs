@@ -16,6 +16,17 @@ pub struct State {
     pub broker: Broker,
     /// The show.
     pub playback: Playback,
+    /// Where the show is on its timeline at `at_ms`; null: none is played, or its first drive has not begun.
+    pub show_time: Option<ShowTime>,
+}
+
+/// Where a show is on its timeline, for music.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct ShowTime {
+    /// Seconds from the start of the first frame's air time; negative during the drive there.
+    pub show_s: f64,
+    /// Whether it moves on with the show clock. It stands while robots are held, are waited for, or wait for GO.
+    pub runs: bool,
 }
 
 /// The connection to the broker.

@@ -4,15 +4,15 @@ use lightbots_exchange::{FORMATS, Format, MAX_BYTES, Part};
 use ts_rs::{Config, TS};
 
 use crate::{
-    Abilities, AccountEntry, AccountRole, Answer, Broker, BrokerPhase, BrokerSettings, Choice, Credentials,
-    FilmAnswer, FilmPicture, FirstOperator, FitAnswer, Fleet, FleetRow, FromScreen, Hello, Incident,
-    IncidentTone, Incidents, Issue, Level, LightAnswer, LightRequest, LogLine, MadePixel, MadeReadability,
-    MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
-    Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan, PlanAnswer, PlanningRequest,
-    Playback, PlaylistChange, PlaylistDay, PlaylistEntry, PlaylistNext, PlaylistResult, PlaylistState,
-    PlaylistToday, PreflightFault, PreflightResult, PreflightState, Presence, Problem, RefusedOperation,
-    Repeats, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity, ShowEntry, ShowOrigin,
-    ShowState, State, ToScreen, Transition, Whoami,
+    Abilities, AccountEntry, AccountRole, Answer, BeatsAnswer, Broker, BrokerPhase, BrokerSettings, Choice,
+    Credentials, FilmAnswer, FilmPicture, FirstOperator, FitAnswer, Fleet, FleetRow, FromScreen, Hello,
+    Incident, IncidentTone, Incidents, Issue, Level, LightAnswer, LightRequest, LogLine, MadePixel,
+    MadeReadability, MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark,
+    MakeRequest, MakeShape, Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan,
+    PlanAnswer, PlanningRequest, Playback, PlaylistChange, PlaylistDay, PlaylistEntry, PlaylistNext,
+    PlaylistResult, PlaylistState, PlaylistToday, PreflightFault, PreflightResult, PreflightState, Presence,
+    Problem, RefusedOperation, Repeats, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity,
+    ShowEntry, ShowOrigin, ShowState, ShowTime, State, ToScreen, Transition, Whoami,
 };
 
 /// The first line of the generated file.
@@ -64,6 +64,7 @@ fn messages() -> String {
         Playback,
         PreflightState,
         Repeats,
+        ShowTime,
         Phase,
         Robots,
         LogLine,
@@ -110,6 +111,7 @@ fn module() -> String {
         MadePixel,
         MadeReadability,
         MakeRemark,
+        BeatsAnswer,
         FilmAnswer,
         FilmPicture,
         FitAnswer,

@@ -22,6 +22,9 @@ pub fn file(bytes: &[u8]) -> MakeFile {
 }
 
 fn kind_of(bytes: &[u8]) -> Result<&'static str, DrawError> {
+    if is_music(bytes) {
+        return Ok("music");
+    }
     if let Some(kind) = sniff(bytes) {
         let kind = match kind {
             FileKind::Svg => SourceKind::Svg,
@@ -41,6 +44,24 @@ fn kind_of(bytes: &[u8]) -> Result<&'static str, DrawError> {
     Err(unsupported(bytes))
 }
 
+/// Whether a file begins as music does. Whether it can be played, only the browser's decoder knows.
+fn is_music(bytes: &[u8]) -> bool {
+    match bytes {
+        [b'I', b'D', b'3', 0..=9, ..] => true,
+        // A frame of MP3 or AAC.
+        [0xff, second, ..] if second & 0xe0 == 0xe0 => true,
+        [b'O', b'g', b'g', b'S', ..] | [b'f', b'L', b'a', b'C', ..] => true,
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'A', b'V', b'E', ..] => true,
+        // MPEG-4; still pictures have it too.
+        [_, _, _, _, b'f', b't', b'y', b'p', brand @ ..] => {
+            [b"M4A ", b"mp42", b"mp41", b"isom", b"iso2", b"dash"]
+                .iter()
+                .any(|known| brand.starts_with(*known))
+        }
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,6 +77,11 @@ mod tests {
         assert_eq!(kind(b"GIF89a"), "animation");
         assert_eq!(kind(b" {\"lightbots\": 1}"), "show");
         assert_eq!(kind(b"PK\x03\x04"), "show");
+        for music in [&b"ID3\x04\0"[..], b"\xff\xfb\x90\x64", b"OggS\0", b"fLaC\0", b"\0\0\0\x20ftypM4A \0"] {
+            assert_eq!(kind(music), "music");
+        }
+        assert_eq!(kind(b"RIFF\0\0\0\0WAVEfmt "), "music");
+        assert_eq!(file(b"\0\0\0\x20ftypavif").kind, None);
         assert_eq!(file(b"").hash, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
         assert_eq!(file(b"%PDF-1.7").error.unwrap().code, "unknown-kind");
     }

@@ -4,10 +4,11 @@
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
 //! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
 //! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`PlannedLight`] has its colours with [`LightPictures`],
-//! [`choices`] lists what settings may name, [`file`] tells what a file is; the functions below them are the same for
-//! JavaScript.
+//! [`choices`] lists what settings may name, [`file()`] tells what a file is, [`beats_answer`] finds beats of music; the
+//! functions below them are the same for JavaScript.
 
 mod answer;
+mod beats;
 mod choices;
 mod file;
 mod film;
@@ -18,6 +19,7 @@ mod plan;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
+pub use beats::beats_answer;
 pub use choices::choices;
 pub use file::file;
 pub use film::film_answer;
@@ -60,4 +62,10 @@ pub fn list() -> String {
 #[wasm_bindgen]
 pub fn look(bytes: &[u8]) -> String {
     answer::text(&file(bytes))
+}
+
+/// Finds the beats of music: samples of one channel, and how many there are in a second; a `BeatsAnswer` as JSON.
+#[wasm_bindgen]
+pub fn beats(samples: &[f32], rate_hz: f64) -> String {
+    answer::text(&beats_answer(samples, rate_hz))
 }

@@ -39,6 +39,15 @@ pub struct Snapshot {
     pub counters: Counters,
 }
 
+/// Where a run is on the timeline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShowPosition {
+    /// Seconds from the start of the first frame's air time; negative during the drive there.
+    pub show_s: f64,
+    /// Whether it moves on with the show clock. It stands while robots are held, are waited for, or wait for GO.
+    pub runs: bool,
+}
+
 /// A run at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunView {
@@ -61,6 +70,8 @@ pub struct RunView {
     pub drive_s: f64,
     /// When the drive began, show clock; `None` before.
     pub began: Option<Instant>,
+    /// Where it is on the timeline; `None`: no show is played, or its first drive has not begun.
+    pub position: Option<ShowPosition>,
     /// Name of the cue at which the run waits for GO; it may be empty. `None`: it does not wait for GO.
     pub cue: Option<String>,
     /// Names of the layers of live light that are on.

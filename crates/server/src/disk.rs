@@ -72,16 +72,25 @@ pub fn remove(path: &Path) -> io::Result<()> {
 /// The bytes of a regular file of at most `most` bytes. A pipe or a device is refused before it is opened, because it may
 /// wait for ever or never end.
 pub fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    open_regular(path).and_then(|file| read_to_end(file, most))
+}
+
+/// A regular file, opened.
+pub fn open_regular(path: &Path) -> io::Result<File> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
     }
-    read_bounded(path, most)
+    File::open(path)
 }
 
 /// The bytes of a file of any kind, of at most `most` bytes.
 pub fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    read_to_end(File::open(path)?, most)
+}
+
+fn read_to_end(file: File, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let line = format!("it is longer than {:.0} MB", most as f64 / 1e6);
         return Err(io::Error::new(ErrorKind::FileTooLarge, line));

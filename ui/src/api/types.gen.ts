@@ -403,7 +403,11 @@ broker: Broker,
 /**
  * The show.
  */
-playback: Playback, };
+playback: Playback, 
+/**
+ * Where the show is on its timeline at `at_ms`; null: none is played, or its first drive has not begun.
+ */
+show_time: ShowTime | null, };
 
 /**
  * The connection to the broker.
@@ -599,6 +603,19 @@ round: number,
  * Whether GO was given: the show goes on after the last of them.
  */
 leaves: boolean, };
+
+/**
+ * Where a show is on its timeline, for music.
+ */
+export type ShowTime = { 
+/**
+ * Seconds from the start of the first frame's air time; negative during the drive there.
+ */
+show_s: number, 
+/**
+ * Whether it moves on with the show clock. It stands while robots are held, are waited for, or wait for GO.
+ */
+runs: boolean, };
 
 /**
  * Phase of the run.
@@ -1398,6 +1415,27 @@ code: string,
 message: string, };
 
 /**
+ * Beats that were found in music.
+ */
+export type BeatsAnswer = { 
+/**
+ * Tempo, beats a minute.
+ */
+bpm: number, 
+/**
+ * The first beat, seconds of the music file, if all keep one tempo; null: `times_s` has each beat.
+ */
+offset_s: number | null, 
+/**
+ * Each beat, seconds of the music file, increasing; empty if all keep one tempo.
+ */
+times_s: Array<number>, 
+/**
+ * Why no beats were found, and what to do; null: they were.
+ */
+error: MakeRemark | null, };
+
+/**
  * The frames that an animation becomes, or why there are none.
  */
 export type FilmAnswer = { 
@@ -1517,7 +1555,7 @@ export type MakeFile = {
 hash: string, 
 /**
  * `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a show;
- * null: it is of no use here.
+ * `music`: it is the music of a show; null: it is of no use here.
  */
 kind: string | null, 
 /**

@@ -13,6 +13,7 @@ import { EmptyFrame } from './EmptyFrame';
 import { StageMenu } from './StageMenu';
 import { StageHint } from './StageHint';
 import { StageTools } from './StageTools';
+import { usePreviewSound } from './music/usePreviewSound';
 import { usePreview } from './usePreview';
 import { useHand } from './useHand';
 import { stopAdding } from '../make/pen';
@@ -73,6 +74,7 @@ export function EditStage() {
   const { full } = editing;
   useEffect(() => (routes ? full.follow() : undefined), [routes, full]);
   usePreview(editing);
+  usePreviewSound(editing);
   useKeys([
     [
       'Escape',

@@ -8,6 +8,7 @@ import { useEditing } from './context';
 import { FloorSection } from './FloorSection';
 import { FrameSection } from './FrameSection';
 import { MadeFrom } from './MadeFrom';
+import { MusicSection } from './music/MusicSection';
 import { PlaceSection } from './PlaceSection';
 import { RobotsSection } from './RobotsSection';
 import { ShowSection } from './ShowSection';
@@ -48,6 +49,7 @@ export function Inspector() {
         <Tabs.Panel value="show" className={styles.sections}>
           <ShowSection />
           <IssueList issues={issues} onFrame={(index) => editor.goToFrame(index)} />
+          <MusicSection />
           <RobotsSection />
           <FloorSection />
         </Tabs.Panel>

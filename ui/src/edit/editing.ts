@@ -7,6 +7,9 @@ import { startLightWorker } from '../light/browserWorker';
 import { createLights, type Lights } from '../light/lights';
 import { createMaker, type Maker } from '../make/maker';
 import type { Making } from '../make/making';
+import { decodeMusic } from '../music/decode';
+import { createMusic, type Music } from '../music/music';
+import { createSounding, type Sounding } from '../music/sounding';
 import { createFullPlan, type FullPlan } from '../session/fullPlan';
 import { createEditor, type Editor } from '../model/editor';
 import type { Keeper } from '../model/drafts';
@@ -17,6 +20,7 @@ import { openShow } from '../session/openShow';
 import type { Session } from '../session/session';
 import { createView, type View } from '../stage/view';
 import { followCopy } from '../session/copies';
+import { createListening, type Listening } from './music/listening';
 import { createSaving, draftOf, restoreDraft, type Saving } from './saving';
 import { createSpaceHold, type SpaceHold } from './spaceHold';
 import type { MenuAt } from './menuAt';
@@ -65,6 +69,11 @@ export interface Editing {
   maker: Maker;
   /** Colours of the layers of light. */
   lights: Lights;
+  /** The music of the show. */
+  music: Music;
+  /** Music that is heard: in the preview, or by itself. */
+  sounding: Sounding;
+  listening: Listening;
   /** The layer whose settings and handles are shown, counted from the lowest; null: none. */
   layer: Store<number | null>;
   /** Whether the panel of layers is open: then light moves on the frame that is drawn. */
@@ -106,10 +115,14 @@ export function createEditing(
   const files = new Map<string, TakenFile>();
   const fileOf = async (hash: string) => files.get(hash)?.bytes ?? (await getAsset(hash));
   const lights = createLights(startLightWorker, fileOf);
+  const music = createMusic(fileOf, decodeMusic);
+  music.follow(show);
+  const sounding = createSounding(fileOf);
   let { selection } = editor.state.get();
   const unfollow = editor.state.subscribe(() => {
     const now = editor.state.get();
     session.frame.set(now.frame);
+    music.follow(now.show);
     if (now.selection === selection) return;
     selection = now.selection;
     // The picker shows the colour of the selection.
@@ -137,6 +150,9 @@ export function createEditing(
     preview,
     maker,
     lights,
+    music,
+    sounding,
+    listening: createListening(sounding),
     layer: createStore<number | null>(null),
     lighting: createStore(false),
     choices: createStore<MakeChoices | null>(null),
@@ -149,6 +165,8 @@ export function createEditing(
       saver.flush();
       maker.end();
       lights.end();
+      editing.listening.stop();
+      sounding.close();
       unfollow();
       stop();
       keeper.leave();

@@ -2,15 +2,20 @@ import type { MakeFile } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { FILE_SOURCES, type DraftFile, type FileSource } from '../make/draft';
 import type { Making } from '../make/making';
+import { MUSIC_BYTES_MAX } from '../music/decode';
 import { DROPPABLE } from '../session/droppable';
 import { notify } from '../session/notices';
 import type { Session } from '../session/session';
 import { uploadShow } from '../session/upload';
 import type { Editing } from './editing';
 import { openMaking } from './makes';
+import { takeMusic } from './music/musicActs';
 
 /** Largest file that is taken, bytes: more than drawings and photographs have. */
 const FILE_BYTES_MAX = 16 * 2 ** 20;
+
+/** Largest file of music, bytes. */
+const TAKEN_BYTES_MAX = Math.max(FILE_BYTES_MAX, MUSIC_BYTES_MAX);
 
 /** Files that are taken at once: each makes a frame. */
 const FILES_MAX = 50;
@@ -60,8 +65,10 @@ export async function takeFiles(session: Session, editing: Editing, files: reado
     looked.push(found);
   }
   const sources = looked.filter((found) => FILE_SOURCES.includes(found.kind as FileSource));
+  const music = editing.files.get(looked.find(({ kind }) => kind === 'music')?.hash ?? '');
   const font = looked.find(({ kind }) => kind === 'font');
   refuse(looked.filter(({ why }) => why !== null));
+  if (music) await takeMusic(editing, music);
   if (sources.length > 0) {
     const { used, left } = together(sources.map(draftFile));
     if (left > 0)
@@ -93,15 +100,19 @@ const draftFile = ({ hash, name, kind }: Looked): DraftFile => ({
 /** Looks what a file is, and keeps it until a frame uses it. */
 export async function look(editing: Editing, file: File): Promise<Looked> {
   const refused = (why: string): Looked => ({ hash: '', name: file.name, kind: null, why });
-  if (file.size > FILE_BYTES_MAX)
-    return refused(`It has ${Math.ceil(file.size / 2 ** 20)} MiB; use a file of at most 16 MiB.`);
+  if (file.size > TAKEN_BYTES_MAX) return refused(tooLarge(file.size, TAKEN_BYTES_MAX));
   const bytes = new Uint8Array(await file.arrayBuffer());
   const { hash, kind, error } = await editing.maker.look(bytes);
   if (kind === null) return refused(error?.message ?? 'It is of an unknown kind.');
+  if (kind !== 'music' && file.size > FILE_BYTES_MAX)
+    return refused(tooLarge(file.size, FILE_BYTES_MAX));
   const mediaType = file.type || 'application/octet-stream';
   editing.files.set(hash, { hash, name: file.name.slice(0, 200), mediaType, bytes });
   return { hash, name: file.name, kind, why: null };
 }
+
+const tooLarge = (bytes: number, most: number) =>
+  `It has ${Math.ceil(bytes / 2 ** 20)} MiB; use a file of at most ${most / 2 ** 20} MiB.`;
 
 /** Says of files what they are, and what can be used. */
 function refuse(refused: readonly Looked[]) {

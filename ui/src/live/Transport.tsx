@@ -19,6 +19,7 @@ import { ChecklistButton } from './ChecklistButton';
 import { DriveDialog } from './DriveDialog';
 import { DriveProgress } from './DriveProgress';
 import { driveTo } from '../session/drives';
+import { MusicButton } from './MusicButton';
 import { RoleNote } from './RoleNote';
 import { PlayState } from './PlayState';
 import { followPlan, startPlay } from '../session/start';
@@ -96,6 +97,7 @@ export function Transport() {
           {icon('refresh', 'Look for robots (R)', <IconRefresh size={18} />)}
         </Group>
       </Gate>
+      <MusicButton />
       <RoleNote />
       <DriveProgress />
       <PlayState />

@@ -88,7 +88,7 @@ test('planned is hollow, measured is filled, and neither becomes the other', () 
     reason: null,
   };
   live.track.push(robots, 0);
-  receive(live, { type: 'state', at_ms: 0, pace: 1, fleet: 1, broker, playback });
+  receive(live, { type: 'state', at_ms: 0, pace: 1, fleet: 1, broker, playback, show_time: null });
   const scene = liveScene(live, inputs, 1000);
   expect(scene.filled).toMatchObject([{ x: Math.fround(0.1), y: Math.fround(0.2), color: 255 }]);
   expect(scene.hollow).toMatchObject([{ x: 0.5, y: Math.fround(0.2) }]);

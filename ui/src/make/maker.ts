@@ -1,4 +1,5 @@
 import type {
+  BeatsAnswer,
   FilmAnswer,
   FitAnswer,
   MakeAnswer,
@@ -30,6 +31,8 @@ export interface Maker {
   list(): Promise<MakeChoices>;
   /** What a file is. */
   look(bytes: Uint8Array): Promise<MakeFile>;
+  /** Beats of music: one channel, and how many samples there are in a second. */
+  beats(samples: Float32Array, rate_Hz: number): Promise<BeatsAnswer>;
   /** Ends the worker; the next wish starts another. */
   end(): void;
 }
@@ -37,8 +40,11 @@ export interface Maker {
 /** A frame that takes longer is given up, milliseconds: such a file is hostile, or far too fine for robots. */
 export const MAKE_MAX_MS = 10_000;
 
-/** An animation or a whole show that takes longer is given up, milliseconds: it has many frames. */
+/** An animation, a whole show or music that takes longer is given up, milliseconds. */
 export const MAKE_ALL_MAX_MS = 60_000;
+
+/** What takes that long. */
+const LONG: readonly Ask['do'][] = ['film', 'fit', 'beats'];
 
 /** A newer wish lets the frame in work finish for this long, milliseconds; starting a worker anew takes as long. */
 export const GRACE_MS = 300;
@@ -87,7 +93,7 @@ export function createMaker(start: () => MakeWorker): Maker {
       worker = start();
       listenTo(worker, () => worker, finish, fail('broken'));
     }
-    const isLong = running.ask.do === 'film' || running.ask.do === 'fit';
+    const isLong = LONG.includes(running.ask.do);
     giveUpIn(isLong ? MAKE_ALL_MAX_MS : MAKE_MAX_MS, fail('too-slow'));
     worker.postMessage(running.ask);
   };
@@ -129,6 +135,8 @@ export function createMaker(start: () => MakeWorker): Maker {
     },
     list: async () => (await wanted({ do: 'list' }, 'list')).choices,
     look: async (bytes) => (await wanted({ do: 'look', bytes }, 'look')).file,
+    beats: async (samples, rate_Hz) =>
+      (await wanted({ do: 'beats', samples, rate_Hz }, 'beats')).answer,
     end() {
       queue.splice(0).forEach((job) => job.done(null));
       const job = running;

@@ -1,4 +1,5 @@
 import type {
+  BeatsAnswer,
   FilmAnswer,
   FitAnswer,
   MakeAnswer,
@@ -19,7 +20,9 @@ export type Ask =
   /** A plan of a show. */
   | { do: 'plan'; request: PlanningRequest }
   | { do: 'list' }
-  | { do: 'look'; bytes: Uint8Array };
+  | { do: 'look'; bytes: Uint8Array }
+  /** Beats of music: one channel, and how many samples there are in a second. */
+  | { do: 'beats'; samples: Float32Array; rate_Hz: number };
 
 /** A message from the worker. */
 export type Reply =
@@ -29,6 +32,7 @@ export type Reply =
   | { of: 'plan'; answer: PlanAnswer }
   | { of: 'list'; choices: MakeChoices }
   | { of: 'look'; file: MakeFile }
+  | { of: 'beats'; answer: BeatsAnswer }
   /** The worker is of no more use. */
   | { of: 'failure'; cause: Cause };
 
@@ -43,6 +47,7 @@ export interface Module {
   plan(request: string): string;
   list(): string;
   look(bytes: Uint8Array): string;
+  beats(samples: Float32Array, rate_Hz: number): string;
 }
 
 const NO_FILE = new Uint8Array();
@@ -69,5 +74,9 @@ export function reply(module: Module, ask: Ask): Reply {
       return { of: 'list', choices: JSON.parse(module.list()) as MakeChoices };
     case 'look':
       return { of: 'look', file: JSON.parse(module.look(ask.bytes)) as MakeFile };
+    case 'beats': {
+      const text = module.beats(ask.samples, ask.rate_Hz);
+      return { of: 'beats', answer: JSON.parse(text) as BeatsAnswer };
+    }
   }
 }

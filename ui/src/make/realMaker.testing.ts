@@ -1,11 +1,13 @@
 import { readFileSync } from 'node:fs';
 import { answering } from '../base/worker.testing';
-import { film, fit, initSync, list, look, make, plan } from '../generated/browser';
+import { beats, film, fit, initSync, list, look, make, plan } from '../generated/browser';
 import { createMaker, type Maker } from './maker';
 import { reply } from './protocol';
 
 /** The real module on this thread, behind the same protocol as in a worker. */
 export function realMaker(): Maker {
   initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
-  return createMaker(() => answering((ask) => reply({ make, film, fit, plan, list, look }, ask)));
+  return createMaker(() =>
+    answering((ask) => reply({ make, film, fit, plan, list, look, beats }, ask)),
+  );
 }

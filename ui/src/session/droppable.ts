@@ -8,4 +8,4 @@ export interface Dropped {
 
 /** What can be dropped, in words. */
 export const DROPPABLE =
-  'drawings (SVG), pictures (PNG, JPEG, WebP), animations (GIF, WebP), lists (CSV), fonts (TTF, OTF), words and shows';
+  'drawings (SVG), pictures (PNG, JPEG, WebP), animations (GIF, WebP), lists (CSV), fonts (TTF, OTF), music (MP3, OGG, WAV, FLAC, M4A), words and shows';

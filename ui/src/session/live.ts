@@ -13,6 +13,7 @@ import type {
 import { createStore, type Store } from '../base/store';
 import { readShow } from '../model/json';
 import type { Show } from '../model/show';
+import { createShowClock, type ShowClock } from './showClock';
 import { createTrack, type Track } from './track';
 
 /** The show that is open on the server. */
@@ -42,6 +43,8 @@ export interface Live {
   /** What went wrong, oldest first. */
   incidents: Store<readonly Incident[]>;
   track: Track;
+  /** Where the show is on its timeline. */
+  showClock: ShowClock;
 }
 
 /** Lines of the log kept on screen. */
@@ -95,6 +98,7 @@ export function createLive(): Live {
     log: createStore<readonly LogLine[]>([]),
     incidents: createStore<readonly Incident[]>([]),
     track: createTrack(),
+    showClock: createShowClock(),
   };
 }
 
@@ -132,6 +136,7 @@ export function receive(live: Live, message: ToScreen) {
       keep(live.broker, message.broker);
       keep(live.playback, message.playback);
       live.pace.set(message.pace);
+      live.showClock.hear(message.at_ms, message.show_time, performance.now());
       break;
     case 'answer':
       break;

@@ -4,12 +4,13 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 21] = [
+const EDGES: [(&str, &[&str]); 22] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
     ("draw", &["base"]),
     ("light", &["base"]),
+    ("music", &[]),
     ("lighting", &["base", "light", "show", "plan"]),
     ("make", &["base", "light", "show", "draw"]),
     ("plan", &["base", "show"]),
@@ -21,7 +22,7 @@ const EDGES: [(&str, &[&str]); 21] = [
     ("exam", &["base", "wire"]),
     ("dmx", &["base", "light", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
-    ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "api"]),
+    ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "music", "api"]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),

@@ -29,6 +29,7 @@ mod recovery_bound;
 mod requests;
 mod roster;
 mod run_context;
+mod show_position;
 mod show_times;
 mod silence;
 mod standing;

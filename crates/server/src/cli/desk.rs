@@ -1,4 +1,4 @@
-//! The arguments for lighting desks, of `run`.
+//! The arguments for lighting and sound desks, of `run`.
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -12,7 +12,10 @@ const ARTNET: &str = "127.0.0.1:6454";
 /// Where sACN is received without an address: this machine alone.
 const SACN: &str = "127.0.0.1:5568";
 
-/// Lighting desks that drive the colours of robots, of `run`
+/// Where OSC is received without an address: this machine alone. 53000 is the port of a widespread sound program itself.
+const OSC: &str = "127.0.0.1:53100";
+
+/// Lighting and sound desks, of `run`
 #[derive(Clone, Debug, Args)]
 pub struct DeskArguments {
     /// Receive Art-Net [without an address: from this machine, 127.0.0.1:6454]
@@ -25,4 +28,10 @@ pub struct DeskArguments {
     /// robots on each universe]
     #[arg(long, value_name = "FILE")]
     pub patch: Option<PathBuf>,
+    /// Receive OSC: /lightbots/go and /lightbots/stop [without an address: from this machine, 127.0.0.1:53100]
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = OSC, value_parser = address)]
+    pub osc: Option<SocketAddr>,
+    /// Send OSC there when robots leave for a frame, a picture stands, or a cue waits for GO
+    #[arg(long, value_name = "HOST:PORT", value_parser = address)]
+    pub osc_out: Option<SocketAddr>,
 }

@@ -12,7 +12,7 @@ use crate::cli::ReplayArguments;
 use crate::data_folder::DataFolder;
 use crate::disk;
 use crate::failure::{Failure, Outcome};
-use crate::live::recorder::run_file;
+use crate::live::run_files::run_file;
 use crate::progress::Bar;
 use crate::say;
 

@@ -26,6 +26,7 @@ use crate::live::clock::Clock;
 use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
 use crate::live::desk_light::DeskLight;
+use crate::live::osc::OscLink;
 use crate::live::recorder::RecordingTarget;
 use crate::played_shows::PlayedShows;
 use crate::stop::Stop;
@@ -49,11 +50,24 @@ struct Started {
 }
 
 impl Started {
-    /// Starts what follows lighting desks and the broker's warnings.
-    fn follow(&mut self, desk: Option<DeskLight>, shared: &Shared, stop: &Stop) {
+    /// Starts what follows desks and the broker's warnings.
+    fn follow(
+        &mut self,
+        (desk, osc): (Option<DeskLight>, Option<OscLink>),
+        shared: &Arc<Shared>,
+        stop: &Stop,
+    ) {
         if let Some(desk) = desk {
             let desk = desk.run(shared.handle.clone(), shared.log.clone(), stop.clone());
             self.tasks.push(tokio::spawn(desk));
+        }
+        if let Some(osc) = osc {
+            let names = shared.clone();
+            let name_of = move |frame: usize| {
+                names.desk.shown().show.frames.get(frame).map_or(String::new(), |frame| frame.name.clone())
+            };
+            let osc = osc.run(shared.handle.clone(), shared.log.clone(), stop.clone(), name_of);
+            self.tasks.push(tokio::spawn(osc));
         }
         if let Some(lines) = self.broker.as_mut().and_then(EmbeddedBroker::notices) {
             self.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
@@ -102,6 +116,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     open_files::raise_limit();
     let certificate = certificate(&exposure, &data)?;
     let desk_light = DeskLight::open(&arguments.desk, arguments.lamps.settings()).await?;
+    let osc = OscLink::open(&arguments.desk).await?;
     let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
     folder.tell_address(&format!("{}://{address}", names.scheme().name()));
@@ -143,7 +158,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         simulated: shared.simulated.clone(),
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
-    started.follow(desk_light, &shared, stop);
+    started.follow((desk_light, osc), &shared, stop);
     started.tasks.push(tokio::spawn(playlist_player::play(shared.clone(), stop.clone())));
     let scheme = shared.names.scheme().name();
     say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));

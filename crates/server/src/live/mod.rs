@@ -14,10 +14,12 @@ mod handle;
 mod journal;
 mod link_state;
 mod orders;
+pub mod osc;
 mod pace;
 pub mod recorder;
 mod rivals;
 pub mod run_facts;
+pub mod run_files;
 pub mod run_reports;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};

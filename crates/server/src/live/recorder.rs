@@ -1,7 +1,7 @@
 //! Files of the controller's input log. A thread of its own writes them, so that a slow disk never delays a show.
 
-use std::fs::{DirEntry, File};
-use std::io::{ErrorKind, Write};
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
@@ -14,19 +14,9 @@ use lightbots_control::{Event, OnReturn, Operation, RecordedController, Refusal,
 use super::clock::unix_ms;
 use super::journal::JournalFile;
 use super::run_facts::{RunFacts, RunNotes};
+use super::run_files::{RUN_BYTES_MAX, facts_file, next_run, report_file};
 use super::run_reports::{ReportsUnderWay, RunReporter};
-use crate::disk;
 
-/// Folder of recorded runs in the data folder.
-const FOLDER: &str = "runs";
-/// Ending of a recorded run.
-const ENDING: &str = ".lblog";
-/// Most recorded runs that are kept.
-const RUNS_MAX: usize = 20;
-/// Most bytes that all recorded runs may have; older ones are deleted.
-const BYTES_MAX: u64 = 1 << 30;
-/// Most bytes of one recorded run; what comes later is not recorded.
-pub const RUN_BYTES_MAX: u64 = 256 << 20;
 /// Most pieces of a log, about a second each, that wait for the disk.
 const WAITING_MAX: usize = 256;
 
@@ -62,9 +52,11 @@ pub struct Recorder {
     recording: RecordingTarget,
     writer: Option<LogWriter>,
     journal: Option<JournalFile>,
-    /// The run that is on.
+    /// The run that is on, also when its log ended before it.
     run: Option<RunNotes>,
     reports: ReportsUnderWay,
+    /// Most bytes of the log of a run.
+    run_bytes_max: u64,
 }
 
 impl Recorder {
@@ -75,7 +67,7 @@ impl Recorder {
         }
         let journal = recording.data_folder().map(|data| JournalFile::start(data, controller));
         let reports = ReportsUnderWay::default();
-        Self { recording, writer: None, journal, run: None, reports }
+        Self { recording, writer: None, journal, run: None, reports, run_bytes_max: RUN_BYTES_MAX }
     }
 
     /// The logs whose reports are being made.
@@ -125,10 +117,13 @@ impl Recorder {
     }
 
     fn keep_log(&mut self, controller: &mut RecordedController) -> Option<String> {
+        let is_over = self.recording.is_by_run() && !controller.has_run();
         if !controller.is_recording() {
+            if is_over && self.run.is_some() {
+                self.end_run();
+            }
             return None;
         }
-        let is_over = self.recording.is_by_run() && !controller.has_run();
         if is_over && self.writer.is_none() {
             // The run was refused.
             self.run = None;
@@ -138,10 +133,18 @@ impl Recorder {
         let mut failure = self.write(controller.take_log());
         if is_over || failure.is_some() {
             failure = self.write(controller.end_log()).or(failure);
-            self.write_facts();
-            (self.writer, self.run) = (None, None);
+        }
+        // A log that ended before its run leaves the writer what is to be said of the run.
+        if is_over || !self.recording.is_by_run() && failure.is_some() {
+            self.end_run();
         }
         failure.map(|line| format!("The run is not recorded any further: {line}."))
+    }
+
+    /// Writes what is known of the run at its end, and closes the files.
+    fn end_run(&mut self) {
+        self.write_facts();
+        (self.writer, self.run) = (None, None);
     }
 
     /// The program ends: waits for the disk.
@@ -161,7 +164,8 @@ impl Recorder {
             return None;
         }
         if self.writer.is_none() {
-            self.writer = Some(LogWriter::start(self.recording.clone(), self.reports.clone())?);
+            self.writer =
+                Some(LogWriter::start(self.recording.clone(), self.reports.clone(), self.run_bytes_max)?);
             self.write_facts();
         }
         self.writer.as_mut().and_then(|writer| writer.write(bytes))
@@ -181,11 +185,6 @@ fn notes(command: &str) -> Vec<(String, String)> {
     vec![("command".to_owned(), command.to_owned()), ("began_unix_ms".to_owned(), unix_ms().to_string())]
 }
 
-/// The file of a recorded run by its number.
-pub fn run_file(data: &Path, number: u64) -> PathBuf {
-    data.join(FOLDER).join(format!("{number:06}{ENDING}"))
-}
-
 /// What the thread writes.
 #[derive(Debug)]
 enum Piece {
@@ -193,16 +192,6 @@ enum Piece {
     Log(Vec<u8>),
     /// The facts beside it.
     Facts(RunFacts),
-}
-
-/// The file with the facts of a run, beside its log.
-pub fn facts_file(log: &Path) -> PathBuf {
-    log.with_extension("json")
-}
-
-/// The file with the report of a run, beside its log, once it was asked for.
-pub fn report_file(log: &Path) -> PathBuf {
-    log.with_extension("html")
 }
 
 /// A thread that writes one log.
@@ -217,11 +206,11 @@ struct LogWriter {
 
 impl LogWriter {
     /// `None`: nothing is recorded.
-    fn start(recording: RecordingTarget, reports: ReportsUnderWay) -> Option<Self> {
+    fn start(recording: RecordingTarget, reports: ReportsUnderWay, run_bytes_max: u64) -> Option<Self> {
         if recording == RecordingTarget::Off {
             return None;
         }
-        let bytes_max = if recording.is_by_run() { RUN_BYTES_MAX } else { u64::MAX };
+        let bytes_max = if recording.is_by_run() { run_bytes_max } else { u64::MAX };
         let (pieces, inbox) = sync_channel(WAITING_MAX);
         let failure = Arc::new(OnceLock::new());
         let failed = failure.clone();
@@ -281,71 +270,69 @@ fn write_log(
     Ok(())
 }
 
-/// The file of the next run; old ones are deleted.
-fn next_run(data: &Path) -> std::io::Result<PathBuf> {
-    let folder = data.join(FOLDER);
-    disk::create_folder(&folder)?;
-    let runs = recorded_runs(data)?;
-    let mut bytes = RUN_BYTES_MAX;
-    for (place, &(number, length)) in runs.iter().enumerate() {
-        bytes += length;
-        if place + 1 >= RUNS_MAX || bytes > BYTES_MAX {
-            remove_run(data, number)?;
-        }
-    }
-    Ok(run_file(data, runs.first().map_or(1, |&(number, _)| number + 1)))
-}
-
-fn remove_run(data: &Path, number: u64) -> std::io::Result<()> {
-    let log = run_file(data, number);
-    for beside in [facts_file(&log), report_file(&log)] {
-        match disk::remove(&beside) {
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
-    }
-    disk::remove(&log)
-}
-
-/// Numbers and lengths of the recorded runs, the newest first.
-pub fn recorded_runs(data: &Path) -> std::io::Result<Vec<(u64, u64)>> {
-    let folder = match std::fs::read_dir(data.join(FOLDER)) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
-        folder => folder?,
-    };
-    let mut runs: Vec<(u64, u64)> = folder.flatten().filter_map(run_of_entry).collect();
-    runs.sort_unstable_by(|a, b| b.cmp(a));
-    Ok(runs)
-}
-
-/// Number and length of a recorded run.
-fn run_of_entry(entry: DirEntry) -> Option<(u64, u64)> {
-    let name = entry.file_name();
-    let number = name.to_str()?.strip_suffix(ENDING)?.parse().ok()?;
-    Some((number, entry.metadata().ok().filter(|file| file.is_file())?.len()))
-}
-
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
+    use lightbots_base::Vec2;
+    use lightbots_control::{Config, Controller, MissingPolicy};
+    use lightbots_show::{Frame, Pixel, Show};
+
     use super::*;
 
-    #[test]
-    fn the_last_runs_are_kept() {
-        let data = std::env::temp_dir().join(format!("lightbots-runs-{}", std::process::id()));
-        for number in 1..=25 {
-            let path = next_run(&data).unwrap();
-            assert_eq!(path, run_file(&data, number));
-            for file in [&path, &facts_file(&path), &report_file(&path)] {
-                File::create(file).unwrap();
-            }
+    /// One robot that stands, a show that leads it away, and its run.
+    fn run_begun(recorder: &mut Recorder, controller: &mut RecordedController) {
+        let pixel = Pixel { at: Vec2::new(0.5, 0.5), ..Pixel::default() };
+        let frame = Frame { pixels: vec![pixel], ..Frame::default() };
+        let show = Arc::new(Show { frames: vec![frame], ..Show::default() });
+        controller.connected(Instant(1_000));
+        controller.message(Instant(2_000), "T/LightBot/UUID", b"a 0.5 1.3");
+        controller.operate(Instant(3_000), Operation::Open(show)).unwrap();
+        let play = Operation::Play { from: 0, missing: MissingPolicy::Refuse };
+        recorder.before(controller, Instant(4_000), &play);
+        controller.operate(Instant(4_000), play).unwrap();
+    }
+
+    /// What the controller says since, to the recorder.
+    fn listen(recorder: &mut Recorder, controller: &mut RecordedController) -> Vec<String> {
+        while let Some(event) = controller.next_event() {
+            recorder.note(&event);
         }
-        let kept: Vec<u64> = recorded_runs(&data).unwrap().iter().map(|run| run.0).collect();
-        assert_eq!(kept, (6..=25).rev().collect::<Vec<_>>());
-        assert_eq!(std::fs::read_dir(data.join(FOLDER)).unwrap().count(), 3 * kept.len());
-        let large = File::create(run_file(&data, 25)).unwrap();
-        large.set_len(BYTES_MAX).unwrap();
-        next_run(&data).unwrap();
-        assert_eq!(std::fs::read_dir(data.join(FOLDER)).unwrap().count(), 0);
+        while controller.next_send().is_some() {}
+        while controller.next_plan_request().is_some() {}
+        recorder.keep(controller).collect()
+    }
+
+    #[test]
+    fn a_run_that_is_longer_than_its_log_ends_in_the_list() {
+        let data = std::env::temp_dir().join(format!("lightbots-long-run-{}", std::process::id()));
+        let mut controller = RecordedController::new(Controller::new(Config::default()));
+        let target = RecordingTarget::Runs(data.clone());
+        let mut recorder = Recorder::new(target, &mut controller, Instant(0));
+        recorder.run_bytes_max = 20_000;
+        run_begun(&mut recorder, &mut controller);
+        let mut said = Vec::new();
+        for moment in 0..2_000 {
+            controller.message(Instant(5_000 + moment * 10), "T/LightBot/UUID", b"a 0.5 1.3");
+            said.extend(listen(&mut recorder, &mut controller));
+        }
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(said[0].contains("not recorded any further"), "{said:?}");
+        assert!(controller.has_run() && !controller.is_recording());
+        controller.operate(Instant(30_000), Operation::Abort).unwrap();
+        for moment in 0..1_000 {
+            controller.wake(Instant(40_000 + moment * 10_000));
+            listen(&mut recorder, &mut controller);
+        }
+        assert!(!controller.has_run());
+        recorder.finish(&mut controller);
+        let facts = facts_file(&crate::live::run_files::run_file(&data, 1));
+        // The thread that writes has its own time.
+        let is_ended = || RunFacts::read(&facts).is_some_and(|facts| facts.ended_ms.is_some());
+        assert!((0..600).any(|_| is_ended() || {
+            std::thread::sleep(Duration::from_millis(50));
+            false
+        }));
         std::fs::remove_dir_all(data).unwrap();
     }
 }

@@ -7,7 +7,9 @@ use axum::extract::ws::Utf8Bytes;
 use lightbots_api as api;
 use lightbots_api::rounded;
 use lightbots_base::{RobotId, Vec2};
-use lightbots_control::{Age, ControllerState, PreflightRobot, RepeatView, RobotView, RunView, Snapshot};
+use lightbots_control::{
+    Age, ControllerState, PreflightRobot, RepeatView, RobotView, RunView, ShowPosition, Snapshot,
+};
 use lightbots_wire::RobotState;
 use tokio::sync::{broadcast, watch};
 use tokio::time::MissedTickBehavior;
@@ -189,6 +191,7 @@ impl Painter {
                 reason: self.link.reason.clone(),
             },
             playback: self.playback(snapshot),
+            show_time: snapshot.run.as_ref().and_then(|run| run.position).map(show_time),
         }
     }
 
@@ -243,6 +246,10 @@ impl Painter {
         let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s * slower).sum();
         Some(rounded(now_s * (1.0 - run.progress.clamp(0.0, 1.0)) + then_s + rest_s, 2))
     }
+}
+
+fn show_time(ShowPosition { show_s, runs }: ShowPosition) -> api::ShowTime {
+    api::ShowTime { show_s: rounded(show_s, 4), runs }
 }
 
 fn repeats(RepeatView { first, last, round, leaves }: RepeatView) -> api::Repeats {

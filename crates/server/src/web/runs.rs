@@ -16,14 +16,14 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use lightbots_api::RunEntry;
 use lightbots_control::{HEAD_BYTES, check_head};
-use lightbots_report::{page, report_of};
+use lightbots_report::{GrowingReport, Scrub, ShowReport, page};
 use tokio::sync::Semaphore;
 
 use super::refused::{Refused, refuse};
 use crate::disk::{self, Readers};
 use crate::live::conductor::Handle;
-use crate::live::recorder::{RUN_BYTES_MAX, facts_file, recorded_runs, report_file, run_file};
 use crate::live::run_facts::RunFacts;
+use crate::live::run_files::{facts_file, recorded_runs, report_file, run_file};
 
 /// Longest page that is read, bytes. A report bounds its samples and robots to less.
 const PAGE_MAX: u64 = 64 << 20;
@@ -123,19 +123,30 @@ fn report(data: &Path, number: u64, is_running: bool) -> Result<Vec<u8>, Refused
     if let Ok(page) = disk::read_regular(&kept, PAGE_MAX) {
         return Ok(page);
     }
-    let bytes = disk::read_regular(&log, RUN_BYTES_MAX + PAGE_MAX).map_err(|_| none(number))?;
+    let file = disk::open_regular(&log).map_err(|_| none(number))?;
     let unfit =
         |why: String| refuse(StatusCode::UNPROCESSABLE_ENTITY, &format!("run {number} has no report: {why}"));
     // The log may come from a program that failed: then the core fails again.
-    let made = catch_unwind(|| report_of(&bytes, &mut |_| {}));
-    let (report, scrub) = made
-        .map_err(|_| unfit("the controller failed in this run".into()))?
-        .map_err(|error| unfit(error.to_string()))?;
+    let made = catch_unwind(|| report_of_file(file));
+    let (report, scrub) =
+        made.map_err(|_| unfit("the controller failed in this run".into()))?.map_err(unfit)?;
     let page = page(&report, &scrub).into_bytes();
     if let Err(error) = disk::replace(&kept, &page, Readers::All) {
         tracing::warn!("the report of run {number} is not kept: {error}");
     }
     Ok(page)
+}
+
+/// The report of a log, which is not held in memory as a whole.
+fn report_of_file(mut log: File) -> Result<(ShowReport, Scrub), String> {
+    let (mut report, mut piece) = (GrowingReport::default(), vec![0; 1 << 20]);
+    loop {
+        let length = log.read(&mut piece).map_err(|error| error.to_string())?;
+        if length == 0 {
+            return report.finish().map_err(|error| error.to_string());
+        }
+        report.feed(&piece[..length]).map_err(|error| error.to_string())?;
+    }
 }
 
 fn none(number: u64) -> Refused {

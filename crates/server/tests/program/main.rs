@@ -48,6 +48,7 @@ mod screen;
 mod shows;
 mod sign_in;
 mod site;
+mod sound_desk;
 mod strangers;
 mod web_tls;
 

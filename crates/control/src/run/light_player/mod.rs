@@ -220,6 +220,11 @@ impl LightPlayer {
         }
     }
 
+    /// The light of the leg that is driven or was driven last.
+    pub fn current(&self) -> Option<&LegLight> {
+        self.current.as_ref()
+    }
+
     /// The drive goes on by this clock.
     pub fn see(&mut self, clock: PathClock) {
         if let Some(current) = &mut self.current {

@@ -1,0 +1,34 @@
+//! Where a run is on the timeline: what music follows.
+
+use crate::run::{Run, RunPhase, RunPurpose};
+use crate::snapshot::ShowPosition;
+use lightbots_base::{Instant, Span};
+
+impl Run {
+    /// Where the run is on the timeline; `None`: no show is played, or its first drive has not begun.
+    pub fn show_position(&self, now: Instant) -> Option<ShowPosition> {
+        let light = self.pipeline.light.current().filter(|_| self.playback.purpose == RunPurpose::Play)?;
+        let end = light.drive + light.air;
+        let until_end = |left: Span| (end - left).clamp(light.drive, end.max(light.drive));
+        let (elapsed, runs) = match &self.phase {
+            RunPhase::Driving(drive) => {
+                let elapsed = drive.clock.path_time(now);
+                (elapsed.clamp(Span::ZERO, light.drive), drive.clock.hold.is_none() && elapsed < light.drive)
+            }
+            RunPhase::Standing(standing) => match standing.air.left {
+                Some(left) => (until_end(left), false),
+                None => {
+                    let left = (standing.air.until - now).max(Span::ZERO);
+                    let is_reached = light.reaches_frame && !self.playback.paused;
+                    (until_end(left), is_reached && left > Span::ZERO)
+                }
+            },
+            RunPhase::Starting(starting) => {
+                let left = (starting.at - now).max(Span::ZERO);
+                (until_end(left), left > Span::ZERO && left < light.air)
+            }
+            RunPhase::Interrupted(_) | RunPhase::Gathering(_) | RunPhase::Over(..) => (light.seen, false),
+        };
+        Some(ShowPosition { show_s: light.show_s + elapsed.as_secs(), runs })
+    }
+}

@@ -1,0 +1,38 @@
+//! How well found beats agree with true ones.
+
+/// Beats this near to each other are the same, seconds.
+const SAME_S: f64 = 0.05;
+
+/// F: beats that agree one to one, as the harmonic mean of the shares of both.
+pub fn agreement(found: &[f64], truth: &[f64]) -> f64 {
+    let (mut i, mut j, mut hits) = (0, 0, 0);
+    while let (Some(a), Some(b)) = (found.get(i), truth.get(j)) {
+        if (a - b).abs() <= SAME_S {
+            (i, j, hits) = (i + 1, j + 1, hits + 1);
+        } else if a < b {
+            i += 1;
+        } else {
+            j += 1;
+        }
+    }
+    2.0 * f64::from(hits) / (found.len() + truth.len()) as f64
+}
+
+/// F after the best of the buttons: none, ×2, ÷2, the other ÷2, half a beat later.
+pub fn with_buttons(found: &[f64], truth: &[f64]) -> f64 {
+    let between: Vec<f64> = found.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
+    let mut doubled: Vec<f64> = found.iter().chain(&between).copied().collect();
+    doubled.sort_by(f64::total_cmp);
+    let halved = |first: usize| found.iter().copied().skip(first).step_by(2).collect::<Vec<f64>>();
+    let changed = [found.to_vec(), doubled, halved(0), halved(1), between];
+    changed.iter().map(|beats| agreement(beats, truth)).fold(0.0, f64::max)
+}
+
+/// Median of found less true moments, seconds, of beats that agree.
+pub fn offset_s(found: &[f64], truth: &[f64]) -> f64 {
+    let nearest = |beat: &f64| truth.iter().map(|t| beat - t).min_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let mut errors: Vec<f64> =
+        found.iter().filter_map(nearest).filter(|error| error.abs() <= SAME_S).collect();
+    errors.sort_by(f64::total_cmp);
+    errors.get(errors.len() / 2).copied().unwrap_or(f64::NAN)
+}

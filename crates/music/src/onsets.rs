@@ -1,0 +1,136 @@
+//! How strongly notes begin, over time: rises of the logarithmic spectrum in three bands.
+
+use core::f64::consts::TAU;
+use realfft::RealFftPlanner;
+
+use crate::sound::Sound;
+
+/// Values a second: 256 samples of 22,050 a second, a usual hop of beat trackers.
+pub(crate) const FRAMES_PER_S: f64 = 22_050.0 / 256.0;
+
+/// Length of a window of sound, seconds: 1,024 samples of 22,050 a second. Windows have the power of two nearest to it.
+const WINDOW_S: f64 = 1_024.0 / 22_050.0;
+
+/// Magnitudes are compressed as ln(1 + `LOUD` × m), where 1 is a sine of full scale: 60 dB below it still counts.
+const LOUD: f32 = 1_000.0;
+
+/// A band of the spectrum that is looked at by itself, so that a bass drum is heard beside cymbals.
+struct Band {
+    /// Upper end, Hz.
+    to_hz: f64,
+    /// How much it counts.
+    weight: f32,
+}
+
+/// Bass, voices and instruments, cymbals. Cymbals often play between beats.
+const BANDS: [Band; 3] = [
+    Band { to_hz: 150.0, weight: 1.0 },
+    Band { to_hz: 4_000.0, weight: 0.9 },
+    Band { to_hz: f64::INFINITY, weight: 0.25 },
+];
+
+/// Rises are compared with their mean over this time, seconds.
+const MEAN_S: f64 = 1.0;
+
+/// Rises count up to this share of the largest within [`PEAK_S`], so that one crash does not hide the beats around it.
+const PEAK_SHARE: f32 = 0.6;
+
+/// Time around a rise in which the largest is looked for, seconds.
+const PEAK_S: f64 = 4.0;
+
+/// The largest rise nearby counts as at least this share of the largest in the music, so that noise stays small.
+const PEAK_LEAST: f32 = 0.05;
+
+/// Strength of beginning notes at each frame, [`FRAMES_PER_S`] a second; frame `i` is centred at `i / FRAMES_PER_S`.
+pub(crate) struct Onsets {
+    /// Of all bands.
+    pub all: Vec<f32>,
+    /// Of the bass alone, 0 to 1.
+    pub bass: Vec<f32>,
+}
+
+/// Where notes begin in a sound.
+pub(crate) fn onsets(sound: &Sound<'_>) -> Onsets {
+    let levels = rises(sound).map(|rises| level(&rises));
+    let sum = |frame: usize| BANDS.iter().zip(&levels).map(|(band, level)| band.weight * level[frame]).sum();
+    let all = (0..levels[0].len()).map(sum).collect();
+    let [bass, ..] = levels;
+    Onsets { all, bass }
+}
+
+/// Rises of each band.
+fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
+    let rate_hz = sound.rate_hz();
+    let size = 1_usize << (WINDOW_S * rate_hz).log2().round() as u32;
+    let fft = RealFftPlanner::<f32>::new().plan_fft_forward(size);
+    let (mut input, mut spectrum, mut scratch) =
+        (fft.make_input_vec(), fft.make_output_vec(), fft.make_scratch_vec());
+    let window: Vec<f32> =
+        (0..size).map(|i| (0.5 - 0.5 * (TAU * i as f64 / size as f64).cos()) as f32).collect();
+    let full_scale = 4.0 / size as f32;
+    let band_of: Vec<usize> = (0..spectrum.len())
+        .map(|bin| {
+            let hz = bin as f64 * rate_hz / size as f64;
+            BANDS.iter().position(|band| hz < band.to_hz).unwrap_or(BANDS.len() - 1)
+        })
+        .collect();
+    let mut bins = [0.0_f32; 3];
+    band_of.iter().for_each(|&band| bins[band] += 1.0);
+
+    let frames = (sound.lasts_s() * FRAMES_PER_S) as usize + 1;
+    let mut last = vec![0.0_f32; spectrum.len()];
+    let mut rises = core::array::from_fn(|_| Vec::with_capacity(frames));
+    for frame in 0..frames {
+        let first = (frame as f64 / FRAMES_PER_S * rate_hz).round() as i64 - size as i64 / 2;
+        for (i, (value, weight)) in input.iter_mut().zip(&window).enumerate() {
+            *value = sound.sample(first + i as i64) * weight;
+        }
+        let done = fft.process_with_scratch(&mut input, &mut spectrum, &mut scratch);
+        debug_assert!(done.is_ok(), "buffers are of the sizes that the transform names");
+        let mut sums = [0.0_f32; 3];
+        for ((value, last), &band) in spectrum.iter().zip(&mut last).zip(&band_of) {
+            let now = (1.0 + LOUD * full_scale * value.norm()).ln();
+            // The first window has nothing before it: not all that sounds begins there.
+            if frame > 0 {
+                sums[band] += (now - *last).max(0.0);
+            }
+            *last = now;
+        }
+        for (band, rises) in rises.iter_mut().enumerate() {
+            rises.push(sums[band] / bins[band].max(1.0));
+        }
+    }
+    rises
+}
+
+/// Rises above their mean, as a share of the largest nearby.
+fn level(rises: &[f32]) -> Vec<f32> {
+    let above: Vec<f32> = rises.iter().zip(mean(rises)).map(|(rise, mean)| (rise - mean).max(0.0)).collect();
+    let largest = above.iter().copied().fold(0.0, f32::max);
+    if largest <= 0.0 {
+        return above;
+    }
+    let reach = (PEAK_S * FRAMES_PER_S / 2.0) as usize;
+    (0..above.len())
+        .map(|i| {
+            let near = &above[i.saturating_sub(reach)..(i + reach + 1).min(above.len())];
+            let peak = PEAK_SHARE * near.iter().copied().fold(PEAK_LEAST * largest, f32::max);
+            (above[i] / peak).min(1.0)
+        })
+        .collect()
+}
+
+/// Mean around each value over [`MEAN_S`].
+fn mean(values: &[f32]) -> Vec<f32> {
+    let reach = (MEAN_S * FRAMES_PER_S / 2.0) as usize;
+    let mut sums = vec![0.0_f64];
+    for value in values {
+        sums.push(sums[sums.len() - 1] + f64::from(*value));
+    }
+    (0..values.len())
+        .map(|i| {
+            let (from, to) = (i.saturating_sub(reach), (i + reach + 1).min(values.len()));
+            ((sums[to] - sums[from]) / (to - from) as f64) as f32
+        })
+        .collect()
+}

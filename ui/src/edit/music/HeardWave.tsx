@@ -1,0 +1,55 @@
+import { IconPlayerPlayFilled, IconPlayerStopFilled } from '@tabler/icons-react';
+import { Group } from '@mantine/core';
+import { useEffect, useMemo, useState } from 'react';
+import { useStore } from '../../base/store';
+import { clockText } from '../../base/time';
+import { beatsBetween, beatsOf } from '../../model/beats';
+import type { SeenMusic } from '../../music/music';
+import { IconButton } from '../../parts/IconButton';
+import { useEditing, useEditor } from '../context';
+import { Waveform } from './Waveform';
+
+/** The waveform with its beats, and a button that lets it be heard. */
+export function HeardWave({ music: { hash, lasts_s, peaks } }: { music: SeenMusic }) {
+  const { listening, preview } = useEditing();
+  const beats = useEditor((s) => s.show.rest.beats);
+  const show = useEditor((s) => s.show);
+  const drawn = useMemo(
+    () => {
+      const known = beatsOf(show);
+      return known ? beatsBetween(known, 0, lasts_s) : [];
+    },
+    // eslint-disable-next-line react-hooks/exhaustive-deps -- other changes of the show do not move beats
+    [beats, lasts_s],
+  );
+  const at_s = useStore(listening.at_s);
+  const [from_s, setFrom] = useState(0);
+  useEffect(() => listening.stop, [listening]);
+  const listen = (start_s: number) => {
+    preview.stop();
+    setFrom(start_s);
+    void listening.start(hash, start_s, lasts_s);
+  };
+  const isHeard = at_s !== null;
+  return (
+    <>
+      <Waveform
+        peaks={peaks}
+        beats={drawn}
+        from_s={0}
+        to_s={lasts_s}
+        at_s={at_s ?? from_s}
+        onSeek={(to_s) => (isHeard ? listen(to_s) : setFrom(to_s))}
+      />
+      <Group gap="xs">
+        <IconButton
+          label={isHeard ? 'Stop the music' : 'Hear the music'}
+          onClick={() => (isHeard ? listening.stop() : listen(from_s))}
+        >
+          {isHeard ? <IconPlayerStopFilled size={16} /> : <IconPlayerPlayFilled size={16} />}
+        </IconButton>
+        {clockText(at_s ?? from_s)} of {clockText(lasts_s)}
+      </Group>
+    </>
+  );
+}

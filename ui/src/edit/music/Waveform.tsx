@@ -1,0 +1,73 @@
+import { useMemo } from 'react';
+import { PEAKS_PER_S } from '../../music/decode';
+import type { Beat } from '../../model/beats';
+import styles from './Music.module.css';
+
+interface Props {
+  peaks: Float32Array;
+  beats: readonly Beat[];
+  /** The stretch of the file that is drawn, seconds. */
+  from_s: number;
+  to_s: number;
+  /** The position that is heard, seconds; null: none. */
+  at_s: number | null;
+  /** Pressed or dragged to, seconds. */
+  onSeek?: (at_s: number) => void;
+}
+
+/** Columns of the drawing: it is stretched to the width that it gets. */
+const COLUMNS = 600;
+const HEIGHT = 60;
+/** Beats nearer to each other than this are not drawn, columns: bars are. */
+const DENSE = 5;
+
+/** Loudness over time, with lines at bars and beats. */
+export function Waveform({ peaks, beats, from_s, to_s, at_s, onSeek }: Props) {
+  const wave = useMemo(() => wavePath(peaks, from_s, to_s), [peaks, from_s, to_s]);
+  const [bars, others] = useMemo(() => {
+    const isDense = beats.length * DENSE > COLUMNS;
+    const lines = (some: readonly Beat[]) =>
+      some.map((b) => `M${column(b.at_s, from_s, to_s)} 0V${HEIGHT}`).join('');
+    return [
+      lines(beats.filter((b) => b.isBar)),
+      isDense ? '' : lines(beats.filter((b) => !b.isBar)),
+    ];
+  }, [beats, from_s, to_s]);
+  const head = at_s === null ? null : column(at_s, from_s, to_s);
+  return (
+    <svg
+      className={styles.wave}
+      viewBox={`0 0 ${COLUMNS} ${HEIGHT}`}
+      preserveAspectRatio="none"
+      aria-hidden
+      onPointerDown={(event) => {
+        const box = event.currentTarget.getBoundingClientRect();
+        const share = (event.clientX - box.left) / Math.max(1, box.width);
+        onSeek?.(from_s + share * (to_s - from_s));
+      }}
+    >
+      <path className={styles.peaks} d={wave} />
+      <path className={styles.beats} d={others} />
+      <path className={styles.bars} d={bars} />
+      {head === null ? null : <path className={styles.head} d={`M${head} 0V${HEIGHT}`} />}
+    </svg>
+  );
+}
+
+const column = (at_s: number, from_s: number, to_s: number) =>
+  Number((((at_s - from_s) / Math.max(1e-6, to_s - from_s)) * COLUMNS).toFixed(1));
+
+/** The outline of the peaks: the largest of each column, mirrored. */
+function wavePath(peaks: Float32Array, from_s: number, to_s: number): string {
+  const heights = Array.from({ length: COLUMNS }, (_, i) => {
+    const at = (share: number) => (from_s + (share / COLUMNS) * (to_s - from_s)) * PEAKS_PER_S;
+    let most = 0;
+    for (let j = Math.floor(at(i)); j < Math.max(at(i + 1), Math.floor(at(i)) + 1); j++)
+      most = Math.max(most, peaks[j] ?? 0);
+    return (most * HEIGHT) / 2;
+  });
+  const middle = HEIGHT / 2;
+  const top = heights.map((h, i) => `${i} ${(middle - h).toFixed(1)}`).join('L');
+  const bottom = heights.map((h, i) => `${i} ${(middle + h).toFixed(1)}`).reverse();
+  return `M${top}L${bottom.join('L')}Z`;
+}

@@ -1,0 +1,44 @@
+import { createStore, type Readable } from '../../base/store';
+import type { Sounding } from '../../music/sounding';
+import { notify } from '../../session/notices';
+
+/** Hearing the file of the music by itself, without the show. */
+export interface Listening {
+  /** The position that is heard, seconds of the file; null: nothing is. */
+  at_s: Readable<number | null>;
+  start(hash: string, from_s: number, lasts_s: number): Promise<void>;
+  stop(): void;
+}
+
+export function createListening(sounding: Sounding): Listening {
+  const at_s = createStore<number | null>(null);
+  let request = 0;
+  const stop = () => {
+    cancelAnimationFrame(request);
+    sounding.follow(null, performance.now());
+    at_s.set(null);
+  };
+  return {
+    at_s,
+    async start(hash, from_s, lasts_s) {
+      stop();
+      try {
+        await sounding.open(hash);
+      } catch (error) {
+        const why = error instanceof Error ? error.message : String(error);
+        notify('error', `The music cannot be heard: ${why}`);
+        return;
+      }
+      const began_ms = performance.now();
+      const step = (now_ms: number) => {
+        const position_s = from_s + Math.max(0, now_ms - began_ms) / 1000;
+        if (position_s >= lasts_s) return stop();
+        request = requestAnimationFrame(step);
+        sounding.follow(position_s, now_ms);
+        at_s.set(position_s);
+      };
+      request = requestAnimationFrame(step);
+    },
+    stop,
+  };
+}

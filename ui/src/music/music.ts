@@ -1,0 +1,71 @@
+import { createStore, type Readable } from '../base/store';
+import { musicOf } from '../model/beats';
+import type { Show } from '../model/show';
+import { peaksOf, type DecodedMusic } from './decode';
+
+/** Music that can be looked at. */
+export interface SeenMusic {
+  hash: string;
+  lasts_s: number;
+  /** Loudness over time, `PEAKS_PER_S` a second, 0 to 1. */
+  peaks: Float32Array;
+}
+
+/** The music of the show that is edited. */
+export type MusicState =
+  | { of: 'none' }
+  | { of: 'loading' }
+  | { of: 'ready'; music: SeenMusic }
+  | { of: 'failed'; why: string };
+
+export interface Music {
+  state: Readable<MusicState>;
+  /** Loads the music of this show, if that is another one than before. */
+  follow(show: Show): void;
+  /** Decodes the show's music once more: what beats are found in takes much memory, and is not kept. */
+  decode(): Promise<DecodedMusic>;
+  /** Music that was decoded when its file was taken. */
+  add(hash: string, decoded: DecodedMusic): void;
+}
+
+/** Decodes with `decode` what `fileOf` finds by its hash. */
+export function createMusic(
+  fileOf: (hash: string) => Promise<Uint8Array<ArrayBuffer>>,
+  decode: (bytes: Uint8Array<ArrayBuffer>) => Promise<DecodedMusic>,
+): Music {
+  const state = createStore<MusicState>({ of: 'none' });
+  let wanted: string | null = null;
+  /** The last decoded music: undo may bring it back. */
+  let kept: SeenMusic | null = null;
+  const load = async (hash: string) => {
+    state.set({ of: 'loading' });
+    try {
+      const decoded = await decode(await fileOf(hash));
+      if (wanted === hash) keep(hash, decoded);
+    } catch (error) {
+      if (wanted !== hash) return;
+      state.set({ of: 'failed', why: error instanceof Error ? error.message : String(error) });
+    }
+  };
+  const keep = (hash: string, decoded: DecodedMusic) => {
+    const lasts_s = decoded.samples.length / decoded.rate_Hz;
+    kept = { hash, lasts_s, peaks: peaksOf(decoded) };
+    if (wanted === hash) state.set({ of: 'ready', music: kept });
+  };
+  return {
+    state,
+    follow(show) {
+      const hash = musicOf(show)?.hash ?? null;
+      if (hash === wanted) return;
+      wanted = hash;
+      if (hash === null) state.set({ of: 'none' });
+      else if (kept?.hash === hash) state.set({ of: 'ready', music: kept });
+      else void load(hash);
+    },
+    async decode() {
+      if (wanted === null) throw new Error('The show has no music. Add some first.');
+      return decode(await fileOf(wanted));
+    },
+    add: keep,
+  };
+}

@@ -1,0 +1,39 @@
+import { createAudioOut, type AudioOut } from './audioOut';
+import { createPlayer, type Player } from './player';
+
+/** Music that is heard on this screen. */
+export interface Sounding {
+  /** Gets music ready to be heard; to be called in a press of the user. Throws an error for people. */
+  open(hash: string): Promise<void>;
+  /** As `Player.follow`; silent while nothing is open. */
+  follow(position_s: number | null, now_ms: number): void;
+  close(): void;
+}
+
+export function createSounding(
+  fileOf: (hash: string) => Promise<Uint8Array<ArrayBuffer>>,
+): Sounding {
+  let opened: { hash: string; out: AudioOut; player: Player } | null = null;
+  let opening: Promise<void> | null = null;
+  const close = () => {
+    opened?.player.stop();
+    opened?.out.close();
+    opened = null;
+  };
+  const load = async (hash: string) => {
+    const out = await createAudioOut(await fileOf(hash));
+    close();
+    opened = { hash, out, player: createPlayer(out, out.lasts_s) };
+  };
+  return {
+    async open(hash) {
+      if (opened?.hash === hash) return;
+      await opening?.catch(() => undefined);
+      if (opened?.hash === hash) return;
+      opening = load(hash);
+      await opening;
+    },
+    follow: (position_s, now_ms) => opened?.player.follow(position_s, now_ms),
+    close,
+  };
+}
