@@ -9,11 +9,10 @@ pub struct SteadyBeats {
     pub offset_s: f64,
 }
 
-/// Beats are steady if this share of them is within `STEADY_S` of a steady tempo: a few are found beside the true ones.
+/// Beats are steady if this share of them is near to a steady tempo: a few are found beside the true ones.
 const STEADY_SHARE: f64 = 0.95;
 
-/// How near beats are to a steady tempo, seconds: half of what counts as the same beat, and more than the errors of beats that
-/// are found in steady music.
+/// How near, seconds: half of what counts as the same beat, and more than the errors of beats found in steady music.
 const STEADY_S: f64 = 0.025;
 
 /// Beats of a bar in most music: the first beat that was found is taken for the first of a bar.

@@ -42,6 +42,9 @@ const ISSUES_SHOWN: usize = 5;
 /// Longest time for robots and conductor to disconnect at the end. After it their connections are cut off.
 const GOODBYE: Duration = Duration::from_secs(2);
 
+/// Lighting and sound desks.
+type Desks = (Option<DeskLight>, Option<OscLink>);
+
 /// Tasks and broker that were started, in the order of their stop.
 #[derive(Default)]
 struct Started {
@@ -51,23 +54,18 @@ struct Started {
 
 impl Started {
     /// Starts what follows desks and the broker's warnings.
-    fn follow(
-        &mut self,
-        (desk, osc): (Option<DeskLight>, Option<OscLink>),
-        shared: &Arc<Shared>,
-        stop: &Stop,
-    ) {
-        if let Some(desk) = desk {
-            let desk = desk.run(shared.handle.clone(), shared.log.clone(), stop.clone());
-            self.tasks.push(tokio::spawn(desk));
+    fn follow(&mut self, (light, sound): Desks, shared: &Arc<Shared>, stop: &Stop) {
+        if let Some(light) = light {
+            let light = light.run(shared.handle.clone(), shared.log.clone(), stop.clone());
+            self.tasks.push(tokio::spawn(light));
         }
-        if let Some(osc) = osc {
+        if let Some(sound) = sound {
             let names = shared.clone();
             let name_of = move |frame: usize| {
                 names.desk.shown().show.frames.get(frame).map_or(String::new(), |frame| frame.name.clone())
             };
-            let osc = osc.run(shared.handle.clone(), shared.log.clone(), stop.clone(), name_of);
-            self.tasks.push(tokio::spawn(osc));
+            let sound = sound.run(shared.handle.clone(), shared.log.clone(), stop.clone(), name_of);
+            self.tasks.push(tokio::spawn(sound));
         }
         if let Some(lines) = self.broker.as_mut().and_then(EmbeddedBroker::notices) {
             self.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
@@ -115,8 +113,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     }
     open_files::raise_limit();
     let certificate = certificate(&exposure, &data)?;
-    let desk_light = DeskLight::open(&arguments.desk, arguments.lamps.settings()).await?;
-    let osc = OscLink::open(&arguments.desk).await?;
+    let desks = open_desks(arguments).await?;
     let (listener, names) = web::listen(&exposure).await?;
     let address = listener.local_addr().unwrap_or(arguments.listen);
     folder.tell_address(&format!("{}://{address}", names.scheme().name()));
@@ -158,7 +155,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         simulated: shared.simulated.clone(),
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
-    started.follow((desk_light, osc), &shared, stop);
+    started.follow(desks, &shared, stop);
     started.tasks.push(tokio::spawn(playlist_player::play(shared.clone(), stop.clone())));
     let scheme = shared.names.scheme().name();
     say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));
@@ -166,6 +163,12 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     invite(arguments, &shared, address, (certificate.as_ref(), first));
     web::serve(listener, certificate.map(|certificate| certificate.acceptor), shared).await;
     Ok(false)
+}
+
+/// The desks that were asked for.
+async fn open_desks(arguments: &RunArguments) -> Result<Desks, Failure> {
+    let light = DeskLight::open(&arguments.desk, arguments.lamps.settings()).await?;
+    Ok((light, OscLink::open(&arguments.desk).await?))
 }
 
 /// Says whether the network reaches the web app, and how the first operator comes in.
