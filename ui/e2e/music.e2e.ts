@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
-import { button, smallShow, uploadText } from './journeys';
+import { eventually, openPage } from './harness';
+import { button, phaseIs, smallShow, uploadText } from './journeys';
 import { createTestBed } from './testBed';
-import { eventually } from './harness';
 
 const bed = createTestBed('--robots', '4');
 
@@ -33,9 +33,9 @@ function clicks(lasts_s: number): Buffer {
 
 const wav = (name: string, buffer: Buffer) => ({ name, mimeType: 'audio/wav', buffer });
 
-async function openMusic() {
+async function openMusic(show = smallShow(4, 3)) {
   const page = await bed.open('edit');
-  await uploadText(page, 'music.json', smallShow(4, 3));
+  await uploadText(page, 'music.json', show);
   await page.getByRole('tab', { name: 'Show' }).click();
   const music = page.getByRole('region', { name: 'Music' });
   const give = (name: string, buffer: Buffer) =>
@@ -98,4 +98,80 @@ test('what is no music says why, and loses nothing', async () => {
   await music.getByText(/short\.wav|empty\.wav/).waitFor();
   await music.getByRole('button', { name: 'Remove' }).click();
   await button(page, 'Add music…').waitFor();
+});
+
+/** Notes when music is started and stopped, and how far it is ahead of the show, as the sound device says. */
+function noteSound() {
+  const sound = { starts: 0, stops: 0, ahead_ms: [] as number[] };
+  Object.assign(globalThis, { sound });
+  let since: { node: AudioBufferSourceNode; at_s: number; from_s: number; rate: number } | null =
+    null;
+  const { start, stop } = AudioBufferSourceNode.prototype;
+  AudioBufferSourceNode.prototype.start = function (at_s = 0, from_s = 0) {
+    sound.starts++;
+    since = { node: this, at_s, from_s, rate: 1 };
+    start.call(this, at_s, from_s);
+  };
+  AudioBufferSourceNode.prototype.stop = function () {
+    sound.stops++;
+    since = null;
+    stop.call(this);
+  };
+  // The page's own message handler is not used: the difference of clocks is taken from the quickest message.
+  let [offset_ms, handled] = [Infinity, 0];
+  const RealSocket = globalThis.WebSocket;
+  globalThis.WebSocket = class extends RealSocket {
+    constructor(...more: ConstructorParameters<typeof RealSocket>) {
+      super(...more);
+      this.addEventListener('message', ({ data }) => {
+        if (typeof data !== 'string' || !data.includes('"show_time"')) return;
+        const { at_ms, show_time } = JSON.parse(data) as {
+          at_ms: number;
+          show_time: { show_s: number; runs: boolean } | null;
+        };
+        const now_ms = performance.now();
+        offset_ms = Math.min(offset_ms, now_ms - at_ms);
+        if (!since || !show_time?.runs || ++handled < 40) return;
+        const { contextTime = 0, performanceTime = 0 } = (
+          since.node.context as AudioContext
+        ).getOutputTimestamp();
+        const heard_s = contextTime + (now_ms - performanceTime) / 1000;
+        if (heard_s < since.at_s) return;
+        const show_s = show_time.show_s + (now_ms - offset_ms - at_ms) / 1000;
+        const position_s = since.from_s + (heard_s - since.at_s) * since.rate;
+        // The player makes it a little faster or slower.
+        const rate = since.node.playbackRate.value;
+        if (rate !== since.rate) since = { ...since, at_s: heard_s, from_s: position_s, rate };
+        sound.ahead_ms.push(1000 * (position_s - show_s));
+      });
+    }
+  };
+}
+
+test('on the live page music is in step with the show, and stands with it', async () => {
+  const edit = await openMusic(smallShow(4, 6));
+  await edit.give('clicks.wav', clicks(40));
+  await edit.music.getByText(/clicks\.wav · 0:40/).waitFor();
+  await edit.page.getByText('Saved', { exact: true }).first().waitFor();
+  const page = await openPage(bed.browser, bed.server, 'live', {}, noteSound);
+  const sound = () =>
+    page.evaluate(
+      () =>
+        (globalThis as unknown as { sound: { starts: number; stops: number; ahead_ms: number[] } })
+          .sound,
+    );
+  await page.getByRole('button', { name: 'Music on this screen' }).click();
+  await phaseIs(page, 'ready');
+  await button(page, 'Play').click();
+  await eventually(sound, ({ ahead_ms }) => ahead_ms.length > 60, 'music for some seconds');
+  const { starts, ahead_ms } = await sound();
+  expect(starts).toBeLessThanOrEqual(3);
+  const sorted = ahead_ms.slice(20).sort((a, b) => a - b);
+  const median_ms = sorted[sorted.length >> 1] ?? NaN;
+  expect(Math.abs(median_ms)).toBeLessThan(15);
+  const { stops } = await sound();
+  await button(page, 'Pause').click();
+  await eventually(sound, (now) => now.stops > stops, 'music stands in a pause');
+  await page.keyboard.press('Escape');
+  await page.close();
 });

@@ -45,6 +45,7 @@ mod rights;
 mod robot_check;
 mod run;
 mod screen;
+mod show_time;
 mod shows;
 mod sign_in;
 mod site;
