@@ -35,3 +35,34 @@ export function crowdShow(count: number, layers: readonly object[]): string {
   const name = `Crowd of ${count}`;
   return JSON.stringify({ lightbots: 2, name, stage, starts, frames, layers });
 }
+
+/** A long show: a row of robots that goes back and forth, in that number of frames, under layers of a few frames each. */
+export function longShow(robots: number, frames: number, layers: number): string {
+  const one = (_: unknown, nth: number) => ({
+    id: `f${nth}`,
+    name: `Frame ${nth + 1}`,
+    air_time_s: 1 + (nth % 3),
+    pixels: Array.from({ length: robots }, (__, id) => ({
+      id,
+      place: [
+        Math.round((-0.55 + (id % 12) * 0.1) * 1e4) / 1e4,
+        (nth % 4) * 0.2 + Math.floor(id / 12) * 0.12,
+      ],
+      color: nth % 2 === 0 ? '#ff8c00' : '#18a0ff',
+    })),
+  });
+  const layer = (_: unknown, nth: number) => {
+    const first = Math.floor((nth * frames) / layers);
+    return {
+      ...LAYERS[nth % LAYERS.length],
+      frames: [`f${first}`, `f${Math.min(frames - 1, first + 5)}`],
+    };
+  };
+  return JSON.stringify({
+    lightbots: 2,
+    name: `${frames} frames`,
+    stage: { width_m: 3, depth_m: 3 },
+    frames: Array.from({ length: frames }, one),
+    layers: Array.from({ length: layers }, layer),
+  });
+}

@@ -13,6 +13,22 @@ export function noteDraws() {
   } as never;
 }
 
+/** Notes, in place of drawn stages, the moment of every frame in which the timeline was scrolled or its last block moved. */
+export function noteTimeline() {
+  const moved: number[] = [];
+  Object.assign(globalThis, { drawn: moved });
+  const scroller = document.querySelector('[data-testid=timeline]');
+  let before = '';
+  const look = () => {
+    requestAnimationFrame(look);
+    const blocks = scroller?.querySelectorAll<HTMLElement>('[data-frame]');
+    const now = `${scroller?.scrollLeft} ${blocks?.item(blocks.length - 1).style.left}`;
+    if (now !== before) moved.push(Number(document.timeline.currentTime));
+    before = now;
+  };
+  look();
+}
+
 /** Frames a second with the stage drawn, the gap that one frame in twenty exceeds, and main-thread work a frame. */
 export async function measure(page: Page, lasts_ms = 6000) {
   const client = await page.context().newCDPSession(page);

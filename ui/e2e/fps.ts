@@ -2,9 +2,9 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { test } from 'vitest';
-import { crowdShow, LAYERS, sideOf } from './crowds';
-import { measure, noteDraws } from './drawnFrames';
-import { openPage, startServer } from './harness';
+import { crowdShow, LAYERS, longShow, sideOf } from './crowds';
+import { measure, noteDraws, noteTimeline } from './drawnFrames';
+import { eventually, openPage, startServer } from './harness';
 import { scaleOf } from './journeys';
 import { createBrowserBed } from './testBed';
 
@@ -59,8 +59,12 @@ const row = (
     })}\n`,
   );
 
-/** Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms. */
-async function measureDrag(page: Page, path: (turn: number) => { x: number; y: number }) {
+/** Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms, with Alt (1) or no key. */
+async function measureDrag(
+  page: Page,
+  path: (turn: number) => { x: number; y: number },
+  modifiers = 0,
+) {
   const from = path(0);
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
@@ -70,7 +74,8 @@ async function measureDrag(page: Page, path: (turn: number) => { x: number; y: n
   const hand = (async () => {
     while (moving) {
       turn += 0.05;
-      const moved = { type: 'mouseMoved', ...path(turn), button: 'left', buttons: 1 } as const;
+      const held = { button: 'left', buttons: 1, modifiers } as const;
+      const moved = { type: 'mouseMoved', ...path(turn), ...held } as const;
       // A slow page may be closed before the last of them are taken.
       client.send('Input.dispatchMouseEvent', moved).catch(() => undefined);
       await new Promise((resolve) => setTimeout(resolve, 8));
@@ -166,3 +171,66 @@ for (const robots of [30, 100, 1000])
       await watch(page, robots, 'watch live, light');
       for (const scene of edited) if (scene.status === 'rejected') throw scene.reason;
     }));
+
+const [FRAMES, TIMELINE_LAYERS, TIMELINE_ROBOTS] = [200, 50, 30];
+
+/** Rolls the wheel along the timeline and back, as often as a mouse reports. */
+async function measureScroll(page: Page, at: { x: number; y: number }) {
+  const client = await page.context().newCDPSession(page);
+  let [rolls, rolling] = [0, true];
+  const wheel = (async () => {
+    while (rolling) {
+      const deltaX = Math.floor(rolls++ / 200) % 2 === 0 ? 20 : -20;
+      const rolled = { type: 'mouseWheel', ...at, deltaX, deltaY: 0 } as const;
+      client.send('Input.dispatchMouseEvent', rolled).catch(() => undefined);
+      await new Promise((resolve) => setTimeout(resolve, 8));
+    }
+  })();
+  const measured = await measure(page);
+  rolling = false;
+  await wheel;
+  await client.detach();
+  return measured;
+}
+
+test(`frames a second of a timeline of ${FRAMES} frames and ${TIMELINE_LAYERS} layers`, async () => {
+  const file = join(bed.folder, 'long.lightbots.json');
+  writeFileSync(file, longShow(TIMELINE_ROBOTS, FRAMES, TIMELINE_LAYERS));
+  const server = await startServer(file, '--robots', String(TIMELINE_ROBOTS));
+  try {
+    const page = await openPage(bed.browser, server, 'edit');
+    await page.getByTestId('stage').waitFor();
+    await page.keyboard.press('l');
+    await page.getByRole('option', { name: /^Frame 3 Frame 3: drive [\d.]+ s/ }).waitFor();
+    // Farther away: more blocks are drawn, and their edges can still be dragged.
+    for (let i = 0; i < 2; i++)
+      await page.getByRole('button', { name: 'Zoom the timeline out (−)' }).click();
+    await page.locator('[data-frame="2"]').click();
+    await page.evaluate(noteTimeline);
+    const list = await page.getByRole('listbox', { name: 'Frames on the timeline' }).boundingBox();
+    if (!list) throw new Error('There are no frames.');
+    row(
+      'scroll timeline',
+      TIMELINE_ROBOTS,
+      await measureScroll(page, { x: 600, y: list.y + list.height / 2 }),
+    );
+    const edge = await eventually(
+      async () => {
+        // The wheel rolls on for a moment.
+        await page.keyboard.press('Home');
+        return page.locator('[data-frame="2"] [data-edge=air]').boundingBox();
+      },
+      (box) => box !== null && box.x > list.x,
+      'the first frames are in sight',
+    );
+    if (!edge) throw new Error('There is no edge to drag.');
+    const from = { x: edge.x + edge.width / 2, y: edge.y + edge.height / 2 };
+    // With Alt, which leaves out snapping: a drag that snaps moves in steps, and not in every frame.
+    const path = (turn: number) => ({ x: from.x + 60 * (1 - Math.cos(turn)), y: from.y });
+    const dragged = await measureDrag(page, path, 1);
+    row('drag in timeline', TIMELINE_ROBOTS, dragged);
+    await page.close();
+  } finally {
+    await server.remove();
+  }
+});

@@ -65,6 +65,20 @@ function showWithCue(): string {
   return JSON.stringify({ ...show, lightbots: 2, cues: [{ name: 'Curtain', frame: 'first' }] });
 }
 
+/** A show of thirty robots with all that the timeline shows. */
+function showWithMarks(): string {
+  const show = JSON.parse(showWithCue()) as object;
+  return JSON.stringify({
+    ...show,
+    markers: [{ name: 'Drum', at_s: 1 }],
+    sections: [{ name: 'Verse', from_s: 0, to_s: 3 }],
+    layers: [
+      { kind: 'rainbow', frames: ['first', 'first'], phase: 'picture' },
+      { kind: 'pulse', from_s: 1, to_s: 4 },
+    ],
+  });
+}
+
 const liveViews: View[] = [
   {
     name: 'live-ready',
@@ -329,6 +343,17 @@ const editViews: View[] = [
       await button(page, 'Delete Rainbow').click();
       await page.getByRole('tab', { name: 'Pixels' }).click();
     },
+  },
+  {
+    name: 'edit-timeline',
+    async show(page, server) {
+      await uploadText(page, 'marks.json', showWithMarks());
+      await edit(page, server);
+      await page.keyboard.press('l');
+      await page.getByRole('option', { name: /^Frame 2 Two: drive/ }).click();
+      await page.getByRole('listbox', { name: 'Markers' }).focus();
+    },
+    leave: (page) => button(page, 'Timeline (L)').click(),
   },
   {
     name: 'edit-too-close',

@@ -5,6 +5,10 @@ export function clockText(seconds: number | null | undefined): string {
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
 }
 
+/** `0:07`, or `−0:04` for a moment of the first drive: show time begins with the first frame's air time. */
+export const momentText = (seconds: number) =>
+  seconds <= -0.5 ? `−${clockText(-seconds)}` : clockText(seconds);
+
 /** `3.4 s`. */
 export const secondsText = (seconds: number) => `${seconds.toFixed(1)} s`;
 

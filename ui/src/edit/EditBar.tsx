@@ -4,6 +4,7 @@ import {
   IconArrowForwardUp,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
+  IconTimeline,
 } from '@tabler/icons-react';
 import type { ReactNode } from 'react';
 import { useStore } from '../base/store';
@@ -18,6 +19,7 @@ import { ExportMenu } from './ExportMenu';
 import { SaveMark } from './SaveMark';
 import { Scrubber } from './Scrubber';
 import { StatesButton } from './StatesButton';
+import { framesView, toggleFramesView } from './timeline/framesView';
 import page from '../parts/page.module.css';
 
 /** Undo, preview, scrubbing, and the state of saving. */
@@ -29,6 +31,7 @@ export function EditBar() {
   const canRedo = useEditor((s) => s.history.future.length > 0);
   const { preview } = editing;
   const running = useStore(preview.running);
+  const isTimeline = useStore(framesView, (view) => view === 'timeline');
   const isMaking = useStore(editing.making, (making) => making !== null);
   /** Runs the whole show from its first frame; the live view shows what is missing. */
   const playWithRobots = async () => {
@@ -61,6 +64,15 @@ export function EditBar() {
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
       )}
       <Scrubber />
+      <IconButton
+        label="Timeline (L)"
+        size="lg"
+        variant={isTimeline ? 'filled' : 'subtle'}
+        aria-pressed={isTimeline}
+        onClick={toggleFramesView}
+      >
+        <IconTimeline size={18} />
+      </IconButton>
       <SaveMark />
       <StatesButton />
       <ExportMenu />

@@ -9,6 +9,7 @@ import { openMaking } from './makes';
 import { nudgeMaking, openDrawing, removeChosenPoint } from './penActs';
 import { chooseNextPoint, penLine, stopAdding } from '../make/pen';
 import { openMenuByKey } from './menuEntries';
+import { toggleFramesView } from './timeline/framesView';
 
 /** Metres an arrow key moves: alone, with Shift, with Alt. */
 const STEPS = [
@@ -88,6 +89,7 @@ export function EditKeys() {
     ['n', () => toggle('ids')],
     ['h', () => toggle('ghosts')],
     ['w', () => toggle('routes')],
+    ['l', toggleFramesView],
     ['space', () => editing.space.press()],
     ['0', () => fitView(editing.view)],
     ['[plus]', () => zoomView(editing.view, 1.4)],

@@ -1,5 +1,5 @@
 import { Button, Group, Text, Title } from '@mantine/core';
-import { useEffect, useRef, useState } from 'react';
+import { lazy, Suspense, useEffect, useRef, useState } from 'react';
 import { useStore } from '../base/store';
 import { useWhyNot } from '../parts/Gate';
 import { Bottom } from '../parts/Bottom';
@@ -16,8 +16,12 @@ import { Inspector } from './Inspector';
 import { MakePanel } from './MakePanel';
 import { ReadOnlyPage } from './ReadOnlyPage';
 import { Taking } from './Taking';
+import { framesView } from './timeline/framesView';
 import { Tour } from './Tour';
 import styles from '../parts/page.module.css';
+
+/** Loaded when it is first shown. */
+const TimelinePanel = lazy(() => import('./timeline/TimelinePanel'));
 
 /** The editing of this page; kept while the page is open, so that undo survives a visit to the live view. */
 let kept: Editing | null = null;
@@ -52,7 +56,7 @@ export function EditPage() {
         <EditStage />
         <Bottom label="Frames and time">
           <EditBar />
-          <EditStrip />
+          <Frames />
         </Bottom>
         <Side />
         <EditKeys />
@@ -100,6 +104,17 @@ const NotShown = ({ failure }: { failure: string }) => (
     <Button onClick={() => goTo('edit')}>Edit the open show</Button>
   </main>
 );
+
+/** The frames under the floor: as pictures, or on the timeline. */
+function Frames() {
+  const view = useStore(framesView);
+  if (view === 'pictures') return <EditStrip />;
+  return (
+    <Suspense>
+      <TimelinePanel />
+    </Suspense>
+  );
+}
 
 /** Properties, or the Make panel while a frame is made. */
 function Side() {

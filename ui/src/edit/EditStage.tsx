@@ -8,7 +8,7 @@ import { useEditing } from './context';
 import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
 import { litNow, shownLayer } from './light/lit';
-import { editScene, withMade } from './scene';
+import { editScene, isSameOnStage, withMade } from './scene';
 import { EmptyFrame } from './EmptyFrame';
 import { StageMenu } from './StageMenu';
 import { StageHint } from './StageHint';
@@ -25,10 +25,14 @@ import styles from '../stage/stage.module.css';
 function rememberScene(editing: Editing): (now_ms: number) => Scene {
   let inputs: unknown[] = [];
   let scene: Scene | null = null;
+  let drawn = editing.editor.state.get();
   return (now_ms) => {
-    const state = editing.editor.state.get();
+    const latest = editing.editor.state.get();
     const [options, time_s] = [editing.options.get(), editing.preview.time_s.get()];
     const making = editing.making.get();
+    const isSame = time_s === null && !making && isSameOnStage(drawn, latest);
+    const state = isSame ? drawn : latest;
+    drawn = state;
     const shown = making && pictureShown(making);
     const drives = making && making.made.get().drives;
     const full = editing.full.plan.get();

@@ -1,11 +1,10 @@
-import { IconCopy, IconPlus, IconTrash } from '@tabler/icons-react';
-import { useCallback, useEffect, type ReactNode } from 'react';
+import { useCallback, useEffect } from 'react';
 import type { Plan } from '../api/types.gen';
 import { useStore } from '../base/store';
-import { IconButton } from '../parts/IconButton';
 import * as acts from './acts';
 import { goOf } from '../model/cues';
 import { useEditing, useEditor } from './context';
+import { FrameButtons } from './FrameButtons';
 import { FrameCard } from './FrameCard';
 import { useReorder } from './useReorder';
 import strip from '../parts/strip.module.css';
@@ -41,30 +40,10 @@ export function EditStrip() {
     const add = event.ctrlKey || event.metaKey;
     editing.editor.goToFrame(index, event.shiftKey ? 'range' : add ? 'toggle' : 'only');
   };
-  const button = (label: string, act: () => void, icon: ReactNode, off = false) => (
-    <IconButton
-      label={label}
-      position="right"
-      variant="default"
-      color={undefined}
-      size="lg"
-      disabled={off}
-      onClick={act}
-    >
-      {icon}
-    </IconButton>
-  );
   return (
     <div className={styles.row}>
       <div className={styles.buttons}>
-        {button('Add a frame (Ctrl Enter)', () => acts.addFrame(editing), <IconPlus size={18} />)}
-        {button('Duplicate (Ctrl D)', () => acts.duplicateFrames(editing), <IconCopy size={17} />)}
-        {button(
-          'Delete (Ctrl Delete)',
-          () => acts.deleteFrames(editing),
-          <IconTrash size={17} />,
-          show.frames.length <= chosen.size,
-        )}
+        <FrameButtons position="right" />
       </div>
       <ul className={`${strip.strip} ${styles.frames}`} ref={list} aria-label="Frames">
         {show.frames.map((frame, i) => (

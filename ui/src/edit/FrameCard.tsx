@@ -1,8 +1,9 @@
 import { IconBulb, IconRoute } from '@tabler/icons-react';
-import { memo, useRef, type MouseEvent } from 'react';
+import { memo, type MouseEvent } from 'react';
 import type { Frame, Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
 import { GoMark } from '../parts/GoMark';
+import { NameField } from './NameField';
 import strip from '../parts/strip.module.css';
 import styles from './FrameCard.module.css';
 
@@ -35,7 +36,7 @@ export const FrameCard = memo(function FrameCard(props: Props) {
     return (
       <div className={strip.card} data-chosen>
         <Thumbnail frame={frame} stage={props.stage} />
-        <NameField name={frame.name} onName={props.onName} />
+        <NameField label="Name of the frame" name={frame.name} onName={props.onName} />
       </div>
     );
   return (
@@ -82,28 +83,3 @@ export const FrameCard = memo(function FrameCard(props: Props) {
     </button>
   );
 });
-
-function NameField({ name, onName }: { name: string; onName: (name: string | null) => void }) {
-  // Escape also removes the focus, and must not save the cancelled name.
-  const left = useRef(false);
-  const leave = (typed: string | null) => {
-    if (left.current) return;
-    left.current = true;
-    onName(typed?.trim() ?? null);
-  };
-  return (
-    <input
-      className={styles.name}
-      aria-label="Name of the frame"
-      autoFocus
-      maxLength={80}
-      defaultValue={name}
-      onFocus={(event) => event.currentTarget.select()}
-      onBlur={(event) => leave(event.currentTarget.value)}
-      onKeyDown={(event) => {
-        if (event.key === 'Enter') leave(event.currentTarget.value);
-        if (event.key === 'Escape') leave(null);
-      }}
-    />
-  );
-}

@@ -1,7 +1,7 @@
 import { Slider } from '@mantine/core';
 import { useMemo } from 'react';
 import { useStore } from '../base/store';
-import { clockText } from '../base/time';
+import { momentText } from '../base/time';
 import { timelineOf, totalOf } from '../model/timeline';
 import page from '../parts/page.module.css';
 import { useEditing, useEditor } from './context';
@@ -16,13 +16,15 @@ export function Scrubber() {
   const plan = useStore(settled);
   const timeline = useMemo(() => timelineOf(show, plan), [show, plan]);
   const total = totalOf(timeline);
+  // Show time begins with the first frame's air time, as on the timeline.
+  const begin = timeline[0]?.shownFrom_s ?? 0;
   const at = time_s ?? timeline[frame]?.shownFrom_s ?? 0;
   return (
     <>
       <Slider
         className={page.progress}
         size="sm"
-        label={clockText}
+        label={(to_s) => momentText(to_s - begin)}
         thumbLabel="Moment of the show"
         min={0}
         max={Math.max(total, 0.1)}
@@ -31,7 +33,8 @@ export function Scrubber() {
         onChange={(to_s) => preview.scrub(timeline, to_s)}
       />
       <span className={`quiet ${styles.time}`}>
-        {clockText(at)} / {clockText(total)}
+        {momentText(at - begin)}
+        <span className="wide-only"> / {momentText(total - begin)}</span>
       </span>
     </>
   );

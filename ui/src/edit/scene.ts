@@ -59,6 +59,25 @@ export interface SceneLight {
 
 const NO_LIGHT: SceneLight = { lit: null, layer: null };
 
+/**
+ * Whether the stage shows the same in both states while no moment of a preview is on it: a drag on the timeline changes
+ * times alone, and the floor need not be drawn anew for it.
+ */
+export function isSameOnStage(a: EditorState, b: EditorState): boolean {
+  if (a === b) return true;
+  const [before, after] = [a.show, b.show];
+  const isSameFrame = (index: number) =>
+    before.frames[index]?.key === after.frames[index]?.key &&
+    before.frames[index]?.pixels === after.frames[index]?.pixels;
+  return (
+    a.frame === b.frame &&
+    a.selection === b.selection &&
+    a.overlay === b.overlay &&
+    before.stage === after.stage &&
+    [a.frame - 1, a.frame, a.frame + 1].every(isSameFrame)
+  );
+}
+
 /** What the editor's stage shows: the frame on it, or the plan at a moment of the show. */
 export function editScene(
   state: EditorState,

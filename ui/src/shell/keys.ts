@@ -65,6 +65,22 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['Space', 'Drag'], 'Move the view'],
       [['M', 'N', 'H', 'W'], 'Snap, ids, onion skin, routes'],
       [['0', '+', '−'], 'Fit floor, zoom'],
+      [['L'], 'Timeline or pictures of the frames'],
+    ],
+  },
+  {
+    title: 'Editor: timeline',
+    keys: [
+      [['Tab'], 'Frames, sections, markers, layers'],
+      [['←', '→'], 'Choose a frame, section or marker (Shift: several frames)'],
+      [['↑', '↓'], 'Choose a layer'],
+      [['[', ']'], 'Air time, or the end: 0.5 s (Alt 0.1 s); also comma and full stop'],
+      [['Shift', '[ / ]'], 'Travel time, or the beginning'],
+      [['C'], 'Wait for GO after the frame, or not'],
+      [['Enter'], 'Rename'],
+      [['Delete'], 'Remove a section, marker or layer'],
+      [['0', '+', '−'], 'Whole timeline, zoom (Ctrl and wheel)'],
+      [['Alt', 'Drag'], 'Without snapping'],
     ],
   },
 ];

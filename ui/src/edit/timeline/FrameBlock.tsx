@@ -1,0 +1,107 @@
+import { memo } from 'react';
+import { secondsText } from '../../base/time';
+import type { Frame } from '../../model/show';
+import { framePaint } from './paint';
+import styles from './Timeline.module.css';
+
+interface Props {
+  id: string;
+  index: number;
+  frame: Frame;
+  /** Places in the lane, CSS pixels. */
+  left: number;
+  width: number;
+  travel_px: number;
+  travel_s: number;
+  /** Shortest travel time; null: the drive is not planned. */
+  least_s: number | null;
+  least_px: number;
+  isFastest: boolean;
+  isChosen: boolean;
+  isCurrent: boolean;
+  /** Whether the plan has an error in this frame. */
+  isWrong: boolean;
+  go: 'waits' | 'repeats' | null;
+  label: string;
+}
+
+/** A narrower block has no texts, not even its number, or no edges to drag, CSS pixels. */
+const [TEXT_PX, NUMBER_PX, EDGE_PX] = [44, 24, 14];
+/** Widths that the longer and the shorter text of a drive need, CSS pixels. */
+const [LONG_PX, SHORT_PX] = [104, 40];
+
+/** The travel time as text that fits into the block. */
+function travelText({ travel_s, least_s, travel_px, isFastest }: Props): string {
+  if (least_s === null || travel_px < SHORT_PX) return '';
+  if (travel_px < LONG_PX) return secondsText(travel_s);
+  const least = isFastest ? 'least' : `least ${secondsText(least_s)}`;
+  return `${secondsText(travel_s)} · ${least}`;
+}
+
+/** A frame on the timeline: the drive to it hollow, because it is planned, and its air time in its colours. */
+export const FrameBlock = memo(function FrameBlock(props: Props) {
+  const { index, frame, width, travel_px, go } = props;
+  const isRoomy = width >= TEXT_PX;
+  const travel = travelText(props);
+  return (
+    <div
+      id={props.id}
+      className={styles.block}
+      role="option"
+      aria-selected={props.isChosen}
+      title={props.label}
+      data-frame={index}
+      data-current={props.isCurrent || undefined}
+      data-wrong={props.isWrong || undefined}
+      style={{ left: props.left, width }}
+    >
+      <span className="hidden-text">{props.label}</span>
+      {width >= NUMBER_PX ? (
+        <span className={styles.title} aria-hidden>
+          <b>
+            {index + 1}
+            {props.isWrong ? ' !' : ''}
+          </b>
+          {isRoomy ? <span>{frame.name}</span> : null}
+        </span>
+      ) : null}
+      <span className={styles.travel} style={{ width: travel_px }} aria-hidden>
+        {isRoomy && travel ? <span>{travel}</span> : null}
+      </span>
+      {props.least_s !== null && travel_px > 4 ? (
+        <i
+          className={styles.least}
+          data-reached={props.isFastest || undefined}
+          style={{ left: props.least_px }}
+        />
+      ) : null}
+      <span
+        className={styles.air}
+        aria-hidden
+        style={{ left: travel_px, background: framePaint(frame.pixels) }}
+      >
+        {width - travel_px >= TEXT_PX ? <span>{Number(frame.airTime_s.toFixed(2))} s</span> : null}
+      </span>
+      {go || (isRoomy && props.isChosen) ? (
+        <em
+          className={styles.cue}
+          aria-hidden
+          data-cue
+          data-on={go ?? undefined}
+          title={cueTip(go)}
+        >
+          {isRoomy ? 'GO' : ''}
+        </em>
+      ) : null}
+      {width >= EDGE_PX ? (
+        <>
+          <i className={styles.edge} data-edge="travel" style={{ left: travel_px }} />
+          <i className={styles.edge} data-edge="air" />
+        </>
+      ) : null}
+    </div>
+  );
+});
+
+const cueTip = (go: Props['go']) =>
+  go === null ? 'Wait for GO after this frame' : 'Go on by itself after this frame';

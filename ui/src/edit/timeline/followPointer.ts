@@ -1,0 +1,90 @@
+import type { PointerEvent as ReactPointerEvent } from 'react';
+
+/** What a drag on the timeline does. */
+export interface PointerDrag {
+  /** The pointer is that far to the right of where it went down, CSS pixels of the lanes. */
+  move(by_px: number, event: PointerEvent): void;
+  end(): void;
+  cancel(): void;
+}
+
+/** A pointer that stays within this has not dragged, CSS pixels. */
+const STILL_PX = 3;
+/** A pointer this close to a side of the timeline scrolls it by up to `SCROLL_PX` a frame. */
+const SIDE_PX = 40;
+const SCROLL_PX = 14;
+
+/** Follows a pointer from where it went down until it is let go; Escape takes back what it did. */
+export function followPointer(
+  down: ReactPointerEvent,
+  scroller: HTMLElement | null,
+  drag: PointerDrag,
+) {
+  const stop = new AbortController();
+  const options = { signal: stop.signal };
+  // The scroller stays where it is, and only this scrolls it meanwhile: reading either costs a layout.
+  const box = scroller?.getBoundingClientRect();
+  let scrolled_px = 0;
+  let [last, request] = [null as PointerEvent | null, 0];
+  const move = (event: PointerEvent) =>
+    drag.move(event.clientX - down.clientX + scrolled_px, event);
+  const leave = () => {
+    stop.abort();
+    cancelAnimationFrame(request);
+  };
+  const scroll = () => {
+    request = requestAnimationFrame(scroll);
+    if (!last || !scroller || !box) return;
+    const out = Math.max(0, last.clientX - (box.right - SIDE_PX));
+    const before = Math.max(0, box.left + SIDE_PX - last.clientX);
+    const by = Math.max(-1, Math.min(1, (out - before) / SIDE_PX)) * SCROLL_PX;
+    if (by === 0) return;
+    const left = scroller.scrollLeft;
+    scroller.scrollLeft += by;
+    scrolled_px += scroller.scrollLeft - left;
+    if (scroller.scrollLeft !== left) move(last);
+  };
+  window.addEventListener(
+    'pointermove',
+    (event) => {
+      if (event.pointerId !== down.pointerId) return;
+      if (!last && Math.abs(event.clientX - down.clientX) < STILL_PX) return;
+      if (!last) request = requestAnimationFrame(scroll);
+      last = event;
+      move(event);
+    },
+    options,
+  );
+  window.addEventListener(
+    'pointerup',
+    (event) => {
+      if (event.pointerId !== down.pointerId) return;
+      leave();
+      if (last) keepFromClick();
+      drag.end();
+    },
+    options,
+  );
+  const giveUp = () => {
+    leave();
+    drag.cancel();
+  };
+  window.addEventListener('pointercancel', giveUp, options);
+  window.addEventListener('blur', giveUp, options);
+  window.addEventListener(
+    'keydown',
+    (event) => {
+      if (event.key !== 'Escape' || event.shiftKey) return;
+      event.stopPropagation();
+      giveUp();
+    },
+    { ...options, capture: true },
+  );
+}
+
+/** The click that ends a drag chooses nothing. */
+function keepFromClick() {
+  const keep = (event: Event) => event.stopPropagation();
+  window.addEventListener('click', keep, { capture: true, once: true });
+  setTimeout(() => window.removeEventListener('click', keep, { capture: true }));
+}

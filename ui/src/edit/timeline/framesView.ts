@@ -1,0 +1,17 @@
+import { createChoice } from '../../session/preferences';
+
+/** How the frames are shown under the floor. */
+export type FramesView = 'pictures' | 'timeline';
+
+const isFramesView = (text: unknown): text is FramesView =>
+  text === 'pictures' || text === 'timeline';
+
+/** How this screen shows frames. */
+export const framesView = createChoice<FramesView>(
+  'lightbots-frames-view',
+  'pictures',
+  isFramesView,
+);
+
+export const toggleFramesView = () =>
+  framesView.set(framesView.get() === 'pictures' ? 'timeline' : 'pictures');

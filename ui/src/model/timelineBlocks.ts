@@ -1,0 +1,141 @@
+import type { Plan } from '../api/types.gen';
+import { setFrames } from './commands';
+import { goOf } from './cues';
+import type { Frame, Show } from './show';
+
+/** The planned drive to a frame. */
+export interface PlannedDrive {
+  duration_s: number;
+  /** Shortest duration that the robots' limits allow, seconds. */
+  least_s: number;
+  /** The travel time that the frame asked for when the plan was seen; null: as fast as is safe. */
+  asked_s: number | null;
+}
+
+/** Planned drives by the key of the frame that they lead to. */
+export type PlannedDrives = ReadonlyMap<number, PlannedDrive>;
+
+/** The drives of a plan to the frames of the show that it was made for. */
+export function plannedDrives(show: Show, plan: Plan | null): PlannedDrives {
+  const drives = new Map<number, PlannedDrive>();
+  for (const { to, duration_s, least_s } of plan?.transitions ?? []) {
+    const frame = show.frames[to];
+    if (frame) drives.set(frame.key, { duration_s, least_s, asked_s: frame.transition_s });
+  }
+  return drives;
+}
+
+/** A frame on the timeline. Moments are in seconds of show time, which begins with the first frame's air time. */
+export interface Block {
+  key: number;
+  frame: Frame;
+  driveFrom_s: number;
+  shownFrom_s: number;
+  until_s: number;
+  /** Shortest travel time, seconds; null: the drive is not planned. */
+  least_s: number | null;
+  /** What the show does after the frame until GO; null: it goes on by itself. */
+  go: 'waits' | 'repeats' | null;
+}
+
+/** Travel time to a frame, seconds. What the frame asks for counts at once, and the plan follows; 0 without a plan. */
+function driveOf({ transition_s }: Frame, planned: PlannedDrive | undefined): number {
+  if (!planned) return 0;
+  const asked_s = transition_s ?? 0;
+  // A plan that is shorter than the frame asks for is an earlier one.
+  const isPlanned = transition_s === planned.asked_s && planned.duration_s >= asked_s;
+  return isPlanned ? planned.duration_s : Math.max(planned.least_s, asked_s);
+}
+
+/** The frames of a show on its timeline. */
+export function blocksOf(show: Show, drives: PlannedDrives): Block[] {
+  let clock = 0;
+  const blocks = show.frames.map((frame, index) => {
+    const planned = drives.get(frame.key);
+    const driveFrom_s = clock;
+    const shownFrom_s = driveFrom_s + driveOf(frame, planned);
+    clock = shownFrom_s + Math.max(0, frame.airTime_s);
+    const least_s = planned?.least_s ?? null;
+    const go = goOf(show, index);
+    return { key: frame.key, frame, driveFrom_s, shownFrom_s, until_s: clock, least_s, go };
+  });
+  const start_s = blocks[0]?.shownFrom_s ?? 0;
+  for (const block of blocks) {
+    block.driveFrom_s -= start_s;
+    block.shownFrom_s -= start_s;
+    block.until_s -= start_s;
+  }
+  return blocks;
+}
+
+/** From the start of the first drive to the start of show time, seconds. */
+export const leadIn_s = (blocks: readonly Block[]) => -(blocks[0]?.driveFrom_s ?? 0);
+
+/** An edge of a block: the end of its travel time, or of its air time. */
+export type BlockEdge = 'travel' | 'air';
+
+/** Longest travel time and air time, seconds. */
+const LONGEST_S = 3600;
+/** A travel time this close to the shortest one is the shortest one, seconds. */
+const SAME_S = 0.005;
+
+const hundredths = (seconds: number) => Math.round(seconds * 100) / 100;
+
+/** The show with another travel time of a frame; at the least one, the robots drive as fast as is safe. */
+function withTravel(show: Show, index: number, block: Block | undefined, travel_s: number): Show {
+  if (!block || block.least_s === null) return show;
+  const isLeast = travel_s <= block.least_s + SAME_S;
+  const transition_s = isLeast ? null : Math.min(LONGEST_S, hundredths(travel_s));
+  return setFrames(show, [index], { transition_s });
+}
+
+const withAir = (show: Show, index: number, air_s: number): Show =>
+  setFrames(show, [index], { airTime_s: Math.max(0, Math.min(LONGEST_S, hundredths(air_s))) });
+
+/** Gives all these frames that much more travel time or air time, seconds; `blocks` are those of `show`. */
+export function stretchBlocks(
+  show: Show,
+  blocks: readonly Block[],
+  indices: readonly number[],
+  edge: BlockEdge,
+  by_s: number,
+): Show {
+  return indices.reduce((now, index) => {
+    const block = blocks[index];
+    if (!block) return now;
+    if (edge === 'air') return withAir(now, index, block.frame.airTime_s + by_s);
+    const travel_s = block.shownFrom_s - block.driveFrom_s + by_s;
+    // A drag that came back to where it began leaves the way of getting there as it was.
+    return Math.abs(by_s) < SAME_S ? now : withTravel(now, index, block, travel_s);
+  }, show);
+}
+
+/**
+ * The show in which the edge of a block is at a moment, as far as it goes. All chosen frames change alike; those before the
+ * dragged one move its edge too, so each changes by its share.
+ */
+export function dragBlockEdge(
+  show: Show,
+  blocks: readonly Block[],
+  chosen: readonly number[],
+  dragged: number,
+  edge: BlockEdge,
+  to_s: number,
+): Show {
+  const block = blocks[dragged];
+  if (!block) return show;
+  const indices = chosen.includes(dragged) ? chosen : [dragged];
+  const share = indices.filter((index) => index <= dragged).length;
+  const from_s = edge === 'air' ? block.until_s : block.shownFrom_s;
+  return stretchBlocks(show, blocks, indices, edge, (to_s - from_s) / share);
+}
+
+/** Whether the travel time of a block is the shortest that the plan allows. */
+export const isFastest = ({ driveFrom_s, shownFrom_s, least_s }: Block) =>
+  least_s !== null && shownFrom_s - driveFrom_s <= least_s + SAME_S;
+
+/** Indices of the blocks that a stretch of time touches. */
+export const blocksBetween = (blocks: readonly Block[], a_s: number, b_s: number): number[] => {
+  const [from_s, to_s] = [Math.min(a_s, b_s), Math.max(a_s, b_s)];
+  return blocks.flatMap((b, i) => (b.driveFrom_s < to_s && b.until_s > from_s ? [i] : []));
+};
