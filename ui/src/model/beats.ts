@@ -19,7 +19,7 @@ export type BeatGrid =
 export const BPM = { min: 10, max: 600 };
 
 /** The beats of a show; null: they are not known. */
-export function beatsOf(show: Show): Beats | null {
+export function beatsOf(show: Pick<Show, 'rest'>): Beats | null {
   if (show.rest.beats === undefined) return null;
   const { bpm, offset_s, times_s, per_bar } = object(show.rest.beats);
   const perBar = Math.max(1, Math.round(number(per_bar, 4)));

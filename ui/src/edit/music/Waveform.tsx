@@ -11,33 +11,39 @@ interface Props {
   to_s: number;
   /** The position that is heard, seconds; null: none. */
   at_s: number | null;
-  /** Pressed or dragged to, seconds. */
+  /** Steps of the drawing, which is stretched to the width that it gets. */
+  columns?: number;
+  /** Pressed, seconds. */
   onSeek?: (at_s: number) => void;
 }
 
-/** Columns of the drawing: it is stretched to the width that it gets. */
+/** Columns of a drawing as wide as a panel. */
 const COLUMNS = 600;
 const HEIGHT = 60;
 /** Beats nearer to each other than this are not drawn, columns: bars are. */
 const DENSE = 5;
 
 /** Loudness over time, with lines at bars and beats. */
-export function Waveform({ peaks, beats, from_s, to_s, at_s, onSeek }: Props) {
-  const wave = useMemo(() => wavePath(peaks, from_s, to_s), [peaks, from_s, to_s]);
+export function Waveform(props: Props) {
+  const { peaks, beats, from_s, to_s, at_s, columns = COLUMNS, onSeek } = props;
+  const wave = useMemo(
+    () => wavePath(peaks, from_s, to_s, columns),
+    [peaks, from_s, to_s, columns],
+  );
   const [bars, others] = useMemo(() => {
-    const isDense = beats.length * DENSE > COLUMNS;
+    const isDense = beats.length * DENSE > columns;
     const lines = (some: readonly Beat[]) =>
-      some.map((b) => `M${column(b.at_s, from_s, to_s)} 0V${HEIGHT}`).join('');
+      some.map((b) => `M${column(b.at_s, from_s, to_s, columns)} 0V${HEIGHT}`).join('');
     return [
       lines(beats.filter((b) => b.isBar)),
       isDense ? '' : lines(beats.filter((b) => !b.isBar)),
     ];
-  }, [beats, from_s, to_s]);
-  const head = at_s === null ? null : column(at_s, from_s, to_s);
+  }, [beats, from_s, to_s, columns]);
+  const head = at_s === null ? null : column(at_s, from_s, to_s, columns);
   return (
     <svg
       className={styles.wave}
-      viewBox={`0 0 ${COLUMNS} ${HEIGHT}`}
+      viewBox={`0 0 ${columns} ${HEIGHT}`}
       preserveAspectRatio="none"
       aria-hidden
       onPointerDown={(event) => {
@@ -54,13 +60,13 @@ export function Waveform({ peaks, beats, from_s, to_s, at_s, onSeek }: Props) {
   );
 }
 
-const column = (at_s: number, from_s: number, to_s: number) =>
-  Number((((at_s - from_s) / Math.max(1e-6, to_s - from_s)) * COLUMNS).toFixed(1));
+const column = (at_s: number, from_s: number, to_s: number, columns: number) =>
+  Number((((at_s - from_s) / Math.max(1e-6, to_s - from_s)) * columns).toFixed(1));
 
 /** The outline of the peaks: the largest of each column, mirrored. */
-function wavePath(peaks: Float32Array, from_s: number, to_s: number): string {
-  const heights = Array.from({ length: COLUMNS }, (_, i) => {
-    const at = (share: number) => (from_s + (share / COLUMNS) * (to_s - from_s)) * PEAKS_PER_S;
+function wavePath(peaks: Float32Array, from_s: number, to_s: number, columns: number): string {
+  const heights = Array.from({ length: columns }, (_, i) => {
+    const at = (share: number) => (from_s + (share / columns) * (to_s - from_s)) * PEAKS_PER_S;
     let most = 0;
     for (let j = Math.floor(at(i)); j < Math.max(at(i + 1), Math.floor(at(i)) + 1); j++)
       most = Math.max(most, peaks[j] ?? 0);
