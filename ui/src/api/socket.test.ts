@@ -16,7 +16,7 @@ class FakeSocket implements SocketLike {
   }
 }
 
-function setup() {
+function setup(isHidden = () => false) {
   const sockets: FakeSocket[] = [];
   const states: LinkState[] = [];
   const messages: string[] = [];
@@ -29,6 +29,7 @@ function setup() {
     onMessage: (m) => messages.push(m.type),
     onRobots: (robots) => messages.push(`robots ${robots.x.length}`),
     onLink: (s) => states.push(s),
+    isHidden,
     random: () => 0.5,
   });
   const socket = (n: number) => sockets[n] as FakeSocket;
@@ -95,4 +96,36 @@ test('robots come as bytes, and the server is told once a state has been dealt w
   socket(0).onmessage?.({ data: '{"type":"state"}' });
   expect(messages).toEqual(['robots 1', 'state']);
   expect(socket(0).sent).toEqual(['{"type":"took"}']);
+});
+
+test('a hidden page takes states slowly, and all at once when it is seen again', () => {
+  let hidden = true;
+  const { socket, link } = setup(() => hidden);
+  socket(0).onopen?.();
+  const state = () => socket(0).onmessage?.({ data: '{"type":"state"}' });
+  state();
+  state();
+  vi.advanceTimersByTime(999);
+  expect(socket(0).sent).toEqual([]);
+  vi.advanceTimersByTime(1);
+  expect(socket(0).sent).toHaveLength(2);
+  state();
+  hidden = false;
+  link.wake();
+  expect(socket(0).sent).toHaveLength(3);
+  state();
+  expect(socket(0).sent).toHaveLength(4);
+  vi.advanceTimersByTime(5000);
+  expect(socket(0).sent).toHaveLength(4);
+});
+
+test('what a broken connection held back is not said to the next one', () => {
+  const { socket } = setup(() => true);
+  socket(0).onopen?.();
+  socket(0).onmessage?.({ data: '{"type":"state"}' });
+  socket(0).onclose?.();
+  vi.advanceTimersByTime(250);
+  socket(1).onopen?.();
+  vi.advanceTimersByTime(5000);
+  expect(socket(1).sent).toEqual([]);
 });

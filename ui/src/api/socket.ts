@@ -19,6 +19,8 @@ export interface Link {
   operate(operation: Operation): Promise<Answer>;
   /** Tries again at once instead of waiting. */
   retry(): void;
+  /** The page is seen again, and wants to know everything at once. */
+  wake(): void;
   close(): void;
 }
 
@@ -28,11 +30,16 @@ export interface LinkOptions {
   /** Where robots are; comes before the `state` it belongs to. */
   onRobots(robots: Robots): void;
   onLink(state: LinkState): void;
+  /** Whether the page cannot be seen: then it takes a few states a second, and leaves the machine to pages that are seen. */
+  isHidden?(): boolean;
   random?(): number;
 }
 
 /** No answer after this long counts as refused, milliseconds. */
 const ANSWER_MAX_MS = 10_000;
+
+/** A hidden page acknowledges states this often, milliseconds. */
+const HIDDEN_MS = 1_000;
 
 /** A WebSocket that comes back by itself. */
 export function createLink(options: LinkOptions): Link {
@@ -47,7 +54,25 @@ export function createLink(options: LinkOptions): Link {
     waiting.delete(id);
   };
 
+  /** Acknowledgements that a hidden page holds back. */
+  let [held, release]: [number, typeof timer] = [0, undefined];
+  const dropHeld = () => {
+    clearTimeout(release);
+    [held, release] = [0, undefined];
+  };
+  const sendHeld = () => {
+    const count = held;
+    dropHeld();
+    for (let i = 0; i < count; i++) send({ type: 'took' });
+  };
+  const acknowledge = () => {
+    held++;
+    if (options.isHidden?.()) release ??= setTimeout(sendHeld, HIDDEN_MS);
+    else sendHeld();
+  };
+
   const lost = () => {
+    dropHeld();
     up = false;
     socket = null;
     for (const id of [...waiting.keys()])
@@ -70,7 +95,7 @@ export function createLink(options: LinkOptions): Link {
       waiting.get(message.id)?.(message);
       waiting.delete(message.id);
     } else if (message) options.onMessage(message);
-    if (message?.type === 'state') send({ type: 'took' });
+    if (message?.type === 'state') acknowledge();
   };
 
   function connect() {
@@ -107,8 +132,10 @@ export function createLink(options: LinkOptions): Link {
     retry() {
       if (!up && !closed && socket === null) connect();
     },
+    wake: sendHeld,
     close() {
       closed = true;
+      dropHeld();
       clearTimeout(timer);
       socket?.close();
     },

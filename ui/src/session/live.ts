@@ -157,8 +157,9 @@ function keep<T>(store: Store<T>, next: T) {
 /** The one connection of this page to its server. */
 export function connect(live: Live): Link {
   const address = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
-  return createLink({
+  const link = createLink({
     open: () => new WebSocket(address) as never,
+    isHidden: () => document.hidden,
     onMessage: (message) => receive(live, message),
     onRobots: (robots) => live.track.push(robots, performance.now()),
     onLink: (state) => {
@@ -167,4 +168,6 @@ export function connect(live: Live): Link {
       if (state !== 'open') live.playback.update((p) => ({ ...p, phase: 'idle' }));
     },
   });
+  document.addEventListener('visibilitychange', () => document.hidden || link.wake());
+  return link;
 }
