@@ -146,7 +146,9 @@ describe('the timeline', () => {
 
   test('several frames, a section, a layer, and a press on the ruler', async () => {
     const page = await bed.open('edit');
-    await begin(page, 'several', { lightbots: 2, layers: [{ kind: 'pulse', from_s: 1, to_s: 4 }] });
+    const layers = [{ kind: 'pulse', from_s: 1, to_s: 4 }];
+    await begin(page, 'several', { lightbots: 2, layers, beats: { bpm: 120 } });
+    await page.getByTestId('timeline').getByText('Beats', { exact: true }).waitFor();
     const lane = await page.getByRole('listbox', { name: 'Frames on the timeline' }).boundingBox();
     const [first, second] = [await box(page, 0), await box(page, 1)];
     if (!lane) throw new Error('There are no frames.');

@@ -40,22 +40,32 @@ function travelText({ travel_s, least_s, travel_px, isFastest }: Props): string 
 
 /** A frame on the timeline: the drive to it hollow, because it is planned, and its air time in its colours. */
 export const FrameBlock = memo(function FrameBlock(props: Props) {
-  const { index, frame, width, travel_px, go } = props;
-  const isRoomy = width >= TEXT_PX;
-  const travel = travelText(props);
+  const { left, width } = props;
   return (
     <div
       id={props.id}
       className={styles.block}
       role="option"
       aria-selected={props.isChosen}
+      // It is the name too: what is in the block is for eyes alone.
       title={props.label}
-      data-frame={index}
+      data-frame={props.index}
       data-current={props.isCurrent || undefined}
       data-wrong={props.isWrong || undefined}
-      style={{ left: props.left, width }}
+      style={{ left, width: Math.max(1, width - 1) }}
     >
-      <span className="hidden-text">{props.label}</span>
+      <Inside {...props} left={0} />
+    </div>
+  );
+});
+
+/** What is in a block. It stands alone, because a drag moves all blocks after it, and what is in them stays the same. */
+const Inside = memo(function Inside(props: Props) {
+  const { index, frame, width, travel_px, go } = props;
+  const isRoomy = width >= TEXT_PX;
+  const travel = travelText(props);
+  return (
+    <>
       {width >= NUMBER_PX ? (
         <span className={styles.title} aria-hidden>
           <b>
@@ -99,7 +109,7 @@ export const FrameBlock = memo(function FrameBlock(props: Props) {
           <i className={styles.edge} data-edge="air" />
         </>
       ) : null}
-    </div>
+    </>
   );
 });
 

@@ -1,48 +1,57 @@
+import { IconMusic } from '@tabler/icons-react';
 import { useEffect, useMemo, useState } from 'react';
 import { useStore } from '../../base/store';
-import type { Axis } from '../../model/timelineAxis';
+import { beatsBetween, beatsOf, type Beat } from '../../model/beats';
 import { blocksOf } from '../../model/timelineBlocks';
 import { useEditing, useEditorNow } from '../context';
+import { MusicLane } from './MusicLane';
 import type { TimelineRow } from './Rows';
 import { Tracks } from './Tracks';
 import { TimelineTools } from './TimelineTools';
-import { axisOf, createTimelineView, TimelineContext, type Drawn } from './timelineView';
+import { axisOf, createTimelineView, TimelineContext } from './timelineView';
 import styles from './Timeline.module.css';
 
-interface Props {
-  /** Moments of beats that drags snap to, seconds of show time. */
-  beats?: readonly number[];
-  /** Further rows above the frames, such as the music; they draw what lies in `drawn`. */
-  rows?: (axis: Axis, drawn: Drawn) => readonly TimelineRow[];
-}
+const NO_BEATS: readonly Beat[] = [];
 
-const NO_BEATS: readonly number[] = [];
-const NO_ROWS: readonly TimelineRow[] = [];
-
-/** The show over time: frames with their drives, layers of light, sections, markers and cues. */
-export default function TimelinePanel({ beats = NO_BEATS, rows }: Props) {
+/** The show over time: frames with their drives, layers of light, sections, markers, cues and music. */
+export default function TimelinePanel() {
   const editing = useEditing();
   const [view] = useState(() => createTimelineView(editing));
   useEffect(() => view.follow(), [view]);
-  useEffect(() => view.beats.set(beats), [view, beats]);
   const show = useEditorNow((s) => s.show);
   const drives = useStore(view.drives);
   const scale = useStore(view.scale);
   const drawn = useStore(view.drawn);
   const blocks = useMemo(() => blocksOf(show, drives), [show, drives]);
   const axis = useMemo(() => axisOf(show, blocks, scale), [show, blocks, scale]);
+  const beats = useBeats(axis.to_s);
+  useEffect(() => view.beats.set(beats.map(({ at_s }) => at_s)), [view, beats]);
+  const rows: TimelineRow[] = [];
+  if (show.music !== null || beats.length > 0)
+    rows.push({
+      title: show.music ?? 'Beats',
+      icon: <IconMusic size={16} />,
+      height: 'music',
+      lane: <MusicLane beats={beats} axis={axis} drawn={drawn} />,
+    });
   return (
     <TimelineContext value={view}>
       <div className={styles.panel} role="group" aria-label="Timeline">
         <TimelineTools />
-        <Tracks
-          show={show}
-          blocks={blocks}
-          axis={axis}
-          drawn={drawn}
-          rows={rows?.(axis, drawn) ?? NO_ROWS}
-        />
+        <Tracks show={show} blocks={blocks} axis={axis} drawn={drawn} rows={rows} />
       </div>
     </TimelineContext>
   );
+}
+
+/** Beats of the show from its start to this moment or a little later, seconds; the same list while they stay. */
+function useBeats(to_s: number): readonly Beat[] {
+  const { editor } = useEditing();
+  const json = useEditorNow((s) => s.show.rest.beats);
+  // A drag that makes the show longer need not list them anew each time.
+  const until_s = Math.ceil(to_s / 60) * 60;
+  return useMemo(() => {
+    const beats = json === undefined ? null : beatsOf(editor.state.get().show);
+    return beats ? beatsBetween(beats, 0, until_s) : NO_BEATS;
+  }, [json, editor, until_s]);
 }

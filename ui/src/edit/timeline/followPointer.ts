@@ -22,6 +22,8 @@ export function followPointer(
 ) {
   const stop = new AbortController();
   const options = { signal: stop.signal };
+  // Also outside of the window; and the browser need not look what is under the pointer.
+  (down.target as Element).setPointerCapture(down.pointerId);
   // The scroller stays where it is, and only this scrolls it meanwhile: reading either costs a layout.
   const box = scroller?.getBoundingClientRect();
   let scrolled_px = 0;

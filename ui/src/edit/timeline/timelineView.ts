@@ -121,12 +121,12 @@ export const firstScale = (view: TimelineView, axis: Axis) =>
 /** Height of a row of layers, CSS pixels, as the style sheet has it. */
 export const layerHeight = () => (matchMedia('(pointer: coarse)').matches ? 44 : 32);
 
-/** Notes which part is seen. The drawn part changes only once in a quarter of a width, so that scrolling is cheap. */
+/** Notes which part is seen. The drawn part changes only once in an eighth of a width, so that scrolling is cheap. */
 export function noteSeen(view: TimelineView) {
   const { scroller } = view;
   if (!scroller) return;
   const width = seenWidth(view);
-  const step = Math.max(120, width / 4);
+  const step = Math.max(80, width / 8);
   const rows = 4;
   const row = Math.floor(scroller.scrollTop / layerHeight() / rows) * rows;
   const next: Drawn = {

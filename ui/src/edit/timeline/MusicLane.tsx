@@ -1,0 +1,62 @@
+import { useMemo } from 'react';
+import { useStore } from '../../base/store';
+import type { Beat } from '../../model/beats';
+import { momentAt, xOf, type Axis } from '../../model/timelineAxis';
+import { useEditing } from '../context';
+import { Waveform } from '../music/Waveform';
+import type { Drawn } from './timelineView';
+import styles from './Timeline.module.css';
+
+interface Props {
+  beats: readonly Beat[];
+  axis: Axis;
+  drawn: Drawn;
+}
+
+const SILENCE = new Float32Array(0);
+/** Least distance of bars with a number, CSS pixels. */
+const NUMBER_PX = 36;
+
+/** The loudness of the music, with its bars and beats. Second 0 of the music is the start of show time. */
+export function MusicLane({ beats, axis, drawn }: Props) {
+  const { music } = useEditing();
+  const state = useStore(music.state);
+  const from_s = Math.max(0, momentAt(axis, drawn.from_px));
+  const lasts_s = state.of === 'ready' ? state.music.lasts_s : axis.to_s;
+  const to_s = Math.min(lasts_s, axis.to_s, momentAt(axis, drawn.to_px));
+  const seen = useMemo(
+    () => beats.filter(({ at_s }) => at_s >= from_s && at_s <= to_s),
+    [beats, from_s, to_s],
+  );
+  const bars = useMemo(() => numbered(beats, axis.scale), [beats, axis.scale]);
+  if (to_s <= from_s) return null;
+  const left = xOf(axis, from_s);
+  return (
+    <div className={styles.music} style={{ left, width: (to_s - from_s) * axis.scale }} aria-hidden>
+      <Waveform
+        peaks={state.of === 'ready' ? state.music.peaks : SILENCE}
+        beats={seen}
+        from_s={from_s}
+        to_s={to_s}
+        at_s={null}
+      />
+      {bars.map(({ at_s, bar }) =>
+        at_s < from_s || at_s > to_s ? null : (
+          <span key={bar} className={styles.barNumber} style={{ left: xOf(axis, at_s) - left }}>
+            {bar}
+          </span>
+        ),
+      )}
+    </div>
+  );
+}
+
+/** Bars with their numbers, so many that the numbers do not touch. */
+function numbered(beats: readonly Beat[], scale: number): { at_s: number; bar: number }[] {
+  const bars = beats.filter(({ isBar }) => isBar).map(({ at_s }, i) => ({ at_s, bar: i + 1 }));
+  const [first, last] = [bars[0], bars[bars.length - 1]];
+  if (!first || !last || first === last) return bars;
+  const bar_px = ((last.at_s - first.at_s) / (bars.length - 1)) * scale;
+  const every = 2 ** Math.max(0, Math.ceil(Math.log2(NUMBER_PX / bar_px)));
+  return bars.filter(({ bar }) => (bar - 1) % every === 0);
+}
