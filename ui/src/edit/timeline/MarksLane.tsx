@@ -78,7 +78,7 @@ export function MarksLane({ kind, show, axis }: TrackProps & { kind: ChosenMark[
           <div
             key={index}
             id={`timeline-${kind}-${index}`}
-            className={styles[kind]}
+            className={kind === 'marker' ? styles.marker : styles.section}
             role="option"
             aria-selected={index === chosen?.index}
             aria-label={markText(show, { kind, index })}
