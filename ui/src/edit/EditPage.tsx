@@ -21,7 +21,7 @@ import { Tour } from './Tour';
 import styles from '../parts/page.module.css';
 
 /** Loaded when it is first shown. */
-const MusicTimeline = lazy(() => import('./music/MusicTimeline'));
+const TimelinePanel = lazy(() => import('./timeline/TimelinePanel'));
 
 /** The editing of this page; kept while the page is open, so that undo survives a visit to the live view. */
 let kept: Editing | null = null;
@@ -111,7 +111,7 @@ function Frames() {
   if (view === 'pictures') return <EditStrip />;
   return (
     <Suspense>
-      <MusicTimeline />
+      <TimelinePanel />
     </Suspense>
   );
 }

@@ -1,9 +1,10 @@
-import { useMemo } from 'react';
+import { useMemo, type PointerEvent } from 'react';
 import { useStore } from '../../base/store';
-import type { Beat } from '../../model/beats';
+import { beatsOf, nudged, withBeats, type Beat } from '../../model/beats';
 import { momentAt, xOf, type Axis } from '../../model/timelineAxis';
 import { useEditing } from '../context';
 import { Waveform } from '../music/Waveform';
+import { followPointer } from './followPointer';
 import type { Drawn } from './timelineView';
 import styles from './Timeline.module.css';
 
@@ -17,9 +18,9 @@ const SILENCE = new Float32Array(0);
 /** Least distance of bars with a number, CSS pixels. */
 const NUMBER_PX = 36;
 
-/** The loudness of the music, with its bars and beats. Second 0 of the music is the start of show time. */
+/** The loudness of the music, with its bars and beats, which a drag moves. Its second 0 is the start of show time. */
 export function MusicLane({ beats, axis, drawn }: Props) {
-  const { music } = useEditing();
+  const { music, editor } = useEditing();
   const state = useStore(music.state);
   const from_s = Math.max(0, momentAt(axis, drawn.from_px));
   const lasts_s = state.of === 'ready' ? state.music.lasts_s : axis.to_s;
@@ -30,15 +31,35 @@ export function MusicLane({ beats, axis, drawn }: Props) {
   );
   const bars = useMemo(() => numbered(beats, axis.scale), [beats, axis.scale]);
   if (to_s <= from_s) return null;
-  const left = xOf(axis, from_s);
+  const [left, width] = [xOf(axis, from_s), (to_s - from_s) * axis.scale];
+  const press = (event: PointerEvent) => {
+    const before = beatsOf(editor.state.get().show);
+    if (!before || event.button !== 0) return;
+    editor.begin();
+    followPointer(event, null, {
+      move: (by_px) =>
+        editor.change('Drag beats', (show) => withBeats(show, nudged(before, by_px / axis.scale))),
+      end: () => editor.commit('Drag beats'),
+      cancel: editor.cancel,
+    });
+  };
   return (
-    <div className={styles.music} style={{ left, width: (to_s - from_s) * axis.scale }} aria-hidden>
+    <div
+      className={styles.music}
+      style={{ left, width }}
+      title={beats.length > 0 ? 'Drag to move the beats' : undefined}
+      data-testid="timeline-music"
+      // The panel Show moves beats by buttons.
+      aria-hidden
+      onPointerDown={press}
+    >
       <Waveform
         peaks={state.of === 'ready' ? state.music.peaks : SILENCE}
         beats={seen}
         from_s={from_s}
         to_s={to_s}
         at_s={null}
+        columns={Math.ceil(width / 2)}
       />
       {bars.map(({ at_s, bar }) =>
         at_s < from_s || at_s > to_s ? null : (
