@@ -193,6 +193,7 @@ impl ReportBuilder {
         self.frames_played += 1;
         self.shown.insert(frame);
         self.errors_m.append(&mut errors_m);
+        self.robots.thin();
         self.note_lights(now, controller);
     }
 
@@ -288,7 +289,7 @@ impl ReportBuilder {
             position_error_m: ThreeFigures::of(&self.errors_m, 5),
             errors_m: std::mem::take(&mut self.errors_m),
             arrival_spread_s: ThreeFigures::of(&self.frames.spreads_s, 3),
-            tracking_error_m: ThreeFigures::of(&self.robots.offs_m, 5),
+            tracking_error_m: self.robots.offs_m.figures(),
             messages: self.messages(),
             losses: losses.collect(),
             incidents,

@@ -1,5 +1,7 @@
 //! Many numbers in three.
 
+use std::collections::BTreeMap;
+
 use lightbots_base::statistics::nearest_rank;
 use serde::Serialize;
 
@@ -29,6 +31,41 @@ impl ThreeFigures {
     }
 }
 
+/// Decimals of numbers that are counted.
+const COUNTED_DECIMALS: i32 = 5;
+/// Counted numbers are at most this large, so that strange ones do not need much memory.
+const COUNTED_MAX: f64 = 10.0;
+
+/// Numbers that are counted by their rounded values: millions of them take little memory, and give the same three figures.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CountedNumbers(BTreeMap<u32, usize>);
+
+impl CountedNumbers {
+    /// Adds a number; below 0, and what is no number, is 0.
+    pub fn add(&mut self, number: f64) {
+        let value = (number.clamp(0.0, COUNTED_MAX) * 10f64.powi(COUNTED_DECIMALS)).round() as u32;
+        *self.0.entry(value).or_default() += 1;
+    }
+
+    /// Their three figures.
+    pub fn figures(&self) -> ThreeFigures {
+        let count = self.0.values().sum();
+        let at = |percent: usize| {
+            let mut left = nearest_rank(count, percent);
+            let found = self.0.iter().find(|(_, counted)| {
+                let is_here = left <= **counted;
+                left = left.saturating_sub(**counted);
+                is_here
+            });
+            round(
+                found.map_or(0.0, |(value, _)| f64::from(*value)) / 10f64.powi(COUNTED_DECIMALS),
+                COUNTED_DECIMALS,
+            )
+        };
+        ThreeFigures { median: at(50), p99: at(99), max: at(100), count }
+    }
+}
+
 /// A number with `decimals` digits after the point, never −0.
 pub(crate) fn round(number: f64, decimals: i32) -> f64 {
     let scale = 10f64.powi(decimals);
@@ -47,6 +84,13 @@ mod tests {
             ThreeFigures { median: 100.0, p99: 198.0, max: 200.0, count: 200 }
         );
         assert_eq!(ThreeFigures::of(&[], 3), ThreeFigures::default());
+        let mut counted = CountedNumbers::default();
+        assert_eq!(counted.figures(), ThreeFigures::default());
+        let small: Vec<f64> = numbers.iter().map(|number| number * number * 3.7e-6).collect();
+        small.iter().for_each(|&number| counted.add(number));
+        assert_eq!(counted.figures(), ThreeFigures::of(&small, 5));
+        counted.add(f64::INFINITY);
+        assert_eq!((counted.figures().max, counted.figures().count), (10.0, 201));
         assert_eq!(round(-0.0004, 3).to_bits(), 0);
     }
 }

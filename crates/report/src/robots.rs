@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use lightbots_base::{Instant, RobotId};
 use lightbots_wire::{Report, RobotState, Topic};
 
+use crate::figures::CountedNumbers;
 use crate::figures::{ThreeFigures, round};
 use crate::model::RobotFigures;
-use crate::track::PlaceTrack;
+use crate::track::{PlaceTrack, SAMPLES_MAX};
 
 /// Most robots of a report; the controller remembers no more either.
 const ROBOTS_MAX: usize = 20_000;
@@ -38,7 +39,7 @@ pub(crate) struct RobotNotes {
 pub(crate) struct AllRobots {
     pub by_name: BTreeMap<RobotId, RobotNotes>,
     /// Every reported distance from a route, metres.
-    pub offs_m: Vec<f64>,
+    pub offs_m: CountedNumbers,
 }
 
 impl AllRobots {
@@ -48,6 +49,23 @@ impl AllRobots {
             return None;
         }
         Some(self.by_name.entry(id).or_default())
+    }
+
+    /// Keeps fewer places of a run that is long.
+    pub fn thin(&mut self) {
+        let count = |robots: &Self| -> usize {
+            robots.by_name.values().map(|robot| robot.planned.count() + robot.driven.count()).sum()
+        };
+        // Each doubling leaves fewer; beyond a few metres there is one line a track.
+        for _ in 0..10 {
+            if count(self) <= SAMPLES_MAX {
+                return;
+            }
+            for robot in self.by_name.values_mut() {
+                robot.planned.thin();
+                robot.driven.thin();
+            }
+        }
     }
 
     /// A report comes while the robots are on the way to `frame`.
@@ -73,7 +91,7 @@ impl AllRobots {
         }
         if let Some(off_m) = details.off_m.filter(|_| on_route) {
             robot.off_m = robot.off_m.max(off_m);
-            self.offs_m.push(off_m);
+            self.offs_m.add(off_m);
         }
     }
 

@@ -1,8 +1,8 @@
 //! Places over time, sparse enough to be small.
 //!
 //! The rule: a sample is left out where a straight line in time between the samples that are kept passes within
-//! [`TOLERANCE_M`] of it. If a whole run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has
-//! fewer; the page says the tolerance.
+//! [`TOLERANCE_M`] of it. While a run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has
+//! fewer, so that neither the memory nor the page of a long run grows; the page says the tolerance.
 
 use lightbots_base::Vec2;
 use serde::Serialize;
@@ -10,8 +10,8 @@ use serde::Serialize;
 /// Largest distance between a place and the line that stands for it, metres. Below, pages grow; above, a line on a floor of
 /// three metres is off by more than a pixel of a screen.
 const TOLERANCE_M: f64 = 0.003;
-/// Most samples of a report: about 9 bytes each.
-const SAMPLES_MAX: usize = 1_500_000;
+/// Most samples of a report: about 9 bytes each, and 24 while the run is on.
+pub(crate) const SAMPLES_MAX: usize = 1_500_000;
 /// Most samples between two that are kept, which bounds the work for a robot that stands: then one is kept anyway.
 const SKIPPED_MAX: usize = 64;
 
@@ -19,14 +19,33 @@ const SKIPPED_MAX: usize = 64;
 type Sample = (f64, Vec2);
 
 /// One robot's places over time, simplified while they come.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct PlaceTrack {
+    /// How far a place may be off the line that stands for it, metres.
+    tolerance_m: f64,
     kept: Vec<Sample>,
     /// Samples since the last one that is kept, at most `SKIPPED_MAX`.
     open: Vec<Sample>,
 }
 
+impl Default for PlaceTrack {
+    fn default() -> Self {
+        Self { tolerance_m: TOLERANCE_M, kept: Vec::new(), open: Vec::new() }
+    }
+}
+
 impl PlaceTrack {
+    /// Number of samples that are kept.
+    pub fn count(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// Doubles the tolerance.
+    pub fn thin(&mut self) {
+        self.tolerance_m *= 2.0;
+        self.kept = thinned(&self.kept, self.tolerance_m);
+    }
+
     /// Adds a sample. One that is not later than the last one is dropped.
     pub fn add(&mut self, at_s: f64, place: Vec2) {
         let Some(&last) = self.open.last().or(self.kept.last()) else {
@@ -37,7 +56,7 @@ impl PlaceTrack {
         }
         if let Some(&anchor) = self.kept.last() {
             let fits = |&(between_s, between): &Sample| {
-                along(anchor, (at_s, place), between_s).distance(between) <= TOLERANCE_M
+                along(anchor, (at_s, place), between_s).distance(between) <= self.tolerance_m
             };
             if self.open.len() >= SKIPPED_MAX || !self.open.iter().all(fits) {
                 self.kept.push(last);
@@ -114,9 +133,10 @@ pub(crate) type Encoded = (Vec<i32>, Vec<i32>);
 
 /// Planned and driven samples of each robot as differences, and their tolerance in metres. Times count from `began_s`.
 pub(crate) fn encoded(tracks: Vec<(PlaceTrack, PlaceTrack)>, began_s: f64) -> (Vec<Encoded>, f64) {
+    let reached = tracks.iter().flat_map(|(planned, driven)| [planned.tolerance_m, driven.tolerance_m]);
+    let mut tolerance_m = reached.fold(TOLERANCE_M, f64::max);
     let mut tracks: Vec<_> =
         tracks.into_iter().map(|(planned, driven)| (planned.finish(), driven.finish())).collect();
-    let mut tolerance_m = TOLERANCE_M;
     while tracks.iter().map(|(planned, driven)| planned.len() + driven.len()).sum::<usize>() > SAMPLES_MAX
         && tolerance_m < 1.0
     {
@@ -186,5 +206,22 @@ mod tests {
         let (encoded, tolerance_m) = encoded(vec![(PlaceTrack::default(), track)], 5.0);
         assert_eq!(encoded, [(vec![], vec![0, 500, -250, 100, 250, 0])]);
         assert_eq!(tolerance_m, TOLERANCE_M);
+    }
+
+    #[test]
+    fn a_track_that_is_thinned_while_it_grows_stays_near_its_samples() {
+        let samples = curve();
+        let mut track = PlaceTrack::default();
+        for (number, &(at_s, place)) in samples.iter().enumerate() {
+            track.add(at_s, place);
+            if number == 30 || number == 50 {
+                track.thin();
+            }
+        }
+        let kept = track.finish();
+        // Tolerances of 3, 6 and 12 mm, one after the other.
+        assert!(off_m(&kept, &samples) <= 0.021, "{}", off_m(&kept, &samples));
+        assert!(kept.len() < 16, "{}", kept.len());
+        assert_eq!((kept.first(), kept.last()), (samples.first(), samples.last()));
     }
 }
