@@ -68,7 +68,7 @@ test('music is added, its beats are found and corrected, and pictures are arrang
   await dialog.getByRole('button', { name: 'Change air times' }).click();
   await music.getByRole('button', { name: 'Arrange to music…' }).click();
   await dialog.getByText('Every picture begins with a bar already.').waitFor();
-  await dialog.getByRole('button', { name: 'Close' }).click();
+  await dialog.getByRole('button', { name: 'Close' }).last().click();
 
   await music.getByRole('button', { name: 'Hear the music' }).click();
   await music.getByText(/0:0[1-9] of/).waitFor();

@@ -127,7 +127,7 @@ fn swing(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
 /// One heavy and two light.
 fn waltz(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     let bar = beat / 3;
-    if beat % 3 == 0 {
+    if beat.is_multiple_of(3) {
         tape.kick(at_s, 1.0);
         tape.bass(at_s, 0.8 * beat_s, root(bar), 0.9);
         tape.pad(at_s, 3.0 * beat_s, 4.0 * root(bar), 0.8);
@@ -152,7 +152,7 @@ fn fast_hats(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     for i in 0..4 {
         tape.hat(at_s + f64::from(i) * beat_s / 4.0, if i % 2 == 0 { 0.9 } else { 0.7 });
     }
-    if beat % 2 == 0 {
+    if beat.is_multiple_of(2) {
         tape.kick(at_s, 1.0)
     } else {
         tape.snare(at_s, 0.9)
@@ -170,7 +170,7 @@ fn house(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     for part in [0.25, 0.5, 0.75] {
         tape.bass(at_s + part * beat_s, 0.2 * beat_s, root(beat / 8), 0.5);
     }
-    if beat % 16 == 0 {
+    if beat.is_multiple_of(16) {
         tape.pad(at_s, 16.0 * beat_s, 4.0 * root(beat / 16), 1.0);
     }
 }
@@ -192,12 +192,12 @@ fn half_time(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
 /// Bowed chords without drums.
 fn strings(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     let root_hz = root(beat / 4);
-    if beat % 2 == 0 {
+    if beat.is_multiple_of(2) {
         tape.pad(at_s - 0.05, 2.0 * beat_s, 4.0 * root_hz, 2.0);
     }
     let step = [1.0, 1.26, 1.5, 2.0][beat % 4];
     tape.bass(at_s, 0.95 * beat_s, 4.0 * root_hz * step, 0.6);
-    if beat % 4 == 0 {
+    if beat.is_multiple_of(4) {
         tape.bass(at_s, 3.8 * beat_s, root_hz, 0.7);
     }
 }
@@ -206,7 +206,7 @@ fn strings(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
 fn bossa(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.kick(at_s, 0.6);
     tape.kick(at_s + 0.75 * beat_s, 0.35);
-    let parts: &[f64] = if beat % 2 == 0 { &[0.0, 0.5] } else { &[0.25, 0.75] };
+    let parts: &[f64] = if beat.is_multiple_of(2) { &[0.0, 0.5] } else { &[0.25, 0.75] };
     for part in parts {
         tape.stab(at_s + part * beat_s, 4.0 * root(beat / 4), 0.6);
     }
@@ -225,7 +225,7 @@ fn piano(name: &str, bpm: f64, seed: u64) -> Piece {
     for (i, beat_s) in beats_s.iter().enumerate() {
         let at_s = beat_s + 0.012 * hand.normal();
         let bar = i / 4;
-        if i % 4 == 0 || (i % 4 == 2 && hand.even() < 0.8) {
+        if i.is_multiple_of(4) || (i % 4 == 2 && hand.even() < 0.8) {
             tape.piano(at_s, 2.0 * root(bar), 0.9);
             tape.piano(at_s + 0.004 * hand.normal(), 4.0 * root(bar), 0.6);
         }
