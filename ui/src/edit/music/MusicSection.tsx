@@ -1,4 +1,4 @@
-import { Button, FileButton, Group, Stack, Text } from '@mantine/core';
+import { Button, Checkbox, FileButton, Group, Stack, Text } from '@mantine/core';
 import { useStore } from '../../base/store';
 import { clockText } from '../../base/time';
 import { musicOf, withoutMusic } from '../../model/beats';
@@ -9,6 +9,7 @@ import { useSession, type Session } from '../../session/session';
 import { BeatFields } from './BeatFields';
 import { HeardWave } from './HeardWave';
 import { MUSIC_FILES } from './musicActs';
+import { previewSound } from './previewSound';
 import styles from './Music.module.css';
 
 /** The music of the show and its beats. */
@@ -88,9 +89,19 @@ function Chosen({ name }: { name: string }) {
       {state.of === 'ready' ? (
         <>
           <HeardWave music={state.music} />
+          <PreviewSound />
           <BeatFields lasts_s={state.music.lasts_s} />
         </>
       ) : null}
     </>
   );
 }
+
+const PreviewSound = () => (
+  <Checkbox
+    size="xs"
+    label="Hear it with the preview"
+    checked={useStore(previewSound) === 'on'}
+    onChange={(event) => previewSound.set(event.currentTarget.checked ? 'on' : 'off')}
+  />
+);

@@ -4,13 +4,15 @@ import { musicOf } from '../../model/beats';
 import { timelineOf } from '../../model/timeline';
 import { notify } from '../../session/notices';
 import type { Editing } from '../editing';
+import { previewSound } from './previewSound';
 
 /** Lets the music be heard with the preview: it begins with the air time of the first frame. */
 export function usePreviewSound({ preview, editor, full, sounding, listening }: Editing) {
   const running = useStore(preview.running);
+  const isOn = useStore(previewSound) === 'on';
   useEffect(() => {
     const file = musicOf(editor.state.get().show);
-    if (!running || !file) return;
+    if (!running || !isOn || !file) return;
     listening.stop();
     sounding.open(file.hash).catch((error: unknown) => {
       const why = error instanceof Error ? error.message : String(error);
@@ -28,5 +30,5 @@ export function usePreviewSound({ preview, editor, full, sounding, listening }: 
       cancelAnimationFrame(request);
       sounding.follow(null, performance.now());
     };
-  }, [running, preview, editor, full, sounding, listening]);
+  }, [running, isOn, preview, editor, full, sounding, listening]);
 }
