@@ -288,6 +288,8 @@ mod tests {
         controller.connected(Instant(1_000));
         controller.message(Instant(2_000), "T/LightBot/UUID", b"a 0.5 1.3");
         controller.operate(Instant(3_000), Operation::Open(show)).unwrap();
+        // A log begins with a controller at rest, which has nothing left to say.
+        listen(recorder, controller);
         let play = Operation::Play { from: 0, missing: MissingPolicy::Refuse };
         recorder.before(controller, Instant(4_000), &play);
         controller.operate(Instant(4_000), play).unwrap();
@@ -309,19 +311,20 @@ mod tests {
         let mut controller = RecordedController::new(Controller::new(Config::default()));
         let target = RecordingTarget::Runs(data.clone());
         let mut recorder = Recorder::new(target, &mut controller, Instant(0));
-        recorder.run_bytes_max = 20_000;
+        recorder.run_bytes_max = 4_000;
         run_begun(&mut recorder, &mut controller);
         let mut said = Vec::new();
-        for moment in 0..2_000 {
-            controller.message(Instant(5_000 + moment * 10), "T/LightBot/UUID", b"a 0.5 1.3");
+        // A log has pieces of about a second.
+        for moment in 0..1_000 {
+            controller.message(Instant(5_000 + moment * 20_000), "T/LightBot/UUID", b"a 0.5 1.3");
             said.extend(listen(&mut recorder, &mut controller));
         }
         assert_eq!(said.len(), 1, "{said:?}");
         assert!(said[0].contains("not recorded any further"), "{said:?}");
         assert!(controller.has_run() && !controller.is_recording());
-        controller.operate(Instant(30_000), Operation::Abort).unwrap();
+        controller.operate(Instant(21_000_000), Operation::Abort).unwrap();
         for moment in 0..1_000 {
-            controller.wake(Instant(40_000 + moment * 10_000));
+            controller.wake(Instant(22_000_000 + moment * 10_000));
             listen(&mut recorder, &mut controller);
         }
         assert!(!controller.has_run());
