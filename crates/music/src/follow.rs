@@ -3,7 +3,7 @@
 
 use crate::onsets::{FRAMES_PER_S, Onsets, onsets};
 use crate::sound::{NoBeats, Sound};
-use crate::tempo::periods;
+use crate::tempo::{largest, periods};
 
 /// How strictly beats keep the period: cost of ln(distance / period)², in standard deviations of the onsets.
 const TIGHTNESS: f64 = 100.0;
@@ -97,8 +97,7 @@ fn best_chain(strength: &[f64], period_at: impl Fn(usize) -> f64) -> Vec<usize> 
     }
     let last_period = period_at(strength.len() - 1) as usize;
     let last_from = strength.len().saturating_sub(last_period.max(1));
-    let mut chain =
-        vec![(last_from..strength.len()).fold(last_from, |a, b| if sums[b] > sums[a] { b } else { a })];
+    let mut chain = vec![last_from + largest(&sums[last_from..])];
     while let Some(back) = before[chain[chain.len() - 1]] {
         chain.push(back);
     }

@@ -139,6 +139,6 @@ fn best_step(total: &[f64], to: usize) -> (usize, f64) {
 }
 
 /// Index of the largest value; the first of equals.
-fn largest(values: &[f64]) -> usize {
+pub(crate) fn largest(values: &[f64]) -> usize {
     (0..values.len()).fold(0, |best, i| if values[i] > values[best] { i } else { best })
 }

@@ -12,6 +12,9 @@ export const momentText = (seconds: number) =>
 /** `3.4 s`. */
 export const secondsText = (seconds: number) => `${seconds.toFixed(1)} s`;
 
+/** Seconds with as few decimals as needed, at most two. */
+export const shortSeconds = (seconds: number) => Number(seconds.toFixed(2));
+
 /** An age as text: `now`, `4 s`, `3 min`. */
 export function ageText(seconds: number): string {
   if (seconds < 1.5) return 'now';

@@ -1,8 +1,10 @@
+import { messageOf } from '../base/errors';
 import { getAsset, putAsset } from '../api/http';
 import { draftOf, newDraft, sourceTitle, type Draft, type Tab } from '../make/draft';
 import { pixelsOf } from '../make/frame';
 import { createMaking, type Making } from '../make/making';
 import type { Picture } from '../make/pictures';
+import { assetEntry } from '../model/assets';
 import { fleetSize, makeFrames } from '../model/commands';
 import type { FrameSource } from '../model/sources';
 import { notify } from '../session/notices';
@@ -63,7 +65,7 @@ export async function takeMade(editing: Editing, making: Making) {
     for (const hash of hashes)
       if (editing.files.has(hash)) await putAsset(hash, await fileOf(editing, hash));
   } catch (error) {
-    notify('error', `The file is not saved: ${error instanceof Error ? error.message : error}`);
+    notify('error', `The file is not saved: ${messageOf(error)}`);
     return;
   }
   if (editing.making.get() !== making) return;
@@ -84,10 +86,9 @@ function apply(editing: Editing, frame: number, pictures: readonly Picture[]) {
   }));
   const files = pictures.flatMap(({ source }) => editing.files.get(source.asset ?? '') ?? []);
   const assets = Object.fromEntries(
-    files.map((file) => [
-      file.hash,
-      { name: file.name, media_type: file.mediaType, bytes: file.bytes.length },
-    ]),
+    files.flatMap(({ hash, name, mediaType, bytes }) =>
+      Object.entries(assetEntry(hash, name, mediaType, bytes.length)),
+    ),
   );
   editing.editor.change('Make', (show) => makeFrames(show, frame, made, assets));
 }

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { getShow, putShow, Refused } from '../api/http';
 import type { ShowEntry } from '../api/types.gen';
 import {
@@ -95,7 +96,7 @@ function createPut(target: Target, editor: Editor) {
       sent = null;
       return saved;
     } catch (error) {
-      const reason = error instanceof Error ? error.message : String(error);
+      const reason = messageOf(error);
       const conflict = error instanceof Refused && error.status === 412;
       if (!conflict) sent = normal(writeShow(editor.state.get().show));
       const etag = conflict ? await mine().catch(() => null) : null;

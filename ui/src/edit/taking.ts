@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import type { MakeFile } from '../api/types.gen';
 import { countText } from '../base/numbers';
 import { FILE_SOURCES, type DraftFile, type FileSource } from '../make/draft';
@@ -36,7 +37,7 @@ export async function takeAnything(
     else if (files.length > 0) await takeFiles(session, editing, files);
     else takeWords(editing, text);
   } catch (error) {
-    notify('error', error instanceof Error ? error.message : String(error));
+    notify('error', messageOf(error));
   }
 }
 
@@ -141,6 +142,6 @@ export async function takeFont(editing: Editing, making: Making, file: File) {
         `Can't use ${file.name}: ${found.why ?? 'It is no font.'} Choose a font as TTF or OTF.`,
       );
   } catch (error) {
-    notify('error', error instanceof Error ? error.message : String(error));
+    notify('error', messageOf(error));
   }
 }

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { Button, Group, Loader, Modal, Text } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { countText } from '../base/numbers';
@@ -75,7 +76,7 @@ function useFitted(show: Show | null, robots: number): Fitted | string | null {
         if (isWanted) setFound(fitted);
       },
       (error: unknown) => {
-        if (isWanted) setFound(error instanceof Error ? error.message : String(error));
+        if (isWanted) setFound(messageOf(error));
       },
     );
     return () => {

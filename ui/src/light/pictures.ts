@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { createStore, type Readable } from '../base/store';
 import { text } from '../model/jsonFields';
 import type { Layer } from '../model/layers';
@@ -43,7 +44,7 @@ export function createLayerPictures(fileOf: FileOf, changed: () => void): LayerP
       const bytes = await fileOf(hash);
       waiting.push({ hash, bytes });
     } catch (error) {
-      const why = error instanceof Error ? error.message : String(error);
+      const why = messageOf(error);
       fail(hash, `The picture's file cannot be loaded: ${why}`);
     }
     changed();

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { getAsset } from '../api/http';
 import { createStore, type Readable } from '../base/store';
 import { musicOf } from '../model/beats';
@@ -53,8 +54,7 @@ export function createLiveMusic(live: Live): LiveMusic {
       timer = setInterval(follow, STEP_MS);
       sounding.open(file.hash).catch((error: unknown) => {
         stop();
-        const why = error instanceof Error ? error.message : String(error);
-        notify('error', `The music cannot be heard: ${why}`);
+        notify('error', messageOf(error));
       });
     },
     stop,

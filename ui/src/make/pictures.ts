@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import type { MakeAnswer, MakeQuality, MakeRemark } from '../api/types.gen';
 import type { Frame, Show } from '../model/show';
 import type { FrameSource } from '../model/sources';
@@ -54,7 +55,7 @@ export async function makePictures(
   try {
     return await (isFilm(wish.draft) ? film(maker, wish) : oneByOne(maker, wish, isWanted));
   } catch (error) {
-    const message = error instanceof Error ? error.message : String(error);
+    const message = messageOf(error);
     return failed({ code: 'no-answer', message });
   }
 }

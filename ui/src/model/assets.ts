@@ -18,6 +18,14 @@ export function assetsOf(show: Show): ReadonlyMap<string, Asset> {
   return new Map(all.map(([hash, value]) => [hash, asset(value)]));
 }
 
+/** A file as the document of a show lists it, by its hash. */
+export const assetEntry = (
+  hash: string,
+  name: string,
+  mediaType: string,
+  bytes: number,
+): Readonly<Record<string, Asset>> => ({ [hash]: { name, media_type: mediaType, bytes } });
+
 /** Adds files to a show. */
 export const withAssets = (show: Show, assets: Readonly<Record<string, unknown>>): Show =>
   Object.keys(assets).length === 0

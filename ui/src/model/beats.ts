@@ -1,4 +1,4 @@
-import { assetsOf, withAssets } from './assets';
+import { assetEntry, assetsOf, withAssets } from './assets';
 import { number, object, without } from './jsonFields';
 import type { Show } from './show';
 
@@ -15,6 +15,9 @@ export type BeatGrid =
   /** Each beat, increasing. */
   | { of: 'times'; times_s: readonly number[] };
 
+/** Beats of a bar in most music. */
+export const PER_BAR = 4;
+
 /** Tempi that a show can have, beats a minute. */
 export const BPM = { min: 10, max: 600 };
 
@@ -22,7 +25,7 @@ export const BPM = { min: 10, max: 600 };
 export function beatsOf(show: Pick<Show, 'rest'>): Beats | null {
   if (show.rest.beats === undefined) return null;
   const { bpm, offset_s, times_s, per_bar } = object(show.rest.beats);
-  const perBar = Math.max(1, Math.round(number(per_bar, 4)));
+  const perBar = Math.max(1, Math.round(number(per_bar, PER_BAR)));
   if (Array.isArray(times_s))
     return { grid: { of: 'times', times_s: times_s.map((at) => number(at, 0)) }, perBar };
   const tempo = number(bpm, 0);
@@ -61,9 +64,8 @@ export function musicOf(show: Show): MusicFile | null {
 
 /** The show with this music, in place of what it had, and with its beats. */
 export function withMusic(show: Show, file: MusicFile, beats: Beats | null): Show {
-  const asset = { name: file.name, media_type: file.mediaType, bytes: file.bytes };
-  const silent = withoutMusic(show);
-  return withBeats({ ...withAssets(silent, { [file.hash]: asset }), music: file.name }, beats);
+  const assets = assetEntry(file.hash, file.name, file.mediaType, file.bytes);
+  return withBeats({ ...withAssets(withoutMusic(show), assets), music: file.name }, beats);
 }
 
 /** The show without music and beats; its file goes too. */

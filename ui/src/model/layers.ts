@@ -1,5 +1,6 @@
 import { list, number, object, text, without } from './jsonFields';
-import { withId, withRest } from './frameIds';
+import { withId } from './frameIds';
+import { listField } from './listField';
 import type { Show } from './show';
 
 /** A layer of light over time; docs/light.md has the settings of each kind. Values are never changed in place. */
@@ -27,23 +28,12 @@ export type LayerWhen =
 /** Which part of its frames: all, only the drives to them, or only their air times. */
 export type LayerPhase = 'whole' | 'transition' | 'picture';
 
-const NONE: readonly Layer[] = [];
-const known = new WeakMap<object, readonly Layer[]>();
+const LAYERS = listField('layers', readLayer, writeLayer);
 
 /** The layers of a show, lowest first; the same list for the same show. */
-export function layersOf(show: Show): readonly Layer[] {
-  const json = show.rest.layers;
-  if (!Array.isArray(json) || json.length === 0) return NONE;
-  const layers = known.get(json) ?? list(json).map(readLayer);
-  known.set(json, layers);
-  return layers;
-}
+export const layersOf = LAYERS.of;
 
-export function withLayers(show: Show, layers: readonly Layer[]): Show {
-  const json = layers.map(writeLayer);
-  known.set(json, layers);
-  return withRest(show, 'layers', json);
-}
+export const withLayers = LAYERS.with;
 
 const FIELDS = ['kind', 'name', 'settings', 'frames', 'phase', 'from_s', 'to_s'];
 

@@ -2,7 +2,7 @@ import type { Dot } from '../base/geometry';
 import type { Plan } from '../api/types.gen';
 import { mix } from '../base/colour';
 import { pathAt } from './path';
-import type { Show } from './show';
+import type { Frame, Show } from './show';
 
 /** Times of the drive to a frame and of its picture, seconds from the start of the show. */
 export interface Segment {
@@ -13,11 +13,18 @@ export interface Segment {
 }
 
 /** The planned times of a show; a drive without a plan takes no time. */
-export function timelineOf(show: Show, plan: Plan | null): Segment[] {
+export const timelineOf = (show: Show, plan: Plan | null): Segment[] =>
+  segmentsOf(show, (_, index) => plan?.transitions[index]?.duration_s ?? 0);
+
+/** The times of a show whose drives take that long, seconds. */
+export function segmentsOf(
+  show: Show,
+  drive_s: (frame: Frame, index: number) => number,
+): Segment[] {
   let clock = 0;
   return show.frames.map((frame, index) => {
     const driveFrom_s = clock;
-    const shownFrom_s = driveFrom_s + (plan?.transitions[index]?.duration_s ?? 0);
+    const shownFrom_s = driveFrom_s + drive_s(frame, index);
     clock = shownFrom_s + Math.max(0, frame.airTime_s);
     return { frame: index, driveFrom_s, shownFrom_s, until_s: clock };
   });

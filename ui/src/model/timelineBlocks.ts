@@ -2,6 +2,7 @@ import type { Plan } from '../api/types.gen';
 import { setFrames } from './commands';
 import { goOf } from './cues';
 import type { Frame, Show } from './show';
+import { segmentsOf } from './timeline';
 
 /** The planned drive to a frame. */
 export interface PlannedDrive {
@@ -49,27 +50,29 @@ function driveOf({ transition_s }: Frame, planned: PlannedDrive | undefined): nu
 
 /** The frames of a show on its timeline. */
 export function blocksOf(show: Show, drives: PlannedDrives): Block[] {
-  let clock = 0;
-  const blocks = show.frames.map((frame, index) => {
-    const planned = drives.get(frame.key);
-    const driveFrom_s = clock;
-    const shownFrom_s = driveFrom_s + driveOf(frame, planned);
-    clock = shownFrom_s + Math.max(0, frame.airTime_s);
-    const least_s = planned?.least_s ?? null;
-    const go = goOf(show, index);
-    return { key: frame.key, frame, driveFrom_s, shownFrom_s, until_s: clock, least_s, go };
+  const segments = segmentsOf(show, (frame) => driveOf(frame, drives.get(frame.key)));
+  const start_s = segments[0]?.shownFrom_s ?? 0;
+  return show.frames.flatMap((frame, index) => {
+    const segment = segments[index];
+    if (!segment) return [];
+    return {
+      key: frame.key,
+      frame,
+      driveFrom_s: segment.driveFrom_s - start_s,
+      shownFrom_s: segment.shownFrom_s - start_s,
+      until_s: segment.until_s - start_s,
+      least_s: drives.get(frame.key)?.least_s ?? null,
+      go: goOf(show, index),
+    };
   });
-  const start_s = blocks[0]?.shownFrom_s ?? 0;
-  for (const block of blocks) {
-    block.driveFrom_s -= start_s;
-    block.shownFrom_s -= start_s;
-    block.until_s -= start_s;
-  }
-  return blocks;
 }
 
 /** From the start of the first drive to the start of show time, seconds. */
 export const leadIn_s = (blocks: readonly Block[]) => -(blocks[0]?.driveFrom_s ?? 0);
+
+/** The moment of show time on the stage, seconds: of a preview, which counts from the first drive, or of a frame. */
+export const momentOnStage = (blocks: readonly Block[], frame: number, preview_s: number | null) =>
+  preview_s === null ? (blocks[frame]?.shownFrom_s ?? 0) : preview_s - leadIn_s(blocks);
 
 /** An edge of a block: the end of its travel time, or of its air time. */
 export type BlockEdge = 'travel' | 'air';

@@ -1,5 +1,5 @@
-import { withRest } from './frameIds';
-import { list, number, object, text, without } from './jsonFields';
+import { number, object, text, without } from './jsonFields';
+import { listField } from './listField';
 import type { Show } from './show';
 
 /** A named moment of the show. Moments are in seconds of show time. */
@@ -23,28 +23,23 @@ export const LATEST_S = 86_400;
 /** Shortest section, seconds. */
 const SHORTEST_S = 0.1;
 
-const NO_MARKERS: readonly Marker[] = [];
-const NO_SECTIONS: readonly Section[] = [];
-const knownMarkers = new WeakMap<object, readonly Marker[]>();
-const knownSections = new WeakMap<object, readonly Section[]>();
+const MARKERS = listField('markers', readMarker, ({ name, at_s, rest }) => ({
+  name,
+  at_s,
+  ...rest,
+}));
+const SECTIONS = listField('sections', readSection, ({ name, from_s, to_s, rest }) => ({
+  name,
+  from_s,
+  to_s,
+  ...rest,
+}));
 
 /** The markers of a show in the order of its document; the same list for the same document. */
-export function markersOf(show: Show): readonly Marker[] {
-  const json = show.rest.markers;
-  if (!Array.isArray(json) || json.length === 0) return NO_MARKERS;
-  const markers = knownMarkers.get(json) ?? list(json).map(readMarker);
-  knownMarkers.set(json, markers);
-  return markers;
-}
+export const markersOf = MARKERS.of;
 
 /** The sections of a show in the order of its document; the same list for the same document. */
-export function sectionsOf(show: Show): readonly Section[] {
-  const json = show.rest.sections;
-  if (!Array.isArray(json) || json.length === 0) return NO_SECTIONS;
-  const sections = knownSections.get(json) ?? list(json).map(readSection);
-  knownSections.set(json, sections);
-  return sections;
-}
+export const sectionsOf = SECTIONS.of;
 
 function readMarker(value: unknown): Marker {
   const json = object(value);
@@ -66,19 +61,8 @@ function readSection(value: unknown): Section {
   };
 }
 
-const withMarkers = (show: Show, markers: readonly Marker[]) =>
-  withRest(
-    show,
-    'markers',
-    markers.map(({ name, at_s, rest }) => ({ name, at_s, ...rest })),
-  );
-
-const withSections = (show: Show, sections: readonly Section[]) =>
-  withRest(
-    show,
-    'sections',
-    sections.map(({ name, from_s, to_s, rest }) => ({ name, from_s, to_s, ...rest })),
-  );
+const withMarkers = MARKERS.with;
+const withSections = SECTIONS.with;
 
 /** The nearest moment that a show may name, to a hundredth of a second. */
 const moment = (seconds: number, from_s = 0, to_s = LATEST_S) =>

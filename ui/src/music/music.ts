@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { createStore, type Readable } from '../base/store';
 import { musicOf } from '../model/beats';
 import type { Show } from '../model/show';
@@ -44,7 +45,7 @@ export function createMusic(
       if (wanted === hash) keep(hash, decoded);
     } catch (error) {
       if (wanted !== hash) return;
-      state.set({ of: 'failed', why: error instanceof Error ? error.message : String(error) });
+      state.set({ of: 'failed', why: messageOf(error) });
     }
   };
   const keep = (hash: string, decoded: DecodedMusic) => {

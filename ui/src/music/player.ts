@@ -30,7 +30,7 @@ const NEAR_S = 0.003;
 /** Sound that is off by more begins anew at the right place, seconds: half of what people notice between sound and light. */
 const FAR_S = 0.03;
 
-/** Sound is made faster or slower by at most this share: nobody hears that as another pitch. */
+/** Sound is made faster or slower by at most this share: the change of pitch is too small to be heard. */
 const RATE_MAX = 0.005;
 
 /** Time in which an error is to be gone, seconds. */

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { createAudioOut, type AudioOut } from './audioOut';
 import { createPlayer, type Player } from './player';
 
@@ -21,7 +22,11 @@ export function createSounding(
     opened = null;
   };
   const load = async (hash: string) => {
-    const out = await createAudioOut(await fileOf(hash));
+    const out = await fileOf(hash)
+      .then(createAudioOut)
+      .catch((error: unknown) => {
+        throw new Error(`The music cannot be heard: ${messageOf(error)}`);
+      });
     close();
     opened = { hash, out, player: createPlayer(out, out.lasts_s) };
   };

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { getShow, putShow } from '../api/http';
 import { readShow, writeShow } from '../model/json';
 import type { Show } from '../model/show';
@@ -23,6 +24,6 @@ export async function changeShow(session: Session, label: string, change: (show:
     const entry = await putShow(name, JSON.stringify(writeShow(next)), etag);
     if (entry.name !== name) followCopy(session, name, entry);
   } catch (error) {
-    notify('error', error instanceof Error ? error.message : String(error));
+    notify('error', messageOf(error));
   }
 }

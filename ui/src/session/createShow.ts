@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
 import { newShow, type Frame, type Stage } from '../model/show';
@@ -36,7 +37,7 @@ export async function createShowInLibrary(
     await putShow(name, JSON.stringify(document), 'new');
     return (await openShow(session, name)) ? name : null;
   } catch (error) {
-    notify('error', error instanceof Error ? error.message : String(error));
+    notify('error', messageOf(error));
     return null;
   }
 }

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { deleteShow, getFile, getShow, listShows, putShow } from '../api/http';
 import { editShow, showInAddress } from './address';
 import { notify, notifyWithUndo } from './notices';
@@ -10,7 +11,7 @@ export const attempt = (act: () => Promise<unknown>) =>
   act().then(
     () => true,
     (error: unknown) => {
-      notify('error', error instanceof Error ? error.message : String(error));
+      notify('error', messageOf(error));
       return false;
     },
   );

@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { Button, Group } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 
@@ -28,7 +29,7 @@ export function notify(tone: keyof typeof TONES, message: string) {
 
 /** Runs an action; if it fails, a notice says why. */
 export function attempt(act: () => Promise<void>) {
-  void act().catch((e: unknown) => notify('error', e instanceof Error ? e.message : String(e)));
+  void act().catch((e: unknown) => notify('error', messageOf(e)));
 }
 
 /** Time that a notice offers to undo an action, milliseconds. */

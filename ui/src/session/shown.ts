@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import { getShow, listShows } from '../api/http';
 import { createStore, type Readable } from '../base/store';
 import { readShow } from '../model/json';
@@ -36,7 +37,7 @@ export function createShown(live: Pick<Live, 'opened'>): Readable<Shown> {
       const readOnly = entries.find((entry) => entry.name === name)?.read_only ?? null;
       if (isWanted()) shown.set({ name, etag, readOnly, show: readShow(document), failure: null });
     } catch (error) {
-      const failure = error instanceof Error ? error.message : String(error);
+      const failure = messageOf(error);
       if (isWanted()) shown.set({ ...NOTHING, name, failure });
     }
   };

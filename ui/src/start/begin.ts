@@ -1,3 +1,4 @@
+import { messageOf } from '../base/errors';
 import type { Maker } from '../make/maker';
 import { makeTemplate } from '../make/templateShow';
 import type { TemplateFrame } from '../make/templates';
@@ -27,7 +28,7 @@ export async function beginWith(
     const show = { title, stage, frames: made };
     if ((await createShowInLibrary(session, show)) !== null) goTo('edit');
   } catch (error) {
-    const why = error instanceof Error ? error.message : String(error);
+    const why = messageOf(error);
     notify('error', `The show is not made. ${why}`);
   }
 }

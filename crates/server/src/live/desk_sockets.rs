@@ -1,16 +1,16 @@
 //! The sockets of lighting desks: UDP packets of Art-Net and sACN.
 
 use std::collections::BTreeSet;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::net::Ipv4Addr;
 use std::time::Duration;
 
 use lightbots_dmx::{DmxPacket, decode_artnet, decode_sacn};
 use tokio::net::UdpSocket;
 use tokio::time::Instant;
 
+use super::desk_socket::{listen, receive};
 use crate::cli::DeskArguments;
 use crate::failure::Failure;
-use crate::say;
 
 /// Longest packet that is read, bytes: those of Art-Net and sACN have at most 638. Longer ones are cut and then refused.
 const PACKET_MAX: usize = 1_024;
@@ -19,6 +19,8 @@ const WINDOW: Duration = Duration::from_millis(10);
 /// Most packets in a `WINDOW`: the 118 universes of 20,000 robots at once, with a reserve. More are left to the system,
 /// whose queue is bounded.
 const PACKETS: u32 = 200;
+/// What a stranger's packets can do.
+const LIGHTS: &str = "drive the lights of robots";
 /// After a failed reading, so that a broken socket does not keep a processor busy.
 const AFTER_ERROR: Duration = Duration::from_millis(100);
 
@@ -40,8 +42,8 @@ impl DeskSockets {
             return Ok(None);
         }
         Ok(Some(Self {
-            artnet: bind("Art-Net", "--artnet", arguments.artnet).await?,
-            sacn: bind("sACN", "--sacn", arguments.sacn).await?,
+            artnet: listen("Art-Net", "--artnet", arguments.artnet, LIGHTS).await?,
+            sacn: listen("sACN", "--sacn", arguments.sacn, LIGHTS).await?,
             joined: BTreeSet::new(),
             window_ends: Instant::now(),
             left: 0,
@@ -96,27 +98,5 @@ impl DeskSockets {
             }
         }
         warning
-    }
-}
-
-async fn bind(name: &str, option: &str, address: Option<SocketAddr>) -> Result<Option<UdpSocket>, Failure> {
-    let Some(address) = address else { return Ok(None) };
-    let socket = UdpSocket::bind(address).await.map_err(|error| {
-        Failure::problem(format!("cannot receive {name} on {address}: {error}; choose another {option}"))
-    })?;
-    let address = socket.local_addr().unwrap_or(address);
-    say::line(&format!("{name} is received on {address}"));
-    if !address.ip().is_loopback() {
-        say::note(&format!(
-            "{name} has no passwords: a program that reaches {address} can drive the lights of robots"
-        ));
-    }
-    Ok(Some(socket))
-}
-
-async fn receive(socket: Option<&UdpSocket>, bytes: &mut [u8]) -> std::io::Result<(usize, IpAddr)> {
-    match socket {
-        Some(socket) => socket.recv_from(bytes).await.map(|(length, from)| (length, from.ip())),
-        None => std::future::pending().await,
     }
 }

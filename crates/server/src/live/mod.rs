@@ -9,6 +9,7 @@ mod cue_topic;
 pub mod cut_off;
 pub mod desk_light;
 mod desk_lights;
+mod desk_socket;
 mod desk_sockets;
 mod handle;
 mod journal;

@@ -11,6 +11,7 @@ use tokio::net::UdpSocket;
 use tokio::sync::broadcast::error::RecvError;
 
 use super::conductor::Handle;
+use super::desk_socket::{listen, receive};
 use super::orders::News;
 use crate::cli::DeskArguments;
 use crate::failure::Failure;
@@ -45,10 +46,7 @@ pub struct OscLink {
 impl OscLink {
     /// Binds what was asked for; `None`: nothing was. The failure is one line with a remedy.
     pub async fn open(arguments: &DeskArguments) -> Result<Option<Self>, Failure> {
-        let input = match arguments.osc {
-            Some(address) => Some(receiver(address).await?),
-            None => None,
-        };
+        let input = listen("OSC", "--osc", arguments.osc, "give GO and Stop").await?;
         let output = match arguments.osc_out {
             Some(to) => Some((sender(to).await?, to)),
             None => None,
@@ -71,7 +69,7 @@ impl OscLink {
             tokio::select! {
                 () = stop.wait() => return,
                 received = receive(self.input.as_ref(), &mut bytes) => match received {
-                    Ok(length) => {
+                    Ok((length, _)) => {
                         for wish in self.wishes(&bytes[..length], Instant::now()) {
                             carry_out(wish, &handle, &log).await;
                         }
@@ -116,18 +114,6 @@ impl OscLink {
     }
 }
 
-async fn receiver(address: SocketAddr) -> Result<UdpSocket, Failure> {
-    let socket = UdpSocket::bind(address).await.map_err(|error| {
-        Failure::problem(format!("cannot receive OSC on {address}: {error}; choose another --osc"))
-    })?;
-    let address = socket.local_addr().unwrap_or(address);
-    say::line(&format!("OSC is received on {address}"));
-    if !address.ip().is_loopback() {
-        say::note(&format!("OSC has no passwords: a program that reaches {address} can give GO and Stop"));
-    }
-    Ok(socket)
-}
-
 async fn sender(to: SocketAddr) -> Result<UdpSocket, Failure> {
     let any: SocketAddr =
         if to.is_ipv4() { (Ipv4Addr::UNSPECIFIED, 0).into() } else { (Ipv6Addr::UNSPECIFIED, 0).into() };
@@ -136,13 +122,6 @@ async fn sender(to: SocketAddr) -> Result<UdpSocket, Failure> {
         .map_err(|error| Failure::problem(format!("cannot send OSC to {to}: {error}; check --osc-out")))?;
     say::line(&format!("OSC is sent to {to}"));
     Ok(socket)
-}
-
-async fn receive(socket: Option<&UdpSocket>, bytes: &mut [u8]) -> std::io::Result<usize> {
-    match socket {
-        Some(socket) => socket.recv(bytes).await,
-        None => std::future::pending().await,
-    }
 }
 
 async fn carry_out(wish: DeskWish, handle: &Handle, log: &ScreenLog) {

@@ -1,6 +1,7 @@
+import { messageOf } from '../../base/errors';
 import { putAsset } from '../../api/http';
 import { stem } from '../../make/draft';
-import { withAssets } from '../../model/assets';
+import { assetEntry, withAssets } from '../../model/assets';
 import { addLayer, layersOf, setLayerSettings, type Layer } from '../../model/layers';
 import { notify } from '../../session/notices';
 import type { Editing } from '../editing';
@@ -53,11 +54,10 @@ async function take(editing: Editing, file: File): Promise<Taken | null> {
       return null;
     }
     await putAsset(kept.hash, kept.bytes);
-    const { name, mediaType, bytes } = kept;
-    const asset = { name, media_type: mediaType, bytes: bytes.length };
-    return { hash: kept.hash, assets: { [kept.hash]: asset } };
+    const { hash, name, mediaType, bytes } = kept;
+    return { hash, assets: assetEntry(hash, name, mediaType, bytes.length) };
   } catch (error) {
-    notify('error', `The picture is not saved: ${error instanceof Error ? error.message : error}`);
+    notify('error', `The picture is not saved: ${messageOf(error)}`);
     return null;
   }
 }

@@ -2,7 +2,6 @@ import { Button, Group, Text } from '@mantine/core';
 import { useState } from 'react';
 import {
   barsLater,
-  beatsOf,
   BPM,
   doubled,
   halved,
@@ -13,10 +12,11 @@ import {
   type Beats,
 } from '../../model/beats';
 import { NumberField } from '../../parts/NumberField';
-import { useEditing, useEditor } from '../context';
+import { useEditing } from '../context';
 import { ArrangeDialog } from './ArrangeDialog';
 import { findBeatsAgain } from './musicActs';
 import { TapButton } from './TapButton';
+import { useBeats } from './useBeats';
 import styles from './Music.module.css';
 
 /** Corrections of beats: their button, what it does in the history, and the beats after it. */
@@ -32,7 +32,7 @@ const CHANGES: [string, string, (beats: Beats) => Beats][] = [
 /** The beats of the music, and their corrections. Those of another tempo octave are one press away. */
 export function BeatFields({ lasts_s }: { lasts_s: number }) {
   const editing = useEditing();
-  const beats = beatsOf(useEditor((s) => s.show));
+  const beats = useBeats();
   const [isArranging, setArranging] = useState(false);
   const change = (name: string, next: Beats | null) => {
     if (next) editing.editor.change(name, (show) => withBeats(show, next));

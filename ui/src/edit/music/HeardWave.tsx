@@ -3,25 +3,18 @@ import { Group } from '@mantine/core';
 import { useEffect, useMemo, useState } from 'react';
 import { useStore } from '../../base/store';
 import { clockText } from '../../base/time';
-import { beatsBetween, beatsOf } from '../../model/beats';
+import { beatsBetween } from '../../model/beats';
 import type { SeenMusic } from '../../music/music';
 import { IconButton } from '../../parts/IconButton';
-import { useEditing, useEditor } from '../context';
+import { useEditing } from '../context';
+import { useBeats } from './useBeats';
 import { Waveform } from './Waveform';
 
 /** The waveform with its beats, and a button that lets it be heard. */
 export function HeardWave({ music: { hash, lasts_s, peaks } }: { music: SeenMusic }) {
   const { listening, preview } = useEditing();
-  const beats = useEditor((s) => s.show.rest.beats);
-  const show = useEditor((s) => s.show);
-  const drawn = useMemo(
-    () => {
-      const known = beatsOf(show);
-      return known ? beatsBetween(known, 0, lasts_s) : [];
-    },
-    // eslint-disable-next-line react-hooks/exhaustive-deps -- other changes of the show do not move beats
-    [beats, lasts_s],
-  );
+  const beats = useBeats();
+  const drawn = useMemo(() => (beats ? beatsBetween(beats, 0, lasts_s) : []), [beats, lasts_s]);
   const at_s = useStore(listening.at_s);
   const [from_s, setFrom] = useState(0);
   useEffect(() => listening.stop, [listening]);

@@ -1,7 +1,7 @@
 import { Button } from '@mantine/core';
 import { useState } from 'react';
 import { useStore } from '../../base/store';
-import { beatsOf, TAPS_LEAST, tapped, withBeats } from '../../model/beats';
+import { beatsOf, PER_BAR, TAPS_LEAST, tapped, withBeats } from '../../model/beats';
 import { useEditing } from '../context';
 
 /** Taps further apart begin anew, seconds. */
@@ -27,7 +27,7 @@ export function TapButton({ lasts_s }: { lasts_s: number }) {
     const goesOn = last !== undefined && at_s > last && at_s - last < PAUSE_S;
     const all = goesOn ? [...taps, at_s] : [at_s];
     setTaps(all);
-    const perBar = beatsOf(editor.state.get().show)?.perBar ?? 4;
+    const perBar = beatsOf(editor.state.get().show)?.perBar ?? PER_BAR;
     const beats = tapped(all, perBar);
     if (!beats) return;
     // Further taps make the same step of the history better.

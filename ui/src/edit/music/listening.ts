@@ -1,3 +1,4 @@
+import { messageOf } from '../../base/errors';
 import { createStore, type Readable } from '../../base/store';
 import type { Sounding } from '../../music/sounding';
 import { notify } from '../../session/notices';
@@ -25,8 +26,7 @@ export function createListening(sounding: Sounding): Listening {
       try {
         await sounding.open(hash);
       } catch (error) {
-        const why = error instanceof Error ? error.message : String(error);
-        notify('error', `The music cannot be heard: ${why}`);
+        notify('error', messageOf(error));
         return;
       }
       const began_ms = performance.now();

@@ -1,15 +1,13 @@
+import { messageOf } from '../../base/errors';
 import { putAsset } from '../../api/http';
 import type { BeatsAnswer } from '../../api/types.gen';
-import { withMusic, type Beats } from '../../model/beats';
+import { PER_BAR, withMusic, type Beats } from '../../model/beats';
 import { decodeMusic, LONG_S } from '../../music/decode';
 import { notify } from '../../session/notices';
 import type { Editing, TakenFile } from '../editing';
 
 /** What a file chooser offers. Others may be dropped: what a file is, its bytes say. */
 export const MUSIC_FILES = 'audio/*,.mp3,.ogg,.oga,.opus,.wav,.flac,.m4a,.aac';
-
-/** Beats of a bar in most music. */
-const PER_BAR = 4;
 
 /** Makes a file the music of the show, with the beats that are found in it, as one step of the history. */
 export async function takeMusic(editing: Editing, { hash, name, mediaType, bytes }: TakenFile) {
@@ -30,7 +28,7 @@ export async function takeMusic(editing: Editing, { hash, name, mediaType, bytes
         'Music of more than 20 min needs much memory in a browser: cut it to the show.',
       );
   } catch (error) {
-    notify('error', `Can't use ${name}: ${error instanceof Error ? error.message : error}`);
+    notify('error', `Can't use ${name}: ${messageOf(error)}`);
   }
 }
 
@@ -42,7 +40,7 @@ export async function findBeatsAgain({ maker, music }: Editing): Promise<Beats |
     if (answer.error) notify('info', answer.error.message);
     return beatsFound(answer);
   } catch (error) {
-    notify('error', error instanceof Error ? error.message : String(error));
+    notify('error', messageOf(error));
     return null;
   }
 }

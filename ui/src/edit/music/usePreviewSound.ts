@@ -1,7 +1,7 @@
+import { messageOf } from '../../base/errors';
 import { useEffect } from 'react';
 import { useStore } from '../../base/store';
 import { musicOf } from '../../model/beats';
-import { timelineOf } from '../../model/timeline';
 import { notify } from '../../session/notices';
 import type { Editing } from '../editing';
 import { previewSound } from './previewSound';
@@ -15,15 +15,14 @@ export function usePreviewSound({ preview, editor, full, sounding, listening }: 
     if (!running || !isOn || !file) return;
     listening.stop();
     sounding.open(file.hash).catch((error: unknown) => {
-      const why = error instanceof Error ? error.message : String(error);
-      notify('error', `The music cannot be heard: ${why}`);
+      notify('error', messageOf(error));
     });
     let request = 0;
     const step = (now_ms: number) => {
       request = requestAnimationFrame(step);
       const at_s = preview.time_s.get();
-      const first = timelineOf(editor.state.get().show, full.plan.get())[0];
-      sounding.follow(at_s === null ? null : at_s - (first?.shownFrom_s ?? 0), now_ms);
+      const firstDrive_s = full.plan.get()?.transitions[0]?.duration_s ?? 0;
+      sounding.follow(at_s === null ? null : at_s - firstDrive_s, now_ms);
     };
     request = requestAnimationFrame(step);
     return () => {

@@ -1,5 +1,5 @@
 import { memo } from 'react';
-import { secondsText } from '../../base/time';
+import { secondsText, shortSeconds } from '../../base/time';
 import type { Frame } from '../../model/show';
 import { framePaint } from './paint';
 import styles from './Timeline.module.css';
@@ -90,7 +90,7 @@ const Inside = memo(function Inside(props: Props) {
         aria-hidden
         style={{ left: travel_px, background: framePaint(frame.pixels) }}
       >
-        {width - travel_px >= TEXT_PX ? <span>{Number(frame.airTime_s.toFixed(2))} s</span> : null}
+        {width - travel_px >= TEXT_PX ? <span>{shortSeconds(frame.airTime_s)} s</span> : null}
       </span>
       {go || (isRoomy && props.isChosen) ? (
         <em

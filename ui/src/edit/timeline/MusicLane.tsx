@@ -72,7 +72,7 @@ export function MusicLane({ beats, axis, drawn }: Props) {
   );
 }
 
-/** Bars with their numbers, so many that the numbers do not touch. */
+/** Bars with their numbers: as many as leave room between the numbers. */
 function numbered(beats: readonly Beat[], scale: number): { at_s: number; bar: number }[] {
   const bars = beats.filter(({ isBar }) => isBar).map(({ at_s }, i) => ({ at_s, bar: i + 1 }));
   const [first, last] = [bars[0], bars[bars.length - 1]];

@@ -2,7 +2,7 @@ import { useEffect } from 'react';
 import { momentText } from '../../base/time';
 import { useStore } from '../../base/store';
 import { xOf, type Axis } from '../../model/timelineAxis';
-import { leadIn_s, type Block } from '../../model/timelineBlocks';
+import { momentOnStage, type Block } from '../../model/timelineBlocks';
 import { useEditing, useEditorNow } from '../context';
 import { reveal, useTimelineView } from './timelineView';
 import styles from './Timeline.module.css';
@@ -21,15 +21,15 @@ export function Playhead({ blocks, axis, isLabelled = false }: Props) {
   const frame = useEditorNow((s) => s.frame);
   const time_s = useStore(preview.time_s);
   const running = useStore(preview.running);
-  const at_s = time_s === null ? blocks[frame]?.shownFrom_s : time_s - leadIn_s(blocks);
-  const x = xOf(axis, at_s ?? 0);
+  const at_s = momentOnStage(blocks, frame, time_s);
+  const x = xOf(axis, at_s);
   useEffect(() => {
     if (running && isLabelled) reveal(view, x, x);
   }, [running, isLabelled, view, x]);
   return (
     <div className={styles.playheads} aria-hidden>
       <i className={styles.playhead} style={{ transform: `translateX(${x}px)` }}>
-        {isLabelled ? <b>{momentText(at_s ?? 0)}</b> : null}
+        {isLabelled ? <b>{momentText(at_s)}</b> : null}
       </i>
     </div>
   );

@@ -1,9 +1,10 @@
 import { IconMusic } from '@tabler/icons-react';
 import { useEffect, useMemo, useState } from 'react';
 import { useStore } from '../../base/store';
-import { beatsBetween, beatsOf, type Beat } from '../../model/beats';
+import { beatsBetween, type Beat } from '../../model/beats';
 import { blocksOf } from '../../model/timelineBlocks';
 import { useEditing, useEditorNow } from '../context';
+import { useBeats } from '../music/useBeats';
 import { MusicLane } from './MusicLane';
 import type { TimelineRow } from './Rows';
 import { Tracks } from './Tracks';
@@ -24,7 +25,7 @@ export default function TimelinePanel() {
   const drawn = useStore(view.drawn);
   const blocks = useMemo(() => blocksOf(show, drives), [show, drives]);
   const axis = useMemo(() => axisOf(show, blocks, scale), [show, blocks, scale]);
-  const beats = useBeats(axis.to_s);
+  const beats = useBeatsTo(axis.to_s);
   useEffect(() => view.beats.set(beats.map(({ at_s }) => at_s)), [view, beats]);
   const rows: TimelineRow[] = [];
   if (show.music !== null || beats.length > 0)
@@ -45,13 +46,9 @@ export default function TimelinePanel() {
 }
 
 /** Beats of the show from its start to this moment or a little later, seconds; the same list while they stay. */
-function useBeats(to_s: number): readonly Beat[] {
-  const { editor } = useEditing();
-  const json = useEditorNow((s) => s.show.rest.beats);
+function useBeatsTo(to_s: number): readonly Beat[] {
+  const beats = useBeats();
   // A drag that makes the show longer need not list them anew each time.
   const until_s = Math.ceil(to_s / 60) * 60;
-  return useMemo(() => {
-    const beats = json === undefined ? null : beatsOf(editor.state.get().show);
-    return beats ? beatsBetween(beats, 0, until_s) : NO_BEATS;
-  }, [json, editor, until_s]);
+  return useMemo(() => (beats ? beatsBetween(beats, 0, until_s) : NO_BEATS), [beats, until_s]);
 }

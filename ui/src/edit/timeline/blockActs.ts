@@ -1,4 +1,4 @@
-import { secondsText } from '../../base/time';
+import { secondsText, shortSeconds } from '../../base/time';
 import { cueOf, setCue } from '../../model/cues';
 import { xOf } from '../../model/timelineAxis';
 import {
@@ -29,7 +29,7 @@ export function blockText(block: Block, index: number): string {
     least_s === null ? 'drive not planned yet' : `drive ${secondsText(travel_s)}, ${least}`;
   const wait = go === null ? '' : go === 'waits' ? '; waits for GO' : '; repeats until GO';
   const name = `Frame ${index + 1} ${frame.name}`.trim();
-  return `${name}: ${drive}; shown for ${Number(frame.airTime_s.toFixed(2))} s${wait}`;
+  return `${name}: ${drive}; shown for ${shortSeconds(frame.airTime_s)} s${wait}`;
 }
 
 /** Says in the status line what the frame on the stage is like now. */

@@ -1,3 +1,4 @@
+import { shortSeconds } from '../../base/time';
 import { layersOf } from '../../model/layers';
 import { titleOf } from '../../model/layerKinds';
 import type { Show } from '../../model/show';
@@ -9,8 +10,6 @@ import type { PointerDrag } from './followPointer';
 import { blocksNow, dragOf } from './timelineDrag';
 import type { TimelineView } from './timelineView';
 
-const round = (seconds: number) => Number(seconds.toFixed(2));
-
 /** A layer with when it shines, for people. */
 export function layerText(show: Show, blocks: readonly Block[], index: number): string {
   const layer = layersOf(show)[index];
@@ -20,7 +19,7 @@ export function layerText(show: Show, blocks: readonly Block[], index: number): 
     layer.when.of === 'show'
       ? 'over the whole show'
       : bar
-        ? `from ${round(bar.from_s)} s to ${round(bar.to_s)} s`
+        ? `from ${shortSeconds(bar.from_s)} s to ${shortSeconds(bar.to_s)} s`
         : 'in frames that are gone';
   return `Layer ${titleOf(layer)} ${when}`;
 }

@@ -1,3 +1,4 @@
+import { shortSeconds } from '../../base/time';
 import type { Show } from '../../model/show';
 import * as marks from '../../model/timelineMarks';
 import type { Editing } from '../editing';
@@ -63,14 +64,12 @@ const moved = (show: Show, { kind, index }: ChosenMark, part: marks.SectionPart,
 export function markText(show: Show, { kind, index }: ChosenMark): string {
   if (kind === 'marker') {
     const marker = marks.markersOf(show)[index];
-    return marker ? `Marker ${marker.name} at ${round(marker.at_s)} s` : '';
+    return marker ? `Marker ${marker.name} at ${shortSeconds(marker.at_s)} s` : '';
   }
   const section = marks.sectionsOf(show)[index];
   if (!section) return '';
-  return `Section ${section.name} from ${round(section.from_s)} s to ${round(section.to_s)} s`;
+  return `Section ${section.name} from ${shortSeconds(section.from_s)} s to ${shortSeconds(section.to_s)} s`;
 }
-
-const round = (seconds: number) => Number(seconds.toFixed(2));
 
 export const sayMark = ({ editor }: Editing, view: TimelineView, mark: ChosenMark) =>
   view.status.set(markText(editor.state.get().show, mark));

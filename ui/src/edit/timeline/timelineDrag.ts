@@ -1,7 +1,7 @@
 import type { Show } from '../../model/show';
 import { timelineOf } from '../../model/timeline';
 import { dragStep_s, snapMoment } from '../../model/timelineAxis';
-import { blocksOf, leadIn_s, type Block } from '../../model/timelineBlocks';
+import { blocksOf, momentOnStage, type Block } from '../../model/timelineBlocks';
 import { snapMoments, type Dragged } from '../../model/timelineSnap';
 import type { Editing } from '../editing';
 import type { PointerDrag } from './followPointer';
@@ -15,9 +15,7 @@ export const blocksNow = ({ editor }: Editing, view: TimelineView): Block[] =>
 
 /** Moment of show time on the stage, seconds. */
 export function playhead_s({ editor, preview }: Editing, blocks: readonly Block[]): number {
-  const time_s = preview.time_s.get();
-  if (time_s !== null) return time_s - leadIn_s(blocks);
-  return blocks[editor.state.get().frame]?.shownFrom_s ?? 0;
+  return momentOnStage(blocks, editor.state.get().frame, preview.time_s.get());
 }
 
 /** Puts a moment of show time on the stage. */
