@@ -13,6 +13,7 @@ import type {
 import { createStore, type Store } from '../base/store';
 import { readShow } from '../model/json';
 import type { Show } from '../model/show';
+import { createHeldMessages } from './heldMessages';
 import { createShowClock, type ShowClock } from './showClock';
 import { createTrack, type Track } from './track';
 
@@ -135,12 +136,16 @@ export function receive(live: Live, message: ToScreen) {
     case 'state':
       keep(live.broker, message.broker);
       keep(live.playback, message.playback);
-      live.pace.set(message.pace);
-      live.showClock.hear(message.at_ms, message.show_time, performance.now());
       break;
     case 'answer':
       break;
   }
+}
+
+/** Takes what is heard of a state, whether the page is seen or not. */
+function hearState({ pace, showClock }: Live, state: Extract<ToScreen, { type: 'state' }>) {
+  pace.set(state.pace);
+  showClock.hear(state.at_ms, state.show_time, performance.now());
 }
 
 /** The log with a new line, or with a line that replaces its earlier version. */
@@ -157,17 +162,28 @@ function keep<T>(store: Store<T>, next: T) {
 /** The one connection of this page to its server. */
 export function connect(live: Live): Link {
   const address = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
+  const held = createHeldMessages(() => document.hidden);
   const link = createLink({
     open: () => new WebSocket(address) as never,
     isHidden: () => document.hidden,
-    onMessage: (message) => receive(live, message),
+    onMessage(message) {
+      // Music goes on in a hidden page.
+      if (message.type === 'state') hearState(live, message);
+      if (!held.hold(message)) receive(live, message);
+    },
     onRobots: (robots) => live.track.push(robots, performance.now()),
     onLink: (state) => {
       live.link.set(state);
+      // What was held is older than what comes after.
+      if (state !== 'open') held.release();
       if (state === 'lost') void leaveIfSignedOut();
       if (state !== 'open') live.playback.update((p) => ({ ...p, phase: 'idle' }));
     },
   });
-  document.addEventListener('visibilitychange', () => document.hidden || link.wake());
+  document.addEventListener('visibilitychange', () => {
+    if (document.hidden) return;
+    held.release().forEach((message) => receive(live, message));
+    link.wake();
+  });
   return link;
 }
