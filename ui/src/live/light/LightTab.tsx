@@ -10,6 +10,8 @@ import { Gate } from '../../parts/Gate';
 import { useSession } from '../../session/session';
 import { isPlayed } from '../cueRows';
 import { LIGHT_KEYS, type LiveLight } from './liveLight';
+import { TimeCodeFields } from '../midi/TimeCodeFields';
+import type { LiveTimeCode } from '../midi/useTimeCode';
 import type { MidiPads } from './midiPads';
 import { PadFields } from './PadFields';
 import styles from './LightTab.module.css';
@@ -17,10 +19,11 @@ import styles from './LightTab.module.css';
 interface Props {
   light: LiveLight;
   pads: MidiPads;
+  code: LiveTimeCode;
 }
 
 /** Presets that are put over the running show, and taken off by a second press. */
-export default function LightTab({ light, pads }: Props) {
+export default function LightTab({ light, pads, code }: Props) {
   const { live } = useSession();
   const stage = useStore(live.opened, (o) => o.show?.stage ?? null);
   const plays = useStore(live.playback, (p) => isPlayed(p.phase));
@@ -28,6 +31,7 @@ export default function LightTab({ light, pads }: Props) {
   const names = useStore(live.playback, (p) => JSON.stringify(p.live_light));
   const on = useMemo(() => JSON.parse(names) as string[], [names]);
   const learning = useStore(pads.learning);
+  const midi = useStore(pads.state);
   const lights = useMemo(() => createLights(startLightWorker, getAsset), []);
   useEffect(() => () => lights.end(), [lights]);
   if (!stage) return <p className={`quiet ${styles.text}`}>No show is open. Open one first.</p>;
@@ -70,6 +74,7 @@ export default function LightTab({ light, pads }: Props) {
           </Button>
         </Group>
         <PadFields pads={pads} />
+        <TimeCodeFields code={code} midi={midi} />
       </div>
     </Gate>
   );

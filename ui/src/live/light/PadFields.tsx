@@ -2,6 +2,7 @@ import { Button, Select } from '@mantine/core';
 import { useStore } from '../../base/store';
 import { LIGHT_PRESETS } from '../../model/lightPresets';
 import type { MidiPads, PadsState } from './midiPads';
+import { PAD_ACTS } from './padActs';
 import styles from './LightTab.module.css';
 
 const STATES: Record<Exclude<PadsState, 'on'>, string> = {
@@ -13,7 +14,8 @@ const STATES: Record<Exclude<PadsState, 'on'>, string> = {
     'This browser has no MIDI here. It needs Chrome, Edge or Firefox, and an address with https or on this computer.',
 };
 
-const CHOICES = LIGHT_PRESETS.map(({ title }, index) => ({ value: String(index), label: title }));
+const TITLES = [...LIGHT_PRESETS, ...PAD_ACTS].map(({ title }) => title);
+const CHOICES = TITLES.map((label, index) => ({ value: String(index), label }));
 
 /** MIDI pads: which devices are there, and which pad presses which light. */
 export function PadFields({ pads }: { pads: MidiPads }) {
@@ -44,12 +46,12 @@ export function PadFields({ pads }: { pads: MidiPads }) {
       <p className={`quiet ${styles.line}`} role="status">
         {learning === null
           ? `MIDI devices: ${names}. Twelve pads from note 36 on press the lights in their order.`
-          : `Hit the pad that shall press ${LIGHT_PRESETS[learning]?.title ?? ''}.`}
+          : `Hit the pad that shall press ${TITLES[learning] ?? ''}.`}
       </p>
       <Select
         size="xs"
         label="Give a pad to"
-        placeholder="Choose a light"
+        placeholder="Choose a light, GO or Stop all"
         data={CHOICES}
         value={learning === null ? null : String(learning)}
         clearable

@@ -1,4 +1,5 @@
 import { expect, test, vi } from 'vitest';
+import { LIGHT_PRESETS } from '../../model/lightPresets';
 import { createMidiPads, type PadAccess, type PadInput } from './midiPads';
 
 function device(name: string): PadInput {
@@ -37,8 +38,27 @@ test('a preset learns the next pad that is hit, keeps it and has no other', asyn
   expect(press).not.toHaveBeenCalled();
   send(0x90, 61, 1);
   send(0x90, 60, 1);
-  expect(press.mock.calls).toEqual([[5], [60 - 36]]);
+  // A pad that means no light does nothing.
+  expect(press.mock.calls).toEqual([[5]]);
   expect(storage.setItem).toHaveBeenLastCalledWith('lightbots-pads', '{"61":5}');
+});
+
+test('acts beside lights have no pad until one is learned, and every message is heard', async () => {
+  const access: PadAccess = { inputs: [device('Pads')], onstatechange: null };
+  const [press, hear] = [vi.fn(), vi.fn()];
+  const pads = createMidiPads(() => Promise.resolve(access), press, null, { presses: 2, hear });
+  await pads.start();
+  const send = (...data: number[]) =>
+    access.inputs.forEach((input) => input.onmidimessage?.({ data: new Uint8Array(data) }));
+  const go = LIGHT_PRESETS.length;
+  send(0x90, 36 + go, 100);
+  expect(press).not.toHaveBeenCalled();
+  pads.learn(go);
+  send(0x90, 36 + go, 100);
+  send(0x90, 36 + go, 100);
+  expect(press.mock.calls).toEqual([[go]]);
+  send(0xf1, 0x23);
+  expect(hear).toHaveBeenLastCalledWith(new Uint8Array([0xf1, 0x23]));
 });
 
 test('devices that come later are heard, and pads that were kept are known', async () => {

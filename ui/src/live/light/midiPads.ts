@@ -1,4 +1,5 @@
 import { createStore, type Readable } from '../../base/store';
+import { LIGHT_PRESETS } from '../../model/lightPresets';
 
 /** Where the pads are: not asked for, asked for, there, refused by the person or impossible in this browser. */
 export type PadsState = 'off' | 'asking' | 'on' | 'refused' | 'missing';
@@ -33,10 +34,15 @@ const KEPT = 'lightbots-pads';
 /** Presets by note. */
 type Notes = Map<number, number>;
 
+/**
+ * `press` gets the number of a light, or of one of `others.presses` acts after the lights, which have no pad until one is
+ * learned. `others.hear` gets every message.
+ */
 export function createMidiPads(
   request: (() => Promise<PadAccess>) | null,
   press: (index: number) => void,
   storage: Pick<Storage, 'getItem' | 'setItem'> | null,
+  others: { presses: number; hear: (data: Uint8Array) => void } = { presses: 0, hear: () => {} },
 ): MidiPads {
   const state = createStore<PadsState>(request ? 'off' : 'missing');
   const devices = createStore<readonly string[]>([]);
@@ -46,7 +52,13 @@ export function createMidiPads(
 
   const hit = (note: number) => {
     const index = learning.get();
-    if (index === null) return press(learned.get(note) ?? note - FIRST_NOTE);
+    if (index === null) {
+      const usual = note - FIRST_NOTE;
+      const isLight = usual >= 0 && usual < LIGHT_PRESETS.length;
+      const meant = learned.get(note) ?? (isLight ? usual : null);
+      if (meant !== null && meant < LIGHT_PRESETS.length + others.presses) press(meant);
+      return;
+    }
     // A preset has one pad.
     for (const [other, preset] of learned) if (preset === index) learned.delete(other);
     learned.set(note, index);
@@ -54,6 +66,7 @@ export function createMidiPads(
     keep(storage, learned);
   };
   const receive = ({ data }: { data: Uint8Array | null }) => {
+    if (data) others.hear(data);
     const [status = 0, note = 0, velocity = 0] = data ?? [];
     if ((status & 0xf0) === NOTE_ON && velocity > 0) hit(note);
   };

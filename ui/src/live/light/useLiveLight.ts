@@ -1,24 +1,43 @@
 import { useEffect, useMemo } from 'react';
+import { LIGHT_PRESETS } from '../../model/lightPresets';
 import { useWhyNot } from '../../parts/Gate';
 import { useKeys } from '../../parts/useKeys';
 import { useSession } from '../../session/session';
 import { createLiveLight, LIGHT_KEYS, type LiveLight } from './liveLight';
+import { useTimeCode, type LiveTimeCode } from '../midi/useTimeCode';
 import { createMidiPads, type MidiPads, type PadAccess } from './midiPads';
+import { PAD_ACTS } from './padActs';
 
-/** Live light of this page by button, key and pad. */
-export function useLiveLight(): { light: LiveLight; pads: MidiPads } {
+/** Live light of this page by button, key and pad, and what else MIDI devices do. */
+export function useLiveLight(): { light: LiveLight; pads: MidiPads; code: LiveTimeCode } {
   const session = useSession();
   const isRefused = useWhyNot('operator', 'change light') !== null;
   const light = useMemo(() => {
     const all = createLiveLight(session);
     return isRefused ? { ...all, press: () => undefined } : all;
   }, [session, isRefused]);
-  const pads = useMemo(() => createMidiPads(midiOfBrowser(), light.press, kept()), [light]);
+  const code = useTimeCode(!isRefused);
+  const pads = useMemo(() => {
+    const acts = PAD_ACTS.map(
+      ({ operation }) =>
+        () =>
+          void session.ask(operation),
+    );
+    const press = (index: number) => {
+      const act = acts[index - LIGHT_PRESETS.length];
+      if (act) act();
+      else light.press(index);
+    };
+    return createMidiPads(midiOfBrowser(), press, kept(), {
+      presses: acts.length,
+      hear: code.hear,
+    });
+  }, [light, code, session]);
   useEffect(() => {
     void startIfAllowed(pads);
   }, [pads]);
   useKeys(LIGHT_KEYS.map((key, index) => [key, () => light.press(index)]));
-  return { light, pads };
+  return { light, pads, code };
 }
 
 function midiOfBrowser(): (() => Promise<PadAccess>) | null {
