@@ -39,7 +39,7 @@ pub use incident::{Incident, IncidentTone, Incidents};
 pub use library::{Problem, ShowEntry, ShowOrigin, ShowState};
 pub use make::{
     BeatsAnswer, FilmAnswer, FilmPicture, FitAnswer, MadePixel, MadeReadability, MakeAnswer, MakeChoices,
-    MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape,
+    MakeFile, MakeFont, MakeQuality, MakeRemark, MakeRequest, MakeShape, MovedAnswer, MovedPixel,
 };
 pub use operation::{Answer, Choice, FromScreen, Missing, Operation, RefusedOperation, Request};
 pub use plan::{

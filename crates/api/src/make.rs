@@ -164,6 +164,24 @@ pub struct MakeFile {
     pub error: Option<MakeRemark>,
 }
 
+/// Where the pixels of a picture are after a motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+pub struct MovedAnswer {
+    /// The pixels by their ids; empty with an error.
+    pub pixels: Vec<MovedPixel>,
+    /// Why there are none; null: there are.
+    pub error: Option<MakeRemark>,
+}
+
+/// A pixel after a motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct MovedPixel {
+    /// Id, as in the picture before.
+    pub id: u32,
+    /// x and y, stage metres.
+    pub place: [f64; 2],
+}
+
 /// Beats that were found in music.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct BeatsAnswer {

@@ -20,12 +20,13 @@ pub struct State {
     pub show_time: Option<ShowTime>,
 }
 
-/// Where a show is on its timeline, for music.
+/// Where the music of a show is on the timeline; for a show without music, where the show is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ShowTime {
     /// Seconds from the start of the first frame's air time; negative during the drive there.
     pub show_s: f64,
-    /// Whether it moves on with the show clock. It stands while robots are held, are waited for, or wait for GO.
+    /// Whether it moves on with the show clock. Music stands while the operator pauses, and while the show waits for GO; a
+    /// show without music also stands while robots are held or waited for.
     pub runs: bool,
 }
 

@@ -8,11 +8,12 @@ use crate::{
     Credentials, FilmAnswer, FilmPicture, FirstOperator, FitAnswer, Fleet, FleetRow, FromScreen, Hello,
     Incident, IncidentTone, Incidents, Issue, Level, LightAnswer, LightRequest, LogLine, MadePixel,
     MadeReadability, MadeToken, MakeAnswer, MakeChoices, MakeFile, MakeFont, MakeQuality, MakeRemark,
-    MakeRequest, MakeShape, Missing, NewPerson, OpenShow, Operation, Path, PersonChange, Phase, Plan,
-    PlanAnswer, PlanningRequest, Playback, PlaylistChange, PlaylistDay, PlaylistEntry, PlaylistNext,
-    PlaylistResult, PlaylistState, PlaylistToday, PreflightFault, PreflightResult, PreflightState, Presence,
-    Problem, RefusedOperation, Repeats, Request, RobotStatus, Robots, RunEntry, RunEntryKind, Severity,
-    ShowEntry, ShowOrigin, ShowState, ShowTime, State, ToScreen, Transition, Whoami,
+    MakeRequest, MakeShape, Missing, MovedAnswer, MovedPixel, NewPerson, OpenShow, Operation, Path,
+    PersonChange, Phase, Plan, PlanAnswer, PlanningRequest, Playback, PlaylistChange, PlaylistDay,
+    PlaylistEntry, PlaylistNext, PlaylistResult, PlaylistState, PlaylistToday, PreflightFault,
+    PreflightResult, PreflightState, Presence, Problem, RefusedOperation, Repeats, Request, RobotStatus,
+    Robots, RunEntry, RunEntryKind, Severity, ShowEntry, ShowOrigin, ShowState, ShowTime, State, ToScreen,
+    Transition, Whoami,
 };
 
 /// The first line of the generated file.
@@ -119,6 +120,8 @@ fn module() -> String {
         MakeFont,
         MakeShape,
         MakeFile,
+        MovedAnswer,
+        MovedPixel,
     )
 }
 

@@ -3,9 +3,9 @@
 //!
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
 //! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
-//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`PlannedLight`] has its colours with [`LightPictures`],
-//! [`choices`] lists what settings may name, [`file()`] tells what a file is, [`beats_answer`] finds beats of music; the
-//! functions below them are the same for JavaScript.
+//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`moved_answer`] moves a picture as one, [`PlannedLight`] has its
+//! colours with [`LightPictures`], [`choices`] lists what settings may name, [`file()`] tells what a file is,
+//! [`beats_answer`] finds beats of music; the functions below them are the same for JavaScript.
 
 mod answer;
 mod beats;
@@ -15,6 +15,7 @@ mod film;
 mod fit;
 mod light;
 mod make;
+mod moved;
 mod plan;
 
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -26,6 +27,7 @@ pub use film::film_answer;
 pub use fit::fit_answer;
 pub use light::{LightPictures, PlannedLight};
 pub use make::make_answer;
+pub use moved::moved_answer;
 pub use plan::plan_answer;
 
 /// Makes a frame: a `MakeRequest` as JSON and the bytes of the source's file, empty without one; a `MakeAnswer` as JSON.
@@ -50,6 +52,12 @@ pub fn fit(show: &[u8], robots: usize) -> String {
 #[wasm_bindgen]
 pub fn plan(request: &str) -> String {
     answer::text(&plan_answer(request))
+}
+
+/// Moves a picture as one: a show file of two frames, of which the second has the motion; a `MovedAnswer` as JSON.
+#[wasm_bindgen]
+pub fn moved(show: &[u8]) -> String {
+    answer::text(&moved_answer(show))
 }
 
 /// What settings may name: `MakeChoices` as JSON.

@@ -9,7 +9,7 @@ use crate::surroundings::{Surroundings, surroundings};
 use lightbots_base::{Span, Vec2};
 use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
 use lightbots_plan::{
-    BoundFrame, Cancelled, Path, Transition, TransitionProblem, planned_unless, transition_unless,
+    BoundFrame, Cancelled, Infeasible, Path, Transition, TransitionProblem, planned_unless, transition_unless,
 };
 use lightbots_show::{Frame, Pixel};
 use lightbots_wire::MAX_PIECES;
@@ -114,7 +114,7 @@ impl<'a> PlanBuilder<'a> {
         };
         let apart = self.separate();
         let mut bound = self.roles.bind(frame, identity, &self.places, blocked);
-        let plan = self.solve(frame, &mut bound)?;
+        let plan = self.solve(index, &mut bound)?;
         self.roles.remember(&bound, identity, &plan.goal_of);
         let rests = self.rests(&bound, &plan);
         let legs = if self.problem.has_originals() {
@@ -166,15 +166,14 @@ impl<'a> PlanBuilder<'a> {
     }
 
     /// The transition, without the pixels that make it impossible where that is allowed.
-    fn solve(&self, frame: &Frame, bound: &mut BoundFrame<'_>) -> Result<Transition, String> {
+    fn solve(&self, index: usize, bound: &mut BoundFrame<'_>) -> Result<Transition, String> {
         let mut tries = LENIENT_TRIES;
         loop {
-            let stage = &self.problem.show.stage;
             let problem = TransitionProblem {
                 standing: self.problem.standing.clone(),
-                ..TransitionProblem::of_frame(stage, frame, self.places.clone(), bound)
+                ..TransitionProblem::of_frame(&self.problem.show, index, self.places.clone(), bound)
             };
-            let infeasible = match planned_unless(&problem, self.is_over).map_err(given_up)? {
+            let infeasible = match self.planned(problem.clone())? {
                 Ok(plan) => return Ok(plan),
                 Err(infeasible) => infeasible,
             };
@@ -194,6 +193,17 @@ impl<'a> PlanBuilder<'a> {
                 bound.pinned.remove(goal);
             }
         }
+    }
+
+    /// The transition that the show prescribes, or where that is not possible an ordinary one: robots that died stand in
+    /// its way, say.
+    fn planned(&self, problem: TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
+        let found = planned_unless(&problem, self.is_over).map_err(given_up)?;
+        if found.is_ok() || problem.prescribed.is_none() {
+            return Ok(found);
+        }
+        let ordinary = TransitionProblem { prescribed: None, ..problem };
+        planned_unless(&ordinary, self.is_over).map_err(given_up)
     }
 
     /// `[robot]`: where each stands when the frame is reached, and its light.

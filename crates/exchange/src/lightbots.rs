@@ -3,6 +3,7 @@
 
 mod assets;
 mod fields;
+mod motion;
 mod read;
 mod settings;
 mod sources;

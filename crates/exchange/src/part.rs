@@ -39,6 +39,8 @@ pub enum Part {
     Marks,
     /// Places where the show waits for GO.
     Cues,
+    /// Drives in which a picture moves as one.
+    Motions,
     /// Timed paths that the show prescribes.
     Trajectories,
     /// Robots that wait beside the floor.
@@ -53,7 +55,7 @@ pub enum Part {
 
 impl Part {
     /// Every part of a show that a document has: without files and plan.
-    pub(crate) const DOCUMENT: [Self; 19] = [
+    pub(crate) const DOCUMENT: [Self; 20] = [
         Self::Title,
         Self::FloorSize,
         Self::NoGoAreas,
@@ -70,14 +72,15 @@ impl Part {
         Self::AbsoluteTimes,
         Self::Marks,
         Self::Cues,
+        Self::Motions,
         Self::Trajectories,
         Self::Spares,
         Self::Assets,
     ];
 
     /// Every part of a show, without the plan.
-    pub const SHOW: [Self; 20] = {
-        let mut parts = [Self::AssetFiles; 20];
+    pub const SHOW: [Self; 21] = {
+        let mut parts = [Self::AssetFiles; 21];
         let (documents, _) = parts.split_at_mut(Self::DOCUMENT.len());
         documents.copy_from_slice(&Self::DOCUMENT);
         parts
@@ -107,6 +110,7 @@ impl Part {
             Self::AbsoluteTimes => "absolute_times",
             Self::Marks => "marks",
             Self::Cues => "cues",
+            Self::Motions => "motions",
             Self::Trajectories => "trajectories",
             Self::Spares => "spares",
             Self::Assets => "assets",
@@ -134,6 +138,7 @@ impl Part {
             Self::AbsoluteTimes => "the moments at which frames must begin",
             Self::Marks => "sections, markers and beats",
             Self::Cues => "the cues",
+            Self::Motions => "how pictures move as one",
             Self::Trajectories => "the prescribed trajectories",
             Self::Spares => "the number of spare robots",
             Self::Assets => "the list of files that belong to the show",
@@ -167,6 +172,7 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
         Part::AbsoluteTimes => show.frames.iter().any(|frame| frame.at_s.is_some()),
         Part::Marks => show.beats.is_some() || !show.sections.is_empty() || !show.markers.is_empty(),
         Part::Cues => !show.cues.is_empty(),
+        Part::Motions => show.frames.iter().any(|frame| frame.motion.is_some()),
         Part::Trajectories => !show.trajectories.is_empty(),
         Part::Spares => show.spares > 0,
         Part::Assets => !show.assets.is_empty(),
@@ -176,13 +182,14 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
 }
 
 /// The parts that version 2 of our format added.
-const VERSION_2: [Part; 9] = [
+const VERSION_2: [Part; 10] = [
     Part::Sources,
     Part::Groups,
     Part::Layers,
     Part::AbsoluteTimes,
     Part::Marks,
     Part::Cues,
+    Part::Motions,
     Part::Trajectories,
     Part::Spares,
     Part::Assets,

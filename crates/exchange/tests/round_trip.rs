@@ -5,7 +5,9 @@ mod extras;
 use lightbots_base::{Limits, Rgb, Vec2};
 use lightbots_exchange::{FORMATS, LIGHTBOTS, ORIGINAL, Part, for_file, named, read, sniff};
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, validate, with_floor};
+use lightbots_show::{
+    Easing, Frame, Identity, Obstacle, PictureMotion, Pixel, Show, Stage, validate, with_floor,
+};
 
 /// A show that uses every field of version 1.
 fn rich() -> Show {
@@ -114,6 +116,34 @@ fn every_colour_survives_the_originals_format() {
         );
         assert_eq!(read(rounded.as_bytes(), None).unwrap().show.frames[0].pixels[0].color.r, byte);
     }
+}
+
+#[test]
+fn every_motion_comes_back_and_a_wrong_one_names_its_place() {
+    let at = |x: f64| Vec2::new(x, -0.123_456_789);
+    for motion in [
+        PictureMotion::Travel { along: vec![at(0.1), at(0.2)] },
+        PictureMotion::Turn { center: at(0.3), turn: -2.5, size: 0.75 },
+        PictureMotion::Breathe { center: at(0.4), size: 1.25, times: 3 },
+        PictureMotion::Follow { along: vec![at(0.5)] },
+        PictureMotion::Wave { radius_m: 0.04, direction: 0.5, length_m: 0.8, times: 2 },
+        PictureMotion::Stagger { direction: 3.0, delay_s: 1.5 },
+        PictureMotion::Morph { through: vec![vec![at(0.1), at(0.2)], vec![at(0.3), at(0.4)]] },
+    ] {
+        let mut show = rich();
+        show.frames[0].motion = Some(motion);
+        let back = read(&LIGHTBOTS.write(&show, None).bytes, None).unwrap();
+        assert_eq!((back.show.frames, back.unread), (show.frames, None));
+    }
+    let wrong = |motion: &str| {
+        let text = format!("{{\"lightbots\": 2, \"frames\": [\n{{\"motion\": {motion}, \"pixels\": []}}]}}");
+        read(text.as_bytes(), None).unwrap_err().to_string()
+    };
+    assert!(
+        wrong("{\"kind\": \"jump\"}").contains("the kind of motion is \"jump\"; it can be \"travel\" or")
+    );
+    assert!(wrong("{\"kind\": \"turn\"}").contains("\"turn\" of the motion is missing"));
+    assert!(wrong("{\"turn\": 1}").contains("\"kind\" of the motion is missing"));
 }
 
 #[test]

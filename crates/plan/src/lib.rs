@@ -3,9 +3,10 @@
 //! Pure: the same input gives the same bits. It knows nothing of messages, clocks or files.
 //!
 //! In reading order: [`TransitionProblem`] is one drive; [`Bindings`] bind pixels to robots; [`assignment`] assigns
-//! goals; `motion` makes straight lines with one progress; `solve` runs the table of solvers where these conflict;
-//! [`proof`] judges the paths without trusting any of them; [`transition()`] puts these together; [`show()`] chains
-//! transitions through all frames. docs/planner.md explains the methods.
+//! goals; `motion` makes straight lines with one progress; `prescribed` keeps to the drives that a show prescribes;
+//! `solve` runs the table of solvers where straight lines conflict; [`proof`] judges the paths without trusting any of
+//! them; [`transition()`] puts these together; [`show()`] chains transitions through all frames. docs/planner.md explains
+//! the methods.
 //!
 //! ```
 //! use lightbots_base::{Limits, Vec2};
@@ -30,6 +31,7 @@ mod margins;
 mod motion;
 mod optimise;
 mod order;
+mod prescribed;
 mod problem;
 pub mod proof;
 mod raise;
@@ -47,6 +49,7 @@ pub use bindings::{BindingIssue, Bindings, BoundFrame, Claims};
 pub use cancel::Cancelled;
 pub use explain::{ExplainedRow, Explanation, RowOutcome};
 pub use motion::turn_time;
+pub use prescribed::{MovedPicture, Prescribed, moved};
 pub use problem::{Closest, Infeasible, Meeting, Path, Repaired, Transition, TransitionProblem};
 pub use raise::{planned_unless, raise, raise_unless};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless, show_with};

@@ -1,11 +1,11 @@
 //! One transition: problem and solution.
 
 use lightbots_base::{Limits, PathRef, Piece, Span, Vec2};
-use lightbots_show::{Easing, Frame, Obstacle, Stage};
+use lightbots_show::{Easing, Frame, Obstacle, Show, Stage};
 
-use crate::BoundFrame;
 use crate::margins::MARGIN_M;
 use crate::proof::ProofInput;
+use crate::{BoundFrame, Prescribed};
 
 /// A drive from one set of places to another.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct TransitionProblem {
     pub duration: Option<Span>,
     /// Shape of the speed over time.
     pub easing: Easing,
+    /// The drive that the show prescribes, for robots that stand where it begins.
+    pub prescribed: Option<Prescribed>,
 }
 
 impl TransitionProblem {
@@ -44,6 +46,7 @@ impl TransitionProblem {
             limits,
             duration: None,
             easing: Easing::Swift,
+            prescribed: None,
         }
     }
 
@@ -62,14 +65,15 @@ impl TransitionProblem {
         }
     }
 
-    /// The drive to a frame of a show: the one place that reads a stage and a frame for the planner.
-    pub fn of_frame(stage: &Stage, frame: &Frame, starts: Vec<Vec2>, bound: &BoundFrame<'_>) -> Self {
+    /// The drive to frame `index` of a show: the one place that reads a stage and a frame for the planner.
+    pub fn of_frame(show: &Show, index: usize, starts: Vec<Vec2>, bound: &BoundFrame<'_>) -> Self {
         assert_eq!(bound.pixels.len(), bound.pinned.len(), "each pixel of a bound frame has a binding");
         Self {
             starts,
             goals: bound.pixels.iter().map(|pixel| pixel.at).collect(),
             pinned: bound.pinned.clone(),
-            ..Self::timed_as(stage, frame)
+            prescribed: Prescribed::of_frame(show, index, bound),
+            ..Self::timed_as(&show.stage, &show.frames[index])
         }
     }
 

@@ -6,11 +6,12 @@ mod delays;
 mod tests;
 
 use crate::cancel::{Cancel, Cancelled, unless};
+use crate::motion::delayed;
 use crate::order::{PlanQuality, choose, percent};
 use crate::proof::stop_safe::{STEP, StopAssumptions, StopSafety, measured};
 use crate::proof::{Proof, prove_unless};
 use crate::{Infeasible, Path, Transition, TransitionProblem, transition_unless};
-use lightbots_base::{Piece, Span};
+use lightbots_base::Span;
 
 /// Largest share of the planned duration that delays may cost.
 const SHARE: f64 = 0.05;
@@ -52,7 +53,9 @@ pub(crate) fn raised(
     let measure = |paths: &[Path]| measured(paths, &problem.limits, &StopAssumptions::default(), cancel);
     let before = measure(&transition.paths);
     let is_long = before.pace > STEP;
-    if before.unsafe_moments.is_empty() || problem.duration.is_some() || is_long || cancel.is_wanted() {
+    // Delays would take robots out of step with their formation.
+    let is_timed = problem.duration.is_some() || problem.prescribed.is_some();
+    if before.unsafe_moments.is_empty() || is_timed || is_long || cancel.is_wanted() {
         return before;
     }
     let most = Span((transition.duration.0 as f64 * SHARE) as i64);
@@ -77,58 +80,4 @@ pub(crate) fn raised(
     transition.closest = proof.closest;
     transition.paths = paths;
     after
-}
-
-/// The paths begun later by these delays; all end together.
-fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
-    let driving = paths.iter().zip(delays).filter(|(path, _)| !path.as_ref().rests());
-    let latest = driving.map(|(path, delay)| ends(path) + *delay);
-    let before = Path::longest(paths);
-    let duration = latest.max().unwrap_or(Span::ZERO).max(before);
-    let later = |(path, delay): (&Path, &Span)| {
-        let mut later = Path { start: path.start, pieces: Vec::with_capacity(path.pieces.len() + 2) };
-        add_rest(&mut later, *delay);
-        path.pieces.iter().for_each(|piece| add(&mut later, *piece));
-        let over = later.as_ref().duration() - duration;
-        if over > Span::ZERO {
-            shorten(&mut later, over);
-        } else {
-            add_rest(&mut later, Span(-over.0));
-        }
-        later
-    };
-    paths.iter().zip(delays).map(later).collect()
-}
-
-/// Moment after which a path rests.
-fn ends(path: &Path) -> Span {
-    let moving = path.as_ref().timed().filter(|(from, _, piece)| !piece.is_rest(*from));
-    moving.map(|(_, begin, piece)| begin + piece.duration).last().unwrap_or(Span::ZERO)
-}
-
-fn add(path: &mut Path, piece: Piece) {
-    let at = path.as_ref().end();
-    if piece.is_rest(at) { add_rest(path, piece.duration) } else { path.pieces.push(piece) }
-}
-
-fn add_rest(path: &mut Path, duration: Span) {
-    if duration <= Span::ZERO {
-        return;
-    }
-    let at = path.as_ref().end();
-    let before = path.pieces.len().checked_sub(2).map_or(path.start, |index| path.pieces[index].end);
-    match path.pieces.last_mut() {
-        Some(last) if last.is_rest(before) => last.duration += duration,
-        _ => path.pieces.push(Piece::rest(at, duration)),
-    }
-}
-
-/// Shortens the rest at the end of a path.
-fn shorten(path: &mut Path, by: Span) {
-    if let Some(last) = path.pieces.last_mut() {
-        last.duration -= by;
-        if last.duration <= Span::ZERO {
-            path.pieces.pop();
-        }
-    }
 }

@@ -17,6 +17,7 @@ mod issue;
 mod label;
 mod layer_picture;
 mod model;
+mod motion;
 mod need;
 mod setting;
 mod setting_tokens;
@@ -33,6 +34,7 @@ pub use issue::{Issue, Issues, Severity};
 pub use label::{excerpt, frame_label};
 pub use layer_picture::LayerPicture;
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};
+pub use motion::PictureMotion;
 pub use need::{most_pixels, robots_asked_for, robots_needed};
 pub use setting::{NamedSettings, Setting, setting};
 pub use slow::{SPEED_MIN_PERCENT, slowed};
@@ -43,7 +45,8 @@ pub use timeline::{
     TrajectoryPiece,
 };
 pub use validate::{
-    MAX_ASSETS, MAX_BEATS, MAX_FRAMES, MAX_LABEL_CHARS, MAX_LAYERS, MAX_MARKS, MAX_OBSTACLES, MAX_PIXELS,
-    MAX_SETTING_DEPTH, MAX_SETTING_VALUES, MAX_SETTINGS_OF_SHOW, MAX_SOURCES, MAX_SOURCES_OF_SHOW,
-    MAX_TRAJECTORIES, MAX_TRAJECTORY_PIECES, PROVABLE_GAP_M, validate,
+    MAX_ASSETS, MAX_BEATS, MAX_FRAMES, MAX_LABEL_CHARS, MAX_LAYERS, MAX_MARKS, MAX_MOTION_PLACES,
+    MAX_OBSTACLES, MAX_PICTURES_BETWEEN, MAX_PIXELS, MAX_SETTING_DEPTH, MAX_SETTING_VALUES,
+    MAX_SETTINGS_OF_SHOW, MAX_SOURCES, MAX_SOURCES_OF_SHOW, MAX_TRAJECTORIES, MAX_TRAJECTORY_PIECES,
+    PROVABLE_GAP_M, validate,
 };

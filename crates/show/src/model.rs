@@ -4,6 +4,7 @@ use lightbots_base::{Limits, Rgb, Vec2};
 use serde::{Deserialize, Serialize};
 
 use crate::asset::Assets;
+use crate::motion::PictureMotion;
 use crate::source::{FrameSource, SourcePart};
 use crate::timeline::{Beats, Cue, Layer, Marker, Section, Trajectory};
 
@@ -97,6 +98,8 @@ pub struct Frame {
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
+    /// How robots drive from the picture before; `None`: the planner's shortest drive.
+    pub motion: Option<PictureMotion>,
     /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
     /// What the pixels were made from; empty: drawn by hand.

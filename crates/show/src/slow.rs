@@ -1,6 +1,6 @@
 //! A show at part of its speed, for a first run.
 
-use crate::Show;
+use crate::{PictureMotion, Show};
 
 /// Least speed, percent: below it a drive of a metre takes longer than most air times.
 pub const SPEED_MIN_PERCENT: u32 = 20;
@@ -19,6 +19,13 @@ pub fn slowed(show: &Show, percent: u32) -> Show {
     limits.accel_mps2 *= share * share;
     for frame in &mut slow.frames {
         frame.transition_s = frame.transition_s.map(|seconds| seconds / share);
+        if let Some(PictureMotion::Stagger { delay_s, .. }) = &mut frame.motion {
+            *delay_s /= share;
+        }
+    }
+    for trajectory in slow.trajectories.iter_mut().filter(|trajectory| trajectory.frame.is_some()) {
+        trajectory.at_s /= share;
+        trajectory.pieces.iter_mut().for_each(|piece| piece.end_s /= share);
     }
     slow
 }

@@ -4,6 +4,7 @@ mod findings;
 mod fleet;
 mod frame;
 mod limits;
+mod motion;
 mod parts;
 mod stage;
 mod words;
@@ -12,9 +13,10 @@ use crate::{Issues, Show};
 use findings::Findings;
 
 pub use limits::{
-    MAX_ASSETS, MAX_BEATS, MAX_FRAMES, MAX_LABEL_CHARS, MAX_LAYERS, MAX_MARKS, MAX_OBSTACLES, MAX_PIXELS,
-    MAX_SETTING_DEPTH, MAX_SETTING_VALUES, MAX_SETTINGS_OF_SHOW, MAX_SOURCES, MAX_SOURCES_OF_SHOW,
-    MAX_TRAJECTORIES, MAX_TRAJECTORY_PIECES, PROVABLE_GAP_M,
+    MAX_ASSETS, MAX_BEATS, MAX_FRAMES, MAX_LABEL_CHARS, MAX_LAYERS, MAX_MARKS, MAX_MOTION_PLACES,
+    MAX_OBSTACLES, MAX_PICTURES_BETWEEN, MAX_PIXELS, MAX_SETTING_DEPTH, MAX_SETTING_VALUES,
+    MAX_SETTINGS_OF_SHOW, MAX_SOURCES, MAX_SOURCES_OF_SHOW, MAX_TRAJECTORIES, MAX_TRAJECTORY_PIECES,
+    PROVABLE_GAP_M,
 };
 
 /// The issues of a show in the order of its frames. Empty if the show can be planned. Accepts any show and always finds
@@ -25,6 +27,7 @@ pub fn validate(show: &Show) -> Issues {
     fleet::check(show, is_sound, &mut findings);
     for index in 0..show.frames.len().min(MAX_FRAMES) {
         frame::check(show, index, is_sound, &mut findings);
+        motion::check(show, index, &mut findings);
     }
     parts::check(show, &mut findings);
     findings.issues

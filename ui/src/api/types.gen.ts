@@ -605,7 +605,7 @@ round: number,
 leaves: boolean, };
 
 /**
- * Where a show is on its timeline, for music.
+ * Where the music of a show is on the timeline; for a show without music, where the show is.
  */
 export type ShowTime = { 
 /**
@@ -613,7 +613,8 @@ export type ShowTime = {
  */
 show_s: number, 
 /**
- * Whether it moves on with the show clock. It stands while robots are held, are waited for, or wait for GO.
+ * Whether it moves on with the show clock. Music stands while the operator pauses, and while the show waits for GO; a show
+ * without music also stands while robots are held or waited for.
  */
 runs: boolean, };
 
@@ -1563,6 +1564,32 @@ kind: string | null,
  */
 error: MakeRemark | null, };
 
+/**
+ * Where the pixels of a picture are after a motion.
+ */
+export type MovedAnswer = { 
+/**
+ * The pixels by their ids; empty with an error.
+ */
+pixels: Array<MovedPixel>, 
+/**
+ * Why there are none; null: there are.
+ */
+error: MakeRemark | null, };
+
+/**
+ * A pixel after a motion.
+ */
+export type MovedPixel = { 
+/**
+ * Id, as in the picture before.
+ */
+id: number, 
+/**
+ * x and y, stage metres.
+ */
+place: [number, number], };
+
 /** The lists of `Robots` in the order of the binary message. */
 export const ROBOT_COLUMNS = [
   ["x", Float32Array],
@@ -1580,8 +1607,8 @@ export const ROBOT_STATUSES: readonly RobotStatus[] = ["idle", "ready", "driving
 
 /** Every format of show files; the first is our own. A written file gets the first of `endings`. */
 export const FORMATS = [
-  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets"] },
-  { name: "archive", program: "LightBots, with its files", endings: [".lightbots.zip"], mediaType: "application/zip", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "trajectories", "spares", "assets", "asset_files"] },
+  { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "motions", "trajectories", "spares", "assets"] },
+  { name: "archive", program: "LightBots, with its files", endings: [".lightbots.zip"], mediaType: "application/zip", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "motions", "trajectories", "spares", "assets", "asset_files"] },
   { name: "original", program: "the original LightBots", endings: [".json"], mediaType: "application/json", carries: [] },
 ] as const;
 

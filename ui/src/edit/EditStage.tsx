@@ -1,5 +1,6 @@
 import { useEffect, useMemo } from 'react';
 import { useStore } from '../base/store';
+import type { EditorState } from '../model/editorState';
 import type { Scene } from '../stage/scene';
 import { StageCanvas } from '../stage/StageCanvas';
 import { planTo } from '../make/drive';
@@ -8,6 +9,7 @@ import { useEditing } from './context';
 import type { Editing } from './editing';
 import { PixelTwin } from './PixelTwin';
 import { litNow, shownLayer } from './light/lit';
+import { shownMotion } from './motion/motionOverlay';
 import { editScene, isSameOnStage, withMade } from './scene';
 import { EmptyFrame } from './EmptyFrame';
 import { StageMenu } from './StageMenu';
@@ -47,6 +49,8 @@ function rememberScene(editing: Editing): (now_ms: number) => Scene {
       shown,
       options,
       full,
+      editing.moving.get(),
+      editing.motionDrawn.get(),
       drives,
       time_s,
       unitStore.get(),
@@ -60,12 +64,15 @@ function rememberScene(editing: Editing): (now_ms: number) => Scene {
         plan,
         time_s,
         making,
-        { lit, layer },
+        { lit, layer, motion: making ? null : motionDrawn(editing, state) },
       );
     }
     return scene;
   };
 }
+
+const motionDrawn = ({ moving, motionDrawn }: Editing, state: EditorState) =>
+  shownMotion(state, moving.get(), motionDrawn.get());
 
 /** The floor of the editor. */
 export function EditStage() {

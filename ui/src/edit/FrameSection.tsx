@@ -6,6 +6,7 @@ import type { Frame } from '../model/show';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { CueField } from './CueField';
+import { NailField } from './NailField';
 
 /** Said under a field whose value is not the same in all chosen frames. */
 const DIFFERENT = 'different in these frames';
@@ -74,6 +75,7 @@ export function FrameSection() {
         onChange={(airTime_s) => acts.setFrames(editing, { airTime_s })}
       />
       <CueField />
+      {count === 1 ? <NailField /> : null}
       <Checkbox
         label="As fast as is safe"
         size="sm"

@@ -8,6 +8,7 @@ import { useEditing } from './context';
 import { FloorSection } from './FloorSection';
 import { FrameSection } from './FrameSection';
 import { MadeFrom } from './MadeFrom';
+import { MotionSection } from './motion/MotionSection';
 import { MusicSection } from './music/MusicSection';
 import { PlaceSection } from './PlaceSection';
 import { RobotsSection } from './RobotsSection';
@@ -38,8 +39,9 @@ export function Inspector() {
           <ArrangeSection />
           <ColourSection />
         </Tabs.Panel>
-        <Tabs.Panel value="frame" className={styles.sections}>
+        <Tabs.Panel value="frame" className={styles.sections} keepMounted={false}>
           <FrameSection />
+          <MotionSection />
         </Tabs.Panel>
         <Tabs.Panel value="light" className={styles.sections} keepMounted={false}>
           <Suspense>

@@ -14,6 +14,7 @@ import { createFullPlan, type FullPlan } from '../session/fullPlan';
 import { createEditor, type Editor } from '../model/editor';
 import type { Keeper } from '../model/drafts';
 import type { Saver } from '../model/saver';
+import type { Motion } from '../model/motion';
 import { createPreview, type Preview } from '../model/preview';
 import type { Show } from '../model/show';
 import { openShow } from '../session/openShow';
@@ -78,6 +79,10 @@ export interface Editing {
   layer: Store<number | null>;
   /** Whether the panel of layers is open: then light moves on the frame that is drawn. */
   lighting: Store<boolean>;
+  /** Whether the settings of a motion are open: then the stage has its handles. */
+  moving: Store<boolean>;
+  /** The motion of the frame while a handle of it is dragged; null: none is. */
+  motionDrawn: Store<Motion | null>;
   /** What settings may name; null until the module is there. */
   choices: Store<MakeChoices | null>;
   /** The frame that is being made in the Make panel; null: the panel is closed. */
@@ -155,6 +160,8 @@ export function createEditing(
     listening: createListening(sounding),
     layer: createStore<number | null>(null),
     lighting: createStore(false),
+    moving: createStore(false),
+    motionDrawn: createStore<Motion | null>(null),
     choices: createStore<MakeChoices | null>(null),
     making: createStore<Making | null>(null),
     files,

@@ -11,11 +11,13 @@ import type { MakeAnswer, Plan } from '../api/types.gen';
 import type { Frame } from '../model/show';
 import { dotsAt, timelineOf } from '../model/timeline';
 import type { Layer } from '../model/layers';
+import type { ShownMotion } from '../model/motionTool';
 import { paintLayer } from './light/layerOverlay';
 import { litDots, litPixels } from './light/lit';
 import type { Camera } from '../stage/camera';
 import { floorOf, type Scene } from '../stage/scene';
 import type { StageOptions } from './editing';
+import { paintMotion } from './motion/motionOverlay';
 import { paintOverlay } from './overlay';
 import { paintPen } from './penOverlay';
 import { pictureNow } from './pictureHand';
@@ -51,10 +53,12 @@ export function withMade(
 
 const NO_SELECTION: ReadonlySet<number> = new Set();
 
-/** The robots' light, and the layer whose handles are shown. */
+/** The robots' light, and what has handles on the stage. */
 export interface SceneLight {
   lit: Colours | null;
   layer: Layer | null;
+  /** The motion whose handles are shown. */
+  motion?: ShownMotion | null;
 }
 
 const NO_LIGHT: SceneLight = { lit: null, layer: null };
@@ -68,7 +72,8 @@ export function isSameOnStage(a: EditorState, b: EditorState): boolean {
   const [before, after] = [a.show, b.show];
   const isSameFrame = (index: number) =>
     before.frames[index]?.key === after.frames[index]?.key &&
-    before.frames[index]?.pixels === after.frames[index]?.pixels;
+    before.frames[index]?.pixels === after.frames[index]?.pixels &&
+    before.frames[index]?.motion === after.frames[index]?.motion;
   return (
     a.frame === b.frame &&
     a.selection === b.selection &&
@@ -85,7 +90,7 @@ export function editScene(
   plan: Plan | null,
   time_s: number | null,
   making: Making | null = null,
-  { lit, layer }: SceneLight = NO_LIGHT,
+  { lit, layer, motion }: SceneLight = NO_LIGHT,
 ): Scene {
   const { show, frame } = state;
   const base = { ...floorOf(show.stage, unitStore.get()), errors: NOTHING };
@@ -110,6 +115,7 @@ export function editScene(
       paintOverlay(context, camera, state, options);
       if (making) paintMaking(context, camera, making);
       if (layer) paintLayer(context, camera, layer);
+      if (motion) paintMotion(context, camera, motion);
     },
   };
 }

@@ -9,6 +9,7 @@ import { createArrowTool } from '../model/arrowTool';
 import { createEyedropper } from '../model/eyedropper';
 import { createFillTool } from '../model/fillTool';
 import { createLayerTool, layerGripAt } from '../model/layerTool';
+import { createMotionTool, motionGripAt } from '../model/motionTool';
 import { createObstacleTool } from '../model/obstacleTool';
 import { createLassoTool } from '../model/lassoTool';
 import { pixelAt, type Tool, type Touch } from '../model/tool';
@@ -21,6 +22,8 @@ import { handleAt } from './overlay';
 import { penFor } from './penTool';
 import { createPictureTool, gripAt, pictureNow } from './pictureHand';
 import { shownLayer } from './light/lit';
+import { applyMotion } from './motion/motionActs';
+import { motionAtHand } from './motion/motionOverlay';
 import { openMenu } from './menuEntries';
 
 /** How far a mouse and a finger may miss, CSS pixels. */
@@ -134,6 +137,19 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
         const grip = layer && layerGripAt(layer.layer, press);
         if (layer && grip) {
           active = createLayerTool(layer.index, grip, (m) => lengthText(m, unitStore.get()));
+          active.down(editor, press);
+          return;
+        }
+        const motion = motionAtHand(editing);
+        const nth = motion && motionGripAt(motion, press);
+        if (motion && nth !== null) {
+          active = createMotionTool(
+            motion,
+            nth,
+            (m) => lengthText(m, unitStore.get()),
+            editing.motionDrawn.set,
+            (changed) => void applyMotion(editing, changed),
+          );
           active.down(editor, press);
           return;
         }

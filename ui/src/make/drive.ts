@@ -66,6 +66,7 @@ const bare = (frame: Frame): Frame => ({
   ...frame,
   id: null,
   at_s: null,
+  motion: null,
   sources: [],
   pixels: frame.pixels.map((pixel) => ({ ...pixel, part: null })),
 });

@@ -6,6 +6,7 @@ import type {
   MakeChoices,
   MakeFile,
   MakeRequest,
+  MovedAnswer,
   PlanAnswer,
   PlanningRequest,
 } from '../api/types.gen';
@@ -27,6 +28,8 @@ export interface Maker {
   fit(show: Uint8Array, robots: number): Promise<FitAnswer>;
   /** Plans a show; `null` as for `make`. */
   plan(request: PlanningRequest): Promise<PlanAnswer | null>;
+  /** Where pixels are after a motion: a show of two frames, the bytes of a file. The second has the motion. */
+  moved(show: Uint8Array): Promise<MovedAnswer>;
   /** What settings may name. */
   list(): Promise<MakeChoices>;
   /** What a file is. */
@@ -133,6 +136,7 @@ export function createMaker(start: () => MakeWorker): Maker {
       const code = causeOf(got);
       return { plan: null, error: { code, message: WORDS[code] } };
     },
+    moved: async (show) => (await wanted({ do: 'moved', show }, 'moved')).answer,
     list: async () => (await wanted({ do: 'list' }, 'list')).choices,
     look: async (bytes) => (await wanted({ do: 'look', bytes }, 'look')).file,
     beats: async (samples, rate_Hz) =>

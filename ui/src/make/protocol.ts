@@ -6,6 +6,7 @@ import type {
   MakeChoices,
   MakeFile,
   MakeRequest,
+  MovedAnswer,
   PlanAnswer,
   PlanningRequest,
 } from '../api/types.gen';
@@ -19,6 +20,8 @@ export type Ask =
   | { do: 'fit'; show: Uint8Array; robots: number }
   /** A plan of a show. */
   | { do: 'plan'; request: PlanningRequest }
+  /** Where pixels are after a motion: a show of two frames, the bytes of a file. */
+  | { do: 'moved'; show: Uint8Array }
   | { do: 'list' }
   | { do: 'look'; bytes: Uint8Array }
   /** Beats of music: one channel, and how many samples there are in a second. */
@@ -30,6 +33,7 @@ export type Reply =
   | { of: 'film'; answer: FilmAnswer }
   | { of: 'fit'; answer: FitAnswer }
   | { of: 'plan'; answer: PlanAnswer }
+  | { of: 'moved'; answer: MovedAnswer }
   | { of: 'list'; choices: MakeChoices }
   | { of: 'look'; file: MakeFile }
   | { of: 'beats'; answer: BeatsAnswer }
@@ -45,6 +49,7 @@ export interface Module {
   film(request: string, bytes: Uint8Array): string;
   fit(show: Uint8Array, robots: number): string;
   plan(request: string): string;
+  moved(show: Uint8Array): string;
   list(): string;
   look(bytes: Uint8Array): string;
   beats(samples: Float32Array, rate_Hz: number): string;
@@ -70,6 +75,8 @@ export function reply(module: Module, ask: Ask): Reply {
         of: 'plan',
         answer: JSON.parse(module.plan(JSON.stringify(ask.request))) as PlanAnswer,
       };
+    case 'moved':
+      return { of: 'moved', answer: JSON.parse(module.moved(ask.show)) as MovedAnswer };
     case 'list':
       return { of: 'list', choices: JSON.parse(module.list()) as MakeChoices };
     case 'look':

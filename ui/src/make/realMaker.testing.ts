@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { answering } from '../base/worker.testing';
-import { beats, film, fit, initSync, list, look, make, plan } from '../generated/browser';
+import { beats, film, fit, initSync, list, look, make, moved, plan } from '../generated/browser';
 import { createMaker, type Maker } from './maker';
 import { reply } from './protocol';
 
@@ -8,6 +8,6 @@ import { reply } from './protocol';
 export function realMaker(): Maker {
   initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
   return createMaker(() =>
-    answering((ask) => reply({ make, film, fit, plan, list, look, beats }, ask)),
+    answering((ask) => reply({ make, film, fit, plan, list, look, beats, moved }, ask)),
   );
 }

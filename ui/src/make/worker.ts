@@ -1,4 +1,4 @@
-import load, { beats, film, fit, list, look, make, plan } from '../generated/browser';
+import load, { beats, film, fit, list, look, make, moved, plan } from '../generated/browser';
 import address from '../generated/browser_bg.wasm?url';
 import { reply, type Ask, type Reply } from './protocol';
 
@@ -15,7 +15,7 @@ self.onmessage = async ({ data }: MessageEvent<Ask>) => {
     return;
   }
   try {
-    answer(reply({ make, film, fit, plan, list, look, beats }, data));
+    answer(reply({ make, film, fit, plan, list, look, beats, moved }, data));
   } catch (error) {
     reportError(error);
     answer({ of: 'failure', cause: 'broken' });

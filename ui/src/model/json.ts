@@ -2,6 +2,7 @@ import type { Obstacle } from '../base/geometry';
 import { fromHex, toHex } from '../base/colour';
 import { list, number, object, pair, text, without } from './jsonFields';
 import { readPart, readSources, writePart, writeSource } from './jsonSources';
+import { readMotion } from './motion';
 import { EMPTY_STAGE, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
 /** Reads a document that the server has checked; missing fields get their default. */
@@ -45,6 +46,7 @@ const FRAME_FIELDS = [
   'at_s',
   'transition_s',
   'easing',
+  'motion',
   'identity',
   'sources',
   'pixels',
@@ -60,6 +62,7 @@ function readFrame(value: unknown): Frame {
     at_s: typeof json.at_s === 'number' ? json.at_s : null,
     transition_s: typeof json.transition_s === 'number' ? json.transition_s : null,
     easing: json.easing === 'gentle' ? 'gentle' : 'swift',
+    motion: readMotion(json.motion),
     identity: json.identity === 'fixed' || json.identity === 'any' ? json.identity : null,
     sources: readSources(json.sources),
     pixels: list(json.pixels)
@@ -97,6 +100,7 @@ const usesVersion2 = (show: Show) =>
     (f) =>
       f.id !== null ||
       f.at_s !== null ||
+      f.motion !== null ||
       f.sources.length > 0 ||
       f.pixels.some((p) => p.part !== null || p.group !== null),
   );
@@ -132,6 +136,7 @@ function writeFrame(frame: Frame): unknown {
     ...(frame.at_s === null ? {} : { at_s: frame.at_s }),
     ...(frame.transition_s === null ? {} : { transition_s: frame.transition_s }),
     easing: frame.easing,
+    ...(frame.motion === null ? {} : { motion: frame.motion }),
     ...(frame.identity === null ? {} : { identity: frame.identity }),
     ...(frame.sources.length === 0 ? {} : { sources: frame.sources.map(writeSource) }),
     ...frame.rest,

@@ -1,5 +1,6 @@
 import type { Obstacle } from '../base/geometry';
 import type { Rgb } from '../base/colour';
+import type { Motion } from './motion';
 import type { FrameSource, SourcePart } from './sources';
 
 /** A show: frames in playing order, and the stage they play on. Values are never changed in place. */
@@ -42,6 +43,8 @@ export interface Frame {
   /** Travel time to the frame, seconds; null: as fast as is safe. */
   transition_s: number | null;
   easing: Easing;
+  /** How the picture before drives to the frame; null: the planner's shortest drive. */
+  motion: Motion | null;
   /** Overrides the show's assignment; null: the show's. */
   identity: Identity | null;
   /** What the pixels were made from; empty: drawn by hand. */
@@ -107,6 +110,7 @@ export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
     at_s: null,
     transition_s: null,
     easing: 'swift',
+    motion: null,
     identity: null,
     sources: [],
     pixels,

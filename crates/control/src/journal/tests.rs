@@ -121,7 +121,7 @@ fn the_format_is_that_of_its_version() {
         "a layer keeps its settings, a picture its codes"
     );
     hash.bytes(&bytes);
-    assert_eq!((VERSION, hash.finish()), (8, 5_637_511_702_025_491_302));
+    assert_eq!((VERSION, hash.finish()), (9, 4_269_216_062_360_278_075));
 }
 
 #[test]

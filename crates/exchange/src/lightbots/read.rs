@@ -7,7 +7,7 @@ use lightbots_show::{
 };
 
 use super::fields::{label, one_of, place};
-use super::{assets, sources, timeline, trajectories};
+use super::{assets, motion, sources, timeline, trajectories};
 use crate::error::ReadError;
 use crate::format::Loaded;
 use crate::json::frames::{Notes, document, frames, missing, pixels};
@@ -202,6 +202,7 @@ fn frame(json: &mut Json<'_>, notes: &mut Notes) -> Result<Frame, ReadError> {
             "identity" => frame.identity = Some(identity(json)?),
             "id" => frame.id = Some(label(json, key)?),
             "at_s" => frame.at_s = Some(json.number(key)?),
+            "motion" => frame.motion = Some(motion::read(json, notes)?),
             "sources" => frame.sources = sources::read(json, notes)?,
             "pixels" => {
                 frame.pixels = pixels(json, "id", |json| pixel(json, notes))?;

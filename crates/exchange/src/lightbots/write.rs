@@ -8,7 +8,7 @@ use lightbots_base::{Limits, Vec2};
 use lightbots_plan::ShowPlan;
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 
-use super::{assets, sources, timeline, trajectories};
+use super::{assets, motion, sources, timeline, trajectories};
 use crate::format::Written;
 use crate::json::text::{exact, lines, number, quoted};
 use crate::part::is_version_2;
@@ -119,6 +119,9 @@ fn frame(frame: &Frame) -> String {
     }
     if frame.easing == Easing::Gentle {
         fields.push("\"easing\": \"gentle\"".into());
+    }
+    if let Some(motion) = &frame.motion {
+        fields.push(format!("\"motion\": {}", motion::text(motion)));
     }
     if let Some(bound) = frame.identity {
         fields.push(format!("\"identity\": {}", identity(bound)));

@@ -3,7 +3,7 @@
 use lightbots_base::Vec2;
 use lightbots_show::{
     Asset, AssetHash, BeatGrid, Beats, Cue, CuePlace, FloorBox, FramePhase, FrameSource, Layer, LayerSpan,
-    Marker, Section, Setting, Show, SourceKind, SourcePart, Trajectory, TrajectoryPiece,
+    Marker, PictureMotion, Section, Setting, Show, SourceKind, SourcePart, Trajectory, TrajectoryPiece,
 };
 
 /// Every field of version 2 for a show of at least one frame with at least three pixels.
@@ -48,6 +48,7 @@ pub fn with_every_part(show: Show) -> Show {
     let frame = &mut show.frames[0];
     frame.id = Some("one".into());
     frame.at_s = Some(12.5);
+    frame.motion = Some(PictureMotion::Turn { center: Vec2::new(0.1, 0.2), turn: 1.5, size: 1.2 });
     frame.sources = vec![FrameSource {
         asset: Some(hash),
         seed: 7,

@@ -133,6 +133,7 @@ mod tests {
             limits: Limits::ELISA_3,
             duration: None,
             easing: Easing::Swift,
+            prescribed: None,
         };
         Lattice::new(&Instance::new(&problem, &[]).unwrap(), 0.072).unwrap()
     }

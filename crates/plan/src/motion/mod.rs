@@ -1,11 +1,13 @@
 //! Timed paths along straight lines: all robots share one progress over time, so all leave and arrive together.
 
 mod bend;
+mod delayed;
 mod profile;
 pub(crate) mod progress;
 pub(crate) mod stop_and_go;
 
 pub(crate) use bend::Displacements;
+pub(crate) use delayed::{delayed, ends};
 pub(crate) use profile::Profile;
 
 use lightbots_base::{Limits, Span};

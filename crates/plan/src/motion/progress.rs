@@ -20,12 +20,27 @@ impl ProgressLaw {
             Easing::Swift => halves,
             Easing::Gentle => halves.max(2.0 * longest_m / speed),
         };
-        let drive_s = least.max(0.4) * stretch;
+        Self::lasting(least.max(0.4) * stretch, limits, easing)
+    }
+
+    /// Progress that takes `drive_s` seconds, with the ramps of `limits`.
+    pub fn lasting(drive_s: f64, limits: &Limits, easing: Easing) -> Self {
         let ramp_s = match easing {
-            Easing::Swift => (speed / accel).min(drive_s / 2.0),
+            Easing::Swift => (limits.speed_mps / limits.accel_mps2).min(drive_s / 2.0),
             Easing::Gentle => drive_s / 2.0,
         };
         Self { drive_s, ramp_s }
+    }
+
+    /// Duration of the ramp at each end, seconds.
+    pub fn ramp_s(&self) -> f64 {
+        self.ramp_s
+    }
+
+    /// Progress a second, after `t` seconds.
+    pub fn rate(&self, t: f64) -> f64 {
+        let top = 1.0 / (self.drive_s - self.ramp_s);
+        top * (t.min(self.drive_s - t) / self.ramp_s).clamp(0.0, 1.0)
     }
 
     /// Share of the path after `t` seconds.

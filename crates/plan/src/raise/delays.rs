@@ -8,6 +8,7 @@ mod pair;
 
 use crate::Path;
 use crate::cancel::Cancel;
+use crate::motion::ends;
 use crate::proof::stop_safe::{STEP, StopSafety};
 use lightbots_base::{Limits, Span, Vec2};
 use pair::PairLaw;
@@ -83,7 +84,7 @@ impl<'a> Search<'a> {
             (0..count).map(|moment| path.as_ref().at(STEP * moment as i64).position).collect::<Vec<_>>()
         };
         let most = |path: &Path| {
-            let left = most + duration - super::ends(path);
+            let left = most + duration - ends(path);
             (left.0.clamp(0, MOST.0) / LEVEL.0) as u8
         };
         Self {

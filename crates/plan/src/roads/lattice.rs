@@ -191,6 +191,7 @@ mod tests {
             limits: Limits::ELISA_3,
             duration: None,
             easing: Easing::Swift,
+            prescribed: None,
         };
         Instance::new(&problem, &[]).unwrap()
     }

@@ -2,7 +2,7 @@
 
 use crate::margins::MARGIN_M;
 use crate::transition::touching;
-use crate::{BindingIssue, Bindings, BoundFrame, Infeasible};
+use crate::{BindingIssue, Bindings, BoundFrame, Infeasible, Transition};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
@@ -57,6 +57,12 @@ pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], infeasible: 
     Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
 }
 
+/// The issue of a drive that is not the one that the show prescribes.
+pub(super) fn not_as_prescribed(show: &Show, index: usize, why: &str) -> Issue {
+    let message = format!("the drive to {} is an ordinary one: {why}", name_of(show, index));
+    Issue::warning("not-as-prescribed", message).in_frame(index)
+}
+
 /// The issue of a drive that takes longer than the frame asks for.
 pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64) -> Issue {
     let name = name_of(show, index);
@@ -64,6 +70,33 @@ pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64
         "the drive to {name} takes {takes_s:.2} s instead of the {asked_s:.2} s asked for: robots cannot be quicker; set at least {takes_s:.2} s"
     );
     Issue::warning("takes-longer", message).in_frame(index)
+}
+
+/// A frame that begins nearer to its absolute time begins in time, seconds.
+const IN_TIME_S: f64 = 0.05;
+
+/// Issues of frames that do not begin at their absolute times, with what would resolve them.
+pub(super) fn of_nails(show: &Show, transitions: &[Transition], issues: &mut Issues) {
+    let mut begins_s = 0.0;
+    for (index, (frame, transition)) in show.frames.iter().zip(transitions).enumerate() {
+        let drive_s = transition.duration.as_secs();
+        // The timeline begins with the air time of the first frame.
+        begins_s += if index == 0 { 0.0 } else { drive_s };
+        if let Some(at_s) = frame.at_s.filter(|at_s| (at_s - begins_s).abs() > IN_TIME_S) {
+            let name = name_of(show, index);
+            let by_s = (at_s - begins_s).abs();
+            let remedy = if index == 0 {
+                "the timeline begins with the first frame: nail it to 0 s, or to no moment".into()
+            } else if at_s < begins_s {
+                format!("make the frames before it {by_s:.2} s shorter, or nail it to {begins_s:.2} s")
+            } else {
+                format!("let the frame before it stand {by_s:.2} s longer, or nail it to {begins_s:.2} s")
+            };
+            let message = format!("{name} is nailed to {at_s:.2} s and begins at {begins_s:.2} s; {remedy}");
+            issues.push(Issue::warning("not-in-time", message).in_frame(index));
+        }
+        begins_s += frame.air_time_s.max(0.0);
+    }
 }
 
 /// The issue of more names than robots.

@@ -142,6 +142,7 @@ fn whole(
         plan.take(transition, shown, frame);
         plan.stop_safety.push(safety);
     }
+    issues::of_nails(show, &plan.transitions, &mut plan.issues);
     plan
 }
 
@@ -195,9 +196,12 @@ fn chained(
         let bound = bindings.bind(&frame.pixels, identity, &places, |_| false);
         issues::of_frame(show, index, starts.len(), &bound.dark, &mut plan.issues);
         issues::of_bound_frame(show, index, &bound, &mut plan.issues);
-        let problem = TransitionProblem::of_frame(&show.stage, frame, places, &bound);
+        let problem = TransitionProblem::of_frame(show, index, places, &bound);
         let attempt = attempt(&problem, cancel);
         let is_infeasible = attempt.infeasible.is_some();
+        if let Some(why) = attempt.not_as_prescribed {
+            plan.issues.push(issues::not_as_prescribed(show, index, why));
+        }
         plan.explanations.push(attempt.explanation);
         if let Some(infeasible) = attempt.infeasible
             && !plan.issues[found_before..].iter().any(Issue::is_error)

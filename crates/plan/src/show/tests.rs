@@ -63,6 +63,26 @@ fn frames_follow_each_other_from_the_starts() {
 }
 
 #[test]
+fn frames_that_miss_their_absolute_times_say_what_would_resolve_that() {
+    let show_of = |at_s: Option<f64>| {
+        let first = frame(&[(0, 0.5, 0.0), (1, -0.5, 0.0), (2, 0.0, 0.2)]);
+        let second = Frame { at_s, ..frame(&[(0, -0.5, -0.5), (1, 0.5, -0.5), (2, 0.0, -0.5)]) };
+        show(&of(vec![first, second]), &STARTS, &ShowOptions::default())
+    };
+    let begins_s = 1.0 + show_of(None).transitions[1].duration.as_secs();
+    assert!(show_of(Some(begins_s + 0.04)).issues.is_empty());
+    let early = show_of(Some(begins_s + 2.0));
+    assert_eq!((codes(&early), early.ok()), (vec!["not-in-time"], true));
+    assert!(
+        early.issues[0].message.contains("let the frame before it stand 2.00 s longer"),
+        "{:?}",
+        early.issues
+    );
+    let late = show_of(Some(begins_s - 0.5));
+    assert!(late.issues[0].message.contains("make the frames before it 0.50 s shorter"), "{:?}", late.issues);
+}
+
+#[test]
 fn fixed_identity_keeps_every_id_on_its_robot() {
     let first = frame(&[(4, -0.5, 0.0), (7, 0.0, 0.0), (9, 0.5, 0.0)]);
     let second = frame(&[(4, 0.5, -0.9), (7, 0.0, -0.4), (9, -0.5, -0.6)]);

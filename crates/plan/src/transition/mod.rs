@@ -15,10 +15,14 @@ pub(crate) use feasibility::touching;
 
 use crate::assignment::Choice;
 use crate::cancel::{Cancel, Cancelled, unless};
+use crate::prescribed::{self, Stagger};
 use crate::proof::prove_unless;
 use crate::solve::{self, Solution};
-use crate::{Explanation, Infeasible, Meeting, Repaired, Transition, TransitionProblem};
+use crate::{
+    Explanation, Infeasible, Meeting, Prescribed, Repaired, RowOutcome, Transition, TransitionProblem,
+};
 use candidate::Candidate;
+use lightbots_base::Span;
 use reachability::Walls;
 use straight::straight_lines;
 
@@ -44,12 +48,18 @@ pub(crate) struct Attempt {
     pub infeasible: Option<Infeasible>,
     /// The solvers that ran.
     pub explanation: Explanation,
+    /// Why the drive is not the one that the show prescribes, if it prescribes one.
+    pub not_as_prescribed: Option<&'static str>,
 }
 
 impl Attempt {
     /// A drawing that must not be driven.
     fn infeasible(transition: Transition, why: Infeasible) -> Self {
-        Self { transition, infeasible: Some(why), explanation: Explanation::default() }
+        Self { infeasible: Some(why), ..Self::feasible(transition, Explanation::default()) }
+    }
+
+    fn feasible(transition: Transition, explanation: Explanation) -> Self {
+        Self { transition, infeasible: None, explanation, not_as_prescribed: None }
     }
 
     fn into_result(self) -> Result<Transition, Infeasible> {
@@ -60,11 +70,60 @@ impl Attempt {
     }
 }
 
-/// The best transition, proven or not.
+/// The best transition, proven or not: the one that the show prescribes, or else the planner's.
 pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     if let Err(infeasible) = feasibility::measurable(problem) {
         return Attempt::infeasible(candidate::unmoved(problem), infeasible);
     }
+    let Some(prescribed) = &problem.prescribed else { return ordinary(problem, cancel) };
+    let impossible = feasibility::possible(problem).err();
+    match (prescribed.stagger, impossible) {
+        (_, Some(_)) => ordinary(problem, cancel),
+        (Some(stagger), None) => one_after_another(problem, stagger, cancel),
+        (None, None) => as_prescribed(problem, prescribed, cancel),
+    }
+}
+
+/// The drive that the show prescribes, where robots stand where it begins.
+fn as_prescribed(problem: &TransitionProblem, prescribed: &Prescribed, cancel: Cancel<'_>) -> Attempt {
+    match prescribed::attempt(problem, prescribed, cancel) {
+        Ok(transition) => {
+            let mut explanation = Explanation::default();
+            let solved = RowOutcome::Solved { duration: transition.least, stop_safe_percent: None };
+            explanation.add(format!("the {} of the show", prescribed.name), solved);
+            explanation.choose("the show prescribes it");
+            Attempt::feasible(transition, explanation)
+        }
+        Err(Some(infeasible)) => {
+            let drawing = ordinary(problem, cancel);
+            Attempt { infeasible: Some(infeasible), ..drawing }
+        }
+        Err(None) => {
+            let why = "robots or pixels are not where its motion begins and ends; place the pixels anew";
+            Attempt { not_as_prescribed: Some(why), ..ordinary(problem, cancel) }
+        }
+    }
+}
+
+/// The planner's drive with its starts one after the other.
+fn one_after_another(problem: &TransitionProblem, stagger: Stagger, cancel: Cancel<'_>) -> Attempt {
+    let delay = Span::from_secs(stagger.delay_s.max(0.0));
+    let quicker = problem.duration.map(|asked| (asked - delay).max(Span::ZERO));
+    let attempt = ordinary(&TransitionProblem { duration: quicker, ..problem.clone() }, cancel);
+    if attempt.infeasible.is_some() {
+        return attempt;
+    }
+    match prescribed::staggered(problem, &attempt.transition, stagger, cancel) {
+        Some(transition) => Attempt { transition, ..attempt },
+        None => {
+            let why = "robots that begin one after the other would touch; leave more room between pixels";
+            Attempt { not_as_prescribed: Some(why), ..attempt }
+        }
+    }
+}
+
+/// The planner's best transition, proven or not.
+fn ordinary(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     let impossible = feasibility::possible(problem).err();
     let Some(choice) = Choice::unless(cancel, &problem.starts, &problem.goals, &problem.pinned) else {
         let infeasible = impossible.unwrap_or_else(|| feasibility::pins(problem));
@@ -121,7 +180,7 @@ fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> O
     let mut explanation = Explanation::default();
     let candidate = straight_lines(problem, choice, cancel, &mut explanation)?;
     if candidate.holds() {
-        return Some(Attempt { transition: candidate.transition, infeasible: None, explanation });
+        return Some(Attempt::feasible(candidate.transition, explanation));
     }
     let result = if feasibility::possible(problem).is_ok() {
         let Solution { result, explanation: rows } =
@@ -132,11 +191,11 @@ fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> O
         Err(Vec::new())
     };
     Some(match result {
-        Ok(transition) => Attempt { transition, infeasible: None, explanation },
+        Ok(transition) => Attempt::feasible(transition, explanation),
         Err(left) => {
             let Candidate { transition, proof, .. } = candidate;
             let infeasible = Some(conflict::infeasible(problem, &transition, &proof, left));
-            Attempt { transition, infeasible, explanation }
+            Attempt { infeasible, ..Attempt::feasible(transition, explanation) }
         }
     })
 }

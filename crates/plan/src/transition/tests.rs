@@ -99,7 +99,7 @@ fn who_drives_behind_another_is_left_room_to_stop_and_who_drives_beside_it_is_no
     let in_line = pair_that_turns(Vec2::new(0.064, 0.05), Vec2::new(0.064, -0.05));
     let least = transition(&in_line).unwrap().least;
     for seconds in [None, Some(6.4), Some(15.0)] {
-        let duration = seconds.map(lightbots_base::Span::from_secs);
+        let duration = seconds.map(Span::from_secs);
         let plan = transition(&TransitionProblem { duration, ..in_line.clone() }).unwrap();
         assert_eq!(plan.least, least, "whatever was asked for");
         assert!(plan.closest.unwrap().distance_m >= 0.074, "{:?}", plan.closest);
@@ -112,7 +112,7 @@ fn who_drives_behind_another_is_left_room_to_stop_and_who_drives_beside_it_is_no
 #[test]
 fn a_set_duration_is_met_and_the_least_is_known() {
     let mut slow = problem(vec![Vec2::ZERO], vec![Vec2::new(0.54, 0.0)], 1.5);
-    slow.duration = Some(lightbots_base::Span::from_millis(7_500));
+    slow.duration = Some(Span::from_millis(7_500));
     slow.easing = Easing::Gentle;
     let plan = transition(&slow).unwrap();
     assert_eq!(plan.duration.0, 7_500_000);
@@ -128,7 +128,7 @@ fn a_repaired_way_knows_its_least_time_whatever_was_asked_for() {
         let quickest = transition(&crossing).unwrap();
         assert_eq!(quickest.least, quickest.duration);
         assert!(quickest.closest.unwrap().distance_m < 0.5);
-        crossing.duration = Some(lightbots_base::Span::from_millis(20_000));
+        crossing.duration = Some(Span::from_millis(20_000));
         let slow = transition(&crossing).unwrap();
         assert_eq!(slow.least, quickest.least);
         assert!((slow.duration.as_secs() - 20.0).abs() < 1e-3);
@@ -148,7 +148,7 @@ fn a_bent_way_knows_its_least_time_whatever_was_asked_for() {
         let quickest = transition(&crossing).unwrap();
         assert_eq!(quickest.least, quickest.duration);
         assert!(quickest.closest.unwrap().distance_m >= 0.057);
-        crossing.duration = Some(lightbots_base::Span::from_millis(20_000));
+        crossing.duration = Some(Span::from_millis(20_000));
         let slow = transition(&crossing).unwrap();
         assert_eq!(slow.least, quickest.least, "{easing:?}");
         assert_eq!(slow.duration.0, 20_000_000);

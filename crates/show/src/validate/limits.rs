@@ -31,6 +31,10 @@ pub const MAX_BEATS: usize = 100_000;
 pub const MAX_TRAJECTORIES: usize = 100_000;
 /// Most pieces of all trajectories. Bounds memory for hostile files: a piece takes 72 bytes.
 pub const MAX_TRAJECTORY_PIECES: usize = 1_000_000;
+/// Most places of the curve of a motion. A robot keeps at most 128 pieces of a path.
+pub const MAX_MOTION_PLACES: usize = 200;
+/// Most pictures that robots drive through without a stop.
+pub const MAX_PICTURES_BETWEEN: usize = 20;
 /// Smallest clearance at which a plan can be proven against noise, metres: robots that touch at 54 mm need pixels 57 mm
 /// apart. With less, valid shows would fail the proof; with more, shows that could be played would be refused.
 pub const PROVABLE_GAP_M: f64 = 0.003;

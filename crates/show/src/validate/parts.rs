@@ -44,12 +44,11 @@ fn warn(findings: &mut Findings, code: &str, message: String) {
 
 /// Says which parts this version keeps and does not play.
 fn not_played(show: &Show, findings: &mut Findings) {
-    let moments = show.frames.iter().filter(|frame| frame.at_s.is_some()).count();
     let timed = show.cues.iter().filter(|cue| matches!(cue.at, CuePlace::Seconds(_))).count();
+    let whole = show.trajectories.iter().filter(|trajectory| trajectory.frame.is_none()).count();
     for (count, one, many) in [
-        (moments, "absolute time of a frame", "absolute times of frames"),
         (timed, "cue at a moment", "cues at moments"),
-        (show.trajectories.len(), "prescribed trajectory", "prescribed trajectories"),
+        (whole, "trajectory for the whole show", "trajectories for the whole show"),
     ] {
         if count > 0 {
             let what = if count == 1 { one } else { many };

@@ -1,3 +1,4 @@
+import { IconPin } from '@tabler/icons-react';
 import { memo } from 'react';
 import { secondsText, shortSeconds } from '../../base/time';
 import type { Frame } from '../../model/show';
@@ -72,6 +73,7 @@ const Inside = memo(function Inside(props: Props) {
             {index + 1}
             {props.isWrong ? ' !' : ''}
           </b>
+          {isRoomy && frame.at_s !== null ? <IconPin size={11} /> : null}
           {isRoomy ? <span>{frame.name}</span> : null}
         </span>
       ) : null}

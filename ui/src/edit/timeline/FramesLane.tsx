@@ -5,7 +5,7 @@ import { isFastest } from '../../model/timelineBlocks';
 import * as acts from '../acts';
 import { useEditing, useEditorNow } from '../context';
 import { NameField } from '../NameField';
-import { blockText, revealFrame, sayBlock, stepEdge, toggleCues } from './blockActs';
+import { blockText, revealFrame, sayBlock, stepEdge, toggleCues, toggleNail } from './blockActs';
 import { edgeKey, takeKey } from './edgeKeys';
 import { FrameBlock } from './FrameBlock';
 import { framesHand } from './framesHand';
@@ -50,6 +50,7 @@ export function FramesLane({ blocks, axis, drawn }: TrackProps) {
     else if (event.key === 'End') choose(blocks.length - 1, event);
     else if (event.key === 'Enter' || event.key === 'F2') editing.renaming.set(at);
     else if (event.key === 'c') toggleCues(editing, view);
+    else if (event.key === 'n') toggleNail(editing, view);
     else return;
     takeKey(event);
   };
@@ -65,7 +66,7 @@ export function FramesLane({ blocks, axis, drawn }: TrackProps) {
         aria-orientation="horizontal"
         aria-multiselectable
         aria-activedescendant={idOf(blocks[at]?.key)}
-        aria-keyshortcuts="[ ] Shift+[ Shift+] C Enter"
+        aria-keyshortcuts="[ ] Shift+[ Shift+] C N Enter"
         onPointerDown={hand.down}
         onClick={hand.click}
         onDoubleClick={hand.rename}

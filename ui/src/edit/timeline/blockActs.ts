@@ -1,3 +1,4 @@
+import { nail } from '../../model/nails';
 import { secondsText, shortSeconds } from '../../base/time';
 import { cueOf, setCue } from '../../model/cues';
 import { xOf } from '../../model/timelineAxis';
@@ -28,8 +29,9 @@ export function blockText(block: Block, index: number): string {
   const drive =
     least_s === null ? 'drive not planned yet' : `drive ${secondsText(travel_s)}, ${least}`;
   const wait = go === null ? '' : go === 'waits' ? '; waits for GO' : '; repeats until GO';
+  const nailed = frame.at_s === null ? '' : `; fixed at ${shortSeconds(frame.at_s)} s`;
   const name = `Frame ${index + 1} ${frame.name}`.trim();
-  return `${name}: ${drive}; shown for ${shortSeconds(frame.airTime_s)} s${wait}`;
+  return `${name}: ${drive}; shown for ${shortSeconds(frame.airTime_s)} s${wait}${nailed}`;
 }
 
 /** Says in the status line what the frame on the stage is like now. */
@@ -90,6 +92,16 @@ export function toggleCue(editing: Editing, index: number) {
 export function toggleCues(editing: Editing, view: TimelineView) {
   const { show, frame } = editing.editor.state.get();
   acts.setCue(editing, cueOf(show, show.frames[frame]) === null ? '' : null);
+  sayBlock(editing, view);
+}
+
+/** Nails the picture of the frame on the stage to where it begins, or frees it. */
+export function toggleNail(editing: Editing, view: TimelineView) {
+  const { frame } = editing.editor.state.get();
+  const block = blocksNow(editing, view)[frame];
+  if (!block || frame === 0) return;
+  const at_s = block.frame.at_s === null ? Math.round(block.shownFrom_s * 100) / 100 : null;
+  editing.editor.change('Fixed time', (show) => nail(show, frame, at_s));
   sayBlock(editing, view);
 }
 

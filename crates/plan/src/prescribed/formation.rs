@@ -1,0 +1,141 @@
+//! The ways of the robots of a picture that moves as one.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lightbots_base::Vec2;
+use lightbots_show::{Frame, PictureMotion};
+
+use super::shape::{Shape, ShapeCurve};
+use super::smooth_line::SmoothLine;
+use super::{PlacesById, PrescribedWay, WayPart, picture};
+
+/// Length over which the corners of a curve that people give are rounded, metres: a robot turns there without a stop.
+const ROUNDING_M: f64 = 0.06;
+/// A place on a rounded track may be farther along it, or less far, than straight lines say, metres.
+const SLACK_M: f64 = 0.05;
+/// Share of its own time by which the circles of the robots that begin last may begin later.
+const MOST_LATE: f64 = 0.75;
+
+/// The picture after a motion.
+pub type MovedPicture = BTreeMap<u32, Vec2>;
+
+/// Where the pixels of `frame` are after `motion`, by their ids, stage metres. They stay where the motion is none of a
+/// formation.
+pub fn moved(motion: &PictureMotion, frame: &Frame) -> MovedPicture {
+    let before = picture(frame);
+    let ways = ways(motion, &before);
+    before.iter().map(|(&id, &at)| (id, ways.get(&id).and_then(PrescribedWay::end).unwrap_or(at))).collect()
+}
+
+/// The way of each pixel's robot. Empty for motions that are none of a formation.
+pub(super) fn ways(motion: &PictureMotion, before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
+    match motion {
+        PictureMotion::Travel { along } => each(before, |at| whole(travel(along, at))),
+        PictureMotion::Turn { center, turn, size } => {
+            let kind = |at| ShapeCurve::Turn { center: *center, arm: at - *center, turn: *turn, size: *size };
+            each(before, |at| whole(kind(at)))
+        }
+        PictureMotion::Breathe { center, size, times } => {
+            each(before, |at| breathe(*center, *size, *times, at))
+        }
+        PictureMotion::Follow { along } => follow(along, before),
+        PictureMotion::Wave { radius_m, direction, length_m, times } => {
+            wave(*radius_m, Vec2::unit(*direction), *length_m, *times, before)
+        }
+        PictureMotion::Stagger { .. } | PictureMotion::Morph { .. } => BTreeMap::new(),
+    }
+}
+
+fn each(before: &PlacesById, way: impl Fn(Vec2) -> Vec<WayPart>) -> BTreeMap<u32, PrescribedWay> {
+    before.iter().map(|(&id, &at)| (id, PrescribedWay::Parts(way(at)))).collect()
+}
+
+/// One part over the whole drive.
+fn whole(curve: ShapeCurve) -> Vec<WayPart> {
+    vec![WayPart { during: (0.0, 1.0), shape: curve.into() }]
+}
+
+fn travel(along: &[Vec2], at: Vec2) -> ShapeCurve {
+    if let [by] = along {
+        return ShapeCurve::Line { from: at, to: at + *by };
+    }
+    let points: Vec<Vec2> = [Vec2::ZERO].into_iter().chain(along.iter().copied()).collect();
+    let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
+    ShapeCurve::Stretch { from_m: 0.0, to_m: track.length_m(), offset: at, track }
+}
+
+/// Out and back, `times` times. Robots drive back backwards, so that they need no time to turn.
+fn breathe(center: Vec2, size: f64, times: u32, at: Vec2) -> Vec<WayPart> {
+    let wide = center + (at - center) * size;
+    let parts = 2 * times.max(1);
+    let part = |nth: u32| {
+        let (from, to) = if nth.is_multiple_of(2) { (at, wide) } else { (wide, at) };
+        let share = |nth: u32| f64::from(nth) / f64::from(parts);
+        WayPart { during: (share(nth), share(nth + 1)), shape: ShapeCurve::Line { from, to }.into() }
+    };
+    (0..parts).map(part).collect()
+}
+
+/// All robots on one track: through their own places, the last first, and then along the curve. Each goes on by the
+/// length of the curve.
+fn follow(along: &[Vec2], before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
+    let Some(&begin) = along.first() else { return BTreeMap::new() };
+    let chain = chain(before, begin);
+    let points: Vec<Vec2> = chain.iter().rev().map(|id| before[id]).chain(along.iter().copied()).collect();
+    let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
+    let along_m: f64 = along.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    // The leader stands about where the curve begins, and each robot is as far behind the one ahead as it stands from it.
+    let mut ahead = (begin, track.length_m() - along_m);
+    let mut goes_m = None;
+    let ways = chain.iter().map(|id| {
+        let at = before[id];
+        let gap_m = ahead.0.distance(at);
+        let from_m = track.nearest_m(at, (ahead.1 - 2.0 * gap_m - SLACK_M, ahead.1 + SLACK_M));
+        ahead = (at, from_m - SLACK_M);
+        let goes_m = *goes_m.get_or_insert(track.length_m() - from_m);
+        let kind =
+            ShapeCurve::Stretch { track: track.clone(), from_m, to_m: from_m + goes_m, offset: Vec2::ZERO };
+        let shape = Shape::from(kind).between(Some(at), None);
+        (*id, PrescribedWay::Parts(vec![WayPart { during: (0.0, 1.0), shape }]))
+    });
+    ways.collect()
+}
+
+/// The pixels in the order of a line: the nearest to `begin`, then always the nearest that is left.
+fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
+    let mut left: Vec<(u32, Vec2)> = before.iter().map(|(&id, &at)| (id, at)).collect();
+    let (mut chain, mut here) = (Vec::with_capacity(left.len()), begin);
+    while !left.is_empty() {
+        let gap = |entry: &(u32, Vec2)| (entry.1 - here).length_squared();
+        let nearest = (0..left.len()).min_by(|&a, &b| gap(&left[a]).total_cmp(&gap(&left[b])));
+        let (id, at) = left.remove(nearest.unwrap_or(0));
+        chain.push(id);
+        here = at;
+    }
+    chain
+}
+
+/// Circles, begun later by each robot by where it stands. A whole circle later for each `length_m`, so that all are where a
+/// wave would have them.
+fn wave(
+    radius_m: f64,
+    direction: Vec2,
+    length_m: f64,
+    times: u32,
+    before: &PlacesById,
+) -> BTreeMap<u32, PrescribedWay> {
+    let along = |at: Vec2| at.dot(direction);
+    let first_m = before.values().map(|&at| along(at)).fold(f64::INFINITY, f64::min);
+    let last_m = before.values().map(|&at| along(at)).fold(f64::NEG_INFINITY, f64::max);
+    let times = f64::from(times.max(1));
+    // Circles by which the last robot begins later than the first.
+    let late = ((last_m - first_m) / length_m.max(1e-3)).clamp(0.0, times * MOST_LATE / (1.0 - MOST_LATE));
+    let begin = direction.angle() - core::f64::consts::FRAC_PI_2;
+    each(before, |at| {
+        let share = (along(at) - first_m) / (last_m - first_m).max(1e-9);
+        let from = share * late / (times + late);
+        let during = (from, from + times / (times + late));
+        vec![WayPart { during, shape: ShapeCurve::Circles { at, radius_m, begin, times }.into() }]
+    })
+}

@@ -1,0 +1,40 @@
+//! Trajectories that a show holds, taken as they are.
+
+use lightbots_base::{Piece, Span, Vec2};
+use lightbots_show::{Show, Trajectory};
+
+use super::{Prescribed, PrescribedWay};
+use crate::{BoundFrame, Path};
+
+/// The trajectories to a frame. `None` where it has none. A pixel without one has its robot rest at its place.
+pub(super) fn trajectories(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Prescribed> {
+    let id = show.frames[index].id.as_deref()?;
+    let of_frame = |trajectory: &&Trajectory| trajectory.frame.as_deref() == Some(id);
+    let given: Vec<&Trajectory> = show.trajectories.iter().filter(of_frame).collect();
+    if given.is_empty() {
+        return None;
+    }
+    let ways = bound.pixels.iter().map(|pixel| {
+        let path = given.iter().find(|trajectory| trajectory.pixel == pixel.id);
+        PrescribedWay::Timed(
+            path.map_or(Path { start: pixel.at, pieces: Vec::new() }, |trajectory| path_of(trajectory)),
+        )
+    });
+    Some(Prescribed { name: "trajectories", ways: ways.collect(), stagger: None })
+}
+
+fn path_of(trajectory: &Trajectory) -> Path {
+    let mut path = Path { start: trajectory.start, pieces: Vec::new() };
+    let span = |seconds: f64| Span::from_secs(seconds.clamp(0.0, 1e6));
+    if trajectory.at_s > 0.0 {
+        path.pieces.push(Piece::rest(trajectory.start, span(trajectory.at_s)));
+    }
+    let (mut from, mut begin) = (trajectory.start, Span::ZERO);
+    for piece in &trajectory.pieces {
+        let duration = span(piece.end_s) - begin;
+        let cubic = |[c1, c2]: [Vec2; 2]| Piece { duration, c1, c2, end: piece.end };
+        path.pieces.push(piece.controls.map_or(Piece::straight(from, piece.end, duration), cubic));
+        (from, begin) = (piece.end, span(piece.end_s));
+    }
+    path
+}

@@ -1,0 +1,167 @@
+//! Times of parts: the shortest drive within the limits of all robots, and timed paths.
+
+use lightbots_base::{Limits, Piece, Span, Vec2};
+use lightbots_show::Easing;
+
+use super::{PrescribedWay, WayPart};
+use crate::Path;
+use crate::motion::progress::ProgressLaw;
+use crate::motion::{quarter_turn, whole_millis};
+
+/// Most corrections of the duration. Each ends within a thousandth of the limit that counts, because all shrink with the
+/// duration.
+const MOST_TRIES: usize = 24;
+/// Share of the limits that is planned with: rounding to whole milliseconds needs the rest.
+const SHARE: f64 = 0.995;
+/// Below this speed a path may bend as it likes, m/s. See the proof's `CREEP_MPS`; this is less.
+const SLOW_MPS: f64 = 0.01;
+
+/// Timed paths of one drive. They begin with the rest in which robots turn, and last equally long.
+pub(super) struct TimedDrive {
+    /// `paths[goal]`.
+    pub paths: Vec<Path>,
+    /// Least duration within the limits.
+    pub least: Span,
+}
+
+/// Times the ways; as fast as legal, or in `asked` where that is longer.
+pub(super) fn timed(
+    ways: &[PrescribedWay],
+    limits: &Limits,
+    easing: Easing,
+    asked: Option<Span>,
+) -> TimedDrive {
+    let rest = quarter_turn(limits);
+    let mut drive = first_guess(ways, limits);
+    for _ in 0..MOST_TRIES {
+        let excess = worst(ways, limits, easing, drive);
+        if excess <= 1.0 {
+            break;
+        }
+        drive = whole_millis(drive.as_secs() * excess.max(1.000_5));
+    }
+    let least = if drive > Span::ZERO { rest + drive } else { Span::ZERO };
+    let whole = asked.unwrap_or(least).max(least);
+    let paths = ways.iter().map(|way| path(way, limits, easing, whole - rest, whole)).collect();
+    TimedDrive { paths, least }
+}
+
+/// A duration that no way can undercut.
+fn first_guess(ways: &[PrescribedWay], limits: &Limits) -> Span {
+    let speed = limits.speed_mps.max(1e-3);
+    let parts = ways.iter().flat_map(parts);
+    let seconds = parts.map(|part| {
+        let (from, to) = part.during;
+        part.shape.length_m() / speed / (to - from).max(1e-6)
+    });
+    whole_millis(seconds.fold(0.0, f64::max))
+}
+
+fn parts(way: &PrescribedWay) -> &[WayPart] {
+    match way {
+        PrescribedWay::Parts(parts) => parts,
+        PrescribedWay::Timed(_) => &[],
+    }
+}
+
+/// Factor by which the drive must be slower so that all limits hold.
+fn worst(ways: &[PrescribedWay], limits: &Limits, easing: Easing, drive: Span) -> f64 {
+    let one = |way: &PrescribedWay| {
+        let path = path(way, limits, easing, drive, quarter_turn(limits) + drive);
+        let pieces = path.as_ref().timed().map(|(from, _, piece)| excess(from, piece, limits));
+        pieces.fold(0.0, f64::max)
+    };
+    ways.iter().map(one).fold(0.0, f64::max) / SHARE
+}
+
+/// Factor by which a piece is too fast.
+fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
+    if piece.is_rest(from) {
+        return 0.0;
+    }
+    let wheel_mps = limits.wheel_radps * limits.wheel_radius_m;
+    let at = |step: i64| {
+        let motion = piece.at(from, Span(piece.duration.0 * step / 8));
+        let speed = motion.velocity.length();
+        let turn = motion.velocity.cross(motion.acceleration).abs() / (speed * speed).max(1e-9);
+        let turn = if speed < SLOW_MPS { 0.0 } else { turn };
+        let accel = (motion.acceleration.length() / limits.accel_mps2).sqrt();
+        let wheel = (speed + turn * limits.track_m / 2.0) / wheel_mps;
+        (speed / limits.speed_mps).max(accel).max(turn / limits.turn_radps).max(wheel)
+    };
+    (0..=8).map(at).fold(0.0, f64::max)
+}
+
+/// The timed path of a way: a drive of `drive` after the rest in which robots turn, `whole` together.
+fn path(way: &PrescribedWay, limits: &Limits, easing: Easing, drive: Span, whole: Span) -> Path {
+    let parts = match way {
+        PrescribedWay::Timed(path) => return path.clone(),
+        PrescribedWay::Parts(parts) => parts,
+    };
+    let start = way.start().unwrap_or(Vec2::ZERO);
+    let mut path = Path { start, pieces: Vec::new() };
+    let mut now = Span::ZERO;
+    let before = whole - drive;
+    let moment = |share: f64| before + Span::from_millis((drive.as_secs() * 1e3 * share).round() as i64);
+    for part in parts {
+        let (from, to) = (moment(part.during.0), moment(part.during.1));
+        let is_still = part.shape.length_m() < 1e-6;
+        if is_still || to <= from {
+            continue;
+        }
+        if from > now {
+            path.pieces.push(Piece::rest(path.as_ref().end(), from - now));
+        }
+        add_part(&mut path, part, to - from, limits, easing);
+        now = to;
+    }
+    if whole > now {
+        let at = path.as_ref().end();
+        match path.pieces.last_mut().filter(|_| now == Span::ZERO) {
+            Some(rest) => rest.duration = whole,
+            None => path.pieces.push(Piece::rest(at, whole - now)),
+        }
+    }
+    path
+}
+
+/// Adds the pieces of a part that lasts `lasts`, from rest to rest.
+fn add_part(path: &mut Path, part: &WayPart, lasts: Span, limits: &Limits, easing: Easing) {
+    let law = ProgressLaw::lasting(lasts.as_secs(), limits, easing);
+    let moments = moments(&law, part.shape.pieces());
+    let knot = |seconds: f64| {
+        let share = law.share(seconds);
+        (part.shape.at(share), part.shape.slope(share) * law.rate(seconds))
+    };
+    let mut before = Span::ZERO;
+    let (mut at, mut velocity) = (path.as_ref().end(), Vec2::ZERO);
+    for (index, &moment) in moments.iter().enumerate() {
+        let is_last = index + 1 == moments.len();
+        let moment = if is_last { lasts } else { moment };
+        let (to, speed) = if is_last { (part.shape.at(1.0), Vec2::ZERO) } else { knot(moment.as_secs()) };
+        path.pieces.push(Piece::hermite(at, velocity, to, speed, moment - before));
+        (before, at, velocity) = (moment, to, speed);
+    }
+}
+
+/// The ends of pieces: the ends of both ramps, and between them as many as the shape needs, increasing whole
+/// milliseconds.
+fn moments(law: &ProgressLaw, pieces: usize) -> Vec<Span> {
+    let (ramp_s, drive_s) = (law.ramp_s(), law.drive_s);
+    let ramp_pieces = ((pieces as f64 * law.share(ramp_s)).ceil() as usize).max(1);
+    let cruise_pieces = pieces.saturating_sub(2 * ramp_pieces).max(1);
+    let mut ends = Vec::new();
+    let mut stretch = |from_s: f64, to_s: f64, count: usize| {
+        ends.extend((1..=count).map(|nth| from_s + (to_s - from_s) * nth as f64 / count as f64));
+    };
+    stretch(0.0, ramp_s, ramp_pieces);
+    if drive_s - 2.0 * ramp_s > 1e-3 {
+        stretch(ramp_s, drive_s - ramp_s, cruise_pieces);
+    }
+    stretch(drive_s - ramp_s, drive_s, ramp_pieces);
+    let mut moments: Vec<Span> =
+        ends.into_iter().map(|seconds| Span::from_millis((seconds * 1e3).round() as i64)).collect();
+    moments.dedup();
+    moments.retain(|moment| *moment > Span::ZERO);
+    moments
+}

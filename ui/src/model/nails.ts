@@ -1,0 +1,51 @@
+import { setFrames } from './commands';
+import type { Show } from './show';
+import type { Segment } from './timeline';
+
+/** A picture that is seen for less is missed, seconds. Shorter ones of the show stay as they are. */
+const SEEN_S = 0.5;
+
+/** A frame that begins nearer to its time begins in time, seconds. The plan says so from the same difference on. */
+export const IN_TIME_S = 0.05;
+
+/** When the picture of a frame begins by plan, seconds from the begin of the first one. */
+export function beginOf(timeline: readonly Segment[], index: number): number | null {
+  const [first, one] = [timeline[0], timeline[index]];
+  return first && one ? one.shownFrom_s - first.shownFrom_s : null;
+}
+
+/** Nails the picture of a frame to a moment, seconds; null: it begins when robots are there. */
+export const nail = (show: Show, index: number, at_s: number | null): Show => ({
+  ...show,
+  frames: show.frames.map((frame, i) => (i === index ? { ...frame, at_s } : frame)),
+});
+
+/**
+ * Air times with which nailed pictures begin in time. A picture that would begin too early lets the one before stand longer;
+ * one that would begin too late takes time from those before it, back to the last nailed one. What they cannot give stays
+ * missing.
+ */
+export function fitNails(show: Show, timeline: readonly Segment[]): Show {
+  const air_s = show.frames.map((frame) => frame.airTime_s);
+  const drive_s = timeline.map((one) => one.shownFrom_s - one.driveFrom_s);
+  let begins_s = 0;
+  let free = 0;
+  show.frames.forEach((frame, index) => {
+    if (index > 0) begins_s += (air_s[index - 1] ?? 0) + (drive_s[index] ?? 0);
+    if (frame.at_s === null || index === 0) return;
+    let gap_s = frame.at_s - begins_s;
+    for (let i = index - 1; i >= free && gap_s !== 0; i--) {
+      const now_s = air_s[i] ?? 0;
+      const least_s = Math.min(SEEN_S, now_s);
+      const next_s = Math.max(least_s, now_s + gap_s);
+      air_s[i] = next_s;
+      gap_s -= next_s - now_s;
+      begins_s += next_s - now_s;
+    }
+    free = index;
+  });
+  return show.frames.reduce((now, frame, i) => {
+    const airTime_s = Math.round((air_s[i] ?? 0) * 1000) / 1000;
+    return Math.abs(airTime_s - frame.airTime_s) < 0.001 ? now : setFrames(now, [i], { airTime_s });
+  }, show);
+}
