@@ -126,6 +126,13 @@ pub enum EventKind {
         /// Counted from 0.
         frame: usize,
     },
+    /// The next frame is left out, because robots are late for the music.
+    LeftOutForMusic {
+        /// Counted from 0.
+        frame: usize,
+        /// How late they are.
+        late: Span,
+    },
     /// There is no path to the frame that the operator chose: the show stays where it is.
     JumpGivenUp {
         /// Counted from 0.
@@ -291,6 +298,7 @@ impl EventKind {
             | LinkBack { asks_operator: true, .. }
             | Replanning { .. }
             | JumpGivenUp { .. }
+            | LeftOutForMusic { .. }
             | Misaligned { .. }
             | UnexpectedArrival(_)
             | RobotRestarted(_)

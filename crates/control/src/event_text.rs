@@ -98,6 +98,14 @@ impl EventKind {
             Self::LeavesLoop { last } => {
                 write!(f, "GO: the show leaves the loop after frame {}.", last + 1)
             }
+            Self::LeftOutForMusic { frame, late } => {
+                write!(
+                    f,
+                    "Frame {} is left out: robots are {:.1} s behind the music.",
+                    frame + 1,
+                    late.as_secs()
+                )
+            }
             Self::Skipped { frame } => write!(f, "Frame {} is skipped.", frame + 1),
             Self::JumpGivenUp { frame } => {
                 write!(f, "The show stays where it is: no path leads to frame {}.", frame + 1)
@@ -173,9 +181,12 @@ impl fmt::Display for EventKind {
             }
             GoingHome { .. } | PlannedHome | AtHome | WaitsForGo { .. } => self.write_stand(f),
             PreflightBegun { .. } | PreflightEnded { .. } => self.write_preflight(f),
-            GoesTo { .. } | Skipped { .. } | JumpGivenUp { .. } | LoopBegun { .. } | LeavesLoop { .. } => {
-                self.write_jump(f)
-            }
+            GoesTo { .. }
+            | Skipped { .. }
+            | LeftOutForMusic { .. }
+            | JumpGivenUp { .. }
+            | LoopBegun { .. }
+            | LeavesLoop { .. } => self.write_jump(f),
             Waiting { robot, why } => write!(f, "Waiting for robot {robot}: it {why}."),
             Undelivered => write!(
                 f,

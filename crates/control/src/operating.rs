@@ -25,6 +25,9 @@ impl Controller {
     /// Does an operation, or says why not.
     pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
         self.journal.operated(now, operation.name());
+        if let Some(run) = &mut self.run {
+            run.follow_music(now);
+        }
         let done = match operation {
             Operation::Open(show) => self.open(now, show),
             Operation::Play { from, missing } => self.begin(now, RunPurpose::Play, from, missing),

@@ -58,7 +58,7 @@ impl Run {
             progress: self.progress(now),
             drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
             began,
-            position: self.show_position(now),
+            position: self.music_position(now),
             live_light: self.pipeline.light.live().names().map(str::to_owned).collect(),
             cue: self.cue().map(str::to_owned),
             repeats: self.repeats(),

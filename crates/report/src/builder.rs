@@ -132,7 +132,7 @@ impl ReportBuilder {
             }
             EventKind::Replanning { .. } => self.frames.plan_anew(),
             EventKind::LoopBegun { .. } => self.is_order_changed = true,
-            EventKind::GoesTo { .. } | EventKind::Skipped { .. } => {
+            EventKind::GoesTo { .. } | EventKind::Skipped { .. } | EventKind::LeftOutForMusic { .. } => {
                 self.is_order_changed = true;
                 self.frames.plan_anew();
             }

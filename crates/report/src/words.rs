@@ -88,7 +88,7 @@ pub(crate) fn incident(kind: &EventKind) -> Option<(String, Option<String>)> {
         RunBegun { .. } | GoingHome { .. } | AtHome | WaitsForGo { .. } | LinkBack { .. } | Connected => {
             Some((kind.to_string(), None))
         }
-        GoesTo { .. } | Skipped { .. } | LoopBegun { .. } | LeavesLoop { .. } => {
+        GoesTo { .. } | Skipped { .. } | LeftOutForMusic { .. } | LoopBegun { .. } | LeavesLoop { .. } => {
             Some((kind.to_string(), None))
         }
         _ if kind.severity() != Severity::Note => Some((kind.to_string(), None)),

@@ -190,7 +190,9 @@ impl RehearsalRecord {
                 }
                 (self.heading_for, self.stood) = (*frame, false);
             }
-            EventKind::GoesTo { .. } | EventKind::Skipped { .. } => self.stood = true,
+            EventKind::GoesTo { .. } | EventKind::Skipped { .. } | EventKind::LeftOutForMusic { .. } => {
+                self.stood = true
+            }
             EventKind::Replanning { .. } => {
                 self.stood = true;
                 self.replans += usize::from(self.began.is_some());

@@ -31,6 +31,7 @@ impl Run {
             _ => {}
         }
         io.log.record(now, EventKind::GoesTo { frame });
+        self.playback.music.lead();
         self.plan_chosen(io, now);
     }
 
@@ -39,6 +40,13 @@ impl Run {
         let skipped = self.playback.next;
         self.playback.choose(self.playback.after(skipped), false);
         io.log.record(now, EventKind::Skipped { frame: skipped.frame });
+        self.playback.music.lead();
+        self.plan_chosen(io, now);
+    }
+
+    /// The next frame is left out, because the music is ahead.
+    pub fn leave_out(&mut self, io: &mut Context, now: Instant) {
+        self.playback.choose(self.playback.after(self.playback.next), false);
         self.plan_chosen(io, now);
     }
 

@@ -8,6 +8,7 @@ mod driving;
 mod gathering;
 mod interrupted;
 mod jumping;
+mod keeping_up;
 mod light_leg;
 mod light_player;
 mod lights;
@@ -16,6 +17,7 @@ mod link_loss;
 mod looping;
 mod machine;
 mod membership;
+mod music_time;
 mod next;
 mod obstacles;
 mod path_clock;
@@ -42,6 +44,7 @@ mod upload;
 pub(crate) use light_player::{LIVE_MAX, NAME_MAX};
 pub(crate) use machine::{Run, RunPhase};
 pub(crate) use membership::{Membership, Probation};
+pub(crate) use music_time::MusicTime;
 pub(crate) use next::AirTime;
 pub(crate) use path_clock::PathClock;
 pub(crate) use playback::{PlayedShow, RunPurpose};
@@ -221,6 +224,7 @@ impl Run {
                 false => lights::relight(io, &self.roster, &driven.leg, participant),
             }
         }
+        self.keep_up_with_music(io, now);
         if matches!(self.phase, RunPhase::Standing(_)) && self.pipeline.is_uploaded() {
             self.tick_phase(io, now);
         }
@@ -230,6 +234,8 @@ impl Run {
     pub fn on_tick(&mut self, io: &mut Context, now: Instant) {
         self.tally.recovery.pause(now, self.playback.waits());
         self.tick_phase(io, now);
+        self.follow_music(now);
+        self.keep_up_with_music(io, now);
     }
 
     fn tick_phase(&mut self, io: &mut Context, now: Instant) {
@@ -297,6 +303,7 @@ impl Run {
     /// The operator gives GO: the frame that waits for it is left.
     pub fn go(&mut self, now: Instant) {
         self.playback.waits_for_go = false;
+        self.playback.music.seen = None;
         if let RunPhase::Standing(standing) = &mut self.phase {
             standing.leave_now(now);
         }

@@ -2,6 +2,7 @@
 
 use crate::frame_cursor::FrameCursor;
 use crate::operation::MissingPolicy;
+use crate::run::MusicTime;
 use lightbots_base::Span;
 use lightbots_show::{CuePlace, FrameLoop, Show, frame_loops};
 use serde::{Deserialize, Serialize};
@@ -68,6 +69,8 @@ pub(crate) struct PlayedShow {
     pub loops: Vec<FrameLoop>,
     /// The last frame of the present pass of a loop: GO was given, and the show goes on after it.
     pub leaves_loop: Option<FrameCursor>,
+    /// Where the music is.
+    pub music: MusicTime,
 }
 
 impl PlayedShow {
@@ -85,6 +88,7 @@ impl PlayedShow {
             waits_for_go: false,
             jump: None,
             leaves_loop: None,
+            music: MusicTime::default(),
         }
     }
 

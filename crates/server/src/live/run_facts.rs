@@ -101,7 +101,10 @@ impl RunNotes {
                 self.frame = *frame;
                 self.shown.insert(*frame);
             }
-            EventKind::GoesTo { .. } | EventKind::Skipped { .. } | EventKind::LoopBegun { .. } => {
+            EventKind::GoesTo { .. }
+            | EventKind::Skipped { .. }
+            | EventKind::LeftOutForMusic { .. }
+            | EventKind::LoopBegun { .. } => {
                 self.is_order_changed = true;
             }
             EventKind::Dropout { robot, why } => {

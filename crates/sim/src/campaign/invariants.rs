@@ -189,7 +189,9 @@ impl Invariants {
                 }
             }
             EventKind::FrameReached { frame, .. } => self.frame_stands(event.at, *frame),
-            EventKind::PlanFailed { frame, .. } | EventKind::Skipped { frame } => self.given_up.push(*frame),
+            EventKind::PlanFailed { frame, .. }
+            | EventKind::Skipped { frame }
+            | EventKind::LeftOutForMusic { frame, .. } => self.given_up.push(*frame),
             EventKind::LoopBegun { first, last } => self.repeats = Some((*first, *last)),
             EventKind::GoesTo { frame } => self.reached = frame.checked_sub(1),
             EventKind::Rejoined(id) => {

@@ -15,6 +15,8 @@ mod jumps;
 mod light;
 mod link_lost;
 mod loops;
+mod motions;
+mod music;
 mod noise;
 mod originals;
 mod outages;

@@ -27,6 +27,8 @@ const STRETCH: Span = Span::from_millis(10_000);
 const BLEND: Span = Span::from_millis(500);
 /// How long robots take to a change of live light, message and blend.
 const CHANGE: Span = Span::from_millis(250);
+/// Layers that are nearer to the music are left alone, seconds: people notice a difference of twice that.
+const NEAR_MUSIC_S: f64 = 0.03;
 /// Most stretches that are computed at once: each takes 0.3 ms, and reports wait meanwhile.
 pub(crate) const AT_ONCE: usize = 16;
 /// When the next ones follow.
@@ -229,6 +231,18 @@ impl LightPlayer {
     pub fn see(&mut self, clock: PathClock) {
         if let Some(current) = &mut self.current {
             current.clock = Some(clock);
+        }
+    }
+
+    /// Layers that run freely go along with the music, which is there on the timeline, seconds.
+    pub fn keep_to_music(&mut self, now: Instant, music_s: f64) {
+        let is_free = |current: &&mut LegLight| current.layers.runs_freely && current.elapsed(now).is_some();
+        let Some(current) = self.current.as_mut().filter(is_free) else { return };
+        let shown = current.moment_at(now);
+        let behind_s = music_s - shown.show_s - shown.lead_s;
+        if behind_s.abs() > NEAR_MUSIC_S {
+            current.lead_s += behind_s;
+            self.renew_at = now;
         }
     }
 

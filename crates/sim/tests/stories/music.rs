@@ -1,0 +1,78 @@
+//! Music does not wait for late robots: their pictures catch up, and a show without music waits.
+
+use crate::five_frames::{FRAMES, play, show};
+use lightbots_show::Show;
+use lightbots_sim::{Conditions, RehearsalReport};
+
+const ROBOTS: u32 = 12;
+const AIR_S: f64 = 3.0;
+
+fn with_music() -> Show {
+    Show { music: Some("march.ogg".into()), ..show(ROBOTS, AIR_S) }
+}
+
+fn played(show: &Show, faults: &str) -> RehearsalReport {
+    let report = play(show, faults, 1, Conditions::default());
+    assert_eq!((report.contacts, report.dropouts), (0, 0), "{faults}: {:?}", report.issues);
+    report
+}
+
+/// When each frame that was played stood, seconds after the first one did.
+fn moments(report: &RehearsalReport) -> Vec<(usize, f64)> {
+    let first_s = report.per_frame[0].at_s;
+    report.per_frame.iter().map(|frame| (frame.frame, frame.at_s - first_s)).collect()
+}
+
+/// By how much each frame stood later than the same one of the other run, seconds.
+fn later_s(report: &RehearsalReport, than: &RehearsalReport) -> Vec<f64> {
+    let others = moments(than);
+    let other = |frame: usize| others.iter().find(|(other, _)| *other == frame).map_or(f64::NAN, |at| at.1);
+    moments(report).into_iter().map(|(frame, at_s)| at_s - other(frame)).collect()
+}
+
+/// That number of robots lose their places for 2 s on the drive to the third frame, one after the other.
+fn blind(report: &RehearsalReport, robots: u32) -> String {
+    let begins_s = report.per_frame[2].at_s - 2.0;
+    let one = |robot: u32| format!("blind={robot}@{:.1}s+2s", begins_s + 2.2 * f64::from(robot));
+    (0..robots).map(one).collect::<Vec<_>>().join(",")
+}
+
+#[test]
+fn a_late_picture_catches_up_where_there_is_music() {
+    let fine = played(&with_music(), "");
+    let faults = blind(&fine, 1);
+    let waits = later_s(&played(&show(ROBOTS, AIR_S), &faults), &fine);
+    let catches_up = later_s(&played(&with_music(), &faults), &fine);
+    assert!(waits[2] > 0.5 && waits[4] > 0.5, "without music all that follows is later: {waits:?}");
+    assert!((catches_up[2] - waits[2]).abs() < 0.1, "the picture itself is late: {catches_up:?}");
+    assert!(
+        catches_up[3].abs() < 0.15 && catches_up[4].abs() < 0.15,
+        "the next ones are not: {catches_up:?}"
+    );
+}
+
+#[test]
+fn a_frame_is_left_out_where_robots_are_far_behind_the_music() {
+    let fine = played(&with_music(), "");
+    let report = played(&with_music(), &blind(&fine, 3));
+    let frames: Vec<usize> = report.per_frame.iter().map(|frame| frame.frame).collect();
+    assert_eq!(frames, [0, 1, 2, 4], "{:?}", report.issues);
+    let late = later_s(&report, &fine);
+    assert!(late[2] > 2.0, "{late:?}");
+    let ends_s = |report: &RehearsalReport| report.duration_s - report.per_frame[0].at_s;
+    let end_s = ends_s(&report) - ends_s(&fine);
+    assert!(end_s.abs() < 0.3, "the last picture stands until the music ends: {end_s:.2} s later");
+}
+
+#[test]
+fn robots_keep_to_the_music_without_faults_and_with_lost_messages() {
+    let fine = played(&with_music(), "");
+    assert_eq!(fine.per_frame.len(), FRAMES);
+    for (faults, most_s) in [("loss=5%", 0.4), ("loss=20%,jitter", 2.0)] {
+        let late = later_s(&played(&with_music(), faults), &fine);
+        assert!(
+            late.len() == FRAMES && late.iter().all(|late_s| late_s.abs() < most_s),
+            "{faults}: {late:?}"
+        );
+    }
+}
