@@ -61,13 +61,13 @@ fn steady_tempo(bpm: f64) -> impl Fn(f64) -> f64 {
     move |_| bpm
 }
 
-/// Beats of a tempo that may change, seconds.
-fn beats_of(bpm: impl Fn(f64) -> f64) -> Vec<f64> {
+/// Beats of a tempo that may change, until a moment, seconds.
+fn beats_of(bpm: impl Fn(f64) -> f64, lasts_s: f64) -> Vec<f64> {
     let mut beats = vec![LEAD_S];
     loop {
         let last = beats[beats.len() - 1];
         let next = last + 60.0 / bpm(last);
-        if next > LASTS_S - 1.0 {
+        if next > lasts_s - 1.0 {
             return beats;
         }
         beats.push(next);
@@ -75,8 +75,17 @@ fn beats_of(bpm: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 fn piece(name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece {
-    let beats_s = beats_of(bpm);
-    let mut tape = Tape::new(LASTS_S, seed);
+    lasting(LASTS_S, name, bpm, seed, play)
+}
+
+/// Two minutes to make a show to.
+pub fn two_minutes() -> Piece {
+    lasting(120.0, "two minutes 120", steady_tempo(120.0), 301, house)
+}
+
+fn lasting(lasts_s: f64, name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece {
+    let beats_s = beats_of(bpm, lasts_s);
+    let mut tape = Tape::new(lasts_s, seed);
     tape.hiss(0.002);
     for (i, at_s) in beats_s.iter().enumerate() {
         let next_s = beats_s.get(i + 1).copied().unwrap_or_else(|| 2.0 * at_s - beats_s[i - 1]);
@@ -219,7 +228,7 @@ fn bossa(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
 /// A piano alone: some notes, none exact, in noise.
 fn piano(name: &str, bpm: f64, seed: u64) -> Piece {
     let mut hand = Noise(seed);
-    let beats_s = beats_of(|_| bpm);
+    let beats_s = beats_of(|_| bpm, LASTS_S);
     let mut tape = Tape::new(LASTS_S, seed + 1000);
     tape.hiss(0.004);
     for (i, beat_s) in beats_s.iter().enumerate() {

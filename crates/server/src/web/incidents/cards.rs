@@ -112,6 +112,16 @@ fn of_run(kind: &EventKind) -> Option<FirstCard> {
                 Vec::new(),
             )
         }
+        E::LeftOutForMusic { frame, late } => {
+            let title = format!(
+                "Frame {} is left out: robots are {:.1} s behind the music.",
+                frame + 1,
+                late.as_secs()
+            );
+            let done = "The next picture stands until the music is there.";
+            let card = Card::new(title, done, "Look at the robots that the others waited for.");
+            (Subject::Music, Information, card, Vec::new())
+        }
         E::RunEnded { outcome: RunOutcome::Failed(line), frames_played, .. } => {
             let done = format!("The run ended after {frames_played} frames. Robots stand.");
             let advice = "Look at the floor. Play on from the frame, or drive home.";

@@ -41,6 +41,7 @@ enum Subject {
     Controller,
     Run,
     Place(RobotId),
+    Music,
     /// By the number of the entry.
     Playlist(u32),
 }
@@ -158,7 +159,9 @@ impl Book {
             }
             E::RunBegun { .. } => {
                 self.frame = None;
-                self.end(|subject| matches!(subject, Subject::Plan(_) | Subject::Run | Subject::Controller))
+                self.end(|subject| {
+                    matches!(subject, Subject::Plan(_) | Subject::Run | Subject::Controller | Subject::Music)
+                })
             }
             E::Dropout { robot, why } => {
                 self.drop_out(*robot, *why, now_ms);

@@ -104,6 +104,7 @@ fn each_warning_and_error_has_a_card_with_three_parts_or_is_shown_elsewhere() {
         EventKind::Flooding(id),
         EventKind::FleetFull,
         EventKind::PlanFailed { frame: 1, message: "no way".into() },
+        EventKind::LeftOutForMusic { frame: 3, late: Span::from_millis(2_300) },
         EventKind::Undelivered,
         EventKind::LinkLost { silent: 9, robots: 9 },
         EventKind::LinkBack { reported: 9, robots: 9, after: Span::ZERO, asks_operator: true },
