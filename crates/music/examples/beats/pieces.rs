@@ -23,7 +23,7 @@ const FADE_S: f64 = 20.0;
 const ROOTS_HZ: [f64; 4] = [55.0, 43.65, 65.41, 49.0];
 
 /// What is played at each beat: the tape, the number of the beat, its moment, seconds to the next.
-type Player = fn(&mut Tape, usize, f64, f64);
+pub type Player = fn(&mut Tape, usize, f64, f64);
 
 /// The pieces that the tracker was made with.
 pub fn first_ten() -> Vec<Piece> {
@@ -78,12 +78,8 @@ fn piece(name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece
     lasting(LASTS_S, name, bpm, seed, play)
 }
 
-/// Two minutes to make a show to.
-pub fn two_minutes() -> Piece {
-    lasting(120.0, "two minutes 120", steady_tempo(120.0), 301, house)
-}
-
-fn lasting(lasts_s: f64, name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece {
+/// A piece that lasts that many seconds.
+pub fn lasting(lasts_s: f64, name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece {
     let beats_s = beats_of(bpm, lasts_s);
     let mut tape = Tape::new(lasts_s, seed);
     tape.hiss(0.002);
@@ -170,7 +166,7 @@ fn fast_hats(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
 }
 
 /// A bass drum at each beat, cymbals between.
-fn house(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
+pub fn house(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.kick(at_s, 1.0);
     tape.hat(at_s + beat_s / 2.0, 1.0);
     if beat % 2 == 1 {
