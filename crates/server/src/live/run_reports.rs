@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -50,43 +51,56 @@ enum Piece {
 }
 
 /// Makes the report of one run. Dropped before the end, there is none.
-pub struct RunReporter(SyncSender<Piece>);
+pub struct RunReporter {
+    pieces: SyncSender<Piece>,
+    /// The run is over: people wait for its report.
+    is_over: Arc<AtomicBool>,
+}
 
 impl RunReporter {
     /// Of the run with this log; the report goes to `file`.
     pub fn start(log: &Path, file: PathBuf, reports: &ReportsUnderWay) -> Self {
         let (pieces, inbox) = sync_channel(WAITING_MAX);
         let under_way = reports.begin(log);
+        let is_over = Arc::new(AtomicBool::new(false));
+        let over = is_over.clone();
         std::thread::spawn(move || {
             let _under_way = under_way;
-            give_way();
+            set_priority(NICE);
             // The controller may fail in the run as it failed in the recorded one.
-            let made = catch_unwind(AssertUnwindSafe(|| make(&inbox, &file)));
+            let made = catch_unwind(AssertUnwindSafe(|| make(&inbox, &file, &over)));
             match made {
                 Ok(Ok(())) => {}
                 Ok(Err(line)) => tracing::warn!("no report was made during the run: {line}"),
                 Err(_) => tracing::warn!("no report was made during the run: the controller failed"),
             }
         });
-        Self(pieces)
+        Self { pieces, is_over }
     }
 
     /// Hands on bytes of the log; `false`: the thread is too slow, and gives up once this is dropped.
     pub fn feed(&self, bytes: Vec<u8>) -> bool {
-        self.0.try_send(Piece::Log(bytes)).is_ok()
+        self.pieces.try_send(Piece::Log(bytes)).is_ok()
     }
 
     /// The log is whole.
     pub fn end(self) {
+        self.is_over.store(true, Ordering::Relaxed);
         // A thread that gave up has said why; one that is too slow gives up when this is dropped.
-        let _ = self.0.try_send(Piece::End);
+        let _ = self.pieces.try_send(Piece::End);
     }
 }
 
-fn make(inbox: &Receiver<Piece>, file: &Path) -> Result<(), String> {
+fn make(inbox: &Receiver<Piece>, file: &Path, is_over: &AtomicBool) -> Result<(), String> {
     let mut report = GrowingReport::default();
+    let mut gives_way = true;
     loop {
-        match inbox.recv() {
+        let piece = inbox.recv();
+        if gives_way && is_over.load(Ordering::Relaxed) {
+            set_priority(0);
+            gives_way = false;
+        }
+        match piece {
             Ok(Piece::Log(bytes)) => report.feed(&bytes).map_err(|error| error.to_string())?,
             Ok(Piece::End) => break,
             Err(_) => return Err("this machine is too slow for it, or the log was cut off".into()),
@@ -97,15 +111,20 @@ fn make(inbox: &Receiver<Piece>, file: &Path) -> Result<(), String> {
     disk::replace(file, &page, Readers::All).map_err(|error| error.to_string())
 }
 
-/// The show comes first.
-fn give_way() {
+/// How far the report gives way to the show while that plays. As `nice` gives by default: a fifth of the time of a thread that
+/// runs as usual.
+const NICE: i32 = 10;
+
+/// Sets the priority of this thread.
+#[cfg_attr(
+    not(target_os = "linux"),
+    expect(unused_variables, reason = "other systems have no threads with a priority")
+)]
+fn set_priority(nice: i32) {
+    // On Linux, this is the calling thread alone. Without the right to it, which programs need to take more time again, the
+    // report goes on as it did.
     #[cfg(target_os = "linux")]
-    {
-        /// As `nice` gives by default: a fifth of the time of a thread that runs as usual.
-        const NICE: i32 = 10;
-        // On Linux, this is the calling thread alone. Without the right to it, the report takes its turn like all else.
-        let _ = rustix::process::setpriority_process(None, NICE);
-    }
+    let _ = rustix::process::setpriority_process(None, nice);
 }
 
 #[cfg(test)]
