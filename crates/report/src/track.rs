@@ -10,8 +10,8 @@ use serde::Serialize;
 /// Largest distance between a place and the line that stands for it, metres. Below, pages grow; above, a line on a floor of
 /// three metres is off by more than a pixel of a screen.
 const TOLERANCE_M: f64 = 0.003;
-/// Most samples of a report: about 9 bytes each, and 24 while the run is on.
-pub(crate) const SAMPLES_MAX: usize = 1_500_000;
+/// Most samples of a report: about 9 bytes each, and 24 while the run is on. A page of 9 MB opens in about a second.
+pub(crate) const SAMPLES_MAX: usize = 1_000_000;
 /// Most samples between two that are kept, which bounds the work for a robot that stands: then one is kept anyway.
 const SKIPPED_MAX: usize = 64;
 
