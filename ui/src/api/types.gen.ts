@@ -613,8 +613,8 @@ export type ShowTime = {
  */
 show_s: number, 
 /**
- * Whether it moves on with the show clock. Music stands while the operator pauses, and while the show waits for GO; a show
- * without music also stands while robots are held or waited for.
+ * Whether it moves on with the show clock. Music stands while the operator pauses, and while the show waits for GO; a
+ * show without music also stands while robots are held or waited for.
  */
 runs: boolean, };
 
