@@ -169,7 +169,7 @@ export function connect(live: Live): Link {
     onMessage(message) {
       // Music goes on in a hidden page.
       if (message.type === 'state') hearState(live, message);
-      if (!held.hold(message)) receive(live, message);
+      if (!held.hold(message, performance.now())) receive(live, message);
     },
     onRobots: (robots) => live.track.push(robots, performance.now()),
     onLink: (state) => {
