@@ -111,8 +111,8 @@ fn make(inbox: &Receiver<Piece>, file: &Path, is_over: &AtomicBool) -> Result<()
     disk::replace(file, &page, Readers::All).map_err(|error| error.to_string())
 }
 
-/// How far the report gives way to the show while that plays. As `nice` gives by default: a fifth of the time of a thread that
-/// runs as usual.
+/// How far the report gives way to the show while that plays. As `nice` gives by default: a fifth of the time of a thread
+/// that runs as usual.
 const NICE: i32 = 10;
 
 /// Sets the priority of this thread.
