@@ -173,7 +173,7 @@ impl<'a> PlanBuilder<'a> {
                 standing: self.problem.standing.clone(),
                 ..TransitionProblem::of_frame(&self.problem.show, index, self.places.clone(), bound)
             };
-            let infeasible = match self.planned(problem.clone())? {
+            let infeasible = match self.planned(&problem)? {
                 Ok(plan) => return Ok(plan),
                 Err(infeasible) => infeasible,
             };
@@ -197,12 +197,12 @@ impl<'a> PlanBuilder<'a> {
 
     /// The transition that the show prescribes, or where that is not possible an ordinary one: robots that died stand in
     /// its way, say.
-    fn planned(&self, problem: TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
-        let found = planned_unless(&problem, self.is_over).map_err(given_up)?;
+    fn planned(&self, problem: &TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
+        let found = planned_unless(problem, self.is_over).map_err(given_up)?;
         if found.is_ok() || problem.prescribed.is_none() {
             return Ok(found);
         }
-        let ordinary = TransitionProblem { prescribed: None, ..problem };
+        let ordinary = TransitionProblem { prescribed: None, ..problem.clone() };
         planned_unless(&ordinary, self.is_over).map_err(given_up)
     }
 

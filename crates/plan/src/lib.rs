@@ -49,7 +49,7 @@ pub use bindings::{BindingIssue, Bindings, BoundFrame, Claims};
 pub use cancel::Cancelled;
 pub use explain::{ExplainedRow, Explanation, RowOutcome};
 pub use motion::turn_time;
-pub use prescribed::{MovedPicture, Prescribed, moved};
+pub use prescribed::{PlacesById, Prescribed, moved};
 pub use problem::{Closest, Infeasible, Meeting, Path, Repaired, Transition, TransitionProblem};
 pub use raise::{planned_unless, raise, raise_unless};
 pub use show::{ShowClosest, ShowOptions, ShowPlan, show, show_unless, show_with};

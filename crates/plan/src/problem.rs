@@ -7,6 +7,9 @@ use crate::margins::MARGIN_M;
 use crate::proof::ProofInput;
 use crate::{BoundFrame, Prescribed};
 
+/// A drive may take this much longer than it was asked to, seconds: times are whole milliseconds.
+pub(crate) const ASKED_SLACK_S: f64 = 5e-3;
+
 /// A drive from one set of places to another.
 #[derive(Clone, Debug)]
 pub struct TransitionProblem {

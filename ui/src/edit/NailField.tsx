@@ -1,6 +1,7 @@
 import { Button, Checkbox } from '@mantine/core';
 import { useStore } from '../base/store';
-import { beginOf, fitNails, IN_TIME_S, nail } from '../model/nails';
+import { setFrames } from '../model/commands';
+import { beginOf, fitNails, IN_TIME_S } from '../model/nails';
 import { timelineOf } from '../model/timeline';
 import { NumberField } from '../parts/NumberField';
 import { useEditing, useEditor } from './context';
@@ -16,7 +17,7 @@ export function NailField() {
   const begins_s = plan && beginOf(timelineOf(show, plan), index);
   const set = (at_s: number | null) =>
     editing.editor.change('Fixed time', (now) => {
-      const nailed = nail(now, index, at_s);
+      const nailed = setFrames(now, [index], { at_s });
       return at_s === null || !plan ? nailed : fitNails(nailed, timelineOf(nailed, plan));
     });
   const isOff = frame.at_s !== null && begins_s !== null && differs(begins_s, frame.at_s);

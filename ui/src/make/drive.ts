@@ -62,7 +62,7 @@ function requestOf(show: Show, before: Frame | undefined, made: readonly Frame[]
 }
 
 /** A frame as the planner needs it. */
-const bare = (frame: Frame): Frame => ({
+export const bare = (frame: Frame): Frame => ({
   ...frame,
   id: null,
   at_s: null,

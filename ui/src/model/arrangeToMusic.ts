@@ -16,10 +16,10 @@ export interface NewAirTime {
 }
 
 /** A picture that is seen for less is missed, seconds. Shorter ones of the show stay as they are. */
-const SEEN_S = 0.5;
+export const SEEN_S = 0.5;
 
 /** Changes below this are none, seconds. */
-const SAME_S = 0.001;
+export const SAME_S = 0.001;
 
 /**
  * Air times with which each picture begins with a bar of the music, and the show ends with one: with the bar nearest to
@@ -66,7 +66,10 @@ export function arrangeToMusic(
 }
 
 /** The show with these air times. */
-export function withAirTimes(show: Show, changes: readonly NewAirTime[]): Show {
+export function withAirTimes(
+  show: Show,
+  changes: readonly Pick<NewAirTime, 'frame' | 'after_s'>[],
+): Show {
   return changes.reduce(
     (now, { frame, after_s }) => setFrames(now, [frame], { airTime_s: after_s }),
     show,

@@ -175,7 +175,7 @@ export function moveFrames(show: Show, indices: readonly number[], before: numbe
 }
 
 export type FrameFields = Partial<
-  Pick<Frame, 'name' | 'airTime_s' | 'transition_s' | 'easing' | 'identity'>
+  Pick<Frame, 'name' | 'airTime_s' | 'at_s' | 'transition_s' | 'easing' | 'identity'>
 >;
 
 export function setFrames(show: Show, indices: readonly number[], fields: FrameFields): Show {

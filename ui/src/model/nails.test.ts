@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { beginOf, fitNails, nail } from './nails';
+import { setFrames } from './commands';
+import { beginOf, fitNails } from './nails';
 import { newFrame, newShow } from './show';
 import { segmentsOf } from './timeline';
 
@@ -49,5 +50,6 @@ test('time is not taken from before another nailed picture, and what is missing 
 test('a show without nails stays the same show, and a nail is taken off', () => {
   const plain = show([3, 3], {});
   expect(fitNails(plain, timeline(plain))).toBe(plain);
-  expect(nail(nail(plain, 1, 4), 1, null).frames[1]?.at_s).toBeNull();
+  const nailed = setFrames(plain, [1], { at_s: 4 });
+  expect(setFrames(nailed, [1], { at_s: null }).frames[1]?.at_s).toBeNull();
 });

@@ -1,9 +1,6 @@
-import { setFrames } from './commands';
+import { SAME_S, SEEN_S, withAirTimes } from './arrangeToMusic';
 import type { Show } from './show';
 import type { Segment } from './timeline';
-
-/** A picture that is seen for less is missed, seconds. Shorter ones of the show stay as they are. */
-const SEEN_S = 0.5;
 
 /** A frame that begins nearer to its time begins in time, seconds. The plan says so from the same difference on. */
 export const IN_TIME_S = 0.05;
@@ -13,12 +10,6 @@ export function beginOf(timeline: readonly Segment[], index: number): number | n
   const [first, one] = [timeline[0], timeline[index]];
   return first && one ? one.shownFrom_s - first.shownFrom_s : null;
 }
-
-/** Nails the picture of a frame to a moment, seconds; null: it begins when robots are there. */
-export const nail = (show: Show, index: number, at_s: number | null): Show => ({
-  ...show,
-  frames: show.frames.map((frame, i) => (i === index ? { ...frame, at_s } : frame)),
-});
 
 /**
  * Air times with which nailed pictures begin in time. A picture that would begin too early lets the one before stand longer;
@@ -44,8 +35,12 @@ export function fitNails(show: Show, timeline: readonly Segment[]): Show {
     }
     free = index;
   });
-  return show.frames.reduce((now, frame, i) => {
-    const airTime_s = Math.round((air_s[i] ?? 0) * 1000) / 1000;
-    return Math.abs(airTime_s - frame.airTime_s) < 0.001 ? now : setFrames(now, [i], { airTime_s });
-  }, show);
+  const all = show.frames.map((before, frame) => {
+    const after_s = Math.round((air_s[frame] ?? 0) * 1000) / 1000;
+    return { frame, after_s, isChange: Math.abs(after_s - before.airTime_s) >= SAME_S };
+  });
+  return withAirTimes(
+    show,
+    all.filter(({ isChange }) => isChange),
+  );
 }

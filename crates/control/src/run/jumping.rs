@@ -37,14 +37,12 @@ impl Run {
 
     /// The operator leaves out the next frame.
     pub fn skip(&mut self, io: &mut Context, now: Instant) {
-        let skipped = self.playback.next;
-        self.playback.choose(self.playback.after(skipped), false);
-        io.log.record(now, EventKind::Skipped { frame: skipped.frame });
+        io.log.record(now, EventKind::Skipped { frame: self.playback.next.frame });
         self.playback.music.lead();
-        self.plan_chosen(io, now);
+        self.leave_out(io, now);
     }
 
-    /// The next frame is left out, because the music is ahead.
+    /// The next frame is left out.
     pub fn leave_out(&mut self, io: &mut Context, now: Instant) {
         self.playback.choose(self.playback.after(self.playback.next), false);
         self.plan_chosen(io, now);

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use lightbots_base::{Span, Vec2};
+use lightbots_base::{Piece, Span, Vec2};
 
 use super::timing::{TimedDrive, timed};
 use super::{Prescribed, PrescribedWay, Stagger};
 use crate::cancel::Cancel;
 use crate::margins::COMFORT_M;
 use crate::motion::delayed;
+use crate::problem::ASKED_SLACK_S;
 use crate::proof::{Fault, FaultKind, Proof, ProofInput, prove_unless};
 use crate::{Closest, Infeasible, Path, Transition, TransitionProblem};
 
@@ -16,8 +17,6 @@ use crate::{Closest, Infeasible, Path, Transition, TransitionProblem};
 const NEAR_START_M: f64 = 0.006;
 /// Farthest that a pixel may be from the end of its way, metres: files round places to a tenth of a millimetre.
 const NEAR_GOAL_M: f64 = 0.001;
-/// A drive may take this much longer than asked, seconds.
-const ASKED_SLACK_S: f64 = 0.005;
 /// Shares of the asked delay that are tried, one after the other.
 const DELAY_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 
@@ -108,7 +107,7 @@ fn joined(problem: &TransitionProblem) -> impl Fn(((&PrescribedWay, &usize), &Ve
 /// The path with its begin and its end moved a little; velocities there stay.
 fn path_between(path: &Path, start: Vec2, goal: Vec2) -> Path {
     let (first, last) = (start - path.start, goal - path.as_ref().end());
-    let moves = |(from, _, piece): &(Vec2, Span, &lightbots_base::Piece)| !piece.is_rest(*from);
+    let moves = |(from, _, piece): &(Vec2, Span, &Piece)| !piece.is_rest(*from);
     let moving: Vec<bool> = path.as_ref().timed().map(|piece| moves(&piece)).collect();
     let begins = moving.iter().position(|moves| *moves).unwrap_or(moving.len());
     let ends = moving.iter().rposition(|moves| *moves).unwrap_or(0);
@@ -138,12 +137,12 @@ fn of_robots(
 ) -> (Vec<Path>, Vec<Option<usize>>) {
     let whole = Path::longest(&ways);
     let mut goal_of = vec![None; problem.starts.len()];
-    let resting = |&at: &Vec2| Path { start: at, pieces: vec![lightbots_base::Piece::rest(at, whole)] };
+    let resting = |&at: &Vec2| Path { start: at, pieces: vec![Piece::rest(at, whole)] };
     let mut paths: Vec<Path> = problem.starts.iter().map(resting).collect();
     for (goal, (mut path, &robot)) in ways.into_iter().zip(start_of).enumerate() {
         let left = whole - path.as_ref().duration();
         if left > Span::ZERO {
-            path.pieces.push(lightbots_base::Piece::rest(path.as_ref().end(), left));
+            path.pieces.push(Piece::rest(path.as_ref().end(), left));
         }
         goal_of[robot] = Some(goal);
         paths[robot] = path;

@@ -17,12 +17,9 @@ const SLACK_M: f64 = 0.05;
 /// Share of its own time by which the circles of the robots that begin last may begin later.
 const MOST_LATE: f64 = 0.75;
 
-/// The picture after a motion.
-pub type MovedPicture = BTreeMap<u32, Vec2>;
-
 /// Where the pixels of `frame` are after `motion`, by their ids, stage metres. They stay where the motion is none of a
 /// formation.
-pub fn moved(motion: &PictureMotion, frame: &Frame) -> MovedPicture {
+pub fn moved(motion: &PictureMotion, frame: &Frame) -> PlacesById {
     let before = picture(frame);
     let ways = ways(motion, &before);
     before.iter().map(|(&id, &at)| (id, ways.get(&id).and_then(PrescribedWay::end).unwrap_or(at))).collect()
@@ -31,7 +28,10 @@ pub fn moved(motion: &PictureMotion, frame: &Frame) -> MovedPicture {
 /// The way of each pixel's robot. Empty for motions that are none of a formation.
 pub(super) fn ways(motion: &PictureMotion, before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     match motion {
-        PictureMotion::Travel { along } => each(before, |at| whole(travel(along, at))),
+        PictureMotion::Travel { along } => {
+            let travel = travel(along);
+            each(before, |at| whole(travel(at)))
+        }
         PictureMotion::Turn { center, turn, size } => {
             let kind = |at| ShapeCurve::Turn { center: *center, arm: at - *center, turn: *turn, size: *size };
             each(before, |at| whole(kind(at)))
@@ -56,13 +56,14 @@ fn whole(curve: ShapeCurve) -> Vec<WayPart> {
     vec![WayPart { during: (0.0, 1.0), shape: curve.into() }]
 }
 
-fn travel(along: &[Vec2], at: Vec2) -> ShapeCurve {
-    if let [by] = along {
-        return ShapeCurve::Line { from: at, to: at + *by };
-    }
+/// The curve of each robot, by where it stands. All share one track.
+fn travel(along: &[Vec2]) -> impl Fn(Vec2) -> ShapeCurve {
     let points: Vec<Vec2> = [Vec2::ZERO].into_iter().chain(along.iter().copied()).collect();
     let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
-    ShapeCurve::Stretch { from_m: 0.0, to_m: track.length_m(), offset: at, track }
+    move |at| match along {
+        [by] => ShapeCurve::Line { from: at, to: at + *by },
+        _ => ShapeCurve::Stretch { from_m: 0.0, to_m: track.length_m(), offset: at, track: track.clone() },
+    }
 }
 
 /// Out and back, `times` times. Robots drive back backwards, so that they need no time to turn.

@@ -1,5 +1,7 @@
 //! Trajectories that a show holds, taken as they are.
 
+use std::collections::BTreeMap;
+
 use lightbots_base::{Piece, Span, Vec2};
 use lightbots_show::{Show, Trajectory};
 
@@ -9,16 +11,16 @@ use crate::{BoundFrame, Path};
 /// The trajectories to a frame. `None` where it has none. A pixel without one has its robot rest at its place.
 pub(super) fn trajectories(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Prescribed> {
     let id = show.frames[index].id.as_deref()?;
-    let of_frame = |trajectory: &&Trajectory| trajectory.frame.as_deref() == Some(id);
-    let given: Vec<&Trajectory> = show.trajectories.iter().filter(of_frame).collect();
+    let mut given: BTreeMap<u32, &Trajectory> = BTreeMap::new();
+    for trajectory in show.trajectories.iter().filter(|trajectory| trajectory.frame.as_deref() == Some(id)) {
+        given.entry(trajectory.pixel).or_insert(trajectory);
+    }
     if given.is_empty() {
         return None;
     }
     let ways = bound.pixels.iter().map(|pixel| {
-        let path = given.iter().find(|trajectory| trajectory.pixel == pixel.id);
-        PrescribedWay::Timed(
-            path.map_or(Path { start: pixel.at, pieces: Vec::new() }, |trajectory| path_of(trajectory)),
-        )
+        let rest = Path { start: pixel.at, pieces: Vec::new() };
+        PrescribedWay::Timed(given.get(&pixel.id).map_or(rest, |trajectory| path_of(trajectory)))
     });
     Some(Prescribed { name: "trajectories", ways: ways.collect(), stagger: None })
 }

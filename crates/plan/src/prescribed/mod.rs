@@ -16,11 +16,11 @@ mod tests;
 mod timing;
 
 pub(crate) use drive::{attempt, staggered};
-pub use formation::{MovedPicture, moved};
+pub use formation::moved;
 
 use crate::{BoundFrame, Path};
 use lightbots_base::Vec2;
-use lightbots_show::{PictureMotion, Show};
+use lightbots_show::{Frame, PictureMotion, Show};
 use shape::Shape;
 use std::collections::BTreeMap;
 
@@ -124,8 +124,8 @@ fn noun(motion: &PictureMotion) -> &'static str {
 }
 
 /// Places of a frame's pixels by their ids, stage metres.
-pub(crate) type PlacesById = BTreeMap<u32, Vec2>;
+pub type PlacesById = BTreeMap<u32, Vec2>;
 
-fn picture(frame: &lightbots_show::Frame) -> PlacesById {
+fn picture(frame: &Frame) -> PlacesById {
     frame.pixels.iter().map(|pixel| (pixel.id, pixel.at)).collect()
 }

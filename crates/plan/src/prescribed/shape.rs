@@ -129,7 +129,7 @@ fn eased(share: f64) -> f64 {
 }
 
 /// `arm` turned counter-clockwise by `angle` radians.
-pub(crate) fn rotated(arm: Vec2, angle: f64) -> Vec2 {
+fn rotated(arm: Vec2, angle: f64) -> Vec2 {
     let (sin, cos) = angle.sin_cos();
     Vec2::new(arm.x * cos - arm.y * sin, arm.x * sin + arm.y * cos)
 }

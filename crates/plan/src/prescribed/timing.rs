@@ -13,6 +13,8 @@ use crate::motion::{quarter_turn, whole_millis};
 const MOST_TRIES: usize = 24;
 /// Share of the limits that is planned with: rounding to whole milliseconds needs the rest.
 const SHARE: f64 = 0.995;
+/// A shorter part leads nowhere, metres: its robot rests.
+const STILL_M: f64 = 1e-6;
 /// Below this speed a path may bend as it likes, m/s. See the proof's `CREEP_MPS`; this is less.
 const SLOW_MPS: f64 = 0.01;
 
@@ -32,9 +34,10 @@ pub(super) fn timed(
     asked: Option<Span>,
 ) -> TimedDrive {
     let rest = quarter_turn(limits);
-    let mut drive = first_guess(ways, limits);
+    let ways: Vec<MovingWay<'_>> = ways.iter().map(MovingWay::new).collect();
+    let mut drive = first_guess(&ways, limits);
     for _ in 0..MOST_TRIES {
-        let excess = worst(ways, limits, easing, drive);
+        let excess = worst(&ways, limits, easing, drive);
         if excess <= 1.0 {
             break;
         }
@@ -46,27 +49,37 @@ pub(super) fn timed(
     TimedDrive { paths, least }
 }
 
+/// A way, and of its parts those that lead anywhere. Lengths are sums, which each try would take anew.
+struct MovingWay<'a> {
+    way: &'a PrescribedWay,
+    /// Parts with their lengths, metres.
+    parts: Vec<(&'a WayPart, f64)>,
+}
+
+impl<'a> MovingWay<'a> {
+    fn new(way: &'a PrescribedWay) -> Self {
+        let parts = match way {
+            PrescribedWay::Parts(parts) => &parts[..],
+            PrescribedWay::Timed(_) => &[],
+        };
+        let lengths = parts.iter().map(|part| (part, part.shape.length_m()));
+        Self { way, parts: lengths.filter(|(_, length_m)| *length_m >= STILL_M).collect() }
+    }
+}
+
 /// A duration that no way can undercut.
-fn first_guess(ways: &[PrescribedWay], limits: &Limits) -> Span {
+fn first_guess(ways: &[MovingWay<'_>], limits: &Limits) -> Span {
     let speed = limits.speed_mps.max(1e-3);
-    let parts = ways.iter().flat_map(parts);
-    let seconds = parts.map(|part| {
+    let seconds = ways.iter().flat_map(|way| &way.parts).map(|(part, length_m)| {
         let (from, to) = part.during;
-        part.shape.length_m() / speed / (to - from).max(1e-6)
+        length_m / speed / (to - from).max(1e-6)
     });
     whole_millis(seconds.fold(0.0, f64::max))
 }
 
-fn parts(way: &PrescribedWay) -> &[WayPart] {
-    match way {
-        PrescribedWay::Parts(parts) => parts,
-        PrescribedWay::Timed(_) => &[],
-    }
-}
-
 /// Factor by which the drive must be slower so that all limits hold.
-fn worst(ways: &[PrescribedWay], limits: &Limits, easing: Easing, drive: Span) -> f64 {
-    let one = |way: &PrescribedWay| {
+fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -> f64 {
+    let one = |way: &MovingWay<'_>| {
         let path = path(way, limits, easing, drive, quarter_turn(limits) + drive);
         let pieces = path.as_ref().timed().map(|(from, _, piece)| excess(from, piece, limits));
         pieces.fold(0.0, f64::max)
@@ -93,20 +106,18 @@ fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
 }
 
 /// The timed path of a way: a drive of `drive` after the rest in which robots turn, `whole` together.
-fn path(way: &PrescribedWay, limits: &Limits, easing: Easing, drive: Span, whole: Span) -> Path {
-    let parts = match way {
-        PrescribedWay::Timed(path) => return path.clone(),
-        PrescribedWay::Parts(parts) => parts,
-    };
-    let start = way.start().unwrap_or(Vec2::ZERO);
+fn path(moving: &MovingWay<'_>, limits: &Limits, easing: Easing, drive: Span, whole: Span) -> Path {
+    if let PrescribedWay::Timed(path) = moving.way {
+        return path.clone();
+    }
+    let start = moving.way.start().unwrap_or(Vec2::ZERO);
     let mut path = Path { start, pieces: Vec::new() };
     let mut now = Span::ZERO;
     let before = whole - drive;
     let moment = |share: f64| before + Span::from_millis((drive.as_secs() * 1e3 * share).round() as i64);
-    for part in parts {
+    for (part, _) in &moving.parts {
         let (from, to) = (moment(part.during.0), moment(part.during.1));
-        let is_still = part.shape.length_m() < 1e-6;
-        if is_still || to <= from {
+        if to <= from {
             continue;
         }
         if from > now {
@@ -116,11 +127,7 @@ fn path(way: &PrescribedWay, limits: &Limits, easing: Easing, drive: Span, whole
         now = to;
     }
     if whole > now {
-        let at = path.as_ref().end();
-        match path.pieces.last_mut().filter(|_| now == Span::ZERO) {
-            Some(rest) => rest.duration = whole,
-            None => path.pieces.push(Piece::rest(at, whole - now)),
-        }
+        path.pieces.push(Piece::rest(path.as_ref().end(), whole - now));
     }
     path
 }

@@ -5,6 +5,7 @@ mod issues;
 mod tests;
 
 use crate::cancel::{Cancel, Cancelled, unless};
+use crate::problem::ASKED_SLACK_S;
 use crate::proof::stop_safe::{StopSafety, UnsafeMoment};
 use crate::raise::raised;
 use crate::transition::attempt;
@@ -211,7 +212,7 @@ fn chained(
         let transition = attempt.transition;
         let takes_s = transition.duration.as_secs();
         if let Some(asked_s) =
-            frame.transition_s.filter(|&asked_s| asked_s >= 0.0 && takes_s > asked_s + 5e-3)
+            frame.transition_s.filter(|&asked_s| asked_s >= 0.0 && takes_s > asked_s + ASKED_SLACK_S)
         {
             plan.issues.push(issues::takes_longer(show, index, asked_s, takes_s));
         }

@@ -2,8 +2,8 @@ import { Select, Text } from '@mantine/core';
 import { ALONGS, alongOf, isUsed, numberOf, placeOf, type Along } from '../../model/layerKinds';
 import type { Layer } from '../../model/layers';
 import { LAYER_KINDS } from '../../model/layerKinds';
+import { AngleField } from '../../parts/AngleField';
 import { LengthInput } from '../../parts/LengthInput';
-import { NumberField } from '../../parts/NumberField';
 import { useEditing } from '../context';
 import { setSettings } from './lightActs';
 import styles from './Light.module.css';
@@ -74,17 +74,11 @@ export function SpotFields({ index, layer }: { index: number; layer: Layer }) {
           />
         ) : null}
         {isUsed(layer, 'angle') ? (
-          <NumberField
-            label="Direction (°)"
-            unit="°"
-            min={-360}
-            max={360}
-            digits={1}
-            step={15}
-            value={(numberOf(layer, 'angle') * 180) / Math.PI}
-            onChange={(degrees) =>
-              set({ angle: Math.round(((degrees * Math.PI) / 180) * 1e4) / 1e4 })
-            }
+          <AngleField
+            label="Direction"
+            most={360}
+            value={numberOf(layer, 'angle')}
+            onChange={(angle) => set({ angle: Math.round(angle * 1e4) / 1e4 })}
           />
         ) : null}
       </div>

@@ -1,13 +1,11 @@
 import { Text } from '@mantine/core';
 import type { Motion, Pair } from '../../model/motion';
+import { AngleField } from '../../parts/AngleField';
 import { LengthInput } from '../../parts/LengthInput';
 import { NumberField } from '../../parts/NumberField';
 import styles from '../light/Light.module.css';
 import { CurvePoints } from './CurvePoints';
-import { Degrees, Percent, Times } from './MotionNumbers';
-
-/** Farthest place of a motion, metres, as docs/show-format.md has it. */
-const FAR_M = 1000;
+import { Percent, Times } from './MotionNumbers';
 
 type Set = (motion: Motion) => void;
 
@@ -15,17 +13,10 @@ type Set = (motion: Motion) => void;
 export function MotionFields({ motion, set }: { motion: Motion; set: Set }) {
   switch (motion.kind) {
     case 'travel':
-      return (
-        <CurvePoints
-          name="Move"
-          along={motion.along}
-          onChange={(along) => set({ ...motion, along })}
-        />
-      );
     case 'follow':
       return (
         <CurvePoints
-          name="Point"
+          name={motion.kind === 'travel' ? 'Move' : 'Point'}
           along={motion.along}
           onChange={(along) => set({ ...motion, along })}
         />
@@ -35,8 +26,8 @@ export function MotionFields({ motion, set }: { motion: Motion; set: Set }) {
         <>
           <CenterFields center={motion.center} onChange={(center) => set({ ...motion, center })} />
           <div className={styles.pair}>
-            <Degrees
-              label="Turn (°)"
+            <AngleField
+              label="Turn"
               most={5700}
               value={motion.turn}
               onChange={(turn) => set({ ...motion, turn })}
@@ -60,8 +51,8 @@ export function MotionFields({ motion, set }: { motion: Motion; set: Set }) {
     case 'stagger':
       return (
         <div className={styles.pair}>
-          <Degrees
-            label="Direction (°)"
+          <AngleField
+            label="Direction"
             most={360}
             value={motion.direction}
             onChange={(direction) => set({ ...motion, direction })}
@@ -94,21 +85,19 @@ function WaveFields({ motion, set }: { motion: Motion & { kind: 'wave' }; set: S
         <LengthInput
           label="Radius"
           min={0.001}
-          max={FAR_M}
           value={motion.radius_m}
           onChange={(radius_m) => set({ ...motion, radius_m })}
         />
         <LengthInput
           label="Wavelength"
           min={0.001}
-          max={FAR_M}
           value={motion.length_m}
           onChange={(length_m) => set({ ...motion, length_m })}
         />
       </div>
       <div className={styles.pair}>
-        <Degrees
-          label="Direction (°)"
+        <AngleField
+          label="Direction"
           most={360}
           value={motion.direction}
           onChange={(direction) => set({ ...motion, direction })}

@@ -5,24 +5,6 @@ interface NumberProps {
   onChange: (value: number) => void;
 }
 
-export const Degrees = ({
-  label,
-  most,
-  value,
-  onChange,
-}: NumberProps & { label: string; most: number }) => (
-  <NumberField
-    label={label}
-    unit="°"
-    min={-most}
-    max={most}
-    digits={1}
-    step={15}
-    value={(value * 180) / Math.PI}
-    onChange={(degrees) => onChange((degrees * Math.PI) / 180)}
-  />
-);
-
 export const Percent = ({ value, onChange }: NumberProps) => (
   <NumberField
     label="Size (%)"

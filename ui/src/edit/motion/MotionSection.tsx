@@ -1,6 +1,6 @@
 import { Select, Stack } from '@mantine/core';
-import type { MotionKind } from '../../model/motion';
 import { useEffect } from 'react';
+import type { MotionKind } from '../../model/motion';
 import { useEditing, useEditor } from '../context';
 import { applyMotion, chooseMotion } from './motionActs';
 import { MotionFields } from './MotionFields';

@@ -1,4 +1,5 @@
 import { messageOf } from '../../base/errors';
+import { bare } from '../../make/drive';
 import { writeShow } from '../../model/json';
 import { isOfFormation, type Motion, type MotionKind } from '../../model/motion';
 import { setMotion, usualMotion, type MovedPlaces } from '../../model/movedFrames';
@@ -34,8 +35,7 @@ async function placesAfter(
   before: Frame,
   motion: Motion,
 ): Promise<MovedPlaces | 'none'> {
-  const bare = { ...before, id: null, at_s: null, sources: [], motion: null };
-  const frames = [bare, { ...bare, motion }];
+  const frames = [bare(before), { ...bare(before), motion }];
   const text = JSON.stringify(writeShow({ ...show, music: null, frames, rest: {} }));
   try {
     const answer = await maker.moved(new TextEncoder().encode(text));

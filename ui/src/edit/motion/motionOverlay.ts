@@ -2,10 +2,8 @@ import { motionGrips, originOf, type ShownMotion } from '../../model/motionTool'
 import type { EditorState } from '../../model/editorState';
 import type { Motion } from '../../model/motion';
 import { canvasFromStage, type Camera } from '../../stage/camera';
-import { FLOOR } from '../../stage/palette';
 import type { Editing } from '../editing';
-
-const DOT_PX = 6;
+import { beginHandles, dashedLine, roundHandle } from '../handlePaint';
 
 /** The motion whose handles the stage shows; null: none. `drawn`: as it is while a handle is dragged. */
 export function shownMotion(
@@ -25,18 +23,7 @@ export const motionAtHand = ({ editor, moving, tool }: Editing) =>
 export function paintMotion(c: CanvasRenderingContext2D, camera: Camera, shown: ShownMotion) {
   const grips = motionGrips(shown).map((at) => canvasFromStage(camera, at));
   const begin = shown.motion.kind === 'travel' ? [canvasFromStage(camera, originOf(shown))] : [];
-  c.strokeStyle = FLOOR.chosen;
-  c.fillStyle = FLOOR.plate;
-  c.lineWidth = 1.5;
-  c.setLineDash([5, 4]);
-  c.beginPath();
-  [...begin, ...grips].forEach(({ x, y }, i) => (i === 0 ? c.moveTo(x, y) : c.lineTo(x, y)));
-  c.stroke();
-  c.setLineDash([]);
-  for (const { x, y } of grips) {
-    c.beginPath();
-    c.arc(x, y, DOT_PX, 0, 2 * Math.PI);
-    c.fill();
-    c.stroke();
-  }
+  beginHandles(c);
+  dashedLine(c, [...begin, ...grips]);
+  grips.forEach((grip) => roundHandle(c, grip));
 }

@@ -1,5 +1,5 @@
-import { nail } from '../../model/nails';
 import { secondsText, shortSeconds } from '../../base/time';
+import { setFrames } from '../../model/commands';
 import { cueOf, setCue } from '../../model/cues';
 import { xOf } from '../../model/timelineAxis';
 import {
@@ -101,7 +101,7 @@ export function toggleNail(editing: Editing, view: TimelineView) {
   const block = blocksNow(editing, view)[frame];
   if (!block || frame === 0) return;
   const at_s = block.frame.at_s === null ? Math.round(block.shownFrom_s * 100) / 100 : null;
-  editing.editor.change('Fixed time', (show) => nail(show, frame, at_s));
+  editing.editor.change('Fixed time', (show) => setFrames(show, [frame], { at_s }));
   sayBlock(editing, view);
 }
 

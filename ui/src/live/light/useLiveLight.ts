@@ -18,18 +18,13 @@ export function useLiveLight(): { light: LiveLight; pads: MidiPads; code: LiveTi
   }, [session, isRefused]);
   const code = useTimeCode(!isRefused);
   const pads = useMemo(() => {
-    const acts = PAD_ACTS.map(
-      ({ operation }) =>
-        () =>
-          void session.ask(operation),
-    );
     const press = (index: number) => {
-      const act = acts[index - LIGHT_PRESETS.length];
-      if (act) act();
+      const act = PAD_ACTS[index - LIGHT_PRESETS.length];
+      if (act) void session.ask(act.operation);
       else light.press(index);
     };
     return createMidiPads(midiOfBrowser(), press, kept(), {
-      presses: acts.length,
+      presses: PAD_ACTS.length,
       hear: code.hear,
     });
   }, [light, code, session]);

@@ -2,7 +2,7 @@ import { Checkbox, TextInput } from '@mantine/core';
 import { useState } from 'react';
 import { useStore } from '../../base/store';
 import type { PadsState } from '../light/midiPads';
-import { clockText, readClock } from './timeCode';
+import { codeText, readClock } from './timeCode';
 import { startClock, type LiveTimeCode } from './useTimeCode';
 import styles from '../light/LightTab.module.css';
 
@@ -14,7 +14,7 @@ const WHY_NOT: Partial<Record<PadsState, string>> = {
 /** Time code: whether it plays the show, and when. */
 export function TimeCodeFields({ code, midi }: { code: LiveTimeCode; midi: PadsState }) {
   const isOn = useStore(code.isOn);
-  const now = useStore(code.code_s, (time_s) => (time_s === null ? null : clockText(time_s)));
+  const now = useStore(code.code_s, (time_s) => (time_s === null ? null : codeText(time_s)));
   const start = useStore(startClock);
   const [typed, setTyped] = useState<string | null>(null);
   if (midi === 'missing' || midi === 'refused') return null;

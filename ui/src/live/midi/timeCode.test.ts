@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { clockText, createTimeCode, readClock } from './timeCode';
+import { codeText, createTimeCode, readClock } from './timeCode';
 
 /** The eight messages of a time. */
 function quarters(hours: number, minutes: number, seconds: number, frames: number, rate: number) {
@@ -48,6 +48,6 @@ test('times are typed and said', () => {
   expect(readClock(' 0:0:7 ')).toBe(7);
   for (const text of ['', '1:2', '24:00:00', '00:60:00', '00:00:60', 'a:b:c', '-1:00:00'])
     expect(readClock(text)).toBeNull();
-  expect(clockText(3723.5)).toBe('01:02:03.5');
-  expect(readClock(clockText(86_399.9))).toBeCloseTo(86_399.9, 6);
+  expect(codeText(3723.5)).toBe('01:02:03.5');
+  expect(readClock(codeText(86_399.9))).toBeCloseTo(86_399.9, 6);
 });

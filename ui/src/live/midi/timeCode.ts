@@ -64,7 +64,7 @@ export function readClock(text: string): number | null {
 }
 
 /** Seconds as `01:02:03.5`. */
-export function clockText(time_s: number): string {
+export function codeText(time_s: number): string {
   const tenths = Math.floor(time_s * 10 + 1e-6);
   const [hours, minutes] = [Math.floor(tenths / 36_000), Math.floor(tenths / 600) % 60];
   const two = (value: number) => String(value).padStart(2, '0');

@@ -112,14 +112,9 @@ fn of_run(kind: &EventKind) -> Option<FirstCard> {
                 Vec::new(),
             )
         }
-        E::LeftOutForMusic { frame, late } => {
-            let title = format!(
-                "Frame {} is left out: robots are {:.1} s behind the music.",
-                frame + 1,
-                late.as_secs()
-            );
+        E::LeftOutForMusic { .. } => {
             let done = "The next picture stands until the music is there.";
-            let card = Card::new(title, done, "Look at the robots that the others waited for.");
+            let card = Card::new(kind.to_string(), done, "Look at the robots that the others waited for.");
             (Subject::Music, Information, card, Vec::new())
         }
         E::RunEnded { outcome: RunOutcome::Failed(line), frames_played, .. } => {
