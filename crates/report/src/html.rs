@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::charts;
 use crate::escape::{escaped, json_in_html};
 use crate::model::{FrameFigures, RobotFigures, RunKind, ShowReport};
+use crate::packed;
 use crate::track::Scrub;
 use crate::words::{clock, count, millimetres, some};
 
@@ -16,11 +17,14 @@ const SCRIPT: &str = include_str!("page.js");
 const SCHEME: &str = "if (matchMedia('(prefers-color-scheme: light)').matches) \
      document.documentElement.dataset.mantineColorScheme = 'light';";
 
+/// Most rows of robots that are laid out before they are seen. A thousand take a quarter of a second.
+const ROWS_LAID_OUT: usize = 100;
+
 /// The page. The same report gives the same bytes.
 pub fn page(report: &ShowReport, scrub: &Scrub) -> String {
     let title = if report.show.trim().is_empty() { "A show".to_owned() } else { escaped(&report.show) };
     let kind = kind(report.kind);
-    let data = json_in_html(&serde_json::to_string(scrub).unwrap_or_default());
+    let (facts, numbers) = (json_in_html(&packed::facts(scrub)), packed::numbers(scrub));
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" \
          content=\"width=device-width\"><title>{title} – report</title><style>{TOKENS}{STYLE}</style>\
@@ -41,7 +45,8 @@ pub fn page(report: &ShowReport, scrub: &Scrub) -> String {
     page.push_str("</div></main>\n");
     let _ = write!(
         page,
-        "<script type=\"application/json\" id=\"replay-data\">{data}</script><script>{SCRIPT}</script></body></html>"
+        "<script type=\"application/json\" id=\"replay-facts\">{facts}</script>\
+         <script type=\"text/plain\" id=\"replay-numbers\">{numbers}</script><script>{SCRIPT}</script></body></html>"
     );
     page
 }
@@ -207,8 +212,11 @@ fn approaches(page: &mut String, report: &ShowReport) {
 }
 
 fn robots(page: &mut String, robots: &[RobotFigures]) {
-    page.push_str(
-        "<section class=\"box wide\"><div class=\"head\"><h2>Robots</h2></div><div class=\"scroll\" tabindex=\"0\"><table><thead><tr>",
+    let many = if robots.len() > ROWS_LAID_OUT { " many" } else { "" };
+    let _ = write!(
+        page,
+        "<section class=\"box wide\"><div class=\"head\"><h2>Robots</h2></div>\
+         <div class=\"scroll{many}\" tabindex=\"0\"><table><thead><tr>"
     );
     for title in
         ["Robot", "Arrivals", "Latest", "Off pixel", "Off route", "Brakes", "Nearest", "Messages", "Battery"]
@@ -265,7 +273,7 @@ mod tests {
         };
         let page = page(&report, &Scrub::default());
         assert!(!page.contains("<script>alert"), "{page}");
-        assert_eq!(page.matches("<script").count(), 3);
+        assert_eq!(page.matches("<script").count(), 4);
         assert_eq!(page, super::page(&report, &Scrub::default()), "the same bytes");
         assert!(!page.contains("http://") && !page.contains("https://") && !page.contains("NaN"));
     }

@@ -15,6 +15,7 @@ mod frames;
 mod growing;
 mod html;
 mod model;
+mod packed;
 mod robots;
 mod track;
 mod truth;

@@ -1,7 +1,7 @@
 'use strict';
 (() => {
-  const data = JSON.parse(document.getElementById('replay-data').textContent);
   const $ = (id) => document.getElementById(id);
+  const data = JSON.parse($('replay-facts').textContent);
   const canvas = $('floor');
   const slider = $('moment');
   const play = $('play');
@@ -13,17 +13,43 @@
   let running = false;
   let last = 0;
 
-  /** Sums of differences: times in hundredths of a second, places in millimetres. */
-  const summed = (list, width) => {
-    const out = new Float64Array(list.length);
-    for (let i = 0; i < list.length; i += 1) out[i] = list[i] + (i >= width ? out[i - width] : 0);
-    return out;
+  /** The robots' samples: times in hundredths of a second, places in millimetres. None until they are unpacked. */
+  let robots = [];
+  /** Unpacks the numbers: crates/report/src/packed.rs says how they stand. */
+  const unpack = async () => {
+    const text = atob($('replay-numbers').textContent);
+    const packed = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; i += 1) packed[i] = text.charCodeAt(i);
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+    let read = 0;
+    const next = () => {
+      let [number, weight, byte] = [0, 1, 0];
+      do {
+        byte = bytes[read];
+        read += 1;
+        number += (byte & 127) * weight;
+        weight *= 128;
+      } while (byte > 127);
+      return number % 2 === 0 ? number / 2 : -(number + 1) / 2;
+    };
+    const lists = (at, width, summed) => {
+      const made = data.tracks.map((track) => new Float64Array(track[at] * width));
+      for (let column = 0; column < width; column += 1) {
+        for (const list of made) {
+          let sum = 0;
+          for (let i = column; i < list.length; i += width) {
+            sum = next() + (column < summed ? sum : 0);
+            list[i] = sum;
+          }
+        }
+      }
+      return made;
+    };
+    const [planned, driven, light] = [lists(0, 3, 3), lists(1, 3, 3), lists(2, 2, 1)];
+    robots = data.tracks.map((track, i) => ({ planned: planned[i], driven: driven[i], light: light[i], lost: track[3] }));
+    paint();
   };
-  const robots = data.tracks.map((track) => {
-    const light = track.light.slice();
-    for (let i = 2; i < light.length; i += 2) light[i] += light[i - 2];
-    return { planned: summed(track.planned, 3), driven: summed(track.driven, 3), light, lost: track.lost };
-  });
 
   /** Index of the last sample at or before a time, by halving. */
   const before = (samples, width, time) => {
@@ -230,4 +256,5 @@
   }
   new ResizeObserver(paint).observe(canvas);
   show(0);
+  unpack();
 })();

@@ -2,15 +2,14 @@
 //!
 //! The rule: a sample is left out where a straight line in time between the samples that are kept passes within
 //! [`TOLERANCE_M`] of it. While a run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has
-//! fewer, so that neither the memory nor the page of a long run grows; the page says the tolerance.
+//! fewer, so that neither the memory nor the page of a long run grows; the page carries the tolerance.
 
 use lightbots_base::Vec2;
-use serde::Serialize;
 
 /// Largest distance between a place and the line that stands for it, metres. Below, pages grow; above, a line on a floor of
 /// three metres is off by more than a pixel of a screen.
 const TOLERANCE_M: f64 = 0.003;
-/// Most samples of a report: about 9 bytes each, and 24 while the run is on. A page of 9 MB opens in about a second.
+/// Most samples of a report: about 2.5 bytes each in the page, and 24 while the run is on.
 pub(crate) const SAMPLES_MAX: usize = 1_000_000;
 /// Most samples between two that are kept, which bounds the work for a robot that stands: then one is kept anyway.
 const SKIPPED_MAX: usize = 64;
@@ -99,7 +98,7 @@ fn thinned(samples: &[Sample], tolerance_m: f64) -> Vec<Sample> {
 }
 
 /// What a replay to scrub shows.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scrub {
     /// Floor, metres.
     pub floor: [f64; 2],
@@ -116,7 +115,7 @@ pub struct Scrub {
 }
 
 /// One robot's places and lights.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScrubTrack {
     /// Where its paths said it should be: differences of time (1/100 s), x and y (mm).
     pub planned: Vec<i32>,
