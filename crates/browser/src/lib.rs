@@ -4,7 +4,7 @@
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
 //! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
 //! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`moved_answer`] moves a picture as one, [`PlannedLight`] has its
-//! colours with [`LightPictures`], [`choices`] lists what settings may name, [`file()`] tells what a file is,
+//! colours with [`LightPictures`], [`FilmPainter`] paints films of it, [`choices`] lists what settings may name, [`file()`] tells what a file is,
 //! [`beats_answer`] finds beats of music; the functions below them are the same for JavaScript.
 
 mod answer;
@@ -17,6 +17,7 @@ mod light;
 mod make;
 mod moved;
 mod plan;
+mod show_film;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -29,6 +30,7 @@ pub use light::{LightPictures, PlannedLight};
 pub use make::make_answer;
 pub use moved::moved_answer;
 pub use plan::plan_answer;
+pub use show_film::FilmPainter;
 
 /// Makes a frame: a `MakeRequest` as JSON and the bytes of the source's file, empty without one; a `MakeAnswer` as JSON.
 #[wasm_bindgen]

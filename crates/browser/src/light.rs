@@ -5,7 +5,7 @@ use lightbots_base::{Piece, Span, Vec2};
 use lightbots_lighting::{LAYER_PICTURES_MAX, PlannedDrive, PlannedShow, ShowLight, floor_picture};
 use lightbots_make::layer_picture;
 use lightbots_plan::Path;
-use lightbots_show::{Frame, LayerPicture, Show};
+use lightbots_show::{Frame, LayerPicture, Show, Stage};
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -99,16 +99,16 @@ impl PlannedLight {
     /// Colours at `count` moments `step_s` apart: for each moment, red, green and blue of each robot. `from_s` counts from
     /// the start of the drive to the first frame. Robots that a frame does not have are dark.
     pub fn colours(&self, from_s: f64, step_s: f64, count: usize) -> Vec<u8> {
-        let drives = self.drives.iter().map(Drive::as_planned).collect();
-        let planned = PlannedShow::of_drives(&self.show, drives, &self.light);
-        let (mut scenes, mut scene, mut bytes) = (planned.scenes(), Vec::new(), Vec::new());
-        for nth in 0..self.count_of(count) {
-            scenes.at(from_s + step_s * nth as f64, &mut scene);
-            let start = bytes.len();
-            bytes.extend(scene.iter().flat_map(|robot| [robot.colour.r, robot.colour.g, robot.colour.b]));
-            bytes.resize(start + 3 * self.robots, 0);
-        }
-        bytes
+        self.with_planned(|planned| {
+            let (mut scenes, mut scene, mut bytes) = (planned.scenes(), Vec::new(), Vec::new());
+            for nth in 0..self.count_of(count) {
+                scenes.at(from_s + step_s * nth as f64, &mut scene);
+                let start = bytes.len();
+                bytes.extend(scene.iter().flat_map(|robot| [robot.colour.r, robot.colour.g, robot.colour.b]));
+                bytes.resize(start + 3 * self.robots, 0);
+            }
+            bytes
+        })
     }
 }
 
@@ -125,6 +125,16 @@ impl PlannedLight {
         let robots = drives.iter().map(|drive| drive.pixels.len()).max().unwrap_or(0);
         let light = pictures.light(&show);
         Ok(Self { show, light, drives, robots, error: None })
+    }
+
+    /// The show with its drives.
+    pub(crate) fn with_planned<T>(&self, of: impl FnOnce(&PlannedShow<'_>) -> T) -> T {
+        let drives = self.drives.iter().map(Drive::as_planned).collect();
+        of(&PlannedShow::of_drives(&self.show, drives, &self.light))
+    }
+
+    pub(crate) fn stage(&self) -> &Stage {
+        &self.show.stage
     }
 
     fn count_of(&self, count: usize) -> usize {

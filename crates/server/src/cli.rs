@@ -6,6 +6,7 @@ mod desk;
 mod lamps;
 mod make;
 mod passwd;
+mod render;
 mod replay;
 mod report;
 
@@ -28,6 +29,7 @@ pub use desk::DeskArguments;
 pub use lamps::LampArguments;
 pub use make::MakeArguments;
 pub use passwd::PasswdArguments;
+pub use render::RenderArguments;
 pub use replay::ReplayArguments;
 pub use report::ReportArguments;
 
@@ -66,6 +68,8 @@ pub enum Command {
     Broker(BrokerOnlyArguments),
     /// Make a show of words, shapes, drawings, pictures, lists and animations, for any number of robots
     Make(Box<MakeArguments>),
+    /// Make what the audience sees: a film, a contact sheet; or a sheet for the crew
+    Render(Box<RenderArguments>),
     /// Convert between show formats, by the files' endings
     Convert(ConvertArguments),
     /// Take a robot on a broker through the protocol, rule by rule; it drives, within half a metre of where it stands

@@ -110,15 +110,26 @@ pub fn remove_drafts(folder: &Path) {
 }
 
 /// A file that is not complete. Dropped, it is removed; after it was renamed there is none.
-struct Draft(PathBuf);
+pub struct Draft(PathBuf);
 
 impl Draft {
     /// The draft of a file, under a name that no other save of this program uses.
-    fn beside(path: &Path) -> Self {
+    pub fn beside(path: &Path) -> Self {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         Self(folder_of(path).join(format!(".{name}.{number}{DRAFT}")))
+    }
+
+    /// Where the draft is.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// The draft becomes the file.
+    pub fn finish(self, path: &Path) -> io::Result<()> {
+        File::open(&self.0)?.sync_all()?;
+        rename(&self.0, path)
     }
 
     fn create(&self, readers: Readers) -> io::Result<File> {

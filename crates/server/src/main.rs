@@ -91,6 +91,10 @@ async fn run(cli: Cli, stop: Stop) -> i32 {
         Command::Broker(arguments) => commands::broker::run(arguments, stop).await,
         Command::Convert(arguments) => stop.at_once(|| commands::convert::run(&arguments)),
         Command::Make(arguments) => stop.at_once(|| commands::make::run(&arguments)),
+        Command::Render(arguments) => {
+            stop.take_over();
+            tokio::task::block_in_place(|| commands::render::run(&arguments, &stop))
+        }
         Command::Picture => stop.at_once(commands::picture::run),
         Command::Passwd(arguments) => stop.at_once(|| commands::passwd::run(&arguments)),
         Command::Backup(arguments) => stop.at_once(|| commands::backup::save(&arguments)),

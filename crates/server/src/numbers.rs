@@ -14,6 +14,20 @@ pub fn floor(text: &str) -> Result<(f64, f64), String> {
     read(width).zip(read(depth)).ok_or_else(wrong)
 }
 
+/// Reads the size of a picture, `WIDTHxHEIGHT` in pixels.
+pub fn pixels(text: &str) -> Result<(u32, u32), String> {
+    let wrong = || "a size is WIDTHxHEIGHT in pixels, each from 16 to 4096, such as 1280x720".to_owned();
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+    let read = |text: &str| text.trim().parse::<u32>().ok().filter(|pixels| (16..=4096).contains(pixels));
+    read(width).zip(read(height)).ok_or_else(wrong)
+}
+
+/// Reads pictures a second.
+pub fn fps(text: &str) -> Result<f64, String> {
+    let read = text.trim().parse::<f64>().ok().filter(|fps| (1.0..=120.0).contains(fps));
+    read.ok_or_else(|| "pictures a second are a number from 1 to 120".into())
+}
+
 /// Reads a seed.
 pub fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))

@@ -1,5 +1,6 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDownload } from '@tabler/icons-react';
+import { lazy, Suspense, useState } from 'react';
 import type { Format } from '../api/formats';
 import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
@@ -12,11 +13,14 @@ import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
-/** Saves the show as a file, or as a copy in the library. */
+const FilmDialog = lazy(() => import('./film/FilmDialog'));
+
+/** Saves the show as a file, as a film, or as a copy in the library. */
 export function ExportMenu() {
   const session = useSession();
   const editing = useEditing();
   const { editor } = editing;
+  const [filming, setFilming] = useState(false);
   const show = () => writeShow(editor.state.get().show);
   const save = (format: Format) => attempt(() => downloadShow(show(), editing.name, format));
   const saveAs = async () => {
@@ -31,6 +35,7 @@ export function ExportMenu() {
     notify('good', `This is now ${copy}.`);
   };
   return (
+    <>
     <Menu position="top-end">
       <Menu.Target>
         <ActionIcon variant="subtle" color="gray" size="lg" aria-label="Download or copy the show">
@@ -39,9 +44,16 @@ export function ExportMenu() {
       </Menu.Target>
       <Menu.Dropdown>
         <ExportItems onExport={save} />
+        <Menu.Item onClick={() => setFilming(true)}>Make a film…</Menu.Item>
         <Menu.Divider />
         <Menu.Item onClick={() => attempt(saveAs)}>Save as a copy</Menu.Item>
       </Menu.Dropdown>
     </Menu>
+    {filming ? (
+      <Suspense fallback={null}>
+        <FilmDialog onClose={() => setFilming(false)} />
+      </Suspense>
+    ) : null}
+    </>
   );
 }

@@ -3,7 +3,7 @@ import { convertShow, getFile, getShow } from '../api/http';
 import { FORMATS, type ShowEntry } from '../api/types.gen';
 
 /** Gives the browser a file to save. */
-function download(file: Blob, name: string) {
+export function download(file: Blob, name: string) {
   const address = URL.createObjectURL(file);
   const link = document.createElement('a');
   link.href = address;

@@ -4,7 +4,7 @@ use super::{files, shown};
 use std::path::Path;
 
 /// Crates of this workspace that each crate may use. Tests may use more.
-const EDGES: [(&str, &[&str]); 22] = [
+const EDGES: [(&str, &[&str]); 23] = [
     ("base", &[]),
     ("wire", &["base"]),
     ("show", &["base"]),
@@ -22,7 +22,8 @@ const EDGES: [(&str, &[&str]); 22] = [
     ("exam", &["base", "wire"]),
     ("dmx", &["base", "light", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
-    ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "music", "api"]),
+    ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "film", "music", "api"]),
+    ("film", &["base", "show", "draw", "lighting"]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),
@@ -30,7 +31,7 @@ const EDGES: [(&str, &[&str]); 22] = [
         "server",
         &[
             "base", "wire", "show", "plan", "lighting", "robot", "control", "dmx", "sim", "exam", "exchange",
-            "draw", "make", "api", "link", "report",
+            "draw", "make", "film", "api", "link", "report",
         ],
     ),
 ];

@@ -18,7 +18,7 @@ const EDGES: [(&str, &[&str]); 14] = [
     ("parts", &["base", "api", "model", "stage", "session"]),
     ("shell", &["base", "api", "model", "stage", "session", "parts"]),
     ("live", &["base", "api", "model", "light", "music", "stage", "session", "parts"]),
-    ("edit", &["base", "api", "model", "make", "light", "music", "stage", "session", "parts"]),
+    ("edit", &["base", "api", "model", "make", "light", "film", "music", "stage", "session", "parts"]),
     ("fit", &["base", "api", "model", "make", "stage", "session", "parts"]),
     ("start", &["base", "api", "model", "make", "stage", "session", "parts"]),
 ];

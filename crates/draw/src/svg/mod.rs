@@ -12,6 +12,8 @@ mod scan;
 mod typeface;
 mod walk;
 
+pub use typeface::faces as font_faces;
+
 use lightbots_base::Vec2;
 use usvg::roxmltree::{Document, ParsingOptions};
 use usvg::{ImageHrefResolver, Options, Tree};

@@ -14,6 +14,7 @@ pub mod picture;
 pub mod plan;
 pub mod play;
 pub mod rehearse;
+pub mod render;
 pub mod replay;
 pub mod report;
 pub mod robot_check;

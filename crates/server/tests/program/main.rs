@@ -39,6 +39,7 @@ mod python;
 mod rabbitmq;
 mod raw_mqtt;
 mod recording;
+mod render;
 mod refusals;
 mod returns;
 mod rights;

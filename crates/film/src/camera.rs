@@ -1,0 +1,161 @@
+//! Where places of the stage are in a picture.
+
+use lightbots_base::Vec2;
+use lightbots_show::Stage;
+
+/// Where the audience looks from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FilmView {
+    /// From above: the picture is the floor.
+    #[default]
+    Above,
+    /// From seats before the front edge.
+    Front,
+}
+
+/// A view of a stage in a picture of some size: a pinhole camera, which from above is infinitely far away.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// The middle of the picture's coordinates, and pixels for a unit of the camera's plane.
+    shift: (f64, f64),
+    scale: f64,
+    /// The eye of a view from the front; `None`: from above.
+    eye: Option<Eye>,
+}
+
+/// Where a camera is and looks, stage metres with z up. It looks along y and down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Eye {
+    y_m: f64,
+    z_m: f64,
+    /// Components of its direction along y and z: a unit vector.
+    along_y: f64,
+    along_z: f64,
+}
+
+/// A place in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnPicture {
+    /// Pixels from the left edge.
+    pub x: f64,
+    /// Pixels from the top edge.
+    pub y: f64,
+    /// Pixels of a metre across the view.
+    pub per_m: f64,
+    /// Pixels of a metre of floor along the view, as a share of `per_m`.
+    pub flatness: f64,
+}
+
+/// Share of the picture that the floor takes.
+const FILLED: f64 = 0.94;
+/// From the front edge back to the seats, and their height, both as shares of the larger side of the floor. Chosen: the
+/// far edge of a square floor is two thirds as wide as its front edge.
+const SEATS: (f64, f64) = (1.0, 0.75);
+
+impl Camera {
+    /// The whole floor of a stage in a picture of `width` by `height` pixels.
+    pub fn new(view: FilmView, stage: &Stage, (width, height): (u32, u32)) -> Self {
+        let larger_m = stage.width_m.max(stage.depth_m);
+        let eye = (view == FilmView::Front).then(|| {
+            let (y_m, z_m) = (-stage.depth_m / 2.0 - SEATS.0 * larger_m, SEATS.1 * larger_m);
+            let length_m = y_m.hypot(z_m);
+            Eye { y_m, z_m, along_y: -y_m / length_m, along_z: -z_m / length_m }
+        });
+        let unit = Self { shift: (0.0, 0.0), scale: 1.0, eye };
+        let (x_m, y_m) = (stage.width_m / 2.0, stage.depth_m / 2.0);
+        let corners = [(-x_m, -y_m), (x_m, -y_m), (-x_m, y_m), (x_m, y_m)];
+        let corners = corners.map(|(x, y)| unit.plane(Vec2::new(x, y), 0.0));
+        let range = |of: fn(&(f64, f64, f64)) -> f64| {
+            let values = corners.iter().map(of);
+            (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((left, right), (top, bottom)) = (range(|corner| corner.0), range(|corner| corner.1));
+        let (width, height) = (f64::from(width), f64::from(height));
+        let scale = (FILLED * width / (right - left)).min(FILLED * height / (bottom - top));
+        let shift =
+            ((width - scale * (left + right)) / 2.0, (height - scale * (top + bottom)) / 2.0);
+        Self { shift, scale, eye }
+    }
+
+    /// A place of the stage, `height_m` above the floor.
+    pub fn project(&self, place: Vec2, height_m: f64) -> OnPicture {
+        let (x, y, distance) = self.plane(place, height_m);
+        let nearer = self.plane(place - Vec2::new(0.0, 0.01), height_m).1;
+        let per_m = self.scale / distance;
+        OnPicture {
+            x: self.shift.0 + self.scale * x,
+            y: self.shift.1 + self.scale * y,
+            per_m,
+            flatness: ((nearer - y) * self.scale / 0.01 / per_m).max(0.01),
+        }
+    }
+
+    /// The place of the floor that a point of the picture shows; `None`: it is above the horizon.
+    pub fn floor_at(&self, x: f64, y: f64) -> Option<Vec2> {
+        let (x, y) = ((x - self.shift.0) / self.scale, (y - self.shift.1) / self.scale);
+        let Some(eye) = self.eye else { return Some(Vec2::new(x, -y)) };
+        // The ray through the point: forwards, plus x to the right, minus y upwards.
+        let down = eye.along_z - y * eye.along_y;
+        if down >= -1e-6 {
+            return None;
+        }
+        let length = -eye.z_m / down;
+        Some(Vec2::new(x * length, eye.y_m + length * (eye.along_y + y * eye.along_z)))
+    }
+
+    /// A place in the camera's plane, downwards positive, and its distance along the view in units of the plane's.
+    fn plane(&self, place: Vec2, height_m: f64) -> (f64, f64, f64) {
+        let Some(eye) = self.eye else { return (place.x, -place.y, 1.0) };
+        let (y_m, z_m) = (place.y - eye.y_m, height_m - eye.z_m);
+        let distance_m = (y_m * eye.along_y + z_m * eye.along_z).max(0.01);
+        let up_m = z_m * eye.along_y - y_m * eye.along_z;
+        (place.x / distance_m, -up_m / distance_m, distance_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stage(width_m: f64, depth_m: f64) -> Stage {
+        Stage { width_m, depth_m, ..Stage::default() }
+    }
+
+    #[test]
+    fn the_whole_floor_is_in_the_picture_and_fills_it_in_one_direction() {
+        for (width_m, depth_m) in [(3.0, 3.0), (12.0, 4.0), (4.0, 12.0)] {
+            for view in [FilmView::Above, FilmView::Front] {
+                let camera = Camera::new(view, &stage(width_m, depth_m), (1280, 720));
+                let corner = |x: f64, y: f64| camera.project(Vec2::new(x * width_m / 2.0, y * depth_m / 2.0), 0.0);
+                let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)].map(|(x, y)| corner(x, y));
+                assert!(corners.iter().all(|at| (0.0..=1280.0).contains(&at.x) && (0.0..=720.0).contains(&at.y)));
+                let across = corners[1].x - corners[0].x;
+                let down = corners[0].y - corners[2].y;
+                assert!((across / 1280.0).max(down / 720.0) > 0.93, "{view:?} {across} {down}");
+                assert!(corners[0].y > corners[2].y, "the front edge is below");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_further_away_is_smaller_and_flat() {
+        let camera = Camera::new(FilmView::Front, &stage(3.0, 3.0), (1280, 720));
+        let [near, far] = [-1.5, 1.5].map(|y| camera.project(Vec2::new(0.0, y), 0.0));
+        assert!(far.per_m < 0.75 * near.per_m && far.flatness < near.flatness && near.flatness < 0.8);
+        let above = Camera::new(FilmView::Above, &stage(3.0, 3.0), (1280, 720));
+        let at = above.project(Vec2::new(1.0, 1.0), 0.3);
+        assert!((at.flatness - 1.0).abs() < 1e-9 && (at.per_m - 0.94 * 240.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_point_of_the_picture_leads_back_to_the_floor() {
+        for view in [FilmView::Above, FilmView::Front] {
+            let camera = Camera::new(view, &stage(4.0, 3.0), (640, 360));
+            let place = Vec2::new(1.2, -0.7);
+            let at = camera.project(place, 0.0);
+            assert!(camera.floor_at(at.x, at.y).is_some_and(|found| found.distance(place) < 1e-9), "{view:?}");
+        }
+        let front = Camera::new(FilmView::Front, &stage(4.0, 3.0), (640, 360));
+        assert_eq!(front.floor_at(320.0, -9_999.0), None);
+    }
+}

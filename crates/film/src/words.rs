@@ -1,0 +1,35 @@
+//! Words on sheets.
+
+/// `1:02.5`, minutes and seconds.
+pub(crate) fn clock(seconds: f64) -> String {
+    let tenths = (seconds.max(0.0) * 10.0).round() as u64;
+    format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
+}
+
+/// At most `most` characters of a text, without control characters; the last is an ellipsis where more follow.
+pub(crate) fn short(text: &str, most: usize) -> String {
+    let mut letters = text.chars().filter(|letter| !letter.is_control());
+    let mut kept: String = letters.by_ref().take(most).collect();
+    if letters.next().is_some() {
+        kept.pop();
+        kept.push('…');
+    }
+    kept
+}
+
+/// `3 Heart`, or `3` for a frame without a name.
+pub(crate) fn numbered(index: usize, name: &str, most: usize) -> String {
+    short(format!("{} {name}", index + 1).trim_end(), most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_bounded() {
+        assert_eq!((clock(62.46), clock(-3.0)), ("1:02.5".into(), "0:00.0".into()));
+        assert_eq!((short("héart", 5), short("héarts\n", 5)), ("héart".into(), "héar…".into()));
+        assert_eq!((numbered(2, "", 9), numbered(2, "Heart", 9)), ("3".into(), "3 Heart".into()));
+    }
+}
