@@ -1,10 +1,10 @@
 //! `rehearse`: plays the whole show in virtual time.
 
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::Path;
-use std::time::Instant;
 
 use lightbots_api::{self as api, rounded};
+use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_report::{ReportedEvent, RunKind, Scrub, ShowReport, Truth, page, report_with_truth};
 use lightbots_show::{Issue, slowed};
 use lightbots_sim::{
@@ -32,9 +32,10 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
         ..RehearsalOptions::default()
     };
     let show = slowed(&opened.show, arguments.speed);
-    let mut log = arguments.record.as_deref().map(LogFile::create).transpose()?;
+    let mut log = arguments.record.as_deref().map(GrowingFile::create).transpose()?;
+    let mut steps = arguments.steps.as_deref().map(steps_file).transpose()?;
     let mut told = arguments.report.as_ref().map(|_| Told::default());
-    let began = Instant::now();
+    let began = std::time::Instant::now();
     let mut virtual_s = 0.0_f64;
     let mut report = {
         let bar = Bar::new();
@@ -50,6 +51,9 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
                 }
             }
             Progress::Stepped { at, names, places } => {
+                if let Some(steps) = &mut steps {
+                    names.iter().for_each(|&(name, robot)| steps.append(&step_row(at, name, places[robot])));
+                }
                 if let Some(told) = &mut told {
                     names.iter().for_each(|&(name, robot)| told.truth.add(at, name, places[robot]));
                 }
@@ -65,7 +69,8 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
             rehearse(&show, &options, &mut progress)
         }
     };
-    log.map_or(Ok(()), LogFile::finish)?;
+    log.map_or(Ok(()), GrowingFile::finish)?;
+    steps.map_or(Ok(()), GrowingFile::finish)?;
     let factor = virtual_s.max(report.duration_s) / began.elapsed().as_secs_f64().max(1e-9);
     report.real_time_factor = Some(rounded(factor, 1));
     let news = opened.issues.iter().filter(|issue| !report.issues.contains(issue));
@@ -129,18 +134,18 @@ fn unplayed_page(found: &RehearsalReport, show: String) -> String {
     page(&report, &Scrub::default())
 }
 
-/// The file of the recorded inputs.
-struct LogFile<'a> {
+/// A file that is written while a rehearsal goes on.
+struct GrowingFile<'a> {
     path: &'a Path,
-    file: std::fs::File,
+    file: BufWriter<std::fs::File>,
     /// The first failure, after which nothing is written.
     failure: Option<std::io::Error>,
 }
 
-impl<'a> LogFile<'a> {
+impl<'a> GrowingFile<'a> {
     fn create(path: &'a Path) -> Result<Self, Failure> {
         let file = std::fs::File::create(path).map_err(|error| unwritable(path, &error))?;
-        Ok(Self { path, file, failure: None })
+        Ok(Self { path, file: BufWriter::new(file), failure: None })
     }
 
     fn append(&mut self, bytes: &[u8]) {
@@ -149,9 +154,22 @@ impl<'a> LogFile<'a> {
         }
     }
 
-    fn finish(self) -> Result<(), Failure> {
-        self.failure.map_or(Ok(()), |error| Err(unwritable(self.path, &error)))
+    fn finish(mut self) -> Result<(), Failure> {
+        let failure = self.failure.or_else(|| self.file.flush().err());
+        failure.map_or(Ok(()), |error| Err(unwritable(self.path, &error)))
     }
+}
+
+fn steps_file(path: &Path) -> Result<GrowingFile<'_>, Failure> {
+    let mut file = GrowingFile::create(path)?;
+    file.append(b"time_s,robot,x_m,y_m\n");
+    Ok(file)
+}
+
+/// One robot at one moment. Names are quoted, because they may have commas.
+fn step_row(at: Instant, name: RobotId, place: Vec2) -> Vec<u8> {
+    let quoted = name.as_str().replace('"', "\"\"");
+    format!("{:.3},\"{quoted}\",{:.5},{:.5}\n", at.as_secs(), place.x, place.y).into_bytes()
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
