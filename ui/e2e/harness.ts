@@ -177,14 +177,17 @@ function end(child: ChildProcess): Promise<void> {
   });
 }
 
-export const launchBrowser = (): Promise<Browser> =>
+/** A browser; `sound`: what its environment needs to be heard. */
+export const launchBrowser = (sound?: Record<string, string>): Promise<Browser> =>
   chromium.launch({
     executablePath: browserPath(),
     args: CHROMIUM_ARGS,
+    env: { ...process.env, ...sound },
     // Hidden tabs are slowed as everywhere.
     ignoreDefaultArgs: [
       '--disable-renderer-backgrounding',
       '--disable-background-timer-throttling',
+      ...(sound ? ['--mute-audio'] : []),
     ],
     timeout: PATIENCE_MS,
   });

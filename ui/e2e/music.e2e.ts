@@ -1,35 +1,11 @@
 import { expect, test } from 'vitest';
+import { clicks } from './clicks';
 import { eventually, openPage } from './harness';
 import { button, phaseIs, smallShow, uploadText } from './journeys';
+import { noteSound, type SoundNotes } from './soundNotes';
 import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '4');
-
-const RATE_HZ = 8000;
-
-/** Clicks at 120 beats a minute as a WAV file, from 0.25 s on; every fourth is a low one. */
-function clicks(lasts_s: number): Buffer {
-  const samples = new Int16Array(lasts_s * RATE_HZ);
-  for (let beat = 0; 0.25 + beat / 2 < lasts_s - 0.1; beat++) {
-    const [first, hz] = [Math.round((0.25 + beat / 2) * RATE_HZ), beat % 4 === 0 ? 100 : 1500];
-    for (let i = 0; i < 400; i++)
-      samples[first + i] = 24_000 * Math.sin((2 * Math.PI * hz * i) / RATE_HZ) * Math.exp(-i / 120);
-  }
-  const header = Buffer.alloc(44);
-  header.write('RIFF', 0);
-  header.writeUInt32LE(36 + samples.byteLength, 4);
-  header.write('WAVEfmt ', 8);
-  header.writeUInt32LE(16, 16);
-  header.writeUInt16LE(1, 20);
-  header.writeUInt16LE(1, 22);
-  header.writeUInt32LE(RATE_HZ, 24);
-  header.writeUInt32LE(2 * RATE_HZ, 28);
-  header.writeUInt16LE(2, 32);
-  header.writeUInt16LE(16, 34);
-  header.write('data', 36);
-  header.writeUInt32LE(samples.byteLength, 40);
-  return Buffer.concat([header, Buffer.from(samples.buffer)]);
-}
 
 const wav = (name: string, buffer: Buffer) => ({ name, mimeType: 'audio/wav', buffer });
 
@@ -100,54 +76,6 @@ test('what is no music says why, and loses nothing', async () => {
   await button(page, 'Add music…').waitFor();
 });
 
-/** Notes when music is started and stopped, and how far it is ahead of the show, as the sound device says. */
-function noteSound() {
-  const sound = { starts: 0, stops: 0, ahead_ms: [] as number[] };
-  Object.assign(globalThis, { sound });
-  let since: { node: AudioBufferSourceNode; at_s: number; from_s: number; rate: number } | null =
-    null;
-  const { start, stop } = AudioBufferSourceNode.prototype;
-  AudioBufferSourceNode.prototype.start = function (at_s = 0, from_s = 0) {
-    sound.starts++;
-    since = { node: this, at_s, from_s, rate: 1 };
-    start.call(this, at_s, from_s);
-  };
-  AudioBufferSourceNode.prototype.stop = function () {
-    sound.stops++;
-    since = null;
-    stop.call(this);
-  };
-  // The page's own message handler is not used: the difference of clocks is taken from the quickest message.
-  let [offset_ms, handled] = [Infinity, 0];
-  const RealSocket = globalThis.WebSocket;
-  globalThis.WebSocket = class extends RealSocket {
-    constructor(...more: ConstructorParameters<typeof RealSocket>) {
-      super(...more);
-      this.addEventListener('message', ({ data }) => {
-        if (typeof data !== 'string' || !data.includes('"show_time"')) return;
-        const { at_ms, show_time } = JSON.parse(data) as {
-          at_ms: number;
-          show_time: { show_s: number; runs: boolean } | null;
-        };
-        const now_ms = performance.now();
-        offset_ms = Math.min(offset_ms, now_ms - at_ms);
-        if (!since || !show_time?.runs || ++handled < 40) return;
-        const { contextTime = 0, performanceTime = 0 } = (
-          since.node.context as AudioContext
-        ).getOutputTimestamp();
-        const heard_s = contextTime + (now_ms - performanceTime) / 1000;
-        if (heard_s < since.at_s) return;
-        const show_s = show_time.show_s + (now_ms - offset_ms - at_ms) / 1000;
-        const position_s = since.from_s + (heard_s - since.at_s) * since.rate;
-        // The player makes it a little faster or slower.
-        const rate = since.node.playbackRate.value;
-        if (rate !== since.rate) since = { ...since, at_s: heard_s, from_s: position_s, rate };
-        sound.ahead_ms.push(1000 * (position_s - show_s));
-      });
-    }
-  };
-}
-
 test('on the live page music is in step with the show, and stands with it', async () => {
   const edit = await openMusic(smallShow(4, 6));
   await edit.give('clicks.wav', clicks(40));
@@ -157,8 +85,7 @@ test('on the live page music is in step with the show, and stands with it', asyn
   const sound = () =>
     page.evaluate(
       () =>
-        (globalThis as unknown as { sound: { starts: number; stops: number; ahead_ms: number[] } })
-          .sound,
+        (globalThis as unknown as { sound: SoundNotes }).sound,
     );
   await page.getByRole('button', { name: 'Music on this screen' }).click();
   await phaseIs(page, 'ready');

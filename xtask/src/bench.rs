@@ -152,6 +152,15 @@ const PARTS: [Part; 15] = [
                 timeline those frames count in which it was scrolled or its blocks moved: 200 frames, 50 layers.",
     },
     Part {
+        name: "sound",
+        title: "Music and the show",
+        source: Source::Browser("sound"),
+        about: "Five minutes of clicks with 30 simulated robots, a pause of 5 s, and a robot that gets stuck, for which all \
+                others hold: how far music is ahead of the show's position. Told by the audio clock of headless Chromium at \
+                each state of the show, and by an outside recording: PulseAudio plays into a device without a loudspeaker \
+                and `parec` records it.",
+    },
+    Part {
         name: "long-run",
         title: "Half an hour",
         source: Source::Browser("long-run"),
