@@ -130,17 +130,24 @@ export async function startBroker(): Promise<Broker> {
   };
 }
 
-/** Robots of a process of their own on a broker, or a server's; ends them, as a power cut does. */
+/** Ends robots, as a power cut does. */
+export interface OtherRobots {
+  (): Promise<void>;
+  /** Their process. */
+  pid: number;
+}
+
+/** Robots of a process of their own on a broker, or a server's. */
 export async function startRobots(
   on: Server | Broker,
   count: number,
   more: readonly string[] = ['--seed', '11'],
-): Promise<() => Promise<void>> {
+): Promise<OtherRobots> {
   const broker = 'data' in on ? await embeddedBroker(on) : on.url;
   const args = ['robots', '--count', String(count), '--broker', broker, ...more];
   const child = spawn(program(), args, { stdio: 'ignore' });
   others.add(child);
-  return () => end(child);
+  return Object.assign(() => end(child), { pid: child.pid ?? 0 });
 }
 
 async function embeddedBroker(server: Server): Promise<string> {

@@ -155,8 +155,8 @@ const PARTS: [Part; 15] = [
         name: "sound",
         title: "Music and the show",
         source: Source::Browser("sound"),
-        about: "Five minutes of clicks with 30 simulated robots, a pause of 5 s, and a robot that gets stuck, for which all \
-                others hold: how far music is ahead of the show's position. Told by the audio clock of headless Chromium at \
+        about: "Five minutes of clicks with 30 simulated robots, a pause of 5 s, and one robot whose process stands still for \
+                1.5 s every 17 s, so that all others hold for it: how far music is ahead of the show's position. Told by the audio clock of headless Chromium at \
                 each state of the show, and by an outside recording: PulseAudio plays into a device without a loudspeaker \
                 and `parec` records it.",
     },
