@@ -34,4 +34,12 @@ pub struct DeskArguments {
     /// Send OSC there when robots leave for a frame, a picture stands, or a cue waits for GO
     #[arg(long, value_name = "HOST:PORT", value_parser = address)]
     pub osc_out: Option<SocketAddr>,
+    /// Play the music of the show on a sound device of this machine, where the show is
+    #[cfg(feature = "sound")]
+    #[arg(long)]
+    pub sound: bool,
+    /// How much earlier music is played, milliseconds
+    #[cfg(feature = "sound")]
+    #[arg(long, value_name = "MS", allow_hyphen_values = true, default_value_t = 0.0)]
+    pub sound_offset_ms: f64,
 }

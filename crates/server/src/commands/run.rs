@@ -26,6 +26,10 @@ use crate::live::clock::Clock;
 use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
 use crate::live::desk_light::DeskLight;
+#[cfg(feature = "sound")]
+use crate::cli::DeskArguments;
+#[cfg(feature = "sound")]
+use crate::live::loudspeaker::Loudspeaker;
 use crate::live::osc::OscLink;
 use crate::live::recorder::RecordingTarget;
 use crate::played_shows::PlayedShows;
@@ -70,6 +74,25 @@ impl Started {
         if let Some(lines) = self.broker.as_mut().and_then(EmbeddedBroker::notices) {
             self.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
         }
+    }
+
+    /// Plays the music of the open show on this machine, where that is asked for.
+    #[cfg(feature = "sound")]
+    fn sound(&mut self, arguments: &DeskArguments, shared: &Arc<Shared>, stop: &Stop) -> Result<(), Failure> {
+        if !arguments.sound {
+            return Ok(());
+        }
+        let loudspeaker = Loudspeaker::open(arguments.sound_offset_ms)?;
+        let opened = shared.clone();
+        let music_of = move || {
+            let shown = opened.desk.shown();
+            let name = shown.show.music.as_ref()?;
+            let (hash, _) = shown.show.assets.iter().find(|(_, asset)| asset.name == *name)?;
+            let hash = hash.to_string();
+            Some((hash.clone(), opened.library.asset(&hash).ok()?))
+        };
+        self.tasks.push(tokio::spawn(loudspeaker.run(shared.handle.clone(), stop.clone(), music_of)));
+        Ok(())
     }
 }
 
@@ -156,6 +179,8 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
     started.follow(desks, &shared, stop);
+    #[cfg(feature = "sound")]
+    started.sound(&arguments.desk, &shared, stop)?;
     started.tasks.push(tokio::spawn(playlist_player::play(shared.clone(), stop.clone())));
     let scheme = shared.names.scheme().name();
     say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));

@@ -14,6 +14,8 @@ mod desk_sockets;
 mod handle;
 mod journal;
 mod link_state;
+#[cfg(feature = "sound")]
+pub mod loudspeaker;
 mod orders;
 pub mod osc;
 mod pace;
