@@ -16,6 +16,7 @@
 
 mod account;
 mod broker;
+mod document;
 mod fleet;
 mod incident;
 mod library;
@@ -26,6 +27,7 @@ mod plan_document;
 mod playlist;
 mod robots;
 mod runs;
+mod schemas;
 mod screen;
 mod state;
 mod typescript;
@@ -51,6 +53,7 @@ pub use playlist::{
 };
 pub use robots::Robots;
 pub use runs::{RunEntry, RunEntryKind};
+pub use schemas::schemas;
 pub use screen::{Hello, Level, LogLine, OpenShow, ToScreen};
 pub use state::{Broker, BrokerPhase, Phase, Playback, PreflightState, Repeats, ShowTime, State};
 pub use typescript::typescript;

@@ -1,12 +1,13 @@
 //! The plan of a show with its issues.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::{MakeQuality, MakeRemark};
 
 /// The plan of a show: assignment of pixels, paths, durations and issues.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS, JsonSchema)]
 pub struct Plan {
     /// Revision of the open show that was planned; 0 for a check of another document.
     pub revision: u32,
@@ -69,7 +70,7 @@ pub struct LightAnswer {
 }
 
 /// The transition to one frame.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS, JsonSchema)]
 pub struct Transition {
     /// The frame before, counted from 0; null: the transition begins at the starting places.
     pub from: Option<usize>,
@@ -93,7 +94,7 @@ pub struct Transition {
 }
 
 /// A timed path: cubic Bézier pieces whose parameter is proportional to time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS, JsonSchema)]
 pub struct Path {
     /// Start: x and y, stage metres.
     pub start: [f64; 2],
@@ -103,7 +104,7 @@ pub struct Path {
 }
 
 /// A fault or a note about a show or its plan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, JsonSchema)]
 pub struct Issue {
     /// Kind of issue for programs, such as `pixel-off-floor`.
     pub code: String,
@@ -118,7 +119,7 @@ pub struct Issue {
 }
 
 /// Severity of an issue.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// The show plays well; the note is for information.

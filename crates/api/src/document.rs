@@ -1,0 +1,340 @@
+//! A show file as types, for its JSON Schema. docs/show-format.md says what each field means; `exchange` reads and writes files.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+
+/// A place, stage metres: x to the right, y away from the audience.
+pub type Place = [f64; 2];
+/// Settings that belong to a kind of source or layer.
+pub type DocumentSettings = BTreeMap<String, serde_json::Value>;
+
+/// A show: what a `.lightbots.json` file holds.
+#[derive(JsonSchema)]
+#[schemars(title = "LightBots show", deny_unknown_fields)]
+pub struct ShowDocument {
+    /// Version of the format.
+    #[schemars(range(min = 1, max = 2))]
+    pub lightbots: u32,
+    /// Name for people.
+    pub name: Option<String>,
+    /// The floor and the robots on it.
+    pub stage: Option<DocumentStage>,
+    /// Whether pixel n is the same robot in every frame.
+    pub identity: Option<DocumentIdentity>,
+    /// Places before the first frame; without it, rows along the front edge.
+    pub starts: Option<Vec<Place>>,
+    /// File name of the music.
+    pub music: Option<String>,
+    /// Robots that wait for others to fail.
+    pub spares: Option<u32>,
+    /// Files that belong to the show, by their SHA-256.
+    pub assets: Option<BTreeMap<String, DocumentAsset>>,
+    /// Beats of the music.
+    pub beats: Option<DocumentBeats>,
+    /// Named stretches.
+    pub sections: Option<Vec<DocumentSection>>,
+    /// Named moments.
+    pub markers: Option<Vec<DocumentMarker>>,
+    /// Where the show waits for GO.
+    pub cues: Option<Vec<DocumentCue>>,
+    /// Light over time, lowest layer first.
+    pub layers: Option<Vec<DocumentLayer>>,
+    /// Timed paths that the show prescribes.
+    pub trajectories: Option<Vec<DocumentTrajectory>>,
+    /// Frames in playing order.
+    pub frames: Vec<DocumentFrame>,
+}
+
+/// The floor and the robots on it.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentStage {
+    /// Extent along x, metres.
+    pub width_m: Option<f64>,
+    /// Extent along y, metres.
+    pub depth_m: Option<f64>,
+    /// No-go areas.
+    pub obstacles: Option<Vec<DocumentObstacle>>,
+    /// Size and limits of robots.
+    pub robot: Option<DocumentRobot>,
+}
+
+/// A no-go area.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+pub enum DocumentObstacle {
+    /// A disc.
+    Disc {
+        /// Centre.
+        at: Place,
+        /// Radius, metres.
+        radius_m: f64,
+    },
+    /// A rectangle.
+    Rectangle {
+        /// Corner with the smaller x and y.
+        min: Place,
+        /// Corner with the larger x and y.
+        max: Place,
+    },
+}
+
+/// Size and limits of robots.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[allow(missing_docs, reason = "the names say it with their units")]
+pub struct DocumentRobot {
+    pub radius_m: Option<f64>,
+    pub speed_mps: Option<f64>,
+    pub accel_mps2: Option<f64>,
+    pub turn_radps: Option<f64>,
+    pub wheel_radps: Option<f64>,
+    pub wheel_radius_m: Option<f64>,
+    pub track_m: Option<f64>,
+}
+
+/// Whether pixels are bound to robots.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+pub enum DocumentIdentity {
+    /// Any robot may show any pixel.
+    Any,
+    /// Pixel n is the same robot in every frame.
+    Fixed,
+}
+
+/// A file that belongs to the show.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentAsset {
+    /// Name for people.
+    pub name: Option<String>,
+    /// Media type.
+    pub media_type: String,
+    /// Length, bytes.
+    pub bytes: u64,
+}
+
+/// Beats of the music: `bpm` and `offset_s`, or `times_s`.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentBeats {
+    /// Beats per minute.
+    pub bpm: Option<f64>,
+    /// The first beat, seconds of the music.
+    pub offset_s: Option<f64>,
+    /// Every beat, seconds of the music.
+    pub times_s: Option<Vec<f64>>,
+    /// Beats of a bar.
+    pub per_bar: Option<u32>,
+}
+
+/// A named stretch.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentSection {
+    /// Name for people.
+    pub name: Option<String>,
+    /// Start, seconds.
+    pub from_s: f64,
+    /// End, seconds.
+    pub to_s: f64,
+}
+
+/// A named moment.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentMarker {
+    /// Name for people.
+    pub name: Option<String>,
+    /// Moment, seconds.
+    pub at_s: f64,
+}
+
+/// A place where the show waits for GO: at the end of a frame, or at a moment.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentCue {
+    /// Name for people.
+    pub name: Option<String>,
+    /// Id of a frame.
+    pub frame: Option<String>,
+    /// A moment, seconds.
+    pub at_s: Option<f64>,
+    /// Id of the frame from which the show repeats until GO.
+    pub loop_from: Option<String>,
+}
+
+/// Light over time.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentLayer {
+    /// Word for the effect.
+    pub kind: String,
+    /// Name for people.
+    pub name: Option<String>,
+    /// Ids of the first and the last frame in which it shines.
+    pub frames: Option<[String; 2]>,
+    /// The part of each frame.
+    pub phase: Option<DocumentPhase>,
+    /// Start, seconds.
+    pub from_s: Option<f64>,
+    /// End, seconds.
+    pub to_s: Option<f64>,
+    /// Settings of the effect.
+    pub settings: Option<DocumentSettings>,
+}
+
+/// A part of a frame's time.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+pub enum DocumentPhase {
+    /// The transition to the frame and its air time.
+    Whole,
+    /// The transition.
+    Transition,
+    /// The air time.
+    Picture,
+}
+
+/// A timed path that the show prescribes.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentTrajectory {
+    /// Id of the frame; without it, the path is for the whole show.
+    pub frame: Option<String>,
+    /// The robot of this pixel drives it.
+    pub pixel: u32,
+    /// Its start, seconds.
+    pub at_s: Option<f64>,
+    /// The place where it starts.
+    pub start: Place,
+    /// `[end_s, x, y]`, or `[end_s, x1, y1, x2, y2, x, y]` with the control points of a cubic Bézier curve.
+    #[schemars(inner(length(min = 3, max = 7)))]
+    pub pieces: Vec<Vec<f64>>,
+}
+
+/// A picture of the show.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentFrame {
+    /// Word by which layers, cues and trajectories name the frame.
+    pub id: Option<String>,
+    /// Name for people.
+    pub name: Option<String>,
+    /// How long the picture stays, seconds.
+    pub air_time_s: Option<f64>,
+    /// Moment at which the air time must begin, seconds.
+    pub at_s: Option<f64>,
+    /// Wanted duration of the drive to the frame, seconds.
+    pub transition_s: Option<f64>,
+    /// How robots speed up and slow down.
+    pub easing: Option<DocumentEasing>,
+    /// How the picture before drives to the frame.
+    pub motion: Option<DocumentMotion>,
+    /// Overrides the show's.
+    pub identity: Option<DocumentIdentity>,
+    /// What the pixels were made from.
+    pub sources: Option<Vec<DocumentSource>>,
+    /// The pixels.
+    pub pixels: Vec<DocumentPixel>,
+}
+
+/// How robots speed up and slow down.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+pub enum DocumentEasing {
+    /// At the limits.
+    Swift,
+    /// Over half of the drive each.
+    Gentle,
+}
+
+/// How a picture moves as one. Its further fields depend on its kind.
+#[derive(JsonSchema)]
+pub struct DocumentMotion {
+    /// The kind.
+    pub kind: DocumentMotionKind,
+}
+
+/// Kinds of motions.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "docs/show-format.md has a table of them")]
+pub enum DocumentMotionKind {
+    Travel,
+    Turn,
+    Breathe,
+    Follow,
+    Wave,
+    Stagger,
+    Morph,
+}
+
+/// What pixels were made from.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentSource {
+    /// The kind of source.
+    pub kind: DocumentSourceKind,
+    /// Hash of the file behind it.
+    pub asset: Option<String>,
+    /// Seed of everything random.
+    pub seed: Option<u32>,
+    /// Where its picture lies on the floor.
+    #[schemars(rename = "box")]
+    pub area: Option<DocumentBox>,
+    /// Ids of the pixels that were moved by hand.
+    pub moved: Option<Vec<u32>>,
+    /// A word that frames share which were made together.
+    pub series: Option<String>,
+    /// The moment of an animation, seconds.
+    pub moment_s: Option<f64>,
+    /// Settings of the kind.
+    pub settings: Option<DocumentSettings>,
+}
+
+/// Kinds of sources.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum DocumentSourceKind {
+    Text,
+    Svg,
+    Picture,
+    Shape,
+    List,
+    Animation,
+}
+
+/// A rectangle.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentBox {
+    /// Corner with the smaller x and y.
+    pub min: Place,
+    /// Corner with the larger x and y.
+    pub max: Place,
+}
+
+/// A light of a picture.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct DocumentPixel {
+    /// Unique in its frame.
+    pub id: u32,
+    /// Where it is.
+    pub place: Place,
+    /// `#rrggbb`.
+    #[schemars(regex(pattern = "^#[0-9a-fA-F]{6}$"))]
+    pub color: String,
+    /// Name of the only robot that may show it.
+    pub robot: Option<String>,
+    /// Index of the source it was made from.
+    pub source: Option<u32>,
+    /// Name of the part of that source.
+    pub part: Option<String>,
+    /// A word that pixels share which are edited as one.
+    pub group: Option<String>,
+}
