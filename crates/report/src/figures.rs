@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use lightbots_base::statistics::nearest_rank;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Median, 99th percentile (nearest rank) and maximum of numbers; all 0 without numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct ThreeFigures {
     /// Half of the numbers are at most this.
     pub median: f64,

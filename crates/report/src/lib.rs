@@ -17,6 +17,7 @@ mod html;
 mod model;
 mod packed;
 mod robots;
+mod schema;
 mod track;
 mod truth;
 mod words;
@@ -28,6 +29,7 @@ pub use model::{
     ClosestApproach, FrameFigures, Loss, MessageFigures, ReportBrakes, ReportedEvent, RobotFigures, RunKind,
     ShowReport,
 };
+pub use schema::schema;
 pub use track::{Scrub, ScrubTrack};
 pub use truth::Truth;
 pub use words::verdict;

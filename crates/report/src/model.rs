@@ -1,11 +1,12 @@
 //! A report as plain data: the JSON of `lightbots report`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::figures::ThreeFigures;
 
 /// What was run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RunKind {
     /// A rehearsal in virtual time.
@@ -18,7 +19,7 @@ pub enum RunKind {
 }
 
 /// What was planned and what happened. Times are seconds after the first departure.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct ShowReport {
     /// All frames were shown, no robot was lost for good, and there was no contact.
     pub ok: bool,
@@ -78,7 +79,7 @@ pub struct ShowReport {
 }
 
 /// Times that the safety layer began to slow a robot.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ReportBrakes {
     /// All of them.
     pub all: u64,
@@ -88,7 +89,7 @@ pub struct ReportBrakes {
 }
 
 /// How near two rims came.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ClosestApproach {
     /// The robot that reported it.
     pub robots: Vec<String>,
@@ -101,7 +102,7 @@ pub struct ClosestApproach {
 }
 
 /// Messages of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct MessageFigures {
     /// From the controller.
     pub sent: u64,
@@ -118,7 +119,7 @@ pub struct MessageFigures {
 }
 
 /// A robot that was lost.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Loss {
     /// Its name.
     pub robot: String,
@@ -133,7 +134,7 @@ pub struct Loss {
 }
 
 /// Something that happened.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedEvent {
     /// When.
     pub at_s: f64,
@@ -146,7 +147,7 @@ pub struct ReportedEvent {
 }
 
 /// A frame that was shown.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct FrameFigures {
     /// Counted from 0.
     pub frame: usize,
@@ -170,7 +171,7 @@ pub struct FrameFigures {
 }
 
 /// A robot in a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct RobotFigures {
     /// Its name.
     pub name: String,

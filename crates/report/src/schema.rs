@@ -1,0 +1,30 @@
+//! The JSON Schema (draft 2020-12) of `lightbots report --json`.
+
+use schemars::schema_for;
+
+use crate::model::ShowReport;
+
+/// The schema as a text.
+pub fn schema() -> String {
+    let schema = schema_for!(ShowReport);
+    // A schema is plain JSON.
+    serde_json::to_string_pretty(schema.as_value()).unwrap_or_default() + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_in_the_docs_is_that_of_the_type_and_a_report_is_valid() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/schemas/report.schema.json");
+        assert!(
+            std::fs::read_to_string(file).unwrap() == schema(),
+            "`cargo run -p lightbots-report --example schema` writes it"
+        );
+        let validator = jsonschema::validator_for(&serde_json::from_str(&schema()).unwrap()).unwrap();
+        let report = serde_json::to_value(ShowReport::default()).unwrap();
+        assert!(validator.is_valid(&report));
+        assert!(!validator.is_valid(&serde_json::json!({ "ok": true })));
+    }
+}
