@@ -1,5 +1,7 @@
 //! A show file as types, for its JSON Schema. docs/show-format.md says what each field means; `exchange` reads and writes files.
 
+#![allow(dead_code, reason = "only the schema is made of these types")]
+
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;

@@ -70,7 +70,11 @@ mod tests {
     fn plans_are_valid() {
         let text = fs::read_to_string(Path::new(ROOT).join("shows/heart.lightbots.json")).unwrap();
         let show = lightbots_exchange::read(text.as_bytes(), None).unwrap().show;
-        let plan = lightbots_plan::show(&show, &lightbots_show::starting_places(&show), &lightbots_plan::ShowOptions::default());
+        let plan = lightbots_plan::show(
+            &show,
+            &lightbots_show::starting_places(&show),
+            &lightbots_plan::ShowOptions::default(),
+        );
         let document = crate::plan_document(&plan, &Vec::new(), 1.0);
         assert_eq!(wrong(&validator(1), &serde_json::to_string(&document).unwrap()), [""; 0]);
         assert_ne!(wrong(&validator(1), "{}"), [""; 0]);

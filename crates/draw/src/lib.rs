@@ -63,5 +63,5 @@ pub use refit::{RefitLight, refit};
 pub use rivals::rivals;
 pub use settings::{MAX_ROBOTS, PlaceSettings, PlacedLight};
 pub use shape::{MAX_SHAPE_POINTS, SHAPES, ShapeKind, ShapeSettings, draw_shape, exact_places, shape_named};
-pub use svg::font_faces;
 pub use sniff::{FileKind, sniff, unsupported};
+pub use svg::font_faces;

@@ -72,8 +72,7 @@ impl Camera {
         let ((left, right), (top, bottom)) = (range(|corner| corner.0), range(|corner| corner.1));
         let (width, height) = (f64::from(width), f64::from(height));
         let scale = (FILLED * width / (right - left)).min(FILLED * height / (bottom - top));
-        let shift =
-            ((width - scale * (left + right)) / 2.0, (height - scale * (top + bottom)) / 2.0);
+        let shift = ((width - scale * (left + right)) / 2.0, (height - scale * (top + bottom)) / 2.0);
         Self { shift, scale, eye }
     }
 
@@ -126,9 +125,12 @@ mod tests {
         for (width_m, depth_m) in [(3.0, 3.0), (12.0, 4.0), (4.0, 12.0)] {
             for view in [FilmView::Above, FilmView::Front] {
                 let camera = Camera::new(view, &stage(width_m, depth_m), (1280, 720));
-                let corner = |x: f64, y: f64| camera.project(Vec2::new(x * width_m / 2.0, y * depth_m / 2.0), 0.0);
+                let corner =
+                    |x: f64, y: f64| camera.project(Vec2::new(x * width_m / 2.0, y * depth_m / 2.0), 0.0);
                 let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)].map(|(x, y)| corner(x, y));
-                assert!(corners.iter().all(|at| (0.0..=1280.0).contains(&at.x) && (0.0..=720.0).contains(&at.y)));
+                assert!(
+                    corners.iter().all(|at| (0.0..=1280.0).contains(&at.x) && (0.0..=720.0).contains(&at.y))
+                );
                 let across = corners[1].x - corners[0].x;
                 let down = corners[0].y - corners[2].y;
                 assert!((across / 1280.0).max(down / 720.0) > 0.93, "{view:?} {across} {down}");
@@ -153,7 +155,10 @@ mod tests {
             let camera = Camera::new(view, &stage(4.0, 3.0), (640, 360));
             let place = Vec2::new(1.2, -0.7);
             let at = camera.project(place, 0.0);
-            assert!(camera.floor_at(at.x, at.y).is_some_and(|found| found.distance(place) < 1e-9), "{view:?}");
+            assert!(
+                camera.floor_at(at.x, at.y).is_some_and(|found| found.distance(place) < 1e-9),
+                "{view:?}"
+            );
         }
         let front = Camera::new(FilmView::Front, &stage(4.0, 3.0), (640, 360));
         assert_eq!(front.floor_at(320.0, -9_999.0), None);

@@ -43,7 +43,7 @@ pub fn contact_sheet(
     size: Option<(u32, u32)>,
 ) -> Vec<u8> {
     let frames = planned.times().len().min(SHEET_FRAMES_MAX);
-    let layout = Layout::new(frames, show, size);
+    let layout = Layout::new(frames, show, view, size);
     let (width, height) = layout.size;
     let mut sheet = vec![PAPER; 3 * width * height];
     let of_picture = FilmSize { width: layout.picture.0 as u32, height: layout.picture.1 as u32, fps: 1.0 };
@@ -62,21 +62,21 @@ pub fn contact_sheet(
 }
 
 impl Layout {
-    fn new(frames: usize, show: &Show, size: Option<(u32, u32)>) -> Self {
+    fn new(frames: usize, show: &Show, view: FilmView, size: Option<(u32, u32)>) -> Self {
         let columns = ((frames as f64).sqrt().ceil() as usize).clamp(1, COLUMNS_MAX);
         let picture = size.map_or_else(
             || {
                 let width = (WIDTH_MAX / columns - GAP).clamp(PICTURE.0, PICTURE.1);
-                let aspect = (show.stage.depth_m / show.stage.width_m).clamp(0.4, 1.6);
+                let aspect = match view {
+                    FilmView::Above => (show.stage.depth_m / show.stage.width_m).clamp(0.4, 1.6),
+                    FilmView::Front => 9.0 / 16.0,
+                };
                 (width, (width as f64 * aspect).round() as usize)
             },
             |(width, height)| (width as usize, height as usize),
         );
         let rows = frames.div_ceil(columns).max(1);
-        let size = (
-            GAP + columns * (picture.0 + GAP),
-            HEADING + rows * (picture.1 + LINE + GAP),
-        );
+        let size = (GAP + columns * (picture.0 + GAP), HEADING + rows * (picture.1 + LINE + GAP));
         Self { columns, picture, size }
     }
 
@@ -95,11 +95,17 @@ fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<
     );
     let mut line = |x: usize, y: usize, size: usize, end: bool, words: &str| {
         let anchor = if end { " text-anchor=\"end\"" } else { "" };
-        let _ = write!(svg, "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}>{}</text>", escaped(words));
+        let _ =
+            write!(svg, "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}>{}</text>", escaped(words));
     };
     let title = if show.name.trim().is_empty() { "A show" } else { &show.name };
     line(GAP, 42, 28, false, &short(title, layout.size.0 / 36));
-    let facts = format!("{} robots · {} frames · {}", planned.robots(), show.frames.len(), clock(planned.duration_s()));
+    let facts = format!(
+        "{} robots · {} frames · {}",
+        planned.robots(),
+        show.frames.len(),
+        clock(planned.duration_s())
+    );
     if layout.size.0 > 700 {
         line(width - GAP, 42, 18, true, &facts);
     }
@@ -113,7 +119,8 @@ fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<
     svg.push_str("</svg>");
     let options = Options { fontdb: font_faces(), ..Options::default() };
     // The text is our own, and the sheet is bounded.
-    let (Ok(tree), Some(mut text)) = (Tree::from_str(&svg, &options), Pixmap::new(width as u32, height as u32))
+    let (Ok(tree), Some(mut text)) =
+        (Tree::from_str(&svg, &options), Pixmap::new(width as u32, height as u32))
     else {
         return;
     };

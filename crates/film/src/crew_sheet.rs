@@ -36,7 +36,12 @@ const CHECKLIST: [&str; 14] = [
 ];
 
 /// The sheet as PDF. `starts` are the robots' starting places, `names` what robots are called there, where that is known.
-pub fn crew_sheet(show: &Show, planned: &PlannedShow<'_>, starts: &[Vec2], names: &[Option<String>]) -> Vec<u8> {
+pub fn crew_sheet(
+    show: &Show,
+    planned: &PlannedShow<'_>,
+    starts: &[Vec2],
+    names: &[Option<String>],
+) -> Vec<u8> {
     let title = if show.name.trim().is_empty() { "A show".to_owned() } else { short(&show.name, 60) };
     let name = |robot: usize| match names.get(robot) {
         Some(Some(name)) => short(name, 14),
@@ -129,7 +134,8 @@ impl Sheet {
 
 fn facts(show: &Show, planned: &PlannedShow<'_>) -> String {
     let stage = &show.stage;
-    let music = show.music.as_deref().map_or(String::new(), |music| format!("   Music: {}", short(music, 40)));
+    let music =
+        show.music.as_deref().map_or(String::new(), |music| format!("   Music: {}", short(music, 40)));
     format!(
         "{} robots   {} frames   {} from the first movement to the end   Floor: {} x {} m{music}",
         planned.robots(),
@@ -178,9 +184,7 @@ fn starting_places(sheet: &mut Sheet, starts: &[Vec2], names: &[String]) {
     sheet.rule();
     for first in (0..starts.len()).step_by(COLUMNS) {
         let cell = |nth: usize| match starts.get(first + nth) {
-            Some(start) => {
-                [names[first + nth].clone(), format!("{:.3}", start.x), format!("{:.3}", start.y)]
-            }
+            Some(start) => [names[first + nth].clone(), format!("{:.3}", start.x), format!("{:.3}", start.y)],
             None => [const { String::new() }; 3],
         };
         sheet.row(&cells(&cell));

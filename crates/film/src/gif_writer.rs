@@ -100,7 +100,10 @@ pub struct GifWriter<W: Write> {
 
 impl<W: Write> fmt::Debug for GifWriter<W> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("GifWriter").field("size", &self.size).field("pictures", &self.pictures).finish_non_exhaustive()
+        f.debug_struct("GifWriter")
+            .field("size", &self.size)
+            .field("pictures", &self.pictures)
+            .finish_non_exhaustive()
     }
 }
 

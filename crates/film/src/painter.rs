@@ -24,7 +24,7 @@ struct Spot {
 }
 
 /// The light scattered in eyes and lenses.
-const BLOOM: Spot = Spot { radius: 5.0, strength: 0.16 };
+const BLOOM: Spot = Spot { radius: 6.0, strength: 0.2 };
 /// The light on the floor, whose radius is in radii of a robot and which lies flat.
 const POOL: Spot = Spot { radius: 6.5, strength: 0.055 };
 /// The mirror image in the floor, as seen from the front.

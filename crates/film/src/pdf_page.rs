@@ -22,12 +22,34 @@ pub(crate) type Grey = u8;
 /// Something on a page; places are points from the top left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mark {
-    Text { x: f32, y: f32, size: f32, grey: Grey, words: String },
+    Text {
+        x: f32,
+        y: f32,
+        size: f32,
+        grey: Grey,
+        words: String,
+    },
     /// A disc, filled or as a ring.
-    Disc { x: f32, y: f32, radius: f32, grey: Grey, is_filled: bool },
+    Disc {
+        x: f32,
+        y: f32,
+        radius: f32,
+        grey: Grey,
+        is_filled: bool,
+    },
     /// A rectangle as a line.
-    Frame { x: f32, y: f32, width: f32, height: f32, grey: Grey },
-    Line { from: (f32, f32), to: (f32, f32), grey: Grey },
+    Frame {
+        x: f32,
+        y: f32,
+        width: f32,
+        height: f32,
+        grey: Grey,
+    },
+    Line {
+        from: (f32, f32),
+        to: (f32, f32),
+        grey: Grey,
+    },
 }
 
 /// The bytes of a file with these pages. The same pages give the same bytes: it has no dates.
@@ -83,7 +105,10 @@ fn draw(surface: &mut krilla::surface::Surface<'_>, mark: &Mark, font: &Font) {
             false
         }
     };
-    let (Mark::Text { grey, .. } | Mark::Disc { grey, .. } | Mark::Frame { grey, .. } | Mark::Line { grey, .. }) = mark;
+    let (Mark::Text { grey, .. }
+    | Mark::Disc { grey, .. }
+    | Mark::Frame { grey, .. }
+    | Mark::Line { grey, .. }) = mark;
     surface.set_fill(fill(*grey).filter(|_| is_filled));
     surface.set_stroke(stroke(*grey).filter(|_| !is_filled));
     if let Some(path) = path.finish() {

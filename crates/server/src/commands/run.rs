@@ -15,6 +15,8 @@ use tokio::task::JoinHandle;
 
 use super::{broker, count, first_operator, robots};
 use crate::broker_settings::{Settings, other_broker};
+#[cfg(feature = "sound")]
+use crate::cli::DeskArguments;
 use crate::cli::RunArguments;
 use crate::data_folder::DataFolder;
 use crate::failure::{Failure, Outcome};
@@ -26,8 +28,6 @@ use crate::live::clock::Clock;
 use crate::live::conductor::Handle;
 use crate::live::cut_off::CutOffRun;
 use crate::live::desk_light::DeskLight;
-#[cfg(feature = "sound")]
-use crate::cli::DeskArguments;
 #[cfg(feature = "sound")]
 use crate::live::loudspeaker::Loudspeaker;
 use crate::live::osc::OscLink;

@@ -10,7 +10,8 @@ use crate::{shows, wait_for};
 
 fn made(robots: &str) -> String {
     let show = shows::file("film.lightbots.json", "");
-    let (code, _, err) = run(&["make", "shape:heart", "text:HI", "--robots", robots, "--air", "1", "--out", &show]);
+    let (code, _, err) =
+        run(&["make", "shape:heart", "text:HI", "--robots", robots, "--air", "1", "--out", &show]);
     assert_eq!((code, err.as_str()), (0, ""));
     show
 }
@@ -78,7 +79,8 @@ fn what_cannot_be_made_is_said() {
         assert!(code == 2 && err.contains(said), "{arguments:?}: {code} {err}");
     }
     let out = shows::file("film.mp4", "");
-    let without = Command::new(env!("CARGO_BIN_EXE_lightbots")).args(["render", &show, &out]).env("PATH", "").output();
+    let without =
+        Command::new(env!("CARGO_BIN_EXE_lightbots")).args(["render", &show, &out]).env("PATH", "").output();
     let without = without.unwrap();
     let said = String::from_utf8_lossy(&without.stderr).into_owned();
     assert!(without.status.code() == Some(1) && said.contains("ffmpeg is not on the path"), "{said}");

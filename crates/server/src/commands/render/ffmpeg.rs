@@ -26,12 +26,44 @@ impl Container {
     fn settings(self) -> &'static [&'static str] {
         match self {
             Self::Mp4 => &[
-                "-c:v", "libx264", "-crf", "18", "-preset", "medium", "-pix_fmt", "yuv420p", "-c:a", "aac", "-b:a",
-                "192k", "-movflags", "+faststart", "-f", "mp4",
+                "-c:v",
+                "libx264",
+                "-crf",
+                "18",
+                "-preset",
+                "medium",
+                "-pix_fmt",
+                "yuv420p",
+                "-c:a",
+                "aac",
+                "-b:a",
+                "192k",
+                "-movflags",
+                "+faststart",
+                "-f",
+                "mp4",
             ],
             Self::Webm => &[
-                "-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1",
-                "-pix_fmt", "yuv420p", "-c:a", "libopus", "-b:a", "128k", "-f", "webm",
+                "-c:v",
+                "libvpx-vp9",
+                "-crf",
+                "30",
+                "-b:v",
+                "0",
+                "-deadline",
+                "good",
+                "-cpu-used",
+                "4",
+                "-row-mt",
+                "1",
+                "-pix_fmt",
+                "yuv420p",
+                "-c:a",
+                "libopus",
+                "-b:a",
+                "128k",
+                "-f",
+                "webm",
             ],
         }
     }
@@ -119,7 +151,9 @@ impl Video<'_> {
             all.push(music.path().as_os_str().to_owned());
             all.extend(words("-map 0:v:0 -map 1:a:0".into()));
         }
-        all.extend(words(format!("-t {duration_s:.6} -map_metadata -1 -fflags +bitexact -flags:v +bitexact -flags:a +bitexact")));
+        all.extend(words(format!(
+            "-t {duration_s:.6} -map_metadata -1 -fflags +bitexact -flags:v +bitexact -flags:a +bitexact"
+        )));
         all.extend(self.container.settings().iter().map(OsString::from));
         all.push(to.as_os_str().to_owned());
         all
@@ -184,8 +218,13 @@ mod tests {
         let video = Video { container: Container::Mp4, size, music_begins_s: 1.5, music: Some(&music) };
         let arguments = video.arguments(Path::new("./out.part"), 9.0);
         let has = |words: &[&str]| arguments.windows(words.len()).any(|window| window == words);
-        assert!(has(&["-itsoffset", "1.500000", "-protocol_whitelist", "file", "-i", "/x/a b.wav"]), "{arguments:?}");
-        assert!(has(&["-s", "640x360", "-framerate", "30", "-i", "pipe:0"]) && has(&["-f", "mp4", "./out.part"]));
+        assert!(
+            has(&["-itsoffset", "1.500000", "-protocol_whitelist", "file", "-i", "/x/a b.wav"]),
+            "{arguments:?}"
+        );
+        assert!(
+            has(&["-s", "640x360", "-framerate", "30", "-i", "pipe:0"]) && has(&["-f", "mp4", "./out.part"])
+        );
     }
 
     #[test]

@@ -91,7 +91,12 @@ impl Summary {
         let film = self.film.map_or(String::new(), |film| {
             format!(", {} in {:.1} s", count(film.pictures, "picture"), film.duration_s)
         });
-        say::line(&format!("{} with {} written to {}{film}", count(self.frames, "frame"), count(self.pixels, "robot"), self.out));
+        say::line(&format!(
+            "{} with {} written to {}{film}",
+            count(self.frames, "frame"),
+            count(self.pixels, "robot"),
+            self.out
+        ));
     }
 }
 
@@ -114,7 +119,10 @@ impl Work<'_> {
         match output {
             Output::Sheet => {
                 if self.show.frames.len() > SHEET_FRAMES_MAX {
-                    let line = format!("the sheet has the first {SHEET_FRAMES_MAX} of {} frames", self.show.frames.len());
+                    let line = format!(
+                        "the sheet has the first {SHEET_FRAMES_MAX} of {} frames",
+                        self.show.frames.len()
+                    );
                     issues.push(api::Issue::from(&Issue::warning("frames-left-out", line)));
                 }
                 self.bar.set(0.5, "painting");
@@ -131,7 +139,12 @@ impl Work<'_> {
             Output::Video(container, size) => {
                 let music = ffmpeg::music(self.show, (&self.arguments.show, out), issues)?;
                 let film = film(size);
-                let video = Video { container, size, music_begins_s: film.times().music_begins_s, music: music.as_ref() };
+                let video = Video {
+                    container,
+                    size,
+                    music_begins_s: film.times().music_begins_s,
+                    music: music.as_ref(),
+                };
                 self.video(film, &video, size).map(Some)
             }
         }

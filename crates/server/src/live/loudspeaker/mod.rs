@@ -86,9 +86,11 @@ impl Loudspeaker {
             }
             let asked = Instant::now();
             let Some(snapshot) = handle.look().await else { return };
-            let position = snapshot.run.as_ref().and_then(|run| run.position).filter(|position| position.runs);
+            let position =
+                snapshot.run.as_ref().and_then(|run| run.position).filter(|position| position.runs);
             let late_s = (handle.clock().now() - snapshot.at).as_secs().max(0.0);
-            let position = position.map(|position| (Instant::now(), position.show_s + late_s + self.offset_s));
+            let position =
+                position.map(|position| (Instant::now(), position.show_s + late_s + self.offset_s));
             let position = position.filter(|_| asked.elapsed() < BELIEVED);
             self.change(|wanted, position| wanted.position = position, position);
         }
@@ -118,7 +120,8 @@ fn stream(wanted: Arc<Mutex<Wanted>>) -> Result<Stream, Failure> {
         playhead.fill(samples, format, wanted.music.as_deref(), target_s);
     };
     let complain = |error: cpal::StreamError| tracing::warn!("the sound device: {error}");
-    let stream = device.build_output_stream(&config, fill, complain, None).map_err(|error| no_sound(&error))?;
+    let stream =
+        device.build_output_stream(&config, fill, complain, None).map_err(|error| no_sound(&error))?;
     stream.play().map_err(|error| no_sound(&error))?;
     Ok(stream)
 }

@@ -57,11 +57,8 @@ impl Playhead {
         let position_s = self.position_s.filter(|position_s| (position_s - target_s).abs() <= FAR_S);
         let mut position_s = position_s.unwrap_or(target_s);
         let off_s = position_s - target_s;
-        let rate = if off_s.abs() < NEAR_S {
-            1.0
-        } else {
-            1.0 - (off_s / GONE_IN_S).clamp(-RATE_MAX, RATE_MAX)
-        };
+        let rate =
+            if off_s.abs() < NEAR_S { 1.0 } else { 1.0 - (off_s / GONE_IN_S).clamp(-RATE_MAX, RATE_MAX) };
         for frame in samples.chunks_mut(channels.max(1)) {
             for (channel, sample) in frame.iter_mut().enumerate() {
                 *sample = music.at(position_s, channel);
