@@ -2,10 +2,7 @@
 
 use lightbots_api::{LightAnswer, LightRequest, MakeRemark, Transition};
 use lightbots_base::{Piece, Span, Vec2};
-use lightbots_lighting::{
-    FrameLight, FrameTimes, LAYER_PICTURES_MAX, LightMoment, LitFrame, PlannedDrive, ShowLight,
-    floor_picture, lit_frame, numbers_of,
-};
+use lightbots_lighting::{LAYER_PICTURES_MAX, PlannedDrive, PlannedShow, ShowLight, floor_picture};
 use lightbots_make::layer_picture;
 use lightbots_plan::Path;
 use lightbots_show::{Frame, LayerPicture, Show};
@@ -61,8 +58,6 @@ pub struct PlannedLight {
     show: Show,
     light: ShowLight,
     drives: Vec<Drive>,
-    /// `[frame]`: show time.
-    times: Vec<FrameTimes>,
     robots: usize,
     error: Option<MakeRemark>,
 }
@@ -104,22 +99,13 @@ impl PlannedLight {
     /// Colours at `count` moments `step_s` apart: for each moment, red, green and blue of each robot. `from_s` counts from
     /// the start of the drive to the first frame. Robots that a frame does not have are dark.
     pub fn colours(&self, from_s: f64, step_s: f64, count: usize) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let mut begun: Option<(usize, LitFrame<'_>, FrameLight)> = None;
-        let drives: Vec<PlannedDrive<'_>> = self.drives.iter().map(Drive::as_planned).collect();
-        let numbers = numbers_of(&drives);
+        let drives = self.drives.iter().map(Drive::as_planned).collect();
+        let planned = PlannedShow::of_drives(&self.show, drives, &self.light);
+        let (mut scenes, mut scene, mut bytes) = (planned.scenes(), Vec::new(), Vec::new());
         for nth in 0..self.count_of(count) {
-            let Some((frame, moment)) = self.moment(from_s + step_s * nth as f64) else { break };
-            let (_, lit, light) = match begun.take() {
-                Some(same) if same.0 == frame => begun.insert(same),
-                _ => {
-                    let light = self.light.in_frame(frame, |frame| self.times.get(frame).copied());
-                    begun.insert((frame, lit_frame(&self.show, (&drives, &numbers), frame), light))
-                }
-            };
-            let colours = lit.robots.iter().map(|robot| robot.colour(light, self.light.pictures(), moment));
+            scenes.at(from_s + step_s * nth as f64, &mut scene);
             let start = bytes.len();
-            bytes.extend(colours.flat_map(|colour| [colour.r, colour.g, colour.b]));
+            bytes.extend(scene.iter().flat_map(|robot| [robot.colour.r, robot.colour.g, robot.colour.b]));
             bytes.resize(start + 3 * self.robots, 0);
         }
         bytes
@@ -136,31 +122,13 @@ impl PlannedLight {
         };
         let drives: Vec<Drive> =
             show.frames.iter().enumerate().map(|(number, frame)| planned(number, frame)).collect();
-        let mut times: Vec<FrameTimes> = Vec::new();
-        for (drive, frame) in drives.iter().zip(&show.frames) {
-            let end_s = times.last().map(|times| times.end_s);
-            times.push(FrameTimes::after(end_s, drive.duration.as_secs(), frame.air_time_s));
-        }
         let robots = drives.iter().map(|drive| drive.pixels.len()).max().unwrap_or(0);
         let light = pictures.light(&show);
-        Ok(Self { show, light, drives, times, robots, error: None })
+        Ok(Self { show, light, drives, robots, error: None })
     }
 
     fn count_of(&self, count: usize) -> usize {
         count.min(COLOURS_MAX / self.robots.max(1))
-    }
-
-    /// The frame at a moment, and the moment in it; `None`: there is no frame. The last frame stays.
-    fn moment(&self, at_s: f64) -> Option<(usize, LightMoment)> {
-        let show_s = at_s + self.times.first()?.drive_s;
-        let last = self.times.len() - 1;
-        let frame = self.times.iter().position(|times| show_s < times.end_s).unwrap_or(last);
-        let times = self.times[frame];
-        // A layer ends with its frame: at the very end of the show the moment before is the last that shines.
-        let end_s = (times.end_s - TINY_S).max(times.drive_s);
-        let show_s = if show_s.is_nan() { times.drive_s } else { show_s.clamp(times.drive_s, end_s) };
-        let elapsed = Span::from_secs(show_s - times.drive_s);
-        Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0, clock_s: 0.0 }))
     }
 }
 
@@ -168,9 +136,6 @@ fn shown(document: &str) -> Result<Show, MakeRemark> {
     let loaded = lightbots_exchange::read(document.as_bytes(), None);
     loaded.map(|loaded| loaded.show).map_err(|error| answer::reading(&error))
 }
-
-/// A moment that is too short to be seen, seconds.
-const TINY_S: f64 = 1e-6;
 
 impl Drive {
     fn planned(way: &Transition) -> Self {

@@ -31,14 +31,15 @@ pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
     numbers
 }
 
+/// `[frame]`: the drive to it.
+pub(crate) fn drives_of(plan: &ShowPlan) -> Vec<PlannedDrive<'_>> {
+    let drives = plan.mapping.iter().zip(&plan.transitions);
+    drives.map(|(pixels, way)| PlannedDrive { pixels, paths: &way.paths, duration: way.duration }).collect()
+}
+
 /// `[frame]`: the drive to it and its robots, in the order of their starting places. Robots are dark before the first frame.
 pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
-    let drives: Vec<PlannedDrive<'a>> = plan
-        .mapping
-        .iter()
-        .zip(&plan.transitions)
-        .map(|(pixels, way)| PlannedDrive { pixels, paths: &way.paths, duration: way.duration })
-        .collect();
+    let drives = drives_of(plan);
     let frames = drives.len().min(show.frames.len());
     let numbers = numbers_of(&drives);
     (0..frames).map(|frame| lit_frame(show, (&drives, &numbers), frame)).collect()
