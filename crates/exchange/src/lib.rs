@@ -52,4 +52,3 @@ pub use table::{
     ARCHIVE, CSV, FORMATS, FSEQ, LIGHTBOTS, ORIGINAL, SKYC, VVIZ, for_file, formats_in_words, named, sniff, stem,
 };
 pub use timed::import::replanned;
-pub use timed::sequence::MEDIA_TYPE as SEQUENCE_MEDIA_TYPE;

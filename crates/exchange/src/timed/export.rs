@@ -22,8 +22,6 @@ const CHORDS_MAX: usize = 1_000;
 #[derive(Debug)]
 pub(crate) struct ExportedShow {
     pub robots: Vec<ExportedRobot>,
-    /// The whole show.
-    pub duration: Span,
 }
 
 /// A robot as it goes into a file.
@@ -60,7 +58,7 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
         .zip(colours)
         .map(|((name, path), colours)| ExportedRobot { name, path, colours })
         .collect();
-    Ok(ExportedShow { robots, duration })
+    Ok(ExportedShow { robots })
 }
 
 /// The file of a show, or the error that there is none. `encode` gets the show as it goes into the file.

@@ -21,7 +21,7 @@ pub(crate) struct FittedStretch {
 /// at a sample.
 pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     let mut stretches: Vec<FittedStretch> = Vec::new();
-    let mut hold = |stretches: &mut Vec<FittedStretch>, end: usize, to: [u8; 3]| match stretches.last_mut() {
+    let hold = |stretches: &mut Vec<FittedStretch>, end: usize, to: [u8; 3]| match stretches.last_mut() {
         Some(last) if !last.fades && last.to == to => last.end = end,
         _ => stretches.push(FittedStretch { end, to, fades: false }),
     };

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use lightbots_base::{RobotId, Vec2};
+use lightbots_base::{Rgb, RobotId, Vec2};
 use lightbots_lighting::FrameTimes;
 use lightbots_plan::turn_time;
 use lightbots_show::{
@@ -84,7 +84,7 @@ fn times(file: &TimedShow, turn_s: f64) -> Vec<FrameTimes> {
     let end_s = ends.fold(0.0, f64::max);
     let mut stands = stands(file, end_s);
     let moves = stands.last().is_some_and(|last| last.begin_s > 0.0);
-    let is_dark = |robot: &TimedRobot| robot.light.player().at(0.0) == lightbots_base::Rgb::BLACK;
+    let is_dark = |robot: &TimedRobot| robot.light.player().at(0.0) == Rgb::BLACK;
     if moves && stands[0].begin_s == 0.0 && file.robots.iter().all(is_dark) {
         // Robots that wait in the dark are on their starts, before the drive to the first picture.
         stands.remove(0);
@@ -238,10 +238,15 @@ fn jumps(trajectory: &Trajectory) -> bool {
             Some([c1, c2]) => ((c1 - from) * (3.0 / seconds), (piece.end - c2) * (3.0 / seconds)),
             None => ((piece.end - from) / seconds, (piece.end - from) / seconds),
         };
-        if !((first - velocity).length() <= JUMP_MPS) {
+        if !is_ramp(first - velocity) {
             return true;
         }
         (from, begin_s, velocity) = (piece.end, piece.end_s, last);
     }
-    !(velocity.length() <= JUMP_MPS)
+    !is_ramp(velocity)
+}
+
+/// Whether a step in velocity is none.
+fn is_ramp(step: Vec2) -> bool {
+    (0.0..=JUMP_MPS).contains(&step.length())
 }

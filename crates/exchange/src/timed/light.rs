@@ -48,7 +48,7 @@ impl TimedLight {
 
     /// Adds a stretch; holds of one code become one. `room` is the number of stretches that the file may still have.
     pub fn push(&mut self, stretch: LightStretch, room: &mut usize) -> Result<(), String> {
-        if !(stretch.end_s <= LONGEST_S) {
+        if !(0.0..=LONGEST_S).contains(&stretch.end_s) {
             return Err("its light lasts longer than a day; shorten it".into());
         }
         let before = self.stretches.last_mut();

@@ -1,8 +1,7 @@
 //! Whether the colours of pixels say all of a file's light.
 
-use lightbots_base::Rgb;
+use lightbots_base::{Rgb, Span};
 use lightbots_lighting::{FrameTimes, fade_of};
-use lightbots_base::Span;
 use lightbots_show::Show;
 
 use super::TimedShow;
@@ -21,8 +20,7 @@ const COMPARISONS_MAX: f64 = 20e6;
 pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bool {
     let end_s = times.last().map_or(0.0, |times| times.end_s);
     let step_s = STEP_S.max(end_s * file.robots.len() as f64 / COMPARISONS_MAX);
-    let robots = file.robots.iter().enumerate();
-    robots.into_iter().any(|(number, robot)| {
+    file.robots.iter().enumerate().any(|(number, robot)| {
         let colour = |frame: usize| show.frames[frame].pixels[number].color;
         let mut light = robot.light.player();
         let mut frame = 0;

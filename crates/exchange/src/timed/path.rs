@@ -90,7 +90,7 @@ impl<'a> PathReader<'a> {
             return Err(format!("a place is at {at_s} s; times go from 0 s to a day: correct the file"));
         }
         let numbers = controls.iter().flatten().chain([&place]).flatten();
-        if numbers.into_iter().any(|number| !(number.abs() <= FARTHEST_M)) {
+        if numbers.into_iter().any(|number| !(-FARTHEST_M..=FARTHEST_M).contains(number)) {
             return Err(format!("the place at {at_s} s is none within 100 km; give it finite metres"));
         }
         let end = flat(place);

@@ -1,5 +1,7 @@
 //! Light of a file that colours of pixels do not say -> a layer with one colour for each robot and moment.
 
+use std::sync::Arc;
+
 use lightbots_base::Rgb;
 use lightbots_light::PICTURE_PIXELS_MAX;
 use lightbots_lighting::FrameTimes;
@@ -12,7 +14,7 @@ use crate::sequence_file::SequenceFile;
 /// Distances of two samples that are tried, milliseconds: the first at which the samples of all robots fit.
 const STEPS_MS: [u8; 6] = [20, 25, 40, 50, 100, 200];
 /// Media type of sequences among the files of a show.
-pub const MEDIA_TYPE: &str = "application/x-fseq";
+const MEDIA_TYPE: &str = "application/x-fseq";
 
 /// Adds a layer with the light of a file. Without room for it, an issue says so.
 pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Option<Issue> {
@@ -41,7 +43,7 @@ pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Op
 }
 
 /// Adds a layer and the file of its sequence. Its first sample is shown at `start_s` of show time.
-pub(crate) fn add_file(show: &mut Show, name: &str, content: std::sync::Arc<[u8]>, step_ms: u8, start_s: f64) {
+pub(crate) fn add_file(show: &mut Show, name: &str, content: Arc<[u8]>, step_ms: u8, start_s: f64) {
     let hash = hash_of(&content);
     let asset = Asset {
         name: format!("{name}.fseq"),

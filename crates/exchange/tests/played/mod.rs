@@ -84,7 +84,10 @@ pub fn prescribed(show: &mut Show, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let pixels: Vec<Option<u32>> = (0..).take(show.frames[0].pixels.len()).map(Some).collect();
     let mut places = show.starts.clone().expect("an import has starts");
     let paths: Vec<Vec<Path>> = show.frames.iter().map(|frame| paths(show, frame, &mut places)).collect();
-    let drives = paths.iter().map(|paths| PlannedDrive { pixels: &pixels, paths, duration: Path::longest(paths) });
+    let longest = |paths: &[Path]| {
+        paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
+    };
+    let drives = paths.iter().map(|paths| PlannedDrive { pixels: &pixels, paths, duration: longest(paths) });
     scenes(&PlannedShow::of_drives(show, drives.collect(), &light), moments_s)
 }
 

@@ -29,8 +29,7 @@ pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorP
 /// robots without a column.
 pub(super) fn sequence(rows: f64, robot: u32, colours: Option<&FloorPicture>) -> Shade {
     let row = libm::floor(rows + EARLY_ROWS);
-    // A comparison with NaN is false.
-    if !(row >= 0.0) {
+    if row.is_nan() || row < 0.0 {
         return (Linear::BLACK, 0.0);
     }
     let colour = colours.and_then(|colours| colours.pixel(robot as usize, row as usize));
