@@ -33,7 +33,7 @@ pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
 fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
     let samples = exported.robots.first().map_or(0, |robot| robot.colours.len());
     let mut codes = Vec::new();
-    for sample in (0..samples).step_by(SAMPLES) {
+    for sample in (exported.first_sample.min(samples)..samples).step_by(SAMPLES) {
         for robot in &exported.robots {
             let colour = robot.colours[sample];
             codes.extend([colour.r, colour.g, colour.b]);
@@ -45,16 +45,18 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
         codes,
         music: show.music.clone(),
     };
-    let note = sampled_note("the file has the colours of robots each 40 ms, and neither their paths nor their names");
+    let note = sampled_note(
+        "the file has the colours of robots each 40 ms from the first frame on, and neither their paths nor their names",
+    );
     (sequence.bytes(), vec![note])
 }
 
-/// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins at `start_s` of show time; of its
-/// channels, the first three are those of robot 0.
+/// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins with the air time of the first frame,
+/// as the music does; of its channels, the first three are those of robot 0.
 ///
 /// # Errors
 /// If the bytes are no FSEQ file, or a file that is not read.
-pub fn put_onto(show: &mut Show, bytes: &[u8], start_s: f64) -> Result<Issues, ReadError> {
+pub fn put_onto(show: &mut Show, bytes: &[u8]) -> Result<Issues, ReadError> {
     let robots = most_pixels(show).max(1);
     let refused = |why: String| ReadError::whole("bad-fseq", format!("the file {why}"));
     let file = SequenceFile::read(bytes, 3 * robots).map_err(refused)?;
@@ -67,6 +69,6 @@ pub fn put_onto(show: &mut Show, bytes: &[u8], start_s: f64) -> Result<Issues, R
         show.music.clone_from(&file.music);
     }
     let content: Arc<[u8]> = SequenceFile { music: None, ..file.clone() }.bytes().into();
-    add_file(show, "FSEQ", content, file.step_ms, start_s);
+    add_file(show, "FSEQ", content, file.step_ms, 0.0);
     Ok(issues)
 }

@@ -119,7 +119,7 @@ fn no_mutation_breaks_reading_files_of_other_programs() {
     let fseq = FSEQ.write(&show, Some(&plan)).bytes;
     for _ in 0..1_000 {
         let bytes = mutant(&fseq, 3, &mut numbers);
-        let put = put_onto(&mut show.clone(), &bytes, 0.0);
+        let put = put_onto(&mut show.clone(), &bytes);
         count(put.is_ok());
         assert!(put.is_ok() || !put.unwrap_err().to_string().contains('\n'));
     }

@@ -58,7 +58,7 @@ fn file_name(name: &str, names: &mut BTreeSet<String>) -> String {
 
 fn table(robot: &ExportedRobot) -> String {
     let stretches = fitted(&linear(&robot.colours));
-    let mut rows = rows(robot.path.as_ref().duration(), &stretches);
+    let mut rows = rows(&robot.path, &stretches);
     let mut text = format!("{HEAD}\n");
     let mut place = Places::new(&robot.path);
     while let Some((at, [r, g, b])) = rows.pop_first() {
@@ -71,7 +71,9 @@ fn table(robot: &ExportedRobot) -> String {
 }
 
 /// Moments of rows, and their codes.
-fn rows(duration: Span, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> {
+fn rows(path: &Path, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> {
+    let duration = path.as_ref().duration();
+    let moments = moments(path);
     let moment = |sample: usize| (SAMPLE * sample as i64).min(duration);
     let mut rows = BTreeMap::new();
     let (mut begin, mut now) = (Span::ZERO, stretches.first().map_or([0; 3], |stretch| stretch.to));
@@ -83,15 +85,13 @@ fn rows(duration: Span, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> 
             rows.insert(begin, stretch.to);
         }
         let from = if stretch.fades { now } else { stretch.to };
-        let mut at = ROW * (begin.0 / ROW.0 + 1);
-        while at < end {
+        for &at in moments.range(begin..).filter(|at| **at > begin).take_while(|at| **at < end) {
             let share = (at - begin).as_secs() / (end - begin).as_secs();
             let mixed = |channel: usize| {
                 let (from, to) = (f64::from(from[channel]), f64::from(stretch.to[channel]));
                 (from + (to - from) * share).round() as u8
             };
             rows.insert(at, [mixed(0), mixed(1), mixed(2)]);
-            at += ROW;
         }
         // The row of a step at this moment has the colours after it.
         rows.insert(end, stretch.to);
@@ -99,6 +99,18 @@ fn rows(duration: Span, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> 
     }
     rows.insert(duration, now);
     rows
+}
+
+/// Moments at which a row says where the robot is: each [`ROW`], and where it starts and stops.
+fn moments(path: &Path) -> BTreeSet<Span> {
+    let whole = path.as_ref().duration();
+    let mut moments: BTreeSet<Span> = (0..whole.0 / ROW.0).map(|nth| ROW * nth).collect();
+    for (from, begin, piece) in path.as_ref().timed() {
+        if piece.is_rest(from) {
+            moments.extend([begin, begin + piece.duration]);
+        }
+    }
+    moments
 }
 
 /// Places of a path at moments that increase.

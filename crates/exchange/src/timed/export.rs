@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use lightbots_base::{Piece, Rgb, Span, Vec2};
-use lightbots_lighting::{PlannedShow, ShowLight};
+use lightbots_lighting::{PlannedShow, ShowLight, numbers};
 use lightbots_plan::{Path, ShowPlan};
 use lightbots_show::{Issue, Issues, Show};
 
@@ -21,6 +21,8 @@ const CHORDS_MAX: usize = 1_000;
 /// A show as it goes into a file.
 #[derive(Debug)]
 pub(crate) struct ExportedShow {
+    /// The sample at which the air time of the first frame begins, and with it the music.
+    pub first_sample: usize,
     pub robots: Vec<ExportedRobot>,
 }
 
@@ -51,14 +53,16 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
     let paths = paths(show, plan);
     let duration = paths.first().map_or(Span::ZERO, |path| path.as_ref().duration());
     let colours = colours(&planned, paths.len(), duration)?;
-    let names = names(plan, paths.len());
-    let robots = names
-        .into_iter()
-        .zip(paths)
-        .zip(colours)
-        .map(|((name, path), colours)| ExportedRobot { name, path, colours })
-        .collect();
-    Ok(ExportedShow { robots })
+    // As effects number robots, so that robot n of a file is robot n of a layer `sequence`.
+    let numbers = numbers(plan.mapping.first().into_iter().flatten().copied());
+    let names = names(plan, &numbers);
+    let robots = names.into_iter().zip(paths).zip(colours);
+    let robots = robots.map(|((name, path), colours)| ExportedRobot { name, path, colours });
+    let mut numbered: Vec<(u32, ExportedRobot)> = numbers.into_iter().zip(robots).collect();
+    numbered.sort_by_key(|(number, _)| *number);
+    let robots = numbered.into_iter().map(|(_, robot)| robot).collect();
+    let first_sample = (planned.first_drive_s() / SAMPLE.as_secs()).round() as usize;
+    Ok(ExportedShow { first_sample, robots })
 }
 
 /// The file of a show, or the error that there is none. `encode` gets the show as it goes into the file.
@@ -126,10 +130,11 @@ fn colours(planned: &PlannedShow<'_>, robots: usize, duration: Span) -> Result<V
     Ok(colours)
 }
 
-/// Unique names of robots: those that pixels ask for, and numbers.
-fn names(plan: &ShowPlan, robots: usize) -> Vec<String> {
-    let digits = robots.to_string().len();
-    let mut names: Vec<String> = (1..=robots).map(|number| format!("Robot {number:0digits$}")).collect();
+/// `[robot]`: a unique name. It is that by which pixels ask for the robot, or its number, counted from 1.
+fn names(plan: &ShowPlan, numbers: &[u32]) -> Vec<String> {
+    let digits = numbers.len().to_string().len();
+    let numbered = numbers.iter().map(|number| format!("Robot {:0digits$}", number + 1));
+    let mut names: Vec<String> = numbered.collect();
     let mut taken = BTreeSet::new();
     for (name, robot) in &plan.names {
         if let Some(own) = names.get_mut(*robot)

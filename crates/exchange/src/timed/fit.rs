@@ -2,6 +2,10 @@
 
 /// Largest difference between a fade and the samples that it replaces, codes.
 const TOLERANCE: f64 = 1.0;
+/// The same for codes below [`DARK`]. A code of linear light is 13 sRGB codes there: a light that should be out would glow.
+const TOLERANCE_DARK: f64 = 0.5;
+/// See [`TOLERANCE_DARK`].
+const DARK: u8 = 8;
 /// Longest hold or fade, samples: bounds the time of a fit.
 const LONGEST: usize = 3_000;
 
@@ -17,7 +21,7 @@ pub(crate) struct FittedStretch {
     pub fades: bool,
 }
 
-/// Holds and fades that differ from each sample by at most one code. Each fade is as long as it can be. A step takes place
+/// Holds and fades that differ from each sample by at most one code, dark ones by half of that. Each fade is as long as it can be. A step takes place
 /// at a sample.
 pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     let mut stretches: Vec<FittedStretch> = Vec::new();
@@ -62,8 +66,9 @@ fn farthest(samples: &[[u8; 3]], begin: usize) -> usize {
             let change = f64::from(samples[end][channel]) - f64::from(samples[begin][channel]);
             let (low, high) = &mut slopes[channel];
             fits &= (*low..=*high).contains(&(change / along));
-            *low = low.max((change - TOLERANCE) / along);
-            *high = high.min((change + TOLERANCE) / along);
+            let tolerance = if samples[end][channel] < DARK { TOLERANCE_DARK } else { TOLERANCE };
+            *low = low.max((change - tolerance) / along);
+            *high = high.min((change + tolerance) / along);
             is_open &= *low <= *high;
         }
         if fits {

@@ -35,7 +35,30 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
         return Err(ReadError::whole("bad-robots", what));
     }
     let stage = stage(file);
-    let times = times(file, turn_time(FRAC_PI_2, &stage.limits).as_secs());
+    let mut times = times(file, turn_time(FRAC_PI_2, &stage.limits).as_secs());
+    let mut issues = Issues::new();
+    let mut show = framed(file, stage.clone(), &times, &mut issues)?;
+    if matching::differs(file, &show, &times) {
+        if times[0].air_s > 0.0 {
+            // Layers shine on robots with a pixel: one where they begin lets them shine on the way to the first picture.
+            times.insert(0, FrameTimes { drive_s: 0.0, air_s: 0.0, end_s: 0.0 });
+            issues.clear();
+            show = framed(file, stage, &times, &mut issues)?;
+        }
+        issues.extend(sequence::add(&mut show, file, &times));
+    }
+    issues.extend(findings(file, &show));
+    Ok(Loaded { show, plan: None, has_stage: true, unread: None, issues })
+}
+
+/// The show of a file with frames at these times.
+fn framed(
+    file: &TimedShow,
+    stage: Stage,
+    times: &[FrameTimes],
+    issues: &mut Issues,
+) -> Result<Show, ReadError> {
+    let robots = file.robots.len();
     if times.len() > MAX_FRAMES || times.len() * robots > PIXELS_MAX {
         let what = format!(
             "{robots} robots stand {} times, which are too many pictures; split the show into several",
@@ -43,7 +66,6 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
         );
         return Err(ReadError::whole("too-many-frames", what));
     }
-    let mut issues = Issues::new();
     let mut show = Show {
         name: file.name.chars().take(MAX_LABEL_CHARS).collect(),
         stage,
@@ -53,15 +75,11 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
         ..Show::default()
     };
     for (number, robot) in (0..).zip(&file.robots) {
-        perform(&mut show, number, robot, &times);
+        perform(&mut show, number, robot, times);
     }
     show.trajectories.sort_by_key(|trajectory| frame_number(trajectory.frame.as_deref()));
-    bounded(&mut show, &mut issues);
-    issues.extend(findings(file, &show));
-    if matching::differs(file, &show, &times) {
-        issues.extend(sequence::add(&mut show, file, &times));
-    }
-    Ok(Loaded { show, plan: None, has_stage: true, unread: None, issues })
+    bounded(&mut show, issues);
+    Ok(show)
 }
 
 /// The trajectories of a show left out: drives between its frames are planned, in as much time as they took where robots can

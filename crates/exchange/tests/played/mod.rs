@@ -133,7 +133,7 @@ fn scenes(planned: &PlannedShow<'_>, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
 pub struct Apart {
     /// Largest distance of the places of a robot at one moment, millimetres.
     pub place_mm: f64,
-    /// Largest difference of a channel, codes, to the nearest colour within [`Self::time_ms`].
+    /// How far a channel is outside of those within [`Self::time_ms`] at most, codes.
     pub codes: u8,
     /// How much earlier or later colours change: the least time, in steps of 5 ms, within which all are nearer than
     /// `codes_max`.
@@ -154,7 +154,7 @@ pub fn apart(one: &[Vec<SeenRobot>], other: &[Vec<SeenRobot>], order: &[usize], 
             let near = moment.saturating_sub(steps)..=(moment + steps).min(other.len() - 1);
             for (robot, seen) in one.iter().enumerate() {
                 let colours = near.clone().map(|moment| other[moment][order[robot]].colour);
-                worst = worst.max(colours.map(|colour| difference(colour, seen.colour)).min().unwrap());
+                worst = worst.max(outside(seen.colour, colours));
             }
         }
         worst
@@ -163,8 +163,17 @@ pub fn apart(one: &[Vec<SeenRobot>], other: &[Vec<SeenRobot>], order: &[usize], 
     Apart { place_mm, codes: codes(steps), time_ms: 5 * steps }
 }
 
-fn difference(a: Rgb, b: Rgb) -> u8 {
-    a.r.abs_diff(b.r).max(a.g.abs_diff(b.g)).max(a.b.abs_diff(b.b))
+/// How far a channel of a colour is outside of those of others, codes.
+fn outside(colour: Rgb, others: impl Iterator<Item = Rgb>) -> u8 {
+    let (mut low, mut high) = ([255; 3], [0; 3]);
+    for Rgb { r, g, b } in others {
+        for (channel, code) in [r, g, b].into_iter().enumerate() {
+            low[channel] = code.min(low[channel]);
+            high[channel] = code.max(high[channel]);
+        }
+    }
+    let codes = [colour.r, colour.g, colour.b].into_iter().zip(low.into_iter().zip(high));
+    codes.map(|(code, (low, high))| low.saturating_sub(code).max(code.saturating_sub(high))).max().unwrap_or(0)
 }
 
 /// Moments 5 ms apart, to the end of a plan.

@@ -51,8 +51,7 @@ fn loaded(arguments: &ConvertArguments) -> Result<Loaded, Failure> {
     let Some(onto) = &arguments.onto else { return show_file::load(input) };
     let mut loaded = show_file::load(onto)?;
     let bytes = show_file::bytes(input)?;
-    // A file of colours begins with the first picture.
-    let issues = put_onto(&mut loaded.show, &bytes, 0.0)
+    let issues = put_onto(&mut loaded.show, &bytes)
         .map_err(|error| Failure::input(format!("{}: {error}", input.display())))?;
     loaded.issues.extend(issues);
     Ok(loaded)
