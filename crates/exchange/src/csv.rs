@@ -1,5 +1,5 @@
-//! Skybrush's CSV: a zip archive with one table a robot, whose file has the robot's name. Rows have a time in milliseconds, a
-//! place in metres and a colour in linear light; everything changes evenly between rows.
+//! Skybrush's CSV: a zip archive with one table a robot, whose file has the robot's name. Rows have a time in
+//! milliseconds, a place in metres and a colour in linear light; everything changes evenly between rows.
 
 mod read;
 mod write;

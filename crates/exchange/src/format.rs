@@ -56,8 +56,8 @@ pub struct Written {
 }
 
 impl Format {
-    /// The bytes of a file with the show and, where the format keeps it, the plan. The same bytes for the same show. A format
-    /// that [needs](Self::needs_plan) a plan gives an error without one, and for a plan that is not sound.
+    /// The bytes of a file with the show and, where the format keeps it, the plan. The same bytes for the same show.
+    /// A format that [needs](Self::needs_plan) a plan gives an error without one, and for a plan that is not sound.
     pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
         let mut issues = self.losses(show, plan);
         let written = (self.encode)(show, plan);

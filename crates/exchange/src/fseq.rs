@@ -51,8 +51,8 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
     (sequence.bytes(), vec![note])
 }
 
-/// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins with the air time of the first frame,
-/// as the music does; of its channels, the first three are those of robot 0.
+/// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins with the air time of the
+/// first frame, as the music does; of its channels, the first three are those of robot 0.
 ///
 /// # Errors
 /// If the bytes are no FSEQ file, or a file that is not read.
@@ -62,7 +62,8 @@ pub fn put_onto(show: &mut Show, bytes: &[u8]) -> Result<Issues, ReadError> {
     let file = SequenceFile::read(bytes, 3 * robots).map_err(refused)?;
     let mut issues = Issues::new();
     if file.channels < 3 * robots {
-        let what = format!("the file has colours for {} robots, and the show has {robots}", file.channels / 3);
+        let what =
+            format!("the file has colours for {} robots, and the show has {robots}", file.channels / 3);
         issues.push(Issue::warning("too-few-colours", what));
     }
     if show.music.is_none() {

@@ -49,6 +49,7 @@ pub use part::Part;
 pub use read::read;
 pub use sequence_file::sequence_picture;
 pub use table::{
-    ARCHIVE, CSV, FORMATS, FSEQ, LIGHTBOTS, ORIGINAL, SKYC, VVIZ, for_file, formats_in_words, named, sniff, stem,
+    ARCHIVE, CSV, FORMATS, FSEQ, LIGHTBOTS, ORIGINAL, SKYC, VVIZ, for_file, formats_in_words, named, sniff,
+    stem,
 };
 pub use timed::import::replanned;

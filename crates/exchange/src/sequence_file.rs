@@ -8,6 +8,7 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use lightbots_light::PICTURE_PIXELS_MAX;
 use lightbots_show::LayerPicture;
+use ruzstd::decoding::StreamingDecoder;
 
 /// First bytes of a file.
 pub(crate) const MAGIC: &[u8] = b"PSEQ";
@@ -81,8 +82,8 @@ impl SequenceFile {
         bytes
     }
 
-    /// Reads a file; of each frame, the first `channels` bytes at most, and of many frames each n-th, so that the lights have at
-    /// most [`PICTURE_PIXELS_MAX`] colours.
+    /// Reads a file; of each frame, the first `channels` bytes at most, and of many frames each n-th, so that the
+    /// lights have at most [`PICTURE_PIXELS_MAX`] colours.
     pub fn read(bytes: &[u8], channels: usize) -> Result<Self, Refusal> {
         let header = Header::read(bytes)?;
         let kept = header.channels.min(channels.max(3)) / 3 * 3;
@@ -184,7 +185,9 @@ impl Header {
         let unpacked = header.channels as u64 * header.frames as u64;
         if header.channels > CHANNELS_MAX || unpacked > UNPACKED_MAX {
             let (channels, frames) = (header.channels, header.frames);
-            return Err(format!("has {frames} frames of {channels} channels, more than 1 GiB; save fewer channels"));
+            return Err(format!(
+                "has {frames} frames of {channels} channels, more than 1 GiB; save fewer channels"
+            ));
         }
         Ok(header)
     }
@@ -196,10 +199,13 @@ impl Header {
             return Ok(vec![Block { bytes: data, frames: self.frames }]);
         }
         let list = bytes.get(HEADER..HEADER + 8 * self.blocks).ok_or_else(cut_off)?;
-        let word = |at: usize| u32::from_le_bytes([list[at], list[at + 1], list[at + 2], list[at + 3]]) as usize;
+        let word =
+            |at: usize| u32::from_le_bytes([list[at], list[at + 1], list[at + 2], list[at + 3]]) as usize;
         // Unused entries at the end have no bytes.
-        let entries: Vec<(usize, usize)> =
-            (0..self.blocks).map(|nth| (word(8 * nth), word(8 * nth + 4))).filter(|(_, length)| *length > 0).collect();
+        let entries: Vec<(usize, usize)> = (0..self.blocks)
+            .map(|nth| (word(8 * nth), word(8 * nth + 4)))
+            .filter(|(_, length)| *length > 0)
+            .collect();
         let begins = entries.iter().map(|(first, _)| *first).chain([self.frames]).collect::<Vec<_>>();
         let is_ordered = begins.first() == Some(&0) && begins.windows(2).all(|pair| pair[0] <= pair[1]);
         if !is_ordered {
@@ -221,7 +227,10 @@ impl<'a> Block<'a> {
         match compression {
             PLAIN => Ok(Box::new(Cursor::new(self.bytes))),
             ZLIB => Ok(Box::new(ZlibDecoder::new(self.bytes))),
-            ZSTD => Err("is compressed with zstd; save it uncompressed or with zlib".into()),
+            ZSTD => {
+                let decoder = StreamingDecoder::new(self.bytes);
+                Ok(Box::new(decoder.map_err(|_| "has a damaged block; copy it again".to_owned())?))
+            }
             other => Err(format!("has an unknown compression ({other}); save it uncompressed")),
         }
     }
@@ -272,6 +281,26 @@ mod tests {
     }
 
     #[test]
+    fn a_file_with_blocks_of_zstd_is_read() {
+        let (mut bytes, codes) = (file(2).bytes(), file(2).codes);
+        let block =
+            ruzstd::encoding::compress_to_vec(&codes[..], ruzstd::encoding::CompressionLevel::Fastest);
+        bytes[20] = ZSTD;
+        bytes[36..40].copy_from_slice(&(block.len() as u32).to_le_bytes());
+        bytes.truncate(usize::from(bytes[4]));
+        bytes.extend(&block);
+        assert_eq!(SequenceFile::read(&bytes, usize::MAX).unwrap().codes, codes);
+        for at in 40..bytes.len() {
+            for flip in 1..=255 {
+                let mut changed = bytes.clone();
+                changed[at] ^= flip;
+                // Either is no fault, but it must end.
+                let _ = SequenceFile::read(&changed, usize::MAX);
+            }
+        }
+    }
+
+    #[test]
     fn every_prefix_is_refused_and_hostile_headers_are() {
         let whole = file(40).bytes();
         for end in 0..whole.len() {
@@ -287,7 +316,7 @@ mod tests {
             (13, 255, "more than 1 GiB"),
             (17, 255, "more than 1 GiB"),
             (18, 0, "0 ms"),
-            (20, ZSTD, "zstd"),
+            (20, ZSTD, "damaged block"),
             (20, 9, "unknown compression"),
             (22, 1, "sparse"),
             (32, 1, "out of order"),

@@ -1,5 +1,5 @@
-//! Skybrush's compiled shows, `.skyc`: a zip archive with `show.json`. Each drone has a path of lines and Bézier curves whose
-//! parameter is proportional to time, as ours, and a light program of bytes. Colours are linear light.
+//! Skybrush's compiled shows, `.skyc`: a zip archive with `show.json`. Each drone has a path of lines and Bézier
+//! curves whose parameter is proportional to time, as ours, and a light program of bytes. Colours are linear light.
 
 mod light_program;
 mod read;

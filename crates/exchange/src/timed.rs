@@ -1,7 +1,7 @@
 //! Shows as other programs keep them: for each robot a timed path and its light over time, without frames.
 //!
-//! [`export`] makes this of a planned show, [`import`] makes frames and trajectories of it. The formats `skyc`, `csv`, `vviz`
-//! and `fseq` are between this and bytes.
+//! [`export`] makes this of a planned show, [`import`] makes frames and trajectories of it. The formats `skyc`,
+//! `csv`, `vviz` and `fseq` are between this and bytes.
 
 pub(crate) mod export;
 pub(crate) mod fit;
@@ -14,9 +14,6 @@ mod stands;
 
 use light::TimedLight;
 use path::TimedPath;
-
-/// Longest show of a file, seconds: one day, as on the timeline of a show.
-pub(crate) const LONGEST_S: f64 = 86_400.0;
 
 /// A show of a file.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ mod zipped;
 
 use extras::with_every_part;
 use lightbots_base::{Rgb, Vec2};
-use lightbots_exchange::{FORMATS, LIGHTBOTS, SKYC, VVIZ, CSV, FSEQ, put_onto, read};
+use lightbots_exchange::{CSV, FORMATS, FSEQ, LIGHTBOTS, SKYC, VVIZ, put_onto, read};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
 use mutator::mutant;
 use numbers::Numbers;
@@ -76,7 +76,8 @@ fn is_read(bytes: &[u8]) -> bool {
         Ok(loaded) => {
             let lines = validate(&loaded.show);
             assert!(lines.iter().chain(&loaded.issues).all(|issue| !issue.message.contains('\n')));
-            let again = read(&LIGHTBOTS.write(&loaded.show, None).bytes, None).expect("what we write we read");
+            let again =
+                read(&LIGHTBOTS.write(&loaded.show, None).bytes, None).expect("what we write we read");
             assert_eq!(again.show.frames.len(), loaded.show.frames.len());
             true
         }
@@ -104,11 +105,13 @@ fn no_mutation_breaks_reading_files_of_other_programs() {
             let changed = numbers.below(files.len());
             let contents: Vec<Vec<u8>> = files.iter().map(|(_, text)| text.clone().into_bytes()).collect();
             let files = files.iter().zip(&contents).enumerate().map(|(index, ((name, _), content))| {
-                let content = if index == changed { mutant(content, 3, &mut numbers) } else { content.clone() };
+                let content =
+                    if index == changed { mutant(content, 3, &mut numbers) } else { content.clone() };
                 (name.as_str(), content)
             });
             let files: Vec<(&str, Vec<u8>)> = files.collect();
-            let files: Vec<(&str, &[u8])> = files.iter().map(|(name, content)| (*name, &content[..])).collect();
+            let files: Vec<(&str, &[u8])> =
+                files.iter().map(|(name, content)| (*name, &content[..])).collect();
             count(is_read(&zipped::archive(&files)));
         }
     }

@@ -163,7 +163,8 @@ fn every_format_recognises_its_own_files() {
     let small = played::small_show();
     let plan = played::planned(&small);
     for format in FORMATS {
-        let written = if format.needs_plan { format.write(&small, Some(&plan)) } else { format.write(&rich(), None) };
+        let written =
+            if format.needs_plan { format.write(&small, Some(&plan)) } else { format.write(&rich(), None) };
         assert_eq!(sniff(&written.bytes), Some(format));
         match read(&written.bytes, None) {
             Ok(loaded) => assert_eq!(loaded.show.frames.len(), if format.needs_plan { 3 } else { 2 }),

@@ -1,4 +1,6 @@
-//! Formats of other programs: what a show becomes in them, and what comes back. docs/exchange.md has the figures.
+//! Formats of other programs: what a show becomes in them, and what comes back. docs/exchange.md has the figures, which
+//! `--nocapture` prints.
+#![allow(clippy::print_stdout)]
 
 mod played;
 mod zipped;

@@ -9,7 +9,9 @@ use zipped::archive;
 /// A Skybrush show of one drone per pair of a path's points and further settings.
 fn skybrush(drones: &[(&str, &str)]) -> String {
     let drone = |(points, more): &(&str, &str)| {
-        format!("{{\"type\":\"generic\",\"settings\":{{\"trajectory\":{{\"version\":1,\"points\":{points}}}{more}}}}}")
+        format!(
+            "{{\"type\":\"generic\",\"settings\":{{\"trajectory\":{{\"version\":1,\"points\":{points}}}{more}}}}}"
+        )
     };
     let drones: Vec<String> = drones.iter().map(drone).collect();
     format!("{{\"version\":1,\"swarm\":{{\"drones\":[{}]}}}}", drones.join(","))
@@ -43,7 +45,8 @@ fn stands_become_pictures_and_flights_trajectories() {
     assert_eq!(places, [Vec2::ZERO, Vec2::new(1.0, 0.0), Vec2::new(1.0, 2.0)]);
     assert_eq!(show.frames[0].pixels[0].color, Rgb::new(255, 0, 0));
     assert_eq!(show.frames[2].pixels[1].color, Rgb::new(255, 255, 255), "without lights, a drone is white");
-    let robots: Vec<Option<&str>> = show.frames[1].pixels.iter().map(|pixel| pixel.robot.as_deref()).collect();
+    let robots: Vec<Option<&str>> =
+        show.frames[1].pixels.iter().map(|pixel| pixel.robot.as_deref()).collect();
     assert_eq!(robots, [None, Some("r7")], "a robot's name has no blank");
     let ways: Vec<(Option<&str>, u32, usize)> =
         show.trajectories.iter().map(|way| (way.frame.as_deref(), way.pixel, way.pieces.len())).collect();
@@ -59,7 +62,9 @@ fn stands_become_pictures_and_flights_trajectories() {
 
 #[test]
 fn robots_that_never_stand_together_have_a_first_and_a_last_picture() {
-    let show = open(&skybrush(&[("[[0,[0,0,0]],[2,[1,0,0]]]", ""), ("[[1,[0,5,0]],[3,[1,5,0]]]", "")])).unwrap().show;
+    let show = open(&skybrush(&[("[[0,[0,0,0]],[2,[1,0,0]]]", ""), ("[[1,[0,5,0]],[3,[1,5,0]]]", "")]))
+        .unwrap()
+        .show;
     let places: Vec<f64> = show.frames.iter().map(|frame| frame.pixels[0].at.x).collect();
     assert_eq!(places, [0.0, 1.0]);
     assert!(show.frames.iter().all(|frame| frame.air_time_s == 0.0));
@@ -80,7 +85,10 @@ fn parts_in_files_of_their_own_are_read() {
     assert_eq!(loaded.show.name, "Parts");
     let [c1, c2] = loaded.show.trajectories[0].pieces[0].controls.unwrap();
     // A quadratic curve, raised to a cubic one.
-    assert!(c1.distance(Vec2::new(1.0 / 3.0, 2.0 / 3.0)) < 1e-12 && c2.distance(Vec2::new(2.0 / 3.0, 2.0 / 3.0)) < 1e-12);
+    assert!(
+        c1.distance(Vec2::new(1.0 / 3.0, 2.0 / 3.0)) < 1e-12
+            && c2.distance(Vec2::new(2.0 / 3.0, 2.0 / 3.0)) < 1e-12
+    );
     assert_eq!(loaded.show.frames[0].air_time_s, 2.65, "the take-off is after 3 s");
     assert!(loaded.issues.iter().any(|issue| issue.message.ends_with("left out: yawControl")));
     let error = read(&archive(&files[..2]), None).unwrap_err().to_string();
@@ -125,14 +133,17 @@ fn large_files_end_with_words() {
     let point = "[[0,[0,0,0]]]";
     assert!(refusal(&skybrush(&vec![(point, ""); 20_001])).contains("more than 20000 drones"));
     let points: Vec<String> = (0..1_000_100).map(|at| format!("[{at}e-2,[{},0,0]]", at % 7)).collect();
-    assert!(refusal(&skybrush(&[(&format!("[{}]", points.join(",")), "")])).contains("more than 1000000 pieces"));
+    assert!(
+        refusal(&skybrush(&[(&format!("[{}]", points.join(",")), "")])).contains("more than 1000000 pieces")
+    );
     let ten_million = format!("[{}]", many("[0,[0,0,0],[]]", 5_000_000));
     let zip = archive(&[("show.json", skybrush(&[(&ten_million, "")]).as_bytes())]);
     assert_eq!(read(&zip, None).unwrap_err().code, "too-big");
     // Twenty thousand drones that refer to one large file.
     let lights = format!("{{\"version\":1,\"data\":\"{}\"}}", "AQ".repeat(2_000_000));
     let own = ",\"lights\":{\"$ref\":\"l#\"}";
-    let zip = archive(&[("show.json", skybrush(&vec![(point, own); 20_000]).as_bytes()), ("l", lights.as_bytes())]);
+    let zip =
+        archive(&[("show.json", skybrush(&vec![(point, own); 20_000]).as_bytes()), ("l", lights.as_bytes())]);
     let error = read(&zip, None).unwrap_err().to_string();
     assert!(error.contains("too many steps") || error.contains("refer to files"), "{error}");
 }
@@ -154,7 +165,11 @@ fn tables(files: &[(&str, &str)]) -> Result<Loaded, ReadError> {
 #[test]
 fn tables_are_read_in_the_order_of_their_names() {
     let head = "time_msec,x_m,y_m,z_m,red,green,blue\r\n";
-    let table = |x: u8| format!("{head}0,{x},0,0,255,0,0\r\n1000,{x},0,0,255,0,0\n\n3000,{x},1,0,0,0,255\n4000,{x},1,0,0,0,255\n");
+    let table = |x: u8| {
+        format!(
+            "{head}0,{x},0,0,255,0,0\r\n1000,{x},0,0,255,0,0\n\n3000,{x},1,0,0,0,255\n4000,{x},1,0,0,0,255\n"
+        )
+    };
     let loaded = tables(&[
         ("show/r 10.csv", &table(3)),
         ("show/r 9.csv", &table(2)),
@@ -173,9 +188,15 @@ fn tables_are_read_in_the_order_of_their_names() {
 fn what_is_wrong_in_a_table_is_named_with_its_line() {
     let head = "Time [msec],x [m],y [m],z [m],Red,Green,Blue\n";
     for (rows, part) in [
-        ("0,0,0,0,1.5,0,0\n", "line 2, column 1: \"0,0,0,0,1.5,0,0\": \"1.5\" is no whole number from 0 to 255"),
+        (
+            "0,0,0,0,1.5,0,0\n",
+            "line 2, column 1: \"0,0,0,0,1.5,0,0\": \"1.5\" is no whole number from 0 to 255",
+        ),
         ("0,0,0,0,0,0,0\n5,inf,0,0,0,0,0\n", "line 3, column 1: \"5,inf,0,0,0,0,0\": \"inf\" is no number"),
-        ("9,0,0,0,0,0,0\n5,0,0,0,0,0,0\n", "line 3, column 1: the place at 0.005 s stands behind one at 0.009 s"),
+        (
+            "9,0,0,0,0,0,0\n5,0,0,0,0,0,0\n",
+            "line 3, column 1: the place at 0.005 s stands behind one at 0.009 s",
+        ),
         ("", "it has no place"),
         ("0,0\n", "2 columns"),
     ] {
@@ -185,7 +206,9 @@ fn what_is_wrong_in_a_table_is_named_with_its_line() {
     let error = tables(&[("a.csv", "0,0,0,0\n")]).unwrap_err().to_string();
     assert!(error.contains("the first line is not"), "{error}");
     let good = format!("{head}0,0,0,0,0,0,0\n");
-    assert!(tables(&[("a/r.csv", &good), ("b/r.csv", &good)]).unwrap_err().to_string().contains("two tables"));
+    assert!(
+        tables(&[("a/r.csv", &good), ("b/r.csv", &good)]).unwrap_err().to_string().contains("two tables")
+    );
     assert_eq!(tables(&[("../r.csv", &good)]).unwrap_err().code, "bad-path");
 }
 
@@ -207,7 +230,8 @@ fn steps_of_vviz_are_added_up() {
     let loaded = read(file.as_bytes(), Some("a.vviz")).unwrap();
     let show = &loaded.show;
     assert_eq!(show.starts, Some(vec![Vec2::new(1.0, -2.0)]));
-    let ends: Vec<(f64, Vec2)> = show.trajectories[0].pieces.iter().map(|piece| (piece.end_s, piece.end)).collect();
+    let ends: Vec<(f64, Vec2)> =
+        show.trajectories[0].pieces.iter().map(|piece| (piece.end_s, piece.end)).collect();
     assert_eq!(ends, [(0.5, Vec2::new(2.0, 1.0)), (4.5, Vec2::new(2.0, 2.0))]);
     let codes: Vec<&str> = loaded.issues.iter().map(|issue| issue.code.as_str()).collect();
     assert_eq!(codes, ["flies", "sudden-speeds", "parts-left-out"]);

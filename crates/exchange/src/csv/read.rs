@@ -8,7 +8,7 @@ use super::{HEAD, is_table};
 use crate::error::ReadError;
 use crate::format::Loaded;
 use crate::json::text;
-use crate::timed::light::{LightStretch, STRETCHES_MAX, TimedLight};
+use crate::timed::light::{CodeStretch, STRETCHES_MAX, TimedLight};
 use crate::timed::path::{PIECES_MAX, PathReader};
 use crate::timed::{TimedRobot, TimedShow, import};
 use crate::zip_files::{damaged, unpack};
@@ -21,7 +21,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
         }
         Ok(())
     })?;
-    tables.sort_by(|a, b| natural(&a.0).cmp(&natural(&b.0)));
+    tables.sort_by_cached_key(|(name, _)| natural(name));
     let mut room = (PIECES_MAX, STRETCHES_MAX);
     let mut show = TimedShow::default();
     let mut names = BTreeSet::new();
@@ -84,7 +84,7 @@ fn table(name: &str, content: &[u8], room: &mut (usize, usize)) -> Result<TimedR
         }
         // Fades of one colour are holds, which become one.
         let fades = code != light.last();
-        light.push(LightStretch { end_s: at_s, to: code, fades }, &mut room.1).map_err(fail)?;
+        light.push(CodeStretch { end_s: at_s, to: code, fades }, &mut room.1).map_err(fail)?;
     }
     let path = path.end().map_err(|what| ReadError::whole("bad-table", what))?;
     Ok(TimedRobot { name: name.to_owned(), path, light })
@@ -99,7 +99,9 @@ fn row(line: &str) -> Result<(f64, [f64; 3], [u8; 3]), String> {
         number.ok_or_else(|| wrong(&format!("\"{}\" is no number", excerpt(field))))
     };
     let code = |field: &str| {
-        field.parse::<u8>().map_err(|_| wrong(&format!("\"{}\" is no whole number from 0 to 255", excerpt(field))))
+        field
+            .parse::<u8>()
+            .map_err(|_| wrong(&format!("\"{}\" is no whole number from 0 to 255", excerpt(field))))
     };
     let (numbers, codes) = match fields[..] {
         [t, x, y, z] | [t, x, y, z, ""] => ([t, x, y, z], [255; 3]),

@@ -2,7 +2,7 @@
 
 use super::TICKS_PER_S;
 use crate::timed::fit::FittedStretch;
-use crate::timed::light::{LightStretch, TimedLight};
+use crate::timed::light::{CodeStretch, TimedLight};
 
 /// Latest tick: a day.
 const TICKS_MAX: u64 = 86_400 * 50;
@@ -74,8 +74,8 @@ struct Program<'a> {
     loops: Vec<(usize, Option<u32>)>,
 }
 
-/// The light of a program. `room` is the number of operations and stretches that the file may still have. A loop for ever ends
-/// at `end_s`.
+/// The light of a program. `room` is the number of operations and stretches that the file may still have. A loop for
+/// ever ends at `end_s`.
 pub(super) fn read(bytes: &[u8], end_s: f64, room: &mut usize) -> Result<TimedLight, String> {
     let light = TimedLight { is_linear: true, ..TimedLight::default() };
     let mut program = Program { bytes, at: 0, tick: 0, light, loops: Vec::new() };
@@ -142,7 +142,7 @@ impl Program<'_> {
     /// Adds a stretch of light.
     fn shine(&mut self, to: [u8; 3], ticks: u64, fades: bool, room: &mut usize) -> Result<(), String> {
         self.tick = self.tick.saturating_add(ticks).min(TICKS_MAX + 1);
-        self.light.push(LightStretch { end_s: self.tick as f64 / TICKS_PER_S, to, fades }, room)
+        self.light.push(CodeStretch { end_s: self.tick as f64 / TICKS_PER_S, to, fades }, room)
     }
 
     fn byte(&mut self) -> Result<u8, String> {
@@ -228,7 +228,7 @@ mod tests {
             (vec![0x0d], "never began"),
             (vec![0x40], "0x40"),
             (vec![0x0c, 0, 1, 0x0d], "too many steps"),
-            ([vec![0x0c, 255].repeat(40)].concat(), "more than 32 loops"),
+            ([0x0c, 255].repeat(40), "more than 32 loops"),
             ([[0x0c, 255].repeat(30), vec![2, 1], [0x0d].repeat(30)].concat(), "too many steps"),
             (vec![2, 255, 255, 255, 255, 15], "a day"),
         ] {

@@ -45,7 +45,10 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     }
     let mut loaded = import::loaded(&show)?;
     if !reader.unused.is_empty() {
-        let what = format!("parts of the file are for flying or for other media and are left out: {}", reader.unused.join(", "));
+        let what = format!(
+            "parts of the file are for flying or for other media and are left out: {}",
+            reader.unused.join(", ")
+        );
         loaded.issues.push(Issue::warning("parts-left-out", what));
     }
     Ok(loaded)
@@ -85,9 +88,10 @@ impl Reader {
             match key {
                 "version" => has_version = version(json, "the show")?,
                 "meta" => json.object(|json, key| {
-                    match (key, json.clone().scalar()?) {
-                        ("title", Scalar::Text(title)) => show.name = title.into_owned(),
-                        _ => {}
+                    if key == "title"
+                        && let Scalar::Text(title) = json.clone().scalar()?
+                    {
+                        show.name = title.into_owned();
                     }
                     json.skip()
                 })?,
@@ -144,7 +148,8 @@ impl Reader {
                 "name" => drone.name = json.text("the name")?.into_owned(),
                 "trajectory" => {
                     let pieces = &mut self.pieces;
-                    let part = referred(json, &self.files, &mut self.referred, &mut |json| trajectory(json, pieces));
+                    let part =
+                        referred(json, &self.files, &mut self.referred, &mut |json| trajectory(json, pieces));
                     drone.path = Some(part?);
                 }
                 "lights" => {
@@ -182,8 +187,8 @@ fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
     }
 }
 
-/// Reads a part that stands here, or in a file that is named here: `{"$ref": "./drones/1/lights.json#"}`. `room` is the number of
-/// bytes of such files that may still be read.
+/// Reads a part that stands here, or in a file that is named here: `{"$ref": "./drones/1/lights.json#"}`. `room` is
+/// the number of bytes of such files that may still be read.
 fn referred<T>(
     json: &mut Json<'_>,
     files: &BTreeMap<String, Vec<u8>>,
@@ -196,12 +201,16 @@ fn referred<T>(
     let name = name.strip_suffix('/').unwrap_or(name);
     let name = name.strip_suffix('#').unwrap_or(name);
     let Some(file) = files.get(name) else {
-        let what = format!("it names the file \"{}\", which is not in the archive; export it again", excerpt(name));
+        let what =
+            format!("it names the file \"{}\", which is not in the archive; export it again", excerpt(name));
         return Err(json.fail("missing-file", what));
     };
     *room = room.checked_sub(file.len()).ok_or_else(|| {
         let mib = REFERRED_MAX >> 20;
-        json.fail("too-big", format!("drones refer to files of more than {mib} MiB; export a part of the show"))
+        json.fail(
+            "too-big",
+            format!("drones refer to files of more than {mib} MiB; export a part of the show"),
+        )
     })?;
     json.skip()?;
     let content = text(file).map_err(|error| in_part(name, error))?;
@@ -249,7 +258,8 @@ fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<Timed
         let (Some(at_s), Some(place)) = (at_s, place) else {
             return Err(begin.fail("bad-point", "a point has a time and a place: [t, [x, y, z], []]"));
         };
-        let curve = cubic(&controls, before.unwrap_or(place), place).map_err(|what| begin.fail("bad-curve", what))?;
+        let curve =
+            cubic(&controls, before.unwrap_or(place), place).map_err(|what| begin.fail("bad-curve", what))?;
         before = Some(place);
         reader.point(at_s + shift_s, place, curve).map_err(|what| begin.fail("bad-path", what))
     })?;
@@ -274,7 +284,9 @@ fn triples(json: &mut Json<'_>) -> Result<Vec<[f64; 3]>, ReadError> {
     let mut triples = Vec::new();
     json.list(|json, index| {
         if index >= 8 {
-            return Err(json.fail("bad-curve", "a curve has more than 8 control points; at most two are read"));
+            return Err(
+                json.fail("bad-curve", "a curve has more than 8 control points; at most two are read")
+            );
         }
         triples.push(triple(json)?);
         Ok(())
@@ -298,7 +310,8 @@ fn triple(json: &mut Json<'_>) -> Result<[f64; 3], ReadError> {
     if count == 3 {
         return Ok(place);
     }
-    let what = format!("a place has {count} coordinates; it has three in metres: [x, y, z], on the floor with z 0");
+    let what =
+        format!("a place has {count} coordinates; it has three in metres: [x, y, z], on the floor with z 0");
     Err(begin.fail("bad-place", what))
 }
 

@@ -30,7 +30,8 @@ fn archive(show: &Show, exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Is
     }
     let document = text(show, exported);
     if document.len() > MAX_BYTES {
-        let what = format!("the show has more than {} MiB for Skybrush; export a part of it", MAX_BYTES >> 20);
+        let what =
+            format!("the show has more than {} MiB for Skybrush; export a part of it", MAX_BYTES >> 20);
         return Err(Issue::error("too-big", what));
     }
     let bytes = pack([(DOCUMENT.to_owned(), document.as_bytes())])

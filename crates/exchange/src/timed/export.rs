@@ -154,9 +154,9 @@ pub(crate) fn lines(path: &Path) -> Vec<(Span, Vec2)> {
         // Between two moments of a curve, a line is off by at most its largest acceleration times the square of the
         // duration, by 8.
         let seconds = piece.duration.as_secs();
-        let bend = (piece.c2 - piece.c1 - (piece.c1 - from)).length().max(
-            ((piece.end - piece.c2) - (piece.c2 - piece.c1)).length(),
-        );
+        let bend = (piece.c2 - piece.c1 - (piece.c1 - from))
+            .length()
+            .max(((piece.end - piece.c2) - (piece.c2 - piece.c1)).length());
         let count = ((6.0 * bend / (8.0 * CHORD_M)).sqrt().ceil() as usize).clamp(1, CHORDS_MAX);
         for nth in 1..=count {
             let share = nth as f64 / count as f64;

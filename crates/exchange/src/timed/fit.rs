@@ -21,8 +21,8 @@ pub(crate) struct FittedStretch {
     pub fades: bool,
 }
 
-/// Holds and fades that differ from each sample by at most one code, dark ones by half of that. Each fade is as long as it can be. A step takes place
-/// at a sample.
+/// Holds and fades that differ from each sample by at most one code, dark ones by half of that. Each fade is as long
+/// as it can be. A step takes place at a sample.
 pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     let mut stretches: Vec<FittedStretch> = Vec::new();
     let hold = |stretches: &mut Vec<FittedStretch>, end: usize, to: [u8; 3]| match stretches.last_mut() {

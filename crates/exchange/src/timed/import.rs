@@ -87,7 +87,8 @@ fn framed(
 pub fn replanned(show: &mut Show) {
     for trajectory in std::mem::take(&mut show.trajectories) {
         let id = trajectory.frame.as_deref();
-        let Some(frame) = show.frames.iter_mut().find(|frame| frame.id.as_deref() == id && id.is_some()) else {
+        let Some(frame) = show.frames.iter_mut().find(|frame| frame.id.as_deref() == id && id.is_some())
+        else {
             continue;
         };
         let end_s = trajectory.at_s + trajectory.pieces.last().map_or(0.0, |piece| piece.end_s);
@@ -115,7 +116,8 @@ fn times(file: &TimedShow, turn_s: f64) -> Vec<FrameTimes> {
         let drive_s = times.last().map_or(0.0, |before| before.end_s);
         let stands_s = stand.end_s - stand.begin_s;
         // A drive begins with a rest in which robots turn.
-        let turn_s = if index + 1 == stands.len() { 0.0 } else { turn_s.min(stands_s - AIR_LEAST_S).max(0.0) };
+        let turn_s =
+            if index + 1 == stands.len() { 0.0 } else { turn_s.min(stands_s - AIR_LEAST_S).max(0.0) };
         times.push(FrameTimes { drive_s, air_s: stand.begin_s, end_s: stand.end_s - turn_s });
     }
     times
@@ -152,7 +154,13 @@ fn perform(show: &mut Show, number: u32, robot: &TimedRobot, times: &[FrameTimes
             show.trajectories.push(Trajectory { frame: Some(frame_id(index)), pixel: number, ..trajectory });
         }
         let color = light.at(times.air_s / 2.0 + times.end_s / 2.0);
-        show.frames[index].pixels.push(Pixel { id: number, at, color, robot: name.clone(), ..Pixel::default() });
+        show.frames[index].pixels.push(Pixel {
+            id: number,
+            at,
+            color,
+            robot: name.clone(),
+            ..Pixel::default()
+        });
     }
 }
 
@@ -230,19 +238,29 @@ fn findings(file: &TimedShow, show: &Show) -> Issues {
         let verb = if fliers == 1 { "robot flies" } else { "robots fly" };
         find("flies", format!("{fliers} {verb} up to {top_m:.1} m: places on the floor are kept"));
     }
-    let named = show.frames.first().map_or(0, |frame| frame.pixels.iter().filter(|p| p.robot.is_some()).count());
+    let named =
+        show.frames.first().map_or(0, |frame| frame.pixels.iter().filter(|p| p.robot.is_some()).count());
     if named > 0 {
-        let what = "pixels ask for robots by the names in the file; take the names away if your robots have others";
+        let what =
+            "pixels ask for robots by the names in the file; take the names away if your robots have others";
         find("named-robots", what.into());
     }
     let jumping = show.trajectories.iter().filter(|trajectory| jumps(trajectory)).count();
     let long = show.trajectories.iter().filter(|way| way.pieces.len() > PIECES_OF_DRIVE_MAX).count();
     let remedy = "have the drives planned anew (lightbots convert --replan)";
     if jumping > 0 {
-        find("sudden-speeds", format!("on {jumping} paths the speed changes without a ramp, and no robot can follow; {remedy}"));
+        find(
+            "sudden-speeds",
+            format!("on {jumping} paths the speed changes without a ramp, and no robot can follow; {remedy}"),
+        );
     }
     if long > 0 {
-        find("long-paths", format!("{long} paths have more than {PIECES_OF_DRIVE_MAX} pieces, which robots cannot keep; {remedy}"));
+        find(
+            "long-paths",
+            format!(
+                "{long} paths have more than {PIECES_OF_DRIVE_MAX} pieces, which robots cannot keep; {remedy}"
+            ),
+        );
     }
     issues
 }

@@ -3,7 +3,7 @@
 use lightbots_base::Rgb;
 use lightbots_light::Linear;
 
-use super::LONGEST_S;
+use crate::limits::LONGEST_S;
 
 /// Most stretches of light of a file: 16 bytes each.
 pub(crate) const STRETCHES_MAX: usize = 4_000_000;
@@ -16,12 +16,12 @@ pub(crate) struct TimedLight {
     /// Codes at the begin.
     pub start: [u8; 3],
     /// Stretches in order; the last codes hold afterwards.
-    pub stretches: Vec<LightStretch>,
+    pub stretches: Vec<CodeStretch>,
 }
 
 /// A stretch of a robot's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LightStretch {
+pub(crate) struct CodeStretch {
     /// Its end, seconds from the begin of the show; not before that of the stretch before.
     pub end_s: f64,
     /// Codes at its end.
@@ -47,7 +47,7 @@ impl TimedLight {
     }
 
     /// Adds a stretch; holds of one code become one. `room` is the number of stretches that the file may still have.
-    pub fn push(&mut self, stretch: LightStretch, room: &mut usize) -> Result<(), String> {
+    pub fn push(&mut self, stretch: CodeStretch, room: &mut usize) -> Result<(), String> {
         if !(0.0..=LONGEST_S).contains(&stretch.end_s) {
             return Err("its light lasts longer than a day; shorten it".into());
         }
@@ -60,15 +60,17 @@ impl TimedLight {
             _ => {}
         }
         *room = room.checked_sub(1).ok_or_else(|| {
-            format!("the lights of all robots have more than {STRETCHES_MAX} changes; split the show into several")
+            format!(
+                "the lights of all robots have more than {STRETCHES_MAX} changes; split the show into several"
+            )
         })?;
         self.stretches.push(stretch);
         Ok(())
     }
 
     /// The light at moments that do not decrease.
-    pub fn player(&self) -> LightPlayer<'_> {
-        LightPlayer { light: self, next: 0, begin: (0.0, self.start) }
+    pub fn player(&self) -> CodePlayer<'_> {
+        CodePlayer { light: self, next: 0, begin: (0.0, self.start) }
     }
 
     fn rgb(&self, codes: [f64; 3]) -> Rgb {
@@ -83,7 +85,7 @@ impl TimedLight {
 
 /// Plays a light.
 #[derive(Clone, Debug)]
-pub(crate) struct LightPlayer<'a> {
+pub(crate) struct CodePlayer<'a> {
     light: &'a TimedLight,
     /// Number of the stretch that plays.
     next: usize,
@@ -91,7 +93,7 @@ pub(crate) struct LightPlayer<'a> {
     begin: (f64, [u8; 3]),
 }
 
-impl LightPlayer<'_> {
+impl CodePlayer<'_> {
     /// The colour at `at_s` seconds, not before the moment asked for last.
     pub fn at(&mut self, at_s: f64) -> Rgb {
         while let Some(stretch) = self.light.stretches.get(self.next) {
@@ -102,8 +104,9 @@ impl LightPlayer<'_> {
                     return self.light.rgb(to);
                 }
                 let share = ((at_s - begin_s) / (stretch.end_s - begin_s)).clamp(0.0, 1.0);
-                let mixed =
-                    std::array::from_fn(|channel| f64::from(from[channel]).mul_add(1.0 - share, to[channel] * share));
+                let mixed = std::array::from_fn(|channel| {
+                    f64::from(from[channel]).mul_add(1.0 - share, to[channel] * share)
+                });
                 return self.light.rgb(mixed);
             }
             self.begin = (stretch.end_s, stretch.to);
@@ -125,7 +128,7 @@ mod tests {
 
     #[test]
     fn holds_fades_and_steps_are_played() {
-        let stretch = |end_s: f64, code: u8, fades| LightStretch { end_s, to: [code, 0, 0], fades };
+        let stretch = |end_s: f64, code: u8, fades| CodeStretch { end_s, to: [code, 0, 0], fades };
         let stretches = vec![stretch(1.0, 10, false), stretch(3.0, 110, true), stretch(3.0, 7, false)];
         let light = TimedLight { is_linear: false, start: [0; 3], stretches };
         let mut player = light.player();
@@ -148,9 +151,8 @@ mod tests {
     #[test]
     fn holds_of_one_code_become_one_and_stretches_are_bounded() {
         let (mut light, mut room) = (TimedLight::default(), 2);
-        let mut push = |end_s: f64, code: u8| {
-            light.push(LightStretch { end_s, to: [code; 3], fades: false }, &mut room)
-        };
+        let mut push =
+            |end_s: f64, code: u8| light.push(CodeStretch { end_s, to: [code; 3], fades: false }, &mut room);
         assert_eq!([push(1.0, 5), push(2.0, 5), push(3.0, 6)], [Ok(()), Ok(()), Ok(())]);
         assert!(push(4.0, 7).unwrap_err().contains("split the show"));
         assert!(push(f64::NAN, 6).unwrap_err().contains("a day"));

@@ -3,7 +3,7 @@
 use lightbots_base::Vec2;
 use lightbots_show::{MAX_TRAJECTORY_PIECES, TrajectoryPiece};
 
-use super::LONGEST_S;
+use crate::limits::LONGEST_S;
 
 /// A robot that moves less within a piece stands, metres: files round places to a tenth of a millimetre.
 const STILL_M: f64 = 1e-4;

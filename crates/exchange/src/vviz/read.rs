@@ -6,9 +6,10 @@ use crate::error::ReadError;
 use crate::format::Loaded;
 use crate::json::frames::{document, missing};
 use crate::json::{Json, Scalar};
-use crate::timed::light::{LightStretch, STRETCHES_MAX, TimedLight};
+use crate::limits::LONGEST_S;
+use crate::timed::light::{CodeStretch, STRETCHES_MAX, TimedLight};
 use crate::timed::path::{PIECES_MAX, PathReader, TimedPath};
-use crate::timed::{LONGEST_S, TimedRobot, TimedShow, import};
+use crate::timed::{TimedRobot, TimedShow, import};
 
 /// Frames a second that a file may state.
 const RATES: std::ops::RangeInclusive<f64> = 0.01..=1_000.0;
@@ -165,7 +166,7 @@ impl Reader {
         let (mut frames, offset_s, rate) = (0.0, self.offset_s, self.rates[1]);
         let room = &mut self.stretches;
         if offset_s > 0.0 {
-            let dark = LightStretch { end_s: offset_s, to: [0; 3], fades: false };
+            let dark = CodeStretch { end_s: offset_s, to: [0; 3], fades: false };
             light.push(dark, room).map_err(|what| json.fail("bad-light", what))?;
         }
         json.object(|json, key| match key {
@@ -173,7 +174,7 @@ impl Reader {
                 let begin = json.clone();
                 let (to, lasts) = action(json)?;
                 frames += lasts;
-                let stretch = LightStretch { end_s: offset_s + frames / rate, to, fades: false };
+                let stretch = CodeStretch { end_s: offset_s + frames / rate, to, fades: false };
                 light.push(stretch, room).map_err(|what| begin.fail("bad-light", what))
             }),
             _ => json.skip(),

@@ -33,7 +33,8 @@ fn document(show: &Show, exported: &ExportedShow) -> Result<(Vec<u8>, Issues), I
         let what = format!("the show has more than {mib} MiB as VVIZ; export a part of it");
         return Err(Issue::error("too-big", what));
     }
-    let note = sampled_note("curves become lines within half a millimetre, and each colour is held for 20 ms");
+    let note =
+        sampled_note("curves become lines within half a millimetre, and each colour is held for 20 ms");
     Ok((text.into_bytes(), vec![note]))
 }
 

@@ -72,8 +72,8 @@ pub fn seen(show: &Show, plan: &ShowPlan, moments_s: &[f64]) -> Vec<Vec<SeenRobo
     scenes(&PlannedShow::new(show, plan, &light), moments_s)
 }
 
-/// The robots of a show at each of `moments_s`, by its trajectories alone, whether a robot could drive them or not. Pixel n is
-/// robot n.
+/// The robots of a show at each of `moments_s`, by its trajectories alone, whether a robot could drive them or not.
+/// Pixel n is robot n.
 pub fn prescribed(show: &mut Show, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let dark = attach_pictures(show, |_, asset| {
         sequence_picture(asset.content.as_ref().expect("it is there")).map(Arc::new)
@@ -84,9 +84,8 @@ pub fn prescribed(show: &mut Show, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let pixels: Vec<Option<u32>> = (0..).take(show.frames[0].pixels.len()).map(Some).collect();
     let mut places = show.starts.clone().expect("an import has starts");
     let paths: Vec<Vec<Path>> = show.frames.iter().map(|frame| paths(show, frame, &mut places)).collect();
-    let longest = |paths: &[Path]| {
-        paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
-    };
+    let longest =
+        |paths: &[Path]| paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
     let drives = paths.iter().map(|paths| PlannedDrive { pixels: &pixels, paths, duration: longest(paths) });
     scenes(&PlannedShow::of_drives(show, drives.collect(), &light), moments_s)
 }
@@ -173,7 +172,10 @@ fn outside(colour: Rgb, others: impl Iterator<Item = Rgb>) -> u8 {
         }
     }
     let codes = [colour.r, colour.g, colour.b].into_iter().zip(low.into_iter().zip(high));
-    codes.map(|(code, (low, high))| low.saturating_sub(code).max(code.saturating_sub(high))).max().unwrap_or(0)
+    codes
+        .map(|(code, (low, high))| low.saturating_sub(code).max(code.saturating_sub(high)))
+        .max()
+        .unwrap_or(0)
 }
 
 /// Moments 5 ms apart, to the end of a plan.

@@ -25,8 +25,8 @@ pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorP
     (film.at(frame, across, down), 1.0)
 }
 
-/// The pixel of a robot in the row of the moment, `rows` after the first. Nothing before the first row, after the last, and for
-/// robots without a column.
+/// The pixel of a robot in the row of the moment, `rows` after the first. Nothing before the first row, after the
+/// last, and for robots without a column.
 pub(super) fn sequence(rows: f64, robot: u32, colours: Option<&FloorPicture>) -> Shade {
     let row = libm::floor(rows + EARLY_ROWS);
     if row.is_nan() || row < 0.0 {
@@ -49,7 +49,10 @@ mod tests {
             let (light, opacity) = sequence(rows, robot, Some(&colours));
             (opacity > 0.0).then(|| light.to_rgb().r)
         };
-        assert_eq!([shown(0.0, 0), shown(0.9, 1), shown(1.0 - 1e-9, 0), shown(1.5, 1)], [10, 20, 30, 40].map(Some));
+        assert_eq!(
+            [shown(0.0, 0), shown(0.9, 1), shown(1.0 - 1e-9, 0), shown(1.5, 1)],
+            [10, 20, 30, 40].map(Some)
+        );
         assert_eq!([shown(-0.5, 0), shown(2.0, 0), shown(0.0, 2), shown(f64::NAN, 0)], [None; 4]);
         assert_eq!(sequence(0.0, 0, None).1, 0.0);
     }
