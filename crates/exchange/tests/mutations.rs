@@ -99,14 +99,16 @@ fn no_mutation_breaks_reading_files_of_other_programs() {
     for format in [&SKYC, &CSV] {
         let whole = format.write(&show, Some(&plan)).bytes;
         let files = zipped::texts(&whole);
-        for _ in 0..150 {
+        for round in 0..300 {
             // A changed archive is nearly always one with a wrong checksum.
-            count(is_read(&mutant(&whole, 2, &mut numbers)));
+            if round % 4 == 0 {
+                count(is_read(&mutant(&whole, 2, &mut numbers)));
+            }
             let changed = numbers.below(files.len());
             let contents: Vec<Vec<u8>> = files.iter().map(|(_, text)| text.clone().into_bytes()).collect();
             let files = files.iter().zip(&contents).enumerate().map(|(index, ((name, _), content))| {
                 let content =
-                    if index == changed { mutant(content, 3, &mut numbers) } else { content.clone() };
+                    if index == changed { mutant(content, 1, &mut numbers) } else { content.clone() };
                 (name.as_str(), content)
             });
             let files: Vec<(&str, Vec<u8>)> = files.collect();
@@ -117,7 +119,7 @@ fn no_mutation_breaks_reading_files_of_other_programs() {
     }
     let vviz = VVIZ.write(&show, Some(&plan)).bytes;
     for _ in 0..300 {
-        count(is_read(&mutant(&vviz, 3, &mut numbers)));
+        count(is_read(&mutant(&vviz, 1, &mut numbers)));
     }
     let fseq = FSEQ.write(&show, Some(&plan)).bytes;
     for _ in 0..1_000 {
