@@ -25,9 +25,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     let mut room = (PIECES_MAX, STRETCHES_MAX);
     let mut show = TimedShow::default();
     let mut names = BTreeSet::new();
-    for (name, content) in &tables {
-        let robot = table(stem(name), content, &mut room).map_err(|error| ReadError {
-            what: format!("{} (in the table \"{}\")", error.what, excerpt(name)),
+    for (name, content) in tables {
+        let robot = table(stem(&name), &content, &mut room).map_err(|error| ReadError {
+            what: format!("{} (in the table \"{}\")", error.what, excerpt(&name)),
             ..error
         })?;
         if !names.insert(robot.name.clone()) {

@@ -38,11 +38,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
         referred: REFERRED_MAX,
         unused: Vec::new(),
     };
-    let mut json = Json::new(text(&document).map_err(|error| in_part(DOCUMENT, error))?);
-    let show = reader.show(&mut json).map_err(|error| in_part(DOCUMENT, error))?;
-    if !json.is_at_end() {
-        return Err(in_part(DOCUMENT, json.unexpected("the end of the file")));
-    }
+    let show = reader.document(&document)?;
+    // Memory for the show instead of its text.
+    drop((document, std::mem::take(&mut reader.files)));
     let mut loaded = import::loaded(&show)?;
     if !reader.unused.is_empty() {
         let what = format!(
@@ -81,6 +79,16 @@ struct Drone {
 }
 
 impl Reader {
+    fn document(&mut self, document: &[u8]) -> Result<TimedShow, ReadError> {
+        let mut json = Json::new(text(document).map_err(|error| in_part(DOCUMENT, error))?);
+        let show = self.show(&mut json).map_err(|error| in_part(DOCUMENT, error))?;
+        if json.is_at_end() {
+            Ok(show)
+        } else {
+            Err(in_part(DOCUMENT, json.unexpected("the end of the file")))
+        }
+    }
+
     fn show(&mut self, json: &mut Json<'_>) -> Result<TimedShow, ReadError> {
         let mut show = TimedShow::default();
         let (mut has_version, mut has_swarm) = (false, false);
