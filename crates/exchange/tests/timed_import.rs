@@ -73,6 +73,15 @@ fn robots_that_never_stand_together_have_a_first_and_a_last_picture() {
 }
 
 #[test]
+fn a_name_means_one_robot() {
+    let still = "[[0,[0,0,0]]]";
+    let named = ",\"name\":\"r7\"";
+    let show = open(&skybrush(&[(still, named), ("[[0,[1,0,0]]]", named)])).unwrap().show;
+    let names: Vec<Option<&str>> = show.frames[0].pixels.iter().map(|pixel| pixel.robot.as_deref()).collect();
+    assert_eq!(names, [Some("r7"), None]);
+}
+
+#[test]
 fn parts_in_files_of_their_own_are_read() {
     let document = "{\"version\":1,\"meta\":{\"title\":\"Parts\"},\"swarm\":{\"drones\":[{\"settings\":{\"trajectory\":\
                     {\"$ref\":\"./drones/1/path.json#\"},\"lights\":{\"$ref\":\"./drones/1/lights.json#\"},\

@@ -1,5 +1,6 @@
 //! A show of a file -> frames and trajectories. Where all robots stand is a frame; what they drive between is prescribed.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 
 use lightbots_base::{Rgb, RobotId, Vec2};
@@ -43,6 +44,8 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
             // Layers shine on robots with a pixel: one where they begin lets them shine on the way to the first picture.
             times.insert(0, FrameTimes { drive_s: 0.0, air_s: 0.0, end_s: 0.0 });
             issues.clear();
+            // Only one of both fits into the memory that a hostile file may take.
+            drop(std::mem::take(&mut show));
             show = framed(file, stage, &times, &mut issues)?;
         }
         issues.extend(sequence::add(&mut show, file, &times));
@@ -74,8 +77,12 @@ fn framed(
         frames: times.iter().enumerate().map(|(index, times)| frame(index, times)).collect(),
         ..Show::default()
     };
+    let mut taken = BTreeSet::new();
     for (number, robot) in (0..).zip(&file.robots) {
-        perform(&mut show, number, robot, times);
+        let name = RobotId::new(&robot.name).map(|id| id.as_str().to_owned());
+        // A name means one robot.
+        let name = name.filter(|name| taken.insert(name.clone()));
+        perform(&mut show, (number, name), robot, times);
     }
     show.trajectories.sort_by_key(|trajectory| frame_number(trajectory.frame.as_deref()));
     bounded(&mut show, issues);
@@ -85,15 +92,19 @@ fn framed(
 /// The trajectories of a show left out: drives between its frames are planned, in as much time as they took where robots can
 /// do that.
 pub fn replanned(show: &mut Show) {
+    let mut longest: BTreeMap<String, f64> = BTreeMap::new();
     for trajectory in std::mem::take(&mut show.trajectories) {
-        let id = trajectory.frame.as_deref();
-        let Some(frame) = show.frames.iter_mut().find(|frame| frame.id.as_deref() == id && id.is_some())
-        else {
-            continue;
-        };
         let end_s = trajectory.at_s + trajectory.pieces.last().map_or(0.0, |piece| piece.end_s);
-        let longest_s = frame.transition_s.unwrap_or(0.0).max(end_s);
-        frame.transition_s = (longest_s > 0.0).then_some(longest_s);
+        if let Some(id) = trajectory.frame {
+            let longest_s = longest.entry(id).or_default();
+            *longest_s = longest_s.max(end_s);
+        }
+    }
+    for frame in &mut show.frames {
+        let longest_s = frame.id.as_ref().and_then(|id| longest.get(id)).copied().unwrap_or(0.0);
+        if longest_s > 0.0 {
+            frame.transition_s = Some(longest_s);
+        }
     }
 }
 
@@ -141,9 +152,8 @@ fn frame_number(id: Option<&str>) -> usize {
     id.and_then(|id| id.strip_prefix('f')?.parse().ok()).unwrap_or(0)
 }
 
-/// Adds the pixels and trajectories of a robot.
-fn perform(show: &mut Show, number: u32, robot: &TimedRobot, times: &[FrameTimes]) {
-    let name = RobotId::new(&robot.name).map(|id| id.as_str().to_owned());
+/// Adds the pixels and trajectories of a robot with its number and name.
+fn perform(show: &mut Show, (number, name): (u32, Option<String>), robot: &TimedRobot, times: &[FrameTimes]) {
     let mut light = robot.light.player();
     let mut first = 0;
     for (index, times) in times.iter().enumerate() {
