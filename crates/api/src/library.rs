@@ -20,7 +20,7 @@
 //! | `POST /api/check` | a file of any format | its [`Plan`](crate::Plan) with paths. A newer request of the same address
 //! ends an older one with 409 |
 //! | `POST /api/convert?to=FORMAT` | a file of any format | a file of that format, with the files of the library that it
-//! names; 422 for a file that is no show |
+//! names; 422 for a file that is no show, and for a show that cannot be planned where the format has timed paths |
 //! | `GET /api/plan` | | the [`Plan`](crate::Plan) of the open show, with paths |
 
 use serde::{Deserialize, Serialize};

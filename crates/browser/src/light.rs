@@ -32,7 +32,13 @@ impl LightPictures {
 
     /// Decodes a file. A `LightAnswer` as JSON: its error says what is wrong with the file.
     pub fn add(&mut self, hash: &str, file: &[u8]) -> String {
-        let decoded = layer_picture(file).map_err(answer::drawing).and_then(|picture| {
+        let decoded = if lightbots_exchange::is_sequence(file) {
+            let remark = |message| MakeRemark { code: "bad-sequence".into(), message };
+            lightbots_exchange::sequence_picture(file).map_err(remark)
+        } else {
+            layer_picture(file).map_err(answer::drawing)
+        };
+        let decoded = decoded.and_then(|picture| {
             if self.decoded.len() >= LAYER_PICTURES_MAX && !self.decoded.contains_key(hash) {
                 let message =
                     format!("More than {LAYER_PICTURES_MAX} pictures were looked at: reload the page.");

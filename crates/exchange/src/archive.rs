@@ -4,6 +4,7 @@
 mod read;
 mod write;
 
+pub(crate) use crate::zip_files::is_zip as sniff;
 pub(crate) use read::read;
 pub(crate) use write::encode;
 
@@ -16,11 +17,6 @@ const DOCUMENT: &str = "show.lightbots.json";
 const ASSETS: &str = "assets/";
 /// Most files of an archive: the document and the most assets of a show.
 const ENTRIES_MAX: usize = 1 + lightbots_show::MAX_ASSETS;
-
-/// Whether the bytes begin like an archive: `PK` and the kind of its first record, an entry or the end.
-pub(crate) fn sniff(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
-}
 
 /// The SHA-256 by which a show names a file.
 pub fn hash_of(content: &[u8]) -> AssetHash {

@@ -20,7 +20,9 @@ pub struct Format {
     pub media_type: &'static str,
     /// What a file keeps besides frames with their names, air times and pixels, which every format keeps.
     pub carries: &'static [Part],
-    /// Whether bytes look like this format. Looks at the beginning only and never fails.
+    /// Whether a file holds timed paths or lights, so that it cannot be written without the plan of the show.
+    pub needs_plan: bool,
+    /// Whether bytes look like this format. Reads nothing and never fails.
     pub sniff: fn(&[u8]) -> bool,
     /// Reads the bytes of a file.
     pub(crate) read: fn(&[u8]) -> Result<Loaded, ReadError>,
@@ -47,7 +49,7 @@ pub struct Loaded {
 /// A file to be saved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
-    /// The bytes of the file.
+    /// The bytes of the file; empty where an error among the issues says why there is none.
     pub bytes: Vec<u8>,
     /// One warning for each part that is used and that the format does not keep, then what else the format finds.
     pub issues: Issues,
@@ -55,6 +57,7 @@ pub struct Written {
 
 impl Format {
     /// The bytes of a file with the show and, where the format keeps it, the plan. The same bytes for the same show.
+    /// A format that [needs](Self::needs_plan) a plan gives an error without one, and for a plan that is not sound.
     pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
         let mut issues = self.losses(show, plan);
         let written = (self.encode)(show, plan);

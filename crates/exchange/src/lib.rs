@@ -2,7 +2,8 @@
 //!
 //! [`FORMATS`] is the only list of formats. The command line, the web API and the screen read names, endings and
 //! contents of formats from it. A further format is a module beside `lightbots`, `archive` and `original`, and a row of
-//! the table.
+//! the table. `skyc`, `csv`, `vviz` and `fseq` are formats of other programs, which know no frames: `timed` is between them
+//! and shows.
 //!
 //! The crate does no IO and does not judge a show: [`lightbots_show::validate`] does. In reading order: [`Format`] is a
 //! row of the table. [`read()`] takes a file of any format and gives [`Loaded`] or a [`ReadError`]. [`Format::write`] gives
@@ -21,21 +22,34 @@
 //! ```
 
 mod archive;
+mod csv;
 mod error;
 mod format;
+mod fseq;
 mod json;
 mod lightbots;
 mod limits;
 mod original;
 mod part;
 mod read;
+mod sequence_file;
+mod skyc;
 mod table;
+mod timed;
+mod vviz;
+mod zip_files;
 
 pub use archive::hash_of;
 pub use error::{PixelName, ReadError};
 pub use format::{Format, Loaded, Written};
+pub use fseq::{put_onto, sniff as is_sequence};
 pub use lightbots::read_layer;
 pub use limits::MAX_BYTES;
 pub use part::Part;
 pub use read::read;
-pub use table::{ARCHIVE, FORMATS, LIGHTBOTS, ORIGINAL, for_file, formats_in_words, named, sniff, stem};
+pub use sequence_file::sequence_picture;
+pub use table::{
+    ARCHIVE, CSV, FORMATS, FSEQ, LIGHTBOTS, ORIGINAL, SKYC, VVIZ, for_file, formats_in_words, named, sniff,
+    stem,
+};
+pub use timed::import::replanned;

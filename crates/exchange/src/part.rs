@@ -86,6 +86,29 @@ impl Part {
         parts
     };
 
+    /// The parts that timed paths say, and the name of the show.
+    pub(crate) const TIMED: [Self; 7] = [
+        Self::Title,
+        Self::Identity,
+        Self::Starts,
+        Self::Durations,
+        Self::Easing,
+        Self::Trajectories,
+        Self::Plan,
+    ];
+
+    /// [`Self::TIMED`] and names of robots.
+    pub(crate) const TIMED_WITH_NAMES: [Self; 8] = {
+        let mut parts = [Self::ChosenRobots; 8];
+        let (timed, _) = parts.split_at_mut(Self::TIMED.len());
+        timed.copy_from_slice(&Self::TIMED);
+        parts
+    };
+
+    /// The parts that tables of places with names of robots say.
+    pub(crate) const TABLES: [Self; 6] =
+        [Self::Identity, Self::Starts, Self::Durations, Self::Easing, Self::ChosenRobots, Self::Plan];
+
     /// Every part.
     pub fn all() -> impl Iterator<Item = Self> {
         Self::SHOW.into_iter().chain([Self::Plan])
@@ -123,7 +146,7 @@ impl Part {
     pub fn words(self) -> &'static str {
         match self {
             Self::Title => "the name of the show",
-            Self::FloorSize => "the size of the floor: it becomes 3 m x 3 m",
+            Self::FloorSize => "the size of the floor, which becomes another one",
             Self::NoGoAreas => "the no-go areas",
             Self::RobotLimits => "size and speed of the robots",
             Self::Identity => "that pixel ids are bound to robots",

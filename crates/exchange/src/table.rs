@@ -2,11 +2,11 @@
 
 use crate::format::Format;
 use crate::part::Part;
-use crate::{archive, lightbots, original};
+use crate::{archive, csv, fseq, lightbots, original, skyc, vviz};
 
-/// Every format. The first whose `sniff` accepts the bytes of a file reads it. So a format that looks at fewer
-/// bytes stands behind one that looks at more.
-pub static FORMATS: [&Format; 3] = [&LIGHTBOTS, &ARCHIVE, &ORIGINAL];
+/// Every format. The last whose `sniff` accepts the bytes of a file reads it. So a format that looks at fewer
+/// bytes stands before one that looks at more.
+pub static FORMATS: [&Format; 7] = [&LIGHTBOTS, &ARCHIVE, &ORIGINAL, &SKYC, &CSV, &VVIZ, &FSEQ];
 
 /// Our own format. It keeps every part of a show but the files that belong to it.
 pub static LIGHTBOTS: Format = Format {
@@ -15,6 +15,7 @@ pub static LIGHTBOTS: Format = Format {
     endings: &[".lightbots.json", ".lightbots"],
     media_type: "application/json",
     carries: &Part::DOCUMENT,
+    needs_plan: false,
     sniff: lightbots::sniff,
     read: lightbots::read,
     encode: lightbots::encode,
@@ -27,6 +28,7 @@ pub static ARCHIVE: Format = Format {
     endings: &[".lightbots.zip"],
     media_type: "application/zip",
     carries: &Part::SHOW,
+    needs_plan: false,
     sniff: archive::sniff,
     read: archive::read,
     encode: archive::encode,
@@ -39,14 +41,67 @@ pub static ORIGINAL: Format = Format {
     endings: &[".json"],
     media_type: "application/json",
     carries: &[],
+    needs_plan: false,
     sniff: original::sniff,
     read: original::read,
     encode: original::encode,
 };
 
-/// The format of a file's bytes: the first in [`FORMATS`] that accepts them.
+/// Compiled shows of Skybrush: timed paths and light programs.
+pub static SKYC: Format = Format {
+    name: "skyc",
+    program: "Skybrush",
+    endings: &[".skyc"],
+    media_type: "application/skybrush-compiled",
+    carries: &Part::TIMED_WITH_NAMES,
+    needs_plan: true,
+    sniff: skyc::sniff,
+    read: skyc::read,
+    encode: skyc::encode,
+};
+
+/// Tables of Skybrush, one for each robot: places and colours at moments.
+pub static CSV: Format = Format {
+    name: "csv",
+    program: "Skybrush, as tables",
+    endings: &[".csv.zip"],
+    media_type: "application/zip",
+    carries: &Part::TABLES,
+    needs_plan: true,
+    sniff: csv::sniff,
+    read: csv::read,
+    encode: csv::encode,
+};
+
+/// Verge Aero's format for visualisation.
+pub static VVIZ: Format = Format {
+    name: "vviz",
+    program: "Finale 3D and other VVIZ programs",
+    endings: &[".vviz"],
+    media_type: "application/json",
+    carries: &Part::TIMED,
+    needs_plan: true,
+    sniff: vviz::sniff,
+    read: vviz::read,
+    encode: vviz::encode,
+};
+
+/// Sequences of xLights and the Falcon Player: colours alone.
+pub static FSEQ: Format = Format {
+    name: "fseq",
+    program: "xLights and the Falcon Player",
+    endings: &[".fseq"],
+    media_type: "application/x-fseq",
+    carries: &[Part::Music],
+    needs_plan: true,
+    sniff: fseq::sniff,
+    read: fseq::read,
+    encode: fseq::encode,
+};
+
+/// The format of a file's bytes: the last in [`FORMATS`] that accepts them.
 pub fn sniff(bytes: &[u8]) -> Option<&'static Format> {
-    FORMATS.into_iter().find(|format| (format.sniff)(bytes))
+    FORMATS.into_iter().rev().find(|format| (format.sniff)(bytes))
 }
 
 /// The format of that name.

@@ -149,7 +149,8 @@ fn bytes_of_no_format_name_the_endings_of_all() {
         text,
         "line 1, column 1: this is not JSON; a .mp3 file is not read: \
          open a show of LightBots (.lightbots.json) or of LightBots, with its files (.lightbots.zip) \
-         or of the original LightBots (.json)"
+         or of the original LightBots (.json) or of Skybrush (.skyc) or of Skybrush, as tables (.csv.zip) \
+         or of Finale 3D and other VVIZ programs (.vviz) or of xLights and the Falcon Player (.fseq)"
     );
     let damaged = read(b"[{\"name\": \"\xff\"}]", Some("a.json")).unwrap_err().to_string();
     assert_eq!(

@@ -1,6 +1,7 @@
 //! What a format keeps comes back from its files unchanged.
 
 mod extras;
+mod played;
 
 use lightbots_base::{Limits, Rgb, Vec2};
 use lightbots_exchange::{FORMATS, LIGHTBOTS, ORIGINAL, Part, for_file, named, read, sniff};
@@ -159,10 +160,16 @@ fn a_part_that_the_format_does_not_keep_is_a_warning() {
 
 #[test]
 fn every_format_recognises_its_own_files() {
+    let small = played::small_show();
+    let plan = played::planned(&small);
     for format in FORMATS {
-        let written = format.write(&rich(), None);
+        let written =
+            if format.needs_plan { format.write(&small, Some(&plan)) } else { format.write(&rich(), None) };
         assert_eq!(sniff(&written.bytes), Some(format));
-        assert_eq!(read(&written.bytes, None).unwrap().show.frames.len(), 2);
+        match read(&written.bytes, None) {
+            Ok(loaded) => assert_eq!(loaded.show.frames.len(), if format.needs_plan { 3 } else { 2 }),
+            Err(error) => assert_eq!(error.code, "no-places"),
+        }
         assert_eq!(named(format.name), Some(format));
         assert_eq!(for_file(&format!("show{}", format.ending())), Some(format));
     }

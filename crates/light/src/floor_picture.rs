@@ -62,6 +62,12 @@ impl FloorPicture {
         upper.lerp(pixel(left, bottom).lerp(pixel(right, bottom), x), y)
     }
 
+    /// Light of one pixel of the first picture; `None`: there is no such pixel.
+    pub fn pixel(&self, column: usize, row: usize) -> Option<Linear> {
+        let is_inside = column < self.width && row < self.height;
+        is_inside.then(|| self.linear(self.pixels[row * self.width + column]))
+    }
+
     fn linear(&self, pixel: Rgb) -> Linear {
         let [r, g, b] = [pixel.r, pixel.g, pixel.b].map(|code| self.light[usize::from(code)]);
         Linear::new(r, g, b)

@@ -31,6 +31,8 @@ pub const SIZE_RANGE_M: (f64, f64) = (0.01, 1_000.0);
 pub const COORDINATE_MAX_M: f64 = 1_000.0;
 /// Latest moment, seconds: a day. Chosen.
 pub const MOMENT_MAX_S: f64 = 86_400.0;
+/// Least distance of two rows of a sequence, seconds: a track has 100 samples a second.
+pub const SEQUENCE_STEP_MIN_S: f64 = 0.001;
 /// Least share of a cycle that shines: a hundredth of a second in a second, the duration of one sample of a track.
 pub const WIDTH_MIN: f64 = 0.01;
 
@@ -180,6 +182,10 @@ impl Found {
             }
             LightEffect::Noise { octaves } if !(1..=OCTAVES_MAX).contains(octaves) => {
                 self.add("octaves", octaves, format!("choose a number from 1 to {OCTAVES_MAX}"));
+            }
+            LightEffect::Sequence { step_s, start_s, .. } => {
+                self.range("step_s", *step_s, (SEQUENCE_STEP_MIN_S, MOMENT_MAX_S));
+                self.range("start_s", *start_s, (-MOMENT_MAX_S, MOMENT_MAX_S));
             }
             // A robot drives at most 0.3 m/s; 100 m/s is a mistake.
             LightEffect::BySpeed { top_mps } => self.range("top_mps", *top_mps, (0.001, 100.0)),

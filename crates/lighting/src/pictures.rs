@@ -52,7 +52,8 @@ pub fn attach_pictures(
 /// The files that layers project, each with the number of the first layer that does.
 fn users(layers: &[Layer]) -> BTreeMap<AssetHash, usize> {
     let mut users = BTreeMap::new();
-    for (number, layer) in layers.iter().enumerate().filter(|(_, layer)| layer.kind == "picture") {
+    let projects = |layer: &Layer| matches!(layer.kind.as_str(), "picture" | "sequence");
+    for (number, layer) in layers.iter().enumerate().filter(|(_, layer)| projects(layer)) {
         if let Some(Setting::Text(hash)) = setting(&layer.settings, "picture")
             && let Some(hash) = AssetHash::from_hex(hash)
         {

@@ -10,7 +10,7 @@ use lightbots_light::{
 use lightbots_show::{Layer, Setting, excerpt, setting};
 
 /// Words for effects.
-pub const LAYER_KINDS: [&str; 18] = [
+pub const LAYER_KINDS: [&str; 19] = [
     "solid",
     "gradient",
     "fade",
@@ -26,6 +26,7 @@ pub const LAYER_KINDS: [&str; 18] = [
     "noise",
     "fire",
     "picture",
+    "sequence",
     "next-frame",
     "by-robot",
     "by-speed",
@@ -188,7 +189,12 @@ fn effect(
             LightEffect::Noise { octaves: u32::try_from(fields.whole("octaves", 3)).unwrap_or(u32::MAX) }
         }
         "fire" => LightEffect::Fire,
-        "picture" => return picture_effect(fields, picture),
+        "picture" => return picture_number(fields, picture).map(LightEffect::Picture),
+        "sequence" => {
+            let (step_s, start_s) = (fields.number("step_s", 0.04), fields.number("start_s", 0.0));
+            let picture = picture_number(fields, picture)?;
+            LightEffect::Sequence { picture, step_s, start_s }
+        }
         "next-frame" => LightEffect::NextFrame,
         "by-robot" => LightEffect::ByRobot,
         // An Elisa-3 drives 0.27 m/s at most.
@@ -197,10 +203,11 @@ fn effect(
     })
 }
 
-fn picture_effect(
+/// The number of the picture that the settings name; `None`: it is missing, which is noted.
+fn picture_number(
     fields: &mut LayerSettings<'_>,
     picture: &mut dyn FnMut(&str) -> Option<usize>,
-) -> Option<LightEffect> {
+) -> Option<usize> {
     let hash = match fields.get("picture") {
         Some(Setting::Text(hash)) => hash.as_str(),
         _ => "",
@@ -210,7 +217,7 @@ fn picture_effect(
         let remedy = "add the picture to the show, and give the hash of its file";
         fields.fault("picture", format!("\"{}\"", excerpt(hash)), remedy);
     }
-    number.map(LightEffect::Picture)
+    number
 }
 
 fn along(fields: &mut LayerSettings<'_>) -> Coordinate {

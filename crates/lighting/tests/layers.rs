@@ -96,7 +96,8 @@ fn every_kind_is_read_and_what_is_wrong_is_named() {
     for kind in LAYER_KINDS {
         let picture =
             |hash: &str| (hash == "f00d").then(|| FloorPicture::new(1, 1, vec![RED]).expect("one pixel"));
-        let settings = if kind == "picture" { vec![("picture", text("f00d"))] } else { Vec::new() };
+        let settings =
+            if matches!(kind, "picture" | "sequence") { vec![("picture", text("f00d"))] } else { Vec::new() };
         let speed = if matches!(kind, "strobe" | "pulse") { 2.0 } else { 5.0 };
         let settings = settings.into_iter().chain([("speed_hz", number(speed))]).collect();
         let (light, faults) =

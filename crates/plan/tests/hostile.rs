@@ -104,7 +104,7 @@ fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
 fn every_number_of_a_document_may_be_any_number() {
     assert!(take(&seed_show(), "the seed"));
     let (mut fit, mut unfit) = (0, 0);
-    for format in FORMATS {
+    for format in FORMATS.into_iter().filter(|format| !format.needs_plan) {
         // An archive holds the text of another format; its bytes are tested where it is read.
         let Ok(text) = String::from_utf8(format.write(&seed_show(), None).bytes) else { continue };
         let places = numbers(&text);

@@ -334,6 +334,12 @@ pub struct ConvertArguments {
     /// Fit every frame to this number of robots
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub robots: Option<u32>,
+    /// Leave out the paths that IN prescribes, so that drives are planned between its pictures
+    #[arg(long)]
+    pub replan: bool,
+    /// IN is an FSEQ file: put its colours onto this show
+    #[arg(long, value_name = "SHOW")]
+    pub onto: Option<PathBuf>,
 }
 
 /// The help for a show file, with the endings of all formats.

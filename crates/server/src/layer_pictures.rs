@@ -61,7 +61,12 @@ impl LayerPictures {
         }
         let missing = "its file is not in the show: choose the picture again, or open the show's archive";
         let file = content().ok_or(missing)?;
-        let decoded = by_child(&file).map_err(|error| format!("no process reads it: {error}; try again"))?;
+        let decoded = if lightbots_exchange::is_sequence(&file) {
+            // As a show file, a sequence is read by code of ours that bounds memory and time.
+            lightbots_exchange::sequence_picture(&file).map(Arc::new)
+        } else {
+            by_child(&file).map_err(|error| format!("no process reads it: {error}; try again"))?
+        };
         known.push_back((hash, decoded.clone()));
         let pixels = |(_, decoded): &(AssetHash, Decoded)| decoded.as_ref().map_or(0, |one| one.pixels());
         while known.len() > KNOWN_MAX.0 || known.iter().map(pixels).sum::<usize>() > KNOWN_MAX.1 {

@@ -10,10 +10,17 @@ test('the longest ending of a format is cut off', () => {
 });
 
 test('file dialogs and menus follow the table of formats', () => {
-  expect(ACCEPTED).toBe('.json,.lightbots,.zip,application/json,application/zip');
+  expect(ACCEPTED).toBe(
+    '.json,.lightbots,.zip,.skyc,.vviz,.fseq,application/json,application/zip,' +
+      'application/skybrush-compiled,application/x-fseq',
+  );
   expect(FORMATS.map(exportLabel)).toEqual([
     'Download',
     'Export for LightBots, with its files (.lightbots.zip)',
     'Export for the original LightBots (.json)',
+    'Export for Skybrush (.skyc)',
+    'Export for Skybrush, as tables (.csv.zip)',
+    'Export for Finale 3D and other VVIZ programs (.vviz)',
+    'Export for xLights and the Falcon Player (.fseq)',
   ]);
 });

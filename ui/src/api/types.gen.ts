@@ -1610,6 +1610,10 @@ export const FORMATS = [
   { name: "lightbots", program: "LightBots", endings: [".lightbots.json", ".lightbots"], mediaType: "application/json", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "motions", "trajectories", "spares", "assets"] },
   { name: "archive", program: "LightBots, with its files", endings: [".lightbots.zip"], mediaType: "application/zip", carries: ["title", "floor_size", "no_go_areas", "robot_limits", "identity", "starts", "music", "durations", "easing", "chosen_robots", "sources", "groups", "layers", "absolute_times", "marks", "cues", "motions", "trajectories", "spares", "assets", "asset_files"] },
   { name: "original", program: "the original LightBots", endings: [".json"], mediaType: "application/json", carries: [] },
+  { name: "skyc", program: "Skybrush", endings: [".skyc"], mediaType: "application/skybrush-compiled", carries: ["title", "identity", "starts", "durations", "easing", "trajectories", "plan", "chosen_robots"] },
+  { name: "csv", program: "Skybrush, as tables", endings: [".csv.zip"], mediaType: "application/zip", carries: ["identity", "starts", "durations", "easing", "chosen_robots", "plan"] },
+  { name: "vviz", program: "Finale 3D and other VVIZ programs", endings: [".vviz"], mediaType: "application/json", carries: ["title", "identity", "starts", "durations", "easing", "trajectories", "plan"] },
+  { name: "fseq", program: "xLights and the Falcon Player", endings: [".fseq"], mediaType: "application/x-fseq", carries: ["music"] },
 ] as const;
 
 /** Name of a format, as in `/api/convert?to=`. */

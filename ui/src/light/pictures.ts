@@ -27,7 +27,7 @@ export interface PictureFile {
 
 /** The hash of the picture of a layer; null: it has none. */
 export const pictureOf = ({ kind, settings }: Layer): string | null =>
-  (kind === 'picture' && text(settings.picture)) || null;
+  ((kind === 'picture' || kind === 'sequence') && text(settings.picture)) || null;
 
 /** `changed` is called once a file is there, or cannot be. */
 export function createLayerPictures(fileOf: FileOf, changed: () => void): LayerPictures {

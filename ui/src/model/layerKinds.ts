@@ -30,7 +30,7 @@ export interface LayerKind {
 const SPOT = ['place', 'angle', 'size_m'] as const;
 const RAMP = ['along', ...SPOT] as const;
 
-/** The effects in the order of docs/light.md; `picture` needs a file. */
+/** The effects in the order of docs/light.md; `picture` and `sequence` need a file. */
 export const LAYER_KINDS: Readonly<Record<string, LayerKind>> = {
   solid: { title: 'Plain colour', settings: ['palette'] },
   gradient: { title: 'Gradient', settings: ['palette', ...RAMP, 'speed_hz', 'wrap', 'ease'] },
@@ -50,6 +50,7 @@ export const LAYER_KINDS: Readonly<Record<string, LayerKind>> = {
   },
   fire: { title: 'Fire', settings: ['palette', ...SPOT, 'speed_hz', 'seed'] },
   picture: { title: 'Picture', settings: [...SPOT, 'speed_hz'] },
+  sequence: { title: 'Sequence', settings: [] },
   'next-frame': { title: 'Colours of the next frame', settings: ['speed_hz', 'wrap', 'ease'] },
   'by-robot': { title: 'A colour per robot', settings: ['palette', 'speed_hz', 'wrap', 'seed'] },
   'by-speed': { title: 'By speed', settings: ['palette', 'top_mps', 'ease'] },

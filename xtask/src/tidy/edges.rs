@@ -14,7 +14,7 @@ const EDGES: [(&str, &[&str]); 23] = [
     ("lighting", &["base", "light", "show", "plan"]),
     ("make", &["base", "light", "show", "draw"]),
     ("plan", &["base", "show"]),
-    ("exchange", &["base", "show", "plan"]),
+    ("exchange", &["base", "light", "lighting", "show", "plan"]),
     ("robot", &["base", "wire"]),
     ("control", &["base", "wire", "show", "plan", "lighting"]),
     ("sim", &["base", "wire", "show", "plan", "lighting", "robot", "control"]),

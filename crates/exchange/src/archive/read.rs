@@ -1,21 +1,15 @@
-//! From an archive to a show. Nothing that an archive says of itself is trusted: files are counted, and their bytes are
-//! counted while they are unpacked.
+//! From an archive to a show.
 
 use std::collections::BTreeMap;
-use std::io::{Cursor, Read};
 use std::sync::Arc;
 
 use lightbots_show::{AssetHash, Issue, excerpt};
-use zip::ZipArchive;
 
 use super::{ASSETS, DOCUMENT, ENTRIES_MAX, hash_of};
 use crate::error::ReadError;
 use crate::format::Loaded;
 use crate::lightbots;
-use crate::limits::MAX_BYTES;
-
-/// First bytes of a record of the archive's directory.
-const DIRECTORY_RECORD: &[u8] = b"PK\x01\x02";
+use crate::zip_files::{damaged, unpack};
 
 /// What an archive holds.
 #[derive(Default)]
@@ -24,12 +18,11 @@ struct Files {
     assets: BTreeMap<AssetHash, Arc<[u8]>>,
     /// Names of files that no show has.
     unknown: Vec<String>,
-    /// Bytes that further files may take.
-    room: usize,
 }
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let files = unpack(bytes)?;
+    let mut files = Files::default();
+    unpack(bytes, ENTRIES_MAX, |name, content| take(&mut files, name, content))?;
     let document = files.document.as_ref().ok_or_else(|| {
         let what = format!("the archive has no file {DOCUMENT}, so it is no show; open another file");
         ReadError::whole("not-a-show", what)
@@ -45,49 +38,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     with_files(loaded, files)
 }
 
-fn unpack(bytes: &[u8]) -> Result<Files, ReadError> {
-    // The library keeps the whole directory in memory before it can be counted.
-    let records = bytes.windows(DIRECTORY_RECORD.len()).filter(|bytes| *bytes == DIRECTORY_RECORD);
-    if records.take(2 * ENTRIES_MAX).count() == 2 * ENTRIES_MAX {
-        return Err(too_many());
-    }
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error.to_string()))?;
-    if archive.len() > ENTRIES_MAX {
-        return Err(too_many());
-    }
-    let mut files = Files { room: MAX_BYTES, ..Files::default() };
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index).map_err(|error| damaged(&error.to_string()))?;
-        let name = file.name().map_err(|error| damaged(&error.to_string()))?.into_owned();
-        if leaves_the_archive(&name) {
-            let what = format!("the archive holds \"{}\", a path out of it; do not trust it", excerpt(&name));
-            return Err(ReadError::whole("bad-path", what));
-        }
-        if !file.is_dir() {
-            take(&mut files, name, &mut file)?;
-        }
-    }
-    Ok(files)
-}
-
-fn leaves_the_archive(name: &str) -> bool {
-    name.starts_with('/') || name.contains(['\\', ':', '\0']) || name.split('/').any(|part| part == "..")
-}
-
-/// Unpacks one file.
-fn take(files: &mut Files, name: String, file: &mut impl Read) -> Result<(), ReadError> {
-    let mut content = Vec::new();
-    let most = files.room as u64 + 1;
-    file.take(most)
-        .read_to_end(&mut content)
-        .map_err(|error| damaged(&format!("\"{}\": {error}", excerpt(&name))))?;
-    files.room = files.room.checked_sub(content.len()).ok_or_else(|| {
-        let mib = MAX_BYTES >> 20;
-        ReadError::whole(
-            "too-big",
-            format!("the archive unpacks to more than {mib} MiB; take files out of it"),
-        )
-    })?;
+/// Takes one file.
+fn take(files: &mut Files, name: String, content: Vec<u8>) -> Result<(), ReadError> {
     if name == DOCUMENT {
         return match files.document.replace(content) {
             None => Ok(()),
@@ -147,14 +99,4 @@ fn with_files(mut loaded: Loaded, mut files: Files) -> Result<Loaded, ReadError>
         loaded.unread = Some(loaded.unread.map_or(reason.clone(), |fields| format!("{fields} and {reason}")));
     }
     Ok(loaded)
-}
-
-fn too_many() -> ReadError {
-    let what = format!("the archive holds more than {ENTRIES_MAX} files; take some out of it");
-    ReadError::whole("too-many-files", what)
-}
-
-fn damaged(why: &str) -> ReadError {
-    let what = format!("the archive is damaged ({}); save or copy it again", excerpt(why));
-    ReadError::whole("bad-archive", what)
 }

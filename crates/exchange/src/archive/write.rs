@@ -1,17 +1,13 @@
-//! From a show to an archive. The same show gives the same bytes: entries have no date.
-
-use std::io::{Cursor, Write};
+//! From a show to an archive.
 
 use lightbots_plan::ShowPlan;
 use lightbots_show::{Issue, Show, excerpt};
-use zip::result::ZipResult;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::{ASSETS, DOCUMENT};
 use crate::format::Written;
 use crate::lightbots;
 use crate::limits::MAX_BYTES;
+use crate::zip_files::pack;
 
 pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
     let Written { bytes: document, mut issues } = lightbots::encode(show, plan);
@@ -31,25 +27,12 @@ pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
         );
         issues.push(Issue::error("too-big", what));
     }
-    let bytes = pack(show, &document).unwrap_or_else(|error| {
-        issues.push(Issue::error("not-packed", format!("the archive could not be made: {error}")));
-        Vec::new()
-    });
+    let assets = show.assets.iter().filter_map(|(hash, asset)| Some((hash, asset.content.as_deref()?)));
+    let assets = assets.map(|(hash, content)| (format!("{ASSETS}{hash}"), content));
+    let bytes =
+        pack([(DOCUMENT.to_owned(), &document[..])].into_iter().chain(assets)).unwrap_or_else(|error| {
+            issues.push(Issue::error("not-packed", format!("the archive could not be made: {error}")));
+            Vec::new()
+        });
     Written { bytes, issues }
-}
-
-fn pack(show: &Show, document: &[u8]) -> ZipResult<Vec<u8>> {
-    let options = SimpleFileOptions::default()
-        .compression_method(CompressionMethod::Deflated)
-        .last_modified_time(DateTime::default());
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    archive.start_file(DOCUMENT, options)?;
-    archive.write_all(document)?;
-    for (hash, asset) in &show.assets {
-        if let Some(content) = &asset.content {
-            archive.start_file(format!("{ASSETS}{hash}"), options)?;
-            archive.write_all(content)?;
-        }
-    }
-    Ok(archive.finish()?.into_inner())
 }

@@ -61,6 +61,15 @@ pub enum LightEffect {
     Fire,
     /// A picture or film on the floor, by its number in [`LightContext::pictures`].
     Picture(usize),
+    /// A colour for each robot and moment.
+    Sequence {
+        /// Number of the colours in [`LightContext::pictures`]: one pixel a robot, by its number, and one row a moment.
+        picture: usize,
+        /// Distance of two rows, seconds.
+        step_s: f64,
+        /// When the first row is shown, seconds after the layer's origin; may be negative.
+        start_s: f64,
+    },
     /// Towards the colour of the next frame.
     NextFrame,
     /// A random value of the palette for each robot.
@@ -100,6 +109,10 @@ pub(crate) fn shade(
         LightEffect::Fire => field::fire(look, turns, robot.place),
         LightEffect::Picture(number) => {
             return projection::picture(look, turns, robot.place, context.pictures.get(*number));
+        }
+        LightEffect::Sequence { picture, step_s, start_s } => {
+            let rows = (tau_s - start_s) / step_s;
+            return projection::sequence(rows, robot.index, context.pictures.get(*picture));
         }
         LightEffect::NextFrame => return (robot.next_colour, look.ease.at(look.wrap.at(turns))),
         LightEffect::ByRobot => random::by_robot(look, turns, robot.index),

@@ -7,6 +7,9 @@ use crate::look::Look;
 use crate::palette::Shade;
 use lightbots_base::Vec2;
 
+/// Share of a row by which a moment may be before it: moments are sums of seconds.
+const EARLY_ROWS: f64 = 1e-6;
+
 /// The picture with its centre at the place, `size_m` wide, its right along the direction; a film lasts one turn. Outside
 /// of the picture nothing shines.
 pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorPicture>) -> Shade {
@@ -20,4 +23,37 @@ pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorP
     }
     let frame = (fraction(turns) * film.frames() as f64) as usize;
     (film.at(frame, across, down), 1.0)
+}
+
+/// The pixel of a robot in the row of the moment, `rows` after the first. Nothing before the first row, after the
+/// last, and for robots without a column.
+pub(super) fn sequence(rows: f64, robot: u32, colours: Option<&FloorPicture>) -> Shade {
+    let row = libm::floor(rows + EARLY_ROWS);
+    if row.is_nan() || row < 0.0 {
+        return (Linear::BLACK, 0.0);
+    }
+    let colour = colours.and_then(|colours| colours.pixel(robot as usize, row as usize));
+    colour.map_or((Linear::BLACK, 0.0), |colour| (colour, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbots_base::Rgb;
+
+    #[test]
+    fn each_robot_shows_its_pixel_of_the_row() {
+        let codes = [10, 20, 30, 40].map(|code| Rgb::new(code, 0, 0)).to_vec();
+        let colours = FloorPicture::new(2, 2, codes).expect("it is whole");
+        let shown = |rows: f64, robot: u32| {
+            let (light, opacity) = sequence(rows, robot, Some(&colours));
+            (opacity > 0.0).then(|| light.to_rgb().r)
+        };
+        assert_eq!(
+            [shown(0.0, 0), shown(0.9, 1), shown(1.0 - 1e-9, 0), shown(1.5, 1)],
+            [10, 20, 30, 40].map(Some)
+        );
+        assert_eq!([shown(-0.5, 0), shown(2.0, 0), shown(0.0, 2), shown(f64::NAN, 0)], [None; 4]);
+        assert_eq!(sequence(0.0, 0, None).1, 0.0);
+    }
 }

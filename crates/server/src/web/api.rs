@@ -9,7 +9,7 @@ use axum::extract::{ConnectInfo, Path, Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use lightbots_api::{Plan, ShowEntry, ShowState};
-use lightbots_exchange::{FORMATS, named, read};
+use lightbots_exchange::{FORMATS, Format, Loaded, Written, named, read};
 use lightbots_lighting::validate;
 use lightbots_plan::Cancelled;
 
@@ -215,13 +215,8 @@ pub async fn check(
     match plan.await {
         Ok(plan) => Ok(Json(plan)),
         Err(CutOff::TimeUp) => Ok(Json(show_plan::cut_off(&Vec::new(), budget))),
-        Err(CutOff::Superseded) => {
-            Err(refuse(StatusCode::CONFLICT, "a newer request of this client replaced this one"))
-        }
-        Err(CutOff::Failed) => Err(refuse(
-            StatusCode::INTERNAL_SERVER_ERROR,
-            "the server failed while planning: try again, and report its log",
-        )),
+        Err(CutOff::Superseded) => Err(superseded()),
+        Err(CutOff::Failed) => Err(failed()),
     }
 }
 
@@ -233,9 +228,10 @@ pub struct To {
 }
 
 /// `POST /api/convert?to=FORMAT`: the show of the body as a file of a format of [`FORMATS`], with the files of the library
-/// that it names.
+/// that it names. A show for a format with timed paths is planned, as for `POST /api/check`.
 pub async fn convert(
     State(shared): State<Arc<Shared>>,
+    ConnectInfo(ends): ConnectInfo<Ends>,
     Query(To { to }): Query<To>,
     bytes: Result<Bytes, BytesRejection>,
 ) -> Answer<Response> {
@@ -245,15 +241,56 @@ pub async fn convert(
     };
     let bytes = body(bytes)?;
     let library = shared.library.clone();
-    let converted = beside(move || {
+    let loaded = beside(move || {
         read(&bytes, None).map(|mut loaded| {
             library.attach(&mut loaded.show);
-            format.write(&loaded.show, loaded.plan.as_ref()).bytes
+            loaded
         })
     });
-    let document =
-        converted.await?.map_err(|error| refuse(StatusCode::UNPROCESSABLE_ENTITY, &error.to_string()))?;
-    Ok(([(header::CONTENT_TYPE, format.media_type)], document).into_response())
+    let unprocessable = |line: &str| refuse(StatusCode::UNPROCESSABLE_ENTITY, line);
+    let loaded = loaded.await?.map_err(|error| unprocessable(&error.to_string()))?;
+    let written = if format.needs_plan && loaded.plan.is_none() {
+        planned_file(&shared, ends, format, loaded).await?
+    } else {
+        beside(move || format.write(&loaded.show, loaded.plan.as_ref())).await?
+    };
+    match written.issues.iter().find(|issue| issue.is_error()) {
+        Some(error) if written.bytes.is_empty() => Err(unprocessable(&error.message)),
+        _ => Ok(([(header::CONTENT_TYPE, format.media_type)], written.bytes).into_response()),
+    }
+}
+
+/// The file of a show that is planned first.
+async fn planned_file(
+    shared: &Shared,
+    ends: Ends,
+    format: &'static Format,
+    mut loaded: Loaded,
+) -> Answer<Written> {
+    let library = shared.library.clone();
+    let written = shared.planner.work(ends.remote.ip().to_canonical(), move |is_wanted| {
+        library.attach_pictures(&mut loaded.show);
+        let plan = show_plan::plan_unless(&loaded.show, &loaded.issues, is_wanted);
+        plan.map(|(plan, _)| format.write(&loaded.show, Some(&plan)))
+    });
+    let refused = |line: &str| refuse(StatusCode::UNPROCESSABLE_ENTITY, line);
+    match written.await {
+        Ok(Ok(written)) => Ok(written),
+        Ok(Err(Cancelled)) | Err(CutOff::TimeUp) => {
+            Err(refused("planning the show took too long; export it on the command line: lightbots convert"))
+        }
+        Err(CutOff::Superseded) => Err(superseded()),
+        Err(CutOff::Failed) => Err(failed()),
+    }
+}
+
+fn superseded() -> Refused {
+    refuse(StatusCode::CONFLICT, "a newer request of this client replaced this one; ask again")
+}
+
+fn failed() -> Refused {
+    let line = "the server failed while planning: try again, and report its log";
+    refuse(StatusCode::INTERNAL_SERVER_ERROR, line)
 }
 
 /// `GET /api/plan`

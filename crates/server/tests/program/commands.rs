@@ -293,6 +293,41 @@ fn convert_writes_and_reads_archives() {
 }
 
 #[test]
+fn convert_plans_shows_for_other_programs_and_reads_them_again() {
+    let ours = shows::row_file(3, &[0.5, 1.0]);
+    for ending in ["skyc", "csv.zip", "vviz"] {
+        let (theirs, back) = (shows::file(&format!("a.{ending}"), ""), shows::file("b.lightbots.json", ""));
+        let (code, _, notes) = run(&["convert", &ours, &theirs]);
+        assert_eq!(code, 0, "{notes}");
+        assert!(notes.contains("[sampled]"), "{notes}");
+        // Curves and their ramps come back; those of lines in time need a plan of their own.
+        assert_eq!(run(&["check", &theirs]).0, i32::from(ending != "skyc"));
+        let (code, _, notes) = run(&["convert", &theirs, &back, "--replan"]);
+        assert_eq!(code, 0, "{notes}");
+        let (code, out, _) = run(&["check", &back, "--json"]);
+        assert_eq!((code, json(&out)["transitions"].as_array().unwrap().len()), (0, 2), "{out}");
+    }
+}
+
+#[test]
+fn an_fseq_file_is_put_onto_a_show() {
+    let ours = shows::row_file(3, &[0.5]);
+    let (lights, lit) = (shows::file("a.fseq", ""), shows::file("lit.lightbots.zip", ""));
+    assert_eq!(run(&["convert", &ours, &lights]).0, 0);
+    assert_eq!(run(&["convert", &lights, &lit, "--onto", &ours]).0, 0);
+    let (code, out, _) = run(&["check", &lit, "--json"]);
+    assert_eq!(code, 0, "{out}");
+    let (code, _, notes) = run(&["convert", &lights, &lit]);
+    assert_eq!(code, 2);
+    assert!(notes.contains("--onto SHOW"), "{notes}");
+    // A show that cannot be planned leaves no file.
+    let close = shows::file("close.lightbots.json", shows::row(3, &[0.5]).replace("\"id\":1", "\"id\":0"));
+    let none = shows::file("none.skyc", "before");
+    assert_eq!(run(&["convert", &close, &none]).0, 1);
+    assert_eq!(std::fs::read(&none).unwrap(), b"before");
+}
+
+#[test]
 fn a_plan_is_written_with_its_paths() {
     let out = shows::file("plan.json", "");
     assert_eq!(run(&["plan", &shows::row_file(3, &[0.5]), "--out", &out]).0, 0);

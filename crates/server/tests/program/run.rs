@@ -187,6 +187,7 @@ fn junk_from_the_web_is_turned_away() {
         ("GET", "/api/nothing", "", 404),
         ("POST", "/api/convert?to=pdf", "[]", 400),
         ("POST", "/api/convert?to=original", "x", 422),
+        ("POST", "/api/convert?to=skyc", r#"{"lightbots":1,"frames":[]}"#, 422),
     ] {
         let answer = http::request(&address, method, path, &[], body);
         assert_eq!(answer.status, status, "{method} {path}: {}", answer.body);

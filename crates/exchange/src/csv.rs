@@ -1,0 +1,29 @@
+//! Skybrush's CSV: a zip archive with one table a robot, whose file has the robot's name. Rows have a time in
+//! milliseconds, a place in metres and a colour in linear light; everything changes evenly between rows.
+
+mod read;
+mod write;
+
+pub(crate) use read::read;
+pub(crate) use write::encode;
+
+use crate::zip_files::holds;
+
+/// First line of a table.
+const HEAD: &str = "Time [msec],x [m],y [m],z [m],Red,Green,Blue";
+
+/// Whether an archive holds tables and no document of a show.
+pub(crate) fn sniff(bytes: &[u8]) -> bool {
+    let is_document = |name: &[u8]| name == b"show.lightbots.json" || name == b"show.json";
+    holds(bytes, is_table_bytes) && !holds(bytes, is_document)
+}
+
+/// Whether a file of an archive is a table.
+fn is_table(name: &str) -> bool {
+    is_table_bytes(name.as_bytes())
+}
+
+/// The same for a name that may be no text. Names of macOS's own files begin with two underscores.
+fn is_table_bytes(name: &[u8]) -> bool {
+    name.len() > 4 && name[name.len() - 4..].eq_ignore_ascii_case(b".csv") && !name.starts_with(b"__MACOSX/")
+}

@@ -1,0 +1,23 @@
+//! Skybrush's compiled shows, `.skyc`: a zip archive with `show.json`. Each drone has a path of lines and Bézier
+//! curves whose parameter is proportional to time, as ours, and a light program of bytes. Colours are linear light.
+
+mod light_program;
+mod read;
+mod write;
+
+pub(crate) use read::read;
+pub(crate) use write::encode;
+
+use crate::zip_files::holds;
+
+/// Name of the document in an archive.
+const DOCUMENT: &str = "show.json";
+/// Most drones of a file that Skybrush reads.
+const DRONES_MAX: usize = 5_000;
+/// Ticks of light programs in a second.
+const TICKS_PER_S: f64 = 50.0;
+
+/// Whether an archive holds Skybrush's document and not ours.
+pub(crate) fn sniff(bytes: &[u8]) -> bool {
+    holds(bytes, |name| name == DOCUMENT.as_bytes()) && !holds(bytes, |name| name == b"show.lightbots.json")
+}

@@ -1,0 +1,350 @@
+//! Skybrush's compiled show -> a show of ours. Parts of a drone stand in the document or in files of their own.
+
+use std::collections::BTreeMap;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use lightbots_show::{Issue, MAX_PIXELS, excerpt};
+
+use super::{DOCUMENT, light_program};
+use crate::error::ReadError;
+use crate::format::Loaded;
+use crate::json::frames::missing;
+use crate::json::{Json, Scalar, text};
+use crate::limits::MAX_BYTES;
+use crate::timed::light::{STRETCHES_MAX, TimedLight};
+use crate::timed::path::{PIECES_MAX, PathReader, TimedPath};
+use crate::timed::{TimedRobot, TimedShow, import};
+use crate::zip_files::{damaged, unpack};
+
+/// Most files of an archive: the document, and up to three of a drone.
+const ENTRIES_MAX: usize = 1 + 3 * MAX_PIXELS;
+/// Most bytes of files that drones refer to. Each drone may refer to the same one, which is then read again.
+const REFERRED_MAX: usize = 4 * MAX_BYTES;
+/// Codes of a drone without lights.
+const WHITE: [u8; 3] = [255; 3];
+
+pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
+    let mut files = BTreeMap::new();
+    unpack(bytes, ENTRIES_MAX, |name, content| match files.insert(name, content) {
+        None => Ok(()),
+        Some(_) => Err(damaged("a file is there twice")),
+    })?;
+    let document = files.remove(DOCUMENT).unwrap_or_default();
+    let mut reader = Reader {
+        files,
+        pieces: PIECES_MAX,
+        stretches: STRETCHES_MAX,
+        referred: REFERRED_MAX,
+        unused: Vec::new(),
+    };
+    let show = reader.document(&document)?;
+    // Memory for the show instead of its text.
+    drop((document, std::mem::take(&mut reader.files)));
+    let mut loaded = import::loaded(&show)?;
+    if !reader.unused.is_empty() {
+        let what = format!(
+            "parts of the file are for flying or for other media and are left out: {}",
+            reader.unused.join(", ")
+        );
+        loaded.issues.push(Issue::warning("parts-left-out", what));
+    }
+    Ok(loaded)
+}
+
+/// The error with the part of the file that it is in.
+fn in_part(part: &str, error: ReadError) -> ReadError {
+    ReadError { what: format!("{} (in {part})", error.what), ..error }
+}
+
+/// Reads drones, and counts what they may still have.
+struct Reader {
+    /// The other files of the archive.
+    files: BTreeMap<String, Vec<u8>>,
+    pieces: usize,
+    stretches: usize,
+    /// See [`REFERRED_MAX`].
+    referred: usize,
+    /// Names of parts that robots on a floor have no use for.
+    unused: Vec<&'static str>,
+}
+
+/// What a drone has.
+#[derive(Default)]
+struct Drone {
+    name: String,
+    path: Option<TimedPath>,
+    /// Bytes of its light program.
+    lights: Option<Vec<u8>>,
+}
+
+impl Reader {
+    fn document(&mut self, document: &[u8]) -> Result<TimedShow, ReadError> {
+        let mut json = Json::new(text(document).map_err(|error| in_part(DOCUMENT, error))?);
+        let show = self.show(&mut json).map_err(|error| in_part(DOCUMENT, error))?;
+        if json.is_at_end() {
+            Ok(show)
+        } else {
+            Err(in_part(DOCUMENT, json.unexpected("the end of the file")))
+        }
+    }
+
+    fn show(&mut self, json: &mut Json<'_>) -> Result<TimedShow, ReadError> {
+        let mut show = TimedShow::default();
+        let (mut has_version, mut has_swarm) = (false, false);
+        json.object(|json, key| {
+            match key {
+                "version" => has_version = version(json, "the show")?,
+                "meta" => json.object(|json, key| {
+                    if key == "title"
+                        && let Scalar::Text(title) = json.clone().scalar()?
+                    {
+                        show.name = title.into_owned();
+                    }
+                    json.skip()
+                })?,
+                "swarm" => {
+                    has_swarm = true;
+                    json.object(|json, key| match key {
+                        "drones" => self.drones(json, &mut show.robots),
+                        _ => json.skip(),
+                    })?;
+                }
+                "media" => self.leave_out("media", json)?,
+                _ => json.skip()?,
+            }
+            Ok(())
+        })?;
+        match (has_version, has_swarm) {
+            (false, _) => Err(missing(json, "the version of the show")),
+            (_, false) => Err(missing(json, "the swarm of the show")),
+            _ => Ok(show),
+        }
+    }
+
+    fn leave_out(&mut self, name: &'static str, json: &mut Json<'_>) -> Result<(), ReadError> {
+        if !self.unused.contains(&name) {
+            self.unused.push(name);
+        }
+        json.skip()
+    }
+
+    fn drones(&mut self, json: &mut Json<'_>, robots: &mut Vec<TimedRobot>) -> Result<(), ReadError> {
+        json.list(|json, index| {
+            if index >= MAX_PIXELS {
+                let what = format!("more than {MAX_PIXELS} drones; take some away");
+                return Err(json.fail("too-many-robots", what));
+            }
+            let before = json.clone();
+            let mut drone = Drone::default();
+            let read = json.object(|json, key| match key {
+                "settings" => self.settings(json, &mut drone),
+                _ => json.skip(),
+            });
+            let robot = read.and_then(|()| self.robot(drone).map_err(|what| before.fail("bad-drone", what)));
+            robots.push(robot.map_err(|error| ReadError {
+                what: format!("drone {}: {}", index + 1, error.what),
+                ..error
+            })?);
+            Ok(())
+        })
+    }
+
+    fn settings(&mut self, json: &mut Json<'_>, drone: &mut Drone) -> Result<(), ReadError> {
+        json.object(|json, key| {
+            match key {
+                "name" => drone.name = json.text("the name")?.into_owned(),
+                "trajectory" => {
+                    let pieces = &mut self.pieces;
+                    let part =
+                        referred(json, &self.files, &mut self.referred, &mut |json| trajectory(json, pieces));
+                    drone.path = Some(part?);
+                }
+                "lights" => {
+                    let part = referred(json, &self.files, &mut self.referred, &mut lights);
+                    drone.lights = Some(part?);
+                }
+                "yawControl" => self.leave_out("yawControl", json)?,
+                "pyro" => self.leave_out("pyro", json)?,
+                _ => json.skip()?,
+            }
+            Ok(())
+        })
+    }
+
+    fn robot(&mut self, drone: Drone) -> Result<TimedRobot, String> {
+        let path = drone.path.ok_or("it has no trajectory; give it one")?;
+        let light = match drone.lights {
+            Some(bytes) => light_program::read(&bytes, path.end_s(), &mut self.stretches)?,
+            None => TimedLight::constant(WHITE),
+        };
+        Ok(TimedRobot { name: drone.name, path, light })
+    }
+}
+
+/// The version of a part, which must be 1.
+fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
+    json.peek()?;
+    let before = json.clone();
+    match json.number("the version")? {
+        1.0 => Ok(true),
+        other => {
+            let what = format!("{part} has version {other}, and version 1 is read; export it as that");
+            Err(before.fail("unknown-version", what))
+        }
+    }
+}
+
+/// Reads a part that stands here, or in a file that is named here: `{"$ref": "./drones/1/lights.json#"}`. `room` is
+/// the number of bytes of such files that may still be read.
+fn referred<T>(
+    json: &mut Json<'_>,
+    files: &BTreeMap<String, Vec<u8>>,
+    room: &mut usize,
+    read: &mut dyn FnMut(&mut Json<'_>) -> Result<T, ReadError>,
+) -> Result<T, ReadError> {
+    json.peek()?;
+    let Some(Scalar::Text(reference)) = json.ahead("$ref") else { return read(json) };
+    let name = reference.strip_prefix("./").unwrap_or(&reference);
+    let name = name.strip_suffix('/').unwrap_or(name);
+    let name = name.strip_suffix('#').unwrap_or(name);
+    let Some(file) = files.get(name) else {
+        let what =
+            format!("it names the file \"{}\", which is not in the archive; export it again", excerpt(name));
+        return Err(json.fail("missing-file", what));
+    };
+    *room = room.checked_sub(file.len()).ok_or_else(|| {
+        let mib = REFERRED_MAX >> 20;
+        json.fail(
+            "too-big",
+            format!("drones refer to files of more than {mib} MiB; export a part of the show"),
+        )
+    })?;
+    json.skip()?;
+    let content = text(file).map_err(|error| in_part(name, error))?;
+    read(&mut Json::new(content)).map_err(|error| in_part(&excerpt(name), error))
+}
+
+fn trajectory(json: &mut Json<'_>, pieces: &mut usize) -> Result<TimedPath, ReadError> {
+    let shift_s = match json.ahead("takeoffTime") {
+        Some(Scalar::Number(shift_s)) => shift_s,
+        _ => 0.0,
+    };
+    let (mut has_version, mut path) = (false, None);
+    json.object(|json, key| {
+        match key {
+            "version" => has_version = version(json, "its trajectory")?,
+            "points" => path = Some(points(json, shift_s, pieces)?),
+            _ => json.skip()?,
+        }
+        Ok(())
+    })?;
+    match path {
+        Some(path) if has_version => Ok(path),
+        Some(_) => Err(missing(json, "the version of its trajectory")),
+        None => Err(missing(json, "the list \"points\" of its trajectory")),
+    }
+}
+
+/// `[t, [x, y, z], controls]` each.
+fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<TimedPath, ReadError> {
+    let mut reader = PathReader::new(pieces);
+    let mut before: Option<[f64; 3]> = None;
+    json.list(|json, _| {
+        json.peek()?;
+        let begin = json.clone();
+        let (mut at_s, mut place, mut controls) = (None, None, Vec::new());
+        json.list(|json, index| {
+            match index {
+                0 => at_s = Some(json.number("the time of a point")?),
+                1 => place = Some(triple(json)?),
+                2 => controls = triples(json)?,
+                _ => json.skip()?,
+            }
+            Ok(())
+        })?;
+        let (Some(at_s), Some(place)) = (at_s, place) else {
+            return Err(begin.fail("bad-point", "a point has a time and a place: [t, [x, y, z], []]"));
+        };
+        let curve =
+            cubic(&controls, before.unwrap_or(place), place).map_err(|what| begin.fail("bad-curve", what))?;
+        before = Some(place);
+        reader.point(at_s + shift_s, place, curve).map_err(|what| begin.fail("bad-path", what))
+    })?;
+    reader.end().map_err(|what| json.fail("bad-path", what))
+}
+
+/// The control points of a cubic curve from those of a line, a quadratic or a cubic one.
+fn cubic(controls: &[[f64; 3]], from: [f64; 3], to: [f64; 3]) -> Result<Option<[[f64; 3]; 2]>, String> {
+    // A quadratic curve is a cubic one whose control points are two thirds of the way to its own.
+    let towards = |end: [f64; 3], via: [f64; 3]| {
+        std::array::from_fn(|axis| end[axis] + (via[axis] - end[axis]) * (2.0 / 3.0))
+    };
+    match *controls {
+        [] => Ok(None),
+        [via] => Ok(Some([towards(from, via), towards(to, via)])),
+        [first, second] => Ok(Some([first, second])),
+        _ => Err(format!("a curve has {} control points; at most two are read", controls.len())),
+    }
+}
+
+fn triples(json: &mut Json<'_>) -> Result<Vec<[f64; 3]>, ReadError> {
+    let mut triples = Vec::new();
+    json.list(|json, index| {
+        if index >= 8 {
+            return Err(
+                json.fail("bad-curve", "a curve has more than 8 control points; at most two are read")
+            );
+        }
+        triples.push(triple(json)?);
+        Ok(())
+    })?;
+    Ok(triples)
+}
+
+/// `[x, y, z]`, metres.
+fn triple(json: &mut Json<'_>) -> Result<[f64; 3], ReadError> {
+    json.peek()?;
+    let begin = json.clone();
+    let (mut place, mut count) = ([0.0; 3], 0);
+    json.list(|json, index| {
+        let number = json.number("a coordinate")?;
+        if let Some(slot) = place.get_mut(index) {
+            *slot = number;
+        }
+        count = index + 1;
+        Ok(())
+    })?;
+    if count == 3 {
+        return Ok(place);
+    }
+    let what =
+        format!("a place has {count} coordinates; it has three in metres: [x, y, z], on the floor with z 0");
+    Err(begin.fail("bad-place", what))
+}
+
+/// The bytes of a light program.
+fn lights(json: &mut Json<'_>) -> Result<Vec<u8>, ReadError> {
+    let (mut has_version, mut data) = (false, None);
+    json.object(|json, key| {
+        match key {
+            "version" => has_version = version(json, "its light program")?,
+            "data" => {
+                json.peek()?;
+                let begin = json.clone();
+                let text = json.text("the data of its light program")?;
+                let bytes = STANDARD.decode(text.as_bytes());
+                data = Some(bytes.map_err(|_| {
+                    begin.fail("bad-base64", "the data of its light program is not base64; export it again")
+                })?);
+            }
+            _ => json.skip()?,
+        }
+        Ok(())
+    })?;
+    match data {
+        Some(data) if has_version => Ok(data),
+        Some(_) => Err(missing(json, "the version of its light program")),
+        None => Err(missing(json, "the data of its light program")),
+    }
+}

@@ -1,0 +1,56 @@
+//! Whether the colours of pixels say all of a file's light.
+
+use lightbots_base::{Rgb, Span};
+use lightbots_lighting::{FrameTimes, fade_of};
+use lightbots_show::Show;
+
+use super::TimedShow;
+
+/// Largest difference that is none, codes: linear light of eight bits makes the six darkest codes black.
+const CODES: u8 = 8;
+/// A file samples light at moments of its own, seconds: a change may be this much earlier or later.
+const EARLIER_S: f64 = 0.025;
+/// Distance of two compared moments, seconds.
+const STEP_S: f64 = 0.02;
+/// Most comparisons. A longer show is compared at moments farther apart.
+const COMPARISONS_MAX: f64 = 20e6;
+
+/// Whether robots ever show something else than the colours of their pixels, changing at the ends of drives as a show
+/// without layers does.
+pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bool {
+    let end_s = times.last().map_or(0.0, |times| times.end_s);
+    let step_s = STEP_S.max(end_s * file.robots.len() as f64 / COMPARISONS_MAX);
+    file.robots.iter().enumerate().any(|(number, robot)| {
+        let colour = |frame: usize| show.frames[frame].pixels[number].color;
+        let mut light = robot.light.player();
+        let mut frame = 0;
+        (0..=(end_s / step_s) as u64).any(|step| {
+            let at_s = step as f64 * step_s;
+            while frame + 1 < times.len() && at_s >= times[frame].end_s {
+                frame += 1;
+            }
+            let before = frame.checked_sub(1).map_or(Rgb::BLACK, colour);
+            let plain = |at_s: f64| before.mixed(colour(frame), changed(&times[frame], at_s));
+            let bounds = [plain(at_s - EARLIER_S), plain(at_s), plain(at_s + EARLIER_S)];
+            !is_between(light.at(at_s), bounds)
+        })
+    })
+}
+
+/// How far the change of colour at the end of a drive is, 0 to 1.
+fn changed(times: &FrameTimes, at_s: f64) -> f64 {
+    let over_s = fade_of(Span::from_secs(times.air_s - times.drive_s)).as_secs();
+    let since_s = at_s - (times.air_s - over_s);
+    if since_s >= over_s { 1.0 } else { (since_s / over_s).max(0.0) }
+}
+
+/// Whether a colour is as near as counts to the range of others.
+fn is_between(colour: Rgb, others: [Rgb; 3]) -> bool {
+    let channels: [fn(Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
+    channels.into_iter().all(|channel| {
+        let codes = others.map(channel);
+        let low = codes.into_iter().min().unwrap_or(0).saturating_sub(CODES);
+        let high = codes.into_iter().max().unwrap_or(255).saturating_add(CODES);
+        (low..=high).contains(&channel(colour))
+    })
+}

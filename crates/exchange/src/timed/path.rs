@@ -1,0 +1,196 @@
+//! The timed path of a robot in a file.
+
+use lightbots_base::Vec2;
+use lightbots_show::{MAX_TRAJECTORY_PIECES, TrajectoryPiece};
+
+use crate::limits::LONGEST_S;
+
+/// A robot that moves less within a piece stands, metres: files round places to a tenth of a millimetre.
+const STILL_M: f64 = 1e-4;
+/// Farthest place of a file, metres. No floor is as large, and squares of places stay exact.
+const FARTHEST_M: f64 = 100_000.0;
+/// Above this height a robot flies, metres: places on the floor are written with a few millimetres of noise.
+const FLIES_M: f64 = 0.01;
+
+/// A path. It rests at `start` before its first piece and at its end afterwards.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct TimedPath {
+    /// First place, stage metres.
+    pub start: Vec2,
+    /// Pieces in order. `end_s` counts from the begin of the show and increases.
+    pub pieces: Vec<TrajectoryPiece>,
+    /// Largest height, metres; 0 for a robot that stays on the floor.
+    pub top_m: f64,
+}
+
+/// A piece with where and when it begins, stage metres and seconds.
+pub(crate) type BegunPiece<'a> = (Vec2, f64, &'a TrajectoryPiece);
+
+impl TimedPath {
+    /// When the last piece ends, seconds.
+    pub fn end_s(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |piece| piece.end_s)
+    }
+
+    /// Last place, stage metres.
+    pub fn end(&self) -> Vec2 {
+        self.pieces.last().map_or(self.start, |piece| piece.end)
+    }
+
+    /// The pieces from number `first` on.
+    pub fn begun_from(&self, first: usize) -> impl Iterator<Item = BegunPiece<'_>> {
+        let before = first.checked_sub(1).and_then(|before| self.pieces.get(before));
+        let mut begin = before.map_or((self.start, 0.0), |piece| (piece.end, piece.end_s));
+        self.pieces.iter().skip(first).map(move |piece| {
+            let (from, begin_s) = begin;
+            begin = (piece.end, piece.end_s);
+            (from, begin_s, piece)
+        })
+    }
+
+    /// When the robot moves: begin and end of each piece that leads anywhere, seconds.
+    pub fn moves(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.begun_from(0)
+            .filter(|(from, _, piece)| !is_still(*from, piece))
+            .map(|(_, begin_s, piece)| (begin_s, piece.end_s))
+    }
+}
+
+/// Whether a robot stands during a piece that begins at `from`.
+pub(crate) fn is_still(from: Vec2, piece: &TrajectoryPiece) -> bool {
+    let points = piece.controls.iter().flatten().chain([&piece.end]);
+    points.into_iter().all(|point| point.distance(from) <= STILL_M)
+}
+
+/// Reads a path point by point. Errors are words after the name of the robot.
+#[derive(Debug)]
+pub(crate) struct PathReader<'a> {
+    path: Option<TimedPath>,
+    /// Pieces that the whole file may still have.
+    room: &'a mut usize,
+}
+
+/// Most pieces of all paths of a file.
+pub(crate) const PIECES_MAX: usize = MAX_TRAJECTORY_PIECES;
+
+impl<'a> PathReader<'a> {
+    pub fn new(room: &'a mut usize) -> Self {
+        Self { path: None, room }
+    }
+
+    /// The next place of the robot, `[x, y, z]` in metres with z up, at `at_s` seconds. `controls` are those of a cubic
+    /// Bézier curve to it. The first place also holds before its moment.
+    pub fn point(
+        &mut self,
+        at_s: f64,
+        place: [f64; 3],
+        controls: Option<[[f64; 3]; 2]>,
+    ) -> Result<(), String> {
+        if !(0.0..=LONGEST_S).contains(&at_s) {
+            return Err(format!("a place is at {at_s} s; times go from 0 s to a day: correct the file"));
+        }
+        let numbers = controls.iter().flatten().chain([&place]).flatten();
+        if numbers.into_iter().any(|number| !(-FARTHEST_M..=FARTHEST_M).contains(number)) {
+            return Err(format!("the place at {at_s} s is none within 100 km; give it finite metres"));
+        }
+        let end = flat(place);
+        let Some(path) = &mut self.path else {
+            self.path = Some(TimedPath { start: end, pieces: Vec::new(), top_m: height(place) });
+            return if at_s > 0.0 { self.piece(at_s, None, end) } else { Ok(()) };
+        };
+        path.top_m = path.top_m.max(height(place));
+        let (before_s, before) = (path.end_s(), path.end());
+        if at_s < before_s {
+            return Err(format!("the place at {at_s} s stands behind one at {before_s} s; sort its places"));
+        }
+        if at_s == before_s {
+            let what = format!("two places at {at_s} s: a robot cannot jump; take one out");
+            return if before.distance(end) <= STILL_M { Ok(()) } else { Err(what) };
+        }
+        self.piece(at_s, controls.map(|controls| controls.map(flat)), end)
+    }
+
+    fn piece(&mut self, end_s: f64, controls: Option<[Vec2; 2]>, end: Vec2) -> Result<(), String> {
+        *self.room = self.room.checked_sub(1).ok_or_else(|| {
+            format!("the paths of all robots have more than {PIECES_MAX} pieces; split the show into several")
+        })?;
+        if let Some(path) = &mut self.path {
+            let piece = TrajectoryPiece { end_s, controls, end };
+            let from = path.end();
+            // Rests become one, so that the hundreds of rows of a robot that stands do not count.
+            let stood = path.pieces.len().checked_sub(2).map_or(path.start, |before| path.pieces[before].end);
+            match path.pieces.last_mut() {
+                Some(last) if is_rest(stood, last) && is_rest(from, &piece) => {
+                    last.end_s = end_s;
+                    *self.room += 1;
+                }
+                _ => path.pieces.push(piece),
+            }
+        }
+        Ok(())
+    }
+
+    /// The whole path.
+    pub fn end(self) -> Result<TimedPath, String> {
+        self.path.ok_or_else(|| "it has no place; give it one at 0 s".into())
+    }
+}
+
+fn is_rest(from: Vec2, piece: &TrajectoryPiece) -> bool {
+    piece.controls.is_none() && piece.end == from
+}
+
+fn flat([x, y, _]: [f64; 3]) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+fn height([_, _, z]: [f64; 3]) -> f64 {
+    if z > FLIES_M { z } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(points: &[(f64, [f64; 3])]) -> Result<TimedPath, String> {
+        let mut room = 10;
+        let mut reader = PathReader::new(&mut room);
+        for (at_s, place) in points {
+            reader.point(*at_s, *place, None)?;
+        }
+        reader.end()
+    }
+
+    #[test]
+    fn rests_become_one_and_moves_are_found() {
+        let path = read(&[
+            (1.0, [0.0, 0.0, 0.0]),
+            (2.0, [0.0, 0.0, 0.0]),
+            (3.0, [1.0, 0.0, 7.5]),
+            (4.0, [1.0, 0.0, 0.0]),
+            (5.0, [1.0, 0.0, 0.0]),
+        ]);
+        let path = path.unwrap();
+        let ends: Vec<f64> = path.pieces.iter().map(|piece| piece.end_s).collect();
+        assert_eq!((ends, path.top_m), (vec![2.0, 3.0, 5.0], 7.5));
+        assert_eq!(path.moves().collect::<Vec<_>>(), [(2.0, 3.0)]);
+    }
+
+    #[test]
+    fn what_no_robot_can_drive_is_refused() {
+        let at = [0.0; 3];
+        for (points, part) in [
+            (vec![(0.0, [f64::NAN, 0.0, 0.0])], "none within 100 km"),
+            (vec![(0.0, [1e9, 0.0, 0.0])], "none within 100 km"),
+            (vec![(f64::NAN, at)], "times go from 0 s to a day"),
+            (vec![(-1.0, at)], "times go from 0 s to a day"),
+            (vec![(2.0, at), (1.0, at)], "sort its places"),
+            (vec![(2.0, at), (2.0, [1.0, 0.0, 0.0])], "cannot jump"),
+            (vec![], "it has no place"),
+            ((0..20).map(|nth| (f64::from(nth), [f64::from(nth), 0.0, 0.0])).collect(), "more than 1000000"),
+        ] {
+            let error = read(&points).unwrap_err();
+            assert!(error.contains(part), "{error}");
+        }
+    }
+}
