@@ -21,6 +21,9 @@ import styles from './App.module.css';
 /** Loaded when it is first shown. */
 const StartPage = lazy(() => import('./start/StartPage'));
 
+/** Loaded on a projector's computer. */
+const AudiencePage = lazy(() => import('./audience/AudiencePage'));
+
 const FitDialog = lazy(() => import('./fit/FitDialog'));
 
 /** The dialog that fits the open show to the robots that are there. */
@@ -33,7 +36,10 @@ function Fitting() {
   );
 }
 
-const PAGES: Record<View, ReactNode> = {
+/** A view with the header above it. */
+type WorkView = Exclude<View, 'audience'>;
+
+const PAGES: Record<WorkView, ReactNode> = {
   live: <LivePage />,
   edit: <EditPage />,
   new: (
@@ -42,6 +48,28 @@ const PAGES: Record<View, ReactNode> = {
     </Suspense>
   ),
 };
+
+/** The header, what the whole program has to say, and the view below. */
+function Work({ view }: { view: WorkView }) {
+  return (
+    <>
+      <div className={styles.app}>
+        <div>
+          <Header view={view} />
+          <OpenBanner />
+          <LinkBanner />
+          <IncidentBanner view={view} />
+          <DraftBanner />
+          <NotOpenBanner view={view} />
+        </div>
+        {PAGES[view]}
+      </div>
+      <Fitting />
+      <OfferDialog />
+      <DropFile />
+    </>
+  );
+}
 
 export function App() {
   const [session] = useState(createSession);
@@ -53,21 +81,14 @@ export function App() {
       defaultColorScheme="auto"
     >
       <SessionContext value={session}>
-        <Notifications className="notices" position="bottom-left" limit={4} />
-        <div className={styles.app}>
-          <div>
-            <Header view={view} />
-            <OpenBanner />
-            <LinkBanner />
-            <IncidentBanner view={view} />
-            <DraftBanner />
-            <NotOpenBanner view={view} />
-          </div>
-          {PAGES[view]}
-        </div>
-        <Fitting />
-        <OfferDialog />
-        <DropFile />
+        <Notifications className="notices" position="bottom-left" limit={4} zIndex={1002} />
+        {view === 'audience' ? (
+          <Suspense fallback={<main aria-busy />}>
+            <AudiencePage />
+          </Suspense>
+        ) : (
+          <Work view={view} />
+        )}
       </SessionContext>
     </MantineProvider>
   );

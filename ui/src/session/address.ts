@@ -1,6 +1,13 @@
 import { useSyncExternalStore } from 'react';
 
-export type View = 'live' | 'edit' | 'new';
+export type View = 'live' | 'edit' | 'new' | 'audience';
+
+/** Views by the beginning of their address; every other address is the live view's. */
+const VIEWS: readonly (readonly [start: string, view: View])[] = [
+  ['#/edit', 'edit'],
+  ['#/new', 'new'],
+  ['#/audience', 'audience'],
+];
 
 /** The address of the editor; the name of the show that it edits may follow. */
 const EDIT = '#/edit';
@@ -24,7 +31,7 @@ function change(address: string) {
 
 /** The view in the address. */
 export const viewNow = (): View =>
-  location.hash.startsWith(EDIT) ? 'edit' : location.hash.startsWith('#/new') ? 'new' : 'live';
+  VIEWS.find(([start]) => location.hash.startsWith(start))?.[1] ?? 'live';
 
 export const useView = (): View => useSyncExternalStore(subscribe, viewNow);
 
