@@ -21,6 +21,8 @@ import styles from './App.module.css';
 /** Loaded when it is first shown. */
 const StartPage = lazy(() => import('./start/StartPage'));
 
+const SharedPage = lazy(() => import('./start/SharedPage'));
+
 /** Loaded on a projector's computer. */
 const AudiencePage = lazy(() => import('./audience/AudiencePage'));
 
@@ -45,6 +47,11 @@ const PAGES: Record<WorkView, ReactNode> = {
   new: (
     <Suspense fallback={<main aria-busy />}>
       <StartPage />
+    </Suspense>
+  ),
+  shared: (
+    <Suspense fallback={<main aria-busy />}>
+      <SharedPage />
     </Suspense>
   ),
 };

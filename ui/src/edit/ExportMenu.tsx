@@ -1,5 +1,6 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconDownload } from '@tabler/icons-react';
+import { useState } from 'react';
 import type { Format } from '../api/formats';
 import { listShows, putShow } from '../api/http';
 import { writeShow } from '../model/json';
@@ -11,12 +12,14 @@ import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
+import { LinkDialog } from './LinkDialog';
 
-/** Saves the show as a file, or as a copy in the library. */
+/** Saves the show as a file, as a link, or as a copy in the library. */
 export function ExportMenu() {
   const session = useSession();
   const editing = useEditing();
   const { editor } = editing;
+  const [isLinking, setLinking] = useState(false);
   const show = () => writeShow(editor.state.get().show);
   const save = (format: Format) => attempt(() => downloadShow(show(), editing.name, format));
   const saveAs = async () => {
@@ -31,17 +34,26 @@ export function ExportMenu() {
     notify('good', `This is now ${copy}.`);
   };
   return (
-    <Menu position="top-end">
-      <Menu.Target>
-        <ActionIcon variant="subtle" color="gray" size="lg" aria-label="Download or copy the show">
-          <IconDownload size={18} />
-        </ActionIcon>
-      </Menu.Target>
-      <Menu.Dropdown>
-        <ExportItems onExport={save} />
-        <Menu.Divider />
-        <Menu.Item onClick={() => attempt(saveAs)}>Save as a copy</Menu.Item>
-      </Menu.Dropdown>
-    </Menu>
+    <>
+      <Menu position="top-end">
+        <Menu.Target>
+          <ActionIcon
+            variant="subtle"
+            color="gray"
+            size="lg"
+            aria-label="Download or copy the show"
+          >
+            <IconDownload size={18} />
+          </ActionIcon>
+        </Menu.Target>
+        <Menu.Dropdown>
+          <ExportItems onExport={save} />
+          <Menu.Item onClick={() => setLinking(true)}>Copy a link to this show</Menu.Item>
+          <Menu.Divider />
+          <Menu.Item onClick={() => attempt(saveAs)}>Save as a copy</Menu.Item>
+        </Menu.Dropdown>
+      </Menu>
+      {isLinking ? <LinkDialog onClose={() => setLinking(false)} /> : null}
+    </>
   );
 }
