@@ -8,7 +8,9 @@ export function noteDraws() {
   const setTransform = prototype.setTransform as (...a: unknown[]) => void;
   prototype.setTransform = function (this: CanvasRenderingContext2D, ...more: unknown[]) {
     const now = Number(document.timeline.currentTime);
-    if (now !== drawn[drawn.length - 1] && this.canvas.closest('section')) drawn.push(now);
+    const isStage =
+      now !== drawn[drawn.length - 1] && this.canvas.closest('section, [data-viewpoint]');
+    if (isStage) drawn.push(now);
     setTransform.apply(this, more);
   } as never;
 }

@@ -128,11 +128,20 @@ async function watch(page: Page, robots: number, scene: string) {
   row(scene, robots, measured, await snapshots(page));
 }
 
+/** Measures the audience view of the run that is on, from above and in perspective. */
+async function watchAsAudience(page: Page, robots: number) {
+  const view = page.locator('[data-viewpoint]');
+  await view.waitFor();
+  row('audience, from above', robots, await measure(page));
+  await page.keyboard.press('p');
+  row('audience, in perspective', robots, await measure(page));
+}
+
 /** A crowd of `robots` robots, on the page for editing; `scenes` are measured. */
 async function withCrowd(
   robots: number,
   layers: readonly object[],
-  scenes: (page: Page, live: () => Promise<unknown>) => Promise<void>,
+  scenes: (page: Page, go: (view: 'live' | 'audience') => Promise<unknown>) => Promise<void>,
 ) {
   const file = join(bed.folder, `crowd ${robots} ${layers.length}.lightbots.json`);
   writeFileSync(file, crowdShow(robots, layers));
@@ -141,7 +150,7 @@ async function withCrowd(
     const page = await openPage(bed.browser, server, 'edit', {}, noteDraws);
     await page.getByTestId('stage').waitFor();
     await page.getByText(`${robots} robots`, { exact: true }).waitFor();
-    await scenes(page, () => page.goto(`${server.url}/#/live`));
+    await scenes(page, (view) => page.goto(`${server.url}/#/${view}`));
     await page.close();
   } finally {
     await server.remove();
@@ -150,25 +159,29 @@ async function withCrowd(
 
 for (const robots of [30, 100, 1000, 10_000])
   test(`frames a second with ${robots} robots`, () =>
-    withCrowd(robots, [], async (page, live) => {
+    withCrowd(robots, [], async (page, go) => {
       // One scene that fails does not cost the other.
       const edited =
         robots <= 1000 ? await Promise.allSettled([dragAll(page, robots, 'drag all')]) : [];
-      await live();
+      await go('live');
       await watch(page, robots, 'watch live');
+      await go('audience');
+      await watchAsAudience(page, robots);
       for (const scene of edited) if (scene.status === 'rejected') throw scene.reason;
     }));
 
 for (const robots of [30, 100, 1000])
   test(`frames a second with light on ${robots} robots`, () =>
-    withCrowd(robots, LAYERS, async (page, live) => {
+    withCrowd(robots, LAYERS, async (page, go) => {
       // The stage shows light of the frame on it while the panel of layers is open.
       await page.getByRole('tab', { name: 'Light' }).click();
       await page.getByRole('list', { name: 'Layers, the uppermost first' }).waitFor();
       const edited = await Promise.allSettled([dragAll(page, robots, 'drag all, light')]);
       edited.push(...(await Promise.allSettled([scrub(page, robots, 'scrub, light')])));
-      await live();
+      await go('live');
       await watch(page, robots, 'watch live, light');
+      await go('audience');
+      await watchAsAudience(page, robots);
       for (const scene of edited) if (scene.status === 'rejected') throw scene.reason;
     }));
 

@@ -236,9 +236,11 @@ export async function openPage(
 async function serveScreen(page: Page, server: Server): Promise<void> {
   if (!screen) return;
   // The files are other ones, the rules for them are the server's.
-  const policy = (await fetch(server.url)).headers.get('content-security-policy') ?? '';
+  const answer = await page.context().request.get(server.url);
+  const policy = answer.headers()['content-security-policy'] ?? '';
   const headers = { 'content-security-policy': policy };
-  await page.route(
+  // For windows that the page opens, too.
+  await page.context().route(
     (url) => url.origin === server.url && !/^\/(api|ws)\b/.test(url.pathname),
     (route) => {
       const { pathname } = new URL(route.request().url());

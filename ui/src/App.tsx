@@ -21,6 +21,11 @@ import styles from './App.module.css';
 /** Loaded when it is first shown. */
 const StartPage = lazy(() => import('./start/StartPage'));
 
+const SharedPage = lazy(() => import('./start/SharedPage'));
+
+/** Loaded on a projector's computer. */
+const AudiencePage = lazy(() => import('./audience/AudiencePage'));
+
 const FitDialog = lazy(() => import('./fit/FitDialog'));
 
 /** The dialog that fits the open show to the robots that are there. */
@@ -33,7 +38,10 @@ function Fitting() {
   );
 }
 
-const PAGES: Record<View, ReactNode> = {
+/** A view with the header above it. */
+type WorkView = Exclude<View, 'audience'>;
+
+const PAGES: Record<WorkView, ReactNode> = {
   live: <LivePage />,
   edit: <EditPage />,
   new: (
@@ -41,7 +49,34 @@ const PAGES: Record<View, ReactNode> = {
       <StartPage />
     </Suspense>
   ),
+  shared: (
+    <Suspense fallback={<main aria-busy />}>
+      <SharedPage />
+    </Suspense>
+  ),
 };
+
+/** The header, what the whole program has to say, and the view below. */
+function Work({ view }: { view: WorkView }) {
+  return (
+    <>
+      <div className={styles.app}>
+        <div>
+          <Header view={view} />
+          <OpenBanner />
+          <LinkBanner />
+          <IncidentBanner view={view} />
+          <DraftBanner />
+          <NotOpenBanner view={view} />
+        </div>
+        {PAGES[view]}
+      </div>
+      <Fitting />
+      <OfferDialog />
+      <DropFile />
+    </>
+  );
+}
 
 export function App() {
   const [session] = useState(createSession);
@@ -53,21 +88,14 @@ export function App() {
       defaultColorScheme="auto"
     >
       <SessionContext value={session}>
-        <Notifications className="notices" position="bottom-left" limit={4} />
-        <div className={styles.app}>
-          <div>
-            <Header view={view} />
-            <OpenBanner />
-            <LinkBanner />
-            <IncidentBanner view={view} />
-            <DraftBanner />
-            <NotOpenBanner view={view} />
-          </div>
-          {PAGES[view]}
-        </div>
-        <Fitting />
-        <OfferDialog />
-        <DropFile />
+        <Notifications className="notices" position="bottom-left" limit={4} zIndex={1002} />
+        {view === 'audience' ? (
+          <Suspense fallback={<main aria-busy />}>
+            <AudiencePage />
+          </Suspense>
+        ) : (
+          <Work view={view} />
+        )}
       </SessionContext>
     </MantineProvider>
   );

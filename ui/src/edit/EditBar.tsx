@@ -2,6 +2,7 @@ import { Button } from '@mantine/core';
 import {
   IconArrowBackUp,
   IconArrowForwardUp,
+  IconDeviceProjector,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
   IconTimeline,
@@ -13,6 +14,7 @@ import { openShow } from '../session/openShow';
 import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
 import { goTo } from '../session/address';
+import { showAudience } from './AudiencePreview';
 import { useEditing, useEditor } from './context';
 import { HistoryMenu } from './HistoryMenu';
 import { ExportMenu } from './ExportMenu';
@@ -62,6 +64,12 @@ export function EditBar() {
         true,
         preview.toggle,
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
+      )}
+      {step(
+        'Preview in the audience view (A)',
+        true,
+        () => showAudience(editing),
+        <IconDeviceProjector size={18} />,
       )}
       <Scrubber />
       <IconButton

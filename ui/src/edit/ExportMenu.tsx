@@ -12,15 +12,17 @@ import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
+import { LinkDialog } from './LinkDialog';
 
 const FilmDialog = lazy(() => import('./film/FilmDialog'));
 
-/** Saves the show as a file, as a film, or as a copy in the library. */
+/** Saves the show as a file, as a film, as a link, or as a copy in the library. */
 export function ExportMenu() {
   const session = useSession();
   const editing = useEditing();
   const { editor } = editing;
-  const [filming, setFilming] = useState(false);
+  const [isLinking, setLinking] = useState(false);
+  const [isFilming, setFilming] = useState(false);
   const show = () => writeShow(editor.state.get().show);
   const save = (format: Format) => attempt(() => downloadShow(show(), editing.name, format));
   const saveAs = async () => {
@@ -36,24 +38,31 @@ export function ExportMenu() {
   };
   return (
     <>
-    <Menu position="top-end">
-      <Menu.Target>
-        <ActionIcon variant="subtle" color="gray" size="lg" aria-label="Download or copy the show">
-          <IconDownload size={18} />
-        </ActionIcon>
-      </Menu.Target>
-      <Menu.Dropdown>
-        <ExportItems onExport={save} />
-        <Menu.Item onClick={() => setFilming(true)}>Make a film…</Menu.Item>
-        <Menu.Divider />
-        <Menu.Item onClick={() => attempt(saveAs)}>Save as a copy</Menu.Item>
-      </Menu.Dropdown>
-    </Menu>
-    {filming ? (
-      <Suspense fallback={null}>
-        <FilmDialog onClose={() => setFilming(false)} />
-      </Suspense>
-    ) : null}
+      <Menu position="top-end">
+        <Menu.Target>
+          <ActionIcon
+            variant="subtle"
+            color="gray"
+            size="lg"
+            aria-label="Download or copy the show"
+          >
+            <IconDownload size={18} />
+          </ActionIcon>
+        </Menu.Target>
+        <Menu.Dropdown>
+          <ExportItems onExport={save} />
+          <Menu.Item onClick={() => setFilming(true)}>Make a film…</Menu.Item>
+          <Menu.Item onClick={() => setLinking(true)}>Copy a link to this show</Menu.Item>
+          <Menu.Divider />
+          <Menu.Item onClick={() => attempt(saveAs)}>Save as a copy</Menu.Item>
+        </Menu.Dropdown>
+      </Menu>
+      {isLinking ? <LinkDialog onClose={() => setLinking(false)} /> : null}
+      {isFilming ? (
+        <Suspense fallback={null}>
+          <FilmDialog onClose={() => setFilming(false)} />
+        </Suspense>
+      ) : null}
     </>
   );
 }

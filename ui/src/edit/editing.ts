@@ -91,6 +91,8 @@ export interface Editing {
   files: Map<string, TakenFile>;
   /** The space key on the stage. */
   space: SpaceHold;
+  /** Whether the audience view lies over the editor. */
+  audience: Store<boolean>;
   /** The menu that is open on the stage; null: none. */
   menu: Store<MenuAt | null>;
   /** The frame that is being renamed in the strip; null: none. */
@@ -166,6 +168,7 @@ export function createEditing(
     making: createStore<Making | null>(null),
     files,
     space: createSpaceHold(() => tool.get() === 'hand', preview.toggle),
+    audience: createStore(false),
     menu: createStore<MenuAt | null>(null),
     renaming: createStore<number | null>(null),
     retire() {

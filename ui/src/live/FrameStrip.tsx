@@ -5,7 +5,7 @@ import type { Show } from '../model/show';
 import { GoMark } from '../parts/GoMark';
 import { useSession } from '../session/session';
 import { Thumbnail } from '../stage/Thumbnail';
-import { isRunning } from './scene';
+import { isRunning } from '../session/phases';
 import styles from '../parts/strip.module.css';
 
 /** The frames in playing order: choose the first one, see the current one. */

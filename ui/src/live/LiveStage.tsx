@@ -1,5 +1,5 @@
 import { pathsTo } from '../model/plannedPaths';
-import { IconRoute, IconTarget } from '@tabler/icons-react';
+import { IconDeviceProjector, IconRoute, IconTarget } from '@tabler/icons-react';
 import { useKeys } from '../parts/useKeys';
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import { useStore } from '../base/store';
@@ -9,6 +9,7 @@ import { StageCanvas } from '../stage/StageCanvas';
 import { createView } from '../stage/view';
 import { fitView, showPlace, StageTool, zoomView, ZoomTools } from '../stage/ViewTools';
 import { createCloseWatch } from './closeWatch';
+import { openAudience } from './openAudience';
 import { createFullPlan } from '../session/fullPlan';
 import { RobotTwin } from './RobotTwin';
 import { liveScene, wrongIn } from './scene';
@@ -44,6 +45,7 @@ export function LiveStage() {
     ['-', () => zoomView(view, 1 / 1.4)],
     ['t', () => setTargets((on) => !on)],
     ['w', () => setRoutes((on) => !on)],
+    ['a', openAudience],
   ]);
   const paths = useMemo(
     () => (routes ? pathsTo(plan, show, playing ?? chosen) : []),
@@ -75,6 +77,9 @@ export function LiveStage() {
           <IconRoute size={17} />
         </StageTool>
         <ZoomTools view={view} />
+        <StageTool label="Audience view (A)" onClick={openAudience}>
+          <IconDeviceProjector size={17} />
+        </StageTool>
       </div>
       {linked && empty ? (
         <div className={styles.hint} role="status">

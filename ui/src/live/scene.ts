@@ -1,4 +1,4 @@
-import type { Fleet, Phase, Plan } from '../api/types.gen';
+import type { Fleet, Plan } from '../api/types.gen';
 import { unitStore } from '../session/preferences';
 import { paintPins } from '../stage/pinMark';
 import { contact_m, EMPTY_STAGE, type Show } from '../model/show';
@@ -8,6 +8,7 @@ import { paintClose, type CloseWatch } from './closeWatch';
 import { paintCallouts } from './incidentMark';
 import { calloutsOf } from '../session/incidents';
 import type { Live } from '../session/live';
+import { isRunning } from '../session/phases';
 
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
 const fades = new WeakMap<Fleet, (robot: number) => number>();
@@ -22,9 +23,6 @@ export function fade(fleet: Fleet): (robot: number) => number {
   }
   return faded;
 }
-
-/** Whether robots drive, so that their goals are the targets to draw. */
-export const isRunning = (phase: Phase) => phase !== 'idle' && phase !== 'ready';
 
 const NOTHING: readonly never[] = [];
 export interface LiveSceneInputs {

@@ -1,6 +1,17 @@
 import { useSyncExternalStore } from 'react';
 
-export type View = 'live' | 'edit' | 'new';
+export type View = 'live' | 'edit' | 'new' | 'audience' | 'shared';
+
+/** The address of a show that the address itself holds; the packed show follows. */
+const SHARED = '#/shared/';
+
+/** Views by the beginning of their address; every other address is the live view's. */
+const VIEWS: readonly (readonly [start: string, view: View])[] = [
+  ['#/edit', 'edit'],
+  ['#/new', 'new'],
+  ['#/audience', 'audience'],
+  [SHARED, 'shared'],
+];
 
 /** The address of the editor; the name of the show that it edits may follow. */
 const EDIT = '#/edit';
@@ -24,7 +35,7 @@ function change(address: string) {
 
 /** The view in the address. */
 export const viewNow = (): View =>
-  location.hash.startsWith(EDIT) ? 'edit' : location.hash.startsWith('#/new') ? 'new' : 'live';
+  VIEWS.find(([start]) => location.hash.startsWith(start))?.[1] ?? 'live';
 
 export const useView = (): View => useSyncExternalStore(subscribe, viewNow);
 
@@ -53,3 +64,13 @@ export const followAddress = subscribe;
 
 /** Edits another show on this screen only. */
 export const editShow = (name: string) => change(addressOf(name));
+
+/** The address that holds a packed show itself, of this installation. */
+export const sharedAddress = (packed: string) =>
+  `${location.origin}${location.pathname}${SHARED}${packed}`;
+
+const sharedNow = () =>
+  location.hash.startsWith(SHARED) ? location.hash.slice(SHARED.length) : '';
+
+/** The packed show in the address; empty: there is none. */
+export const useShared = (): string => useSyncExternalStore(subscribe, sharedNow);

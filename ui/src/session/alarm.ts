@@ -1,5 +1,6 @@
 import { useStore, type Store } from '../base/store';
 import type { Incident } from '../api/types.gen';
+import { viewNow } from './address';
 import { isHeard } from './incidents';
 import { createChoice } from './preferences';
 
@@ -16,14 +17,18 @@ export const useSound = () => useStore(sound) === 'on';
 
 export const setSound = (on: boolean) => sound.set(on ? 'on' : 'off');
 
-/** Makes a sound for each new incident that has to be looked at, but for those that were there before this page. */
+/**
+ * Makes a sound for each new incident that has to be looked at, but for those that were there before this page. The
+ * audience hears none.
+ */
 export function soundAlarms(incidents: Store<readonly Incident[]>) {
   let last: number | null = null;
   let audio: AudioContext | null = null;
   incidents.subscribe(() => {
     const list = incidents.get();
     const newest = list.at(-1)?.id ?? 0;
-    if (last !== null && sound.get() === 'on' && list.some((one) => isHeard(one, last ?? 0))) {
+    const isWanted = sound.get() === 'on' && viewNow() !== 'audience';
+    if (last !== null && isWanted && list.some((one) => isHeard(one, last ?? 0))) {
       audio ??= new AudioContext();
       play(audio);
     }

@@ -1,0 +1,44 @@
+import type { Browser, Page } from 'playwright-core';
+import { eventually, openPage, startServer, type Server } from './harness';
+
+const PASSWORD = 'a long password';
+
+/** A server on the network, which asks for sign-in, with an operator, an editor and a viewer. */
+export async function startSignInServer(...more: string[]): Promise<Server> {
+  const server = await startServer('--listen', '0.0.0.0:0', '--plain-http', ...more);
+  const token = await eventually(
+    async () => /#first=([0-9a-f]+)/.exec(server.said())?.[1] ?? '',
+    (found) => found !== '',
+    'a one-time address',
+  );
+  const post = (path: string, body: unknown, cookie = '') =>
+    fetch(`${server.url}${path}`, {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json', Origin: server.url, Cookie: cookie },
+      body: JSON.stringify(body),
+    });
+  const first = await post('/api/first', { token, name: 'operator', password: PASSWORD });
+  const cookie = first.headers.get('set-cookie')?.split(';')[0] ?? '';
+  for (const role of ['editor', 'viewer']) {
+    const added = await post('/api/people', { name: role, role, password: PASSWORD }, cookie);
+    if (!added.ok) throw new Error(`No ${role}: ${await added.text()}`);
+  }
+  return server;
+}
+
+/** A page of a person who has signed in. */
+export async function openAs(
+  browser: Browser,
+  server: Server,
+  role: 'viewer' | 'editor' | 'operator',
+): Promise<Page> {
+  const signIn = await browser.newContext();
+  const answer = await signIn.request.post(`${server.url}/api/session`, {
+    data: { name: role, password: PASSWORD },
+    headers: { Origin: server.url },
+  });
+  if (!answer.ok()) throw new Error(`${role} cannot sign in: ${await answer.text()}`);
+  const storageState = await signIn.storageState();
+  await signIn.close();
+  return openPage(browser, server, 'live', { storageState });
+}

@@ -1,0 +1,13 @@
+import { notify } from '../session/notices';
+
+/** Opens the audience view in a window of its own, which can be moved to a projector; or brings it to the front. */
+export function openAudience() {
+  const address = `${location.pathname}#/audience`;
+  const opened = window.open(address, 'lightbots-audience', 'popup,width=1280,height=720');
+  if (opened) opened.focus();
+  else
+    notify(
+      'error',
+      `The browser opened no window. Allow pop-ups for this page, or open ${location.origin}${address} yourself.`,
+    );
+}
