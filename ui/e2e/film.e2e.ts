@@ -14,7 +14,10 @@ async function openDialog(name: string) {
   await button(page, 'Download or copy the show').click();
   await page.getByRole('menuitem', { name: 'Make a film…' }).click();
   const dialog = page.getByRole('dialog', { name: 'Film of the show' });
-  await dialog.getByRole('button', { name: 'Make the film' }).and(page.locator(':enabled')).waitFor();
+  await dialog
+    .getByRole('button', { name: 'Make the film' })
+    .and(page.locator(':enabled'))
+    .waitFor();
   return { page, dialog };
 }
 

@@ -82,11 +82,7 @@ test('on the live page music is in step with the show, and stands with it', asyn
   await edit.music.getByText(/clicks\.wav · 0:40/).waitFor();
   await edit.page.getByText('Saved', { exact: true }).first().waitFor();
   const page = await openPage(bed.browser, bed.server, 'live', {}, noteSound);
-  const sound = () =>
-    page.evaluate(
-      () =>
-        (globalThis as unknown as { sound: SoundNotes }).sound,
-    );
+  const sound = () => page.evaluate(() => (globalThis as unknown as { sound: SoundNotes }).sound);
   await page.getByRole('button', { name: 'Music on this screen' }).click();
   await phaseIs(page, 'ready');
   await button(page, 'Play').click();

@@ -35,8 +35,16 @@ export async function startRecorder(folder: string): Promise<Recorder> {
       child.on('spawn', () => done(child));
     });
   };
-  const modules = ['module-null-sink sink_name=none rate=48000', `module-native-protocol-unix socket=${socket}`];
-  await start('pulseaudio', ['-n', '--exit-idle-time=-1', '--disallow-exit', ...modules.flatMap((one) => ['-L', one])]);
+  const modules = [
+    'module-null-sink sink_name=none rate=48000',
+    `module-native-protocol-unix socket=${socket}`,
+  ];
+  await start('pulseaudio', [
+    '-n',
+    '--exit-idle-time=-1',
+    '--disallow-exit',
+    ...modules.flatMap((one) => ['-L', one]),
+  ]);
   await new Promise((done) => setTimeout(done, 2000));
   const format = ['--format=s16le', `--rate=${RATE_HZ}`, '--channels=1', '--raw'];
   const tape = await start('parec', ['-d', 'none.monitor', '--latency-msec=10', ...format]);

@@ -42,10 +42,10 @@ const print = (clock: string, ahead_ms: readonly number[]) => {
     clock,
     minutes: MINUTES,
     moments: ahead_ms.length,
-    'median_ahead_ms': signed[signed.length >> 1],
+    median_ahead_ms: signed[signed.length >> 1],
     '95_%_within_ms': share(0.95),
     '99_%_within_ms': share(0.99),
-    'largest_ms': share(1),
+    largest_ms: share(1),
   };
   process.stdout.write(`\n${JSON.stringify(row)}\n`);
 };
@@ -74,7 +74,9 @@ test(`${MINUTES} minutes with a pause, a hold and a late robot`, async () => {
     await edit.getByRole('tab', { name: 'Show' }).click();
     const music = edit.getByRole('region', { name: 'Music' });
     const buffer = clicks(MINUTES * 60 + 20);
-    await music.locator('input[type=file]').setInputFiles({ name: 'c.wav', mimeType: 'audio/wav', buffer });
+    await music
+      .locator('input[type=file]')
+      .setInputFiles({ name: 'c.wav', mimeType: 'audio/wav', buffer });
     await music.getByText(/c\.wav · /).waitFor();
     await edit.getByText('Saved', { exact: true }).first().waitFor();
     const page = await openPage(browser, server, 'live', {}, noteSound);
@@ -97,7 +99,11 @@ test(`${MINUTES} minutes with a pause, a hold and a late robot`, async () => {
     const recorded = aheadOf(recorder.clicks_ms(), shows);
     print('audio clock of the browser', ahead_ms);
     print('recorded', recorded);
-    await eventually(() => notes(page), (now) => now.starts > 1, 'music went on after the pause');
+    await eventually(
+      () => notes(page),
+      (now) => now.starts > 1,
+      'music went on after the pause',
+    );
     expect(recorded.length).toBeGreaterThan(60 * MINUTES);
     await page.close();
   } finally {

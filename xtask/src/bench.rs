@@ -31,7 +31,7 @@ enum Source {
 }
 
 /// All parts, in the order of the page.
-const PARTS: [Part; 15] = [
+const PARTS: [Part; 16] = [
     Part {
         name: "plan",
         title: "Planning",
