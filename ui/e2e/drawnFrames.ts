@@ -1,18 +1,20 @@
 import type { Page } from 'playwright-core';
 
-/** Notes the moment of every frame in which the stage was drawn. */
+/** Notes the moment of every frame in which the stage, or the audience view, was drawn. */
 export function noteDraws() {
   const drawn: number[] = [];
   Object.assign(globalThis, { drawn });
   const prototype = CanvasRenderingContext2D.prototype;
-  const setTransform = prototype.setTransform as (...a: unknown[]) => void;
-  prototype.setTransform = function (this: CanvasRenderingContext2D, ...more: unknown[]) {
-    const now = Number(document.timeline.currentTime);
-    const isStage =
-      now !== drawn[drawn.length - 1] && this.canvas.closest('section, [data-viewpoint]');
-    if (isStage) drawn.push(now);
-    setTransform.apply(this, more);
-  } as never;
+  const note = (name: 'setTransform' | 'putImageData', around: string) => {
+    const draw = prototype[name] as (...a: unknown[]) => void;
+    prototype[name] = function (this: CanvasRenderingContext2D, ...more: unknown[]) {
+      const now = Number(document.timeline.currentTime);
+      if (now !== drawn[drawn.length - 1] && this.canvas.closest(around)) drawn.push(now);
+      draw.apply(this, more);
+    } as never;
+  };
+  note('setTransform', 'section');
+  note('putImageData', '[data-viewpoint]');
 }
 
 /** Notes, in place of drawn stages, the moment of every frame in which the timeline was scrolled or its last block moved. */

@@ -26,6 +26,8 @@ interface Stamp {
 /** A round shape: coverage and brightness by the distance from its middle in pixels, 0 to 1; zero beyond `reach_px`. */
 export interface Round {
   reach_px: number;
+  /** Height as a share of the width, for a circle that is seen from the side; 1 by default. */
+  flatness?: number;
   bodyAt(away_px: number): number;
   shineAt(away_px: number): number;
 }
@@ -44,6 +46,8 @@ export interface Ink {
 /** Paints a stamp at every dot, in the dot's ink. */
 export interface Stamps {
   press(pixels: Pixels, dots: readonly Dot[], camera: Camera, density: number): void;
+  /** Paints one stamp with its middle at a place of the picture, pixels. */
+  pressAt(pixels: Pixels, dot: Dot, x: number, y: number): void;
 }
 
 export function createStamps(round: Round, inkOf: (dot: Dot, ink: Ink) => void): Stamps {
@@ -55,26 +59,34 @@ export function createStamps(round: Round, inkOf: (dot: Dot, ink: Ink) => void):
     const index = phaseY * PHASES + phaseX;
     return (stamps[index] ??= makeStamp(round, (phaseX + 0.5) / PHASES, (phaseY + 0.5) / PHASES));
   };
+  const pressAt: Stamps['pressAt'] = (pixels, dot, x, y) => {
+    inkOf(dot, ink);
+    pressOne(pixels, stampAt(x, y), Math.floor(x), Math.floor(y), ink);
+  };
   return {
     press(pixels, dots, camera, density) {
       for (const dot of dots) {
         const x = (camera.originX_px + dot.x * camera.scale) * density;
         const y = (camera.originY_px - dot.y * camera.scale) * density;
-        inkOf(dot, ink);
-        pressOne(pixels, stampAt(x, y), Math.floor(x), Math.floor(y), ink);
+        pressAt(pixels, dot, x, y);
       }
     },
+    pressAt,
   };
 }
 
-function makeStamp({ reach_px, bodyAt, shineAt }: Round, offX: number, offY: number): Stamp {
+function makeStamp(round: Round, offX: number, offY: number): Stamp {
+  const { reach_px, flatness = 1, bodyAt, shineAt } = round;
   const reach = Math.ceil(reach_px);
   const side = 2 * reach + 1;
   const [body, shine] = [new Uint8Array(side * side), new Uint8Array(side * side)];
   const [from, until] = [new Uint16Array(side).fill(side), new Uint16Array(side)];
   for (let row = 0; row < side; row++)
     for (let column = 0; column < side; column++) {
-      const away_px = Math.hypot(column + 0.5 - reach - offX, row + 0.5 - reach - offY);
+      const away_px = Math.hypot(
+        column + 0.5 - reach - offX,
+        (row + 0.5 - reach - offY) / flatness,
+      );
       const i = row * side + column;
       body[i] = Math.round(255 * bodyAt(away_px));
       shine[i] = Math.round(255 * shineAt(away_px));

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { brightnessOf, LIGHT_RADII, shineAt, tintOf } from './lightSprites';
+import { LIGHT_RADII, shineAt } from './shine';
 
 test('a light is brightest in its middle, white there, and fades to nothing', () => {
   const steps = Array.from({ length: 41 }, (_, i) => shineAt((i / 40) * LIGHT_RADII));
@@ -12,11 +12,4 @@ test('a light is brightest in its middle, white there, and fades to nothing', ()
   expect(shineAt(1).glow).toBeGreaterThan(0.2);
   expect(shineAt(LIGHT_RADII)).toEqual({ glow: 0, core: 0 });
   expect(shineAt(LIGHT_RADII - 0.01).glow).toBeLessThan(1 / 255);
-});
-
-test('a fade of one colour needs one sprite', () => {
-  const fade = [0xff8000, 0x804000, 0x402000].map(tintOf);
-  expect(new Set(fade).size).toBe(1);
-  expect(brightnessOf(0x804000)).toBeCloseTo(128 / 255, 9);
-  expect(tintOf(0xff0000)).not.toBe(tintOf(0x00ff00));
 });
