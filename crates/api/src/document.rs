@@ -1,4 +1,5 @@
-//! A show file as types, for its JSON Schema. docs/show-format.md says what each field means; `exchange` reads and writes files.
+//! A show file as types, for its JSON Schema. docs/show-format.md says what each field means; `exchange` reads and writes
+//! files.
 
 #![allow(dead_code, reason = "only the schema is made of these types")]
 
@@ -7,7 +8,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 
 /// A place, stage metres: x to the right, y away from the audience.
-pub type Place = [f64; 2];
+pub type DocumentPlace = [f64; 2];
 /// Settings that belong to a kind of source or layer.
 pub type DocumentSettings = BTreeMap<String, serde_json::Value>;
 
@@ -25,7 +26,7 @@ pub struct ShowDocument {
     /// Whether pixel n is the same robot in every frame.
     pub identity: Option<DocumentIdentity>,
     /// Places before the first frame; without it, rows along the front edge.
-    pub starts: Option<Vec<Place>>,
+    pub starts: Option<Vec<DocumentPlace>>,
     /// File name of the music.
     pub music: Option<String>,
     /// Robots that wait for others to fail.
@@ -69,16 +70,16 @@ pub enum DocumentObstacle {
     /// A disc.
     Disc {
         /// Centre.
-        at: Place,
+        at: DocumentPlace,
         /// Radius, metres.
         radius_m: f64,
     },
     /// A rectangle.
     Rectangle {
         /// Corner with the smaller x and y.
-        min: Place,
+        min: DocumentPlace,
         /// Corner with the larger x and y.
-        max: Place,
+        max: DocumentPlace,
     },
 }
 
@@ -211,7 +212,7 @@ pub struct DocumentTrajectory {
     /// Its start, seconds.
     pub at_s: Option<f64>,
     /// The place where it starts.
-    pub start: Place,
+    pub start: DocumentPlace,
     /// `[end_s, x, y]`, or `[end_s, x1, y1, x2, y2, x, y]` with the control points of a cubic Bézier curve.
     #[schemars(inner(length(min = 3, max = 7)))]
     pub pieces: Vec<Vec<f64>>,
@@ -315,9 +316,9 @@ pub enum DocumentSourceKind {
 #[schemars(deny_unknown_fields)]
 pub struct DocumentBox {
     /// Corner with the smaller x and y.
-    pub min: Place,
+    pub min: DocumentPlace,
     /// Corner with the larger x and y.
-    pub max: Place,
+    pub max: DocumentPlace,
 }
 
 /// A light of a picture.
@@ -327,7 +328,7 @@ pub struct DocumentPixel {
     /// Unique in its frame.
     pub id: u32,
     /// Where it is.
-    pub place: Place,
+    pub place: DocumentPlace,
     /// `#rrggbb`.
     #[schemars(regex(pattern = "^#[0-9a-fA-F]{6}$"))]
     pub color: String,

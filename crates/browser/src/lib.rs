@@ -4,8 +4,8 @@
 //! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
 //! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
 //! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`moved_answer`] moves a picture as one, [`PlannedLight`] has its
-//! colours with [`LightPictures`], [`FilmPainter`] paints films of it, [`choices`] lists what settings may name, [`file()`] tells what a file is,
-//! [`beats_answer`] finds beats of music; the functions below them are the same for JavaScript.
+//! colours with [`LightPictures`], [`FilmPainter`] paints films of it, [`choices`] lists what settings may name, [`file()`]
+//! tells what a file is, [`beats_answer`] finds beats of music; the functions below them are the same for JavaScript.
 
 mod answer;
 mod beats;

@@ -9,7 +9,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 use crate::camera::FilmView;
-use crate::film::{Film, FilmSize};
+use crate::film::{FilmSize, ShowFilm};
 use crate::words::{clock, numbered, short};
 
 /// Most frames on a sheet.
@@ -34,8 +34,8 @@ struct Layout {
     size: (usize, usize),
 }
 
-/// A contact sheet: each frame in the middle of its air time, with number, name and moment. `size` is that of a picture; without
-/// it, it is chosen by the number of frames. Frames above [`SHEET_FRAMES_MAX`] are left out.
+/// A contact sheet: each frame in the middle of its air time, with number, name and moment. `size` is that of a picture;
+/// without it, it is chosen by the number of frames. Frames above [`SHEET_FRAMES_MAX`] are left out.
 pub fn contact_sheet(
     show: &Show,
     planned: &PlannedShow<'_>,
@@ -47,7 +47,7 @@ pub fn contact_sheet(
     let (width, height) = layout.size;
     let mut sheet = vec![PAPER; 3 * width * height];
     let of_picture = FilmSize { width: layout.picture.0 as u32, height: layout.picture.1 as u32, fps: 1.0 };
-    let mut film = Film::new(planned, &show.stage, view, of_picture);
+    let mut film = ShowFilm::new(planned, &show.stage, view, of_picture);
     for (frame, times) in planned.times().iter().take(frames).enumerate() {
         let at_s = planned.first_drive_s() + (times.air_s + times.end_s) / 2.0;
         let picture = film.picture_at(at_s);

@@ -42,7 +42,7 @@ impl FilmTimes {
 
 /// A film of a show.
 #[derive(Debug)]
-pub struct Film<'a> {
+pub struct ShowFilm<'a> {
     times: FilmTimes,
     scenes: PlannedScenes<'a>,
     painter: Painter,
@@ -50,7 +50,7 @@ pub struct Film<'a> {
     fps: f64,
 }
 
-impl<'a> Film<'a> {
+impl<'a> ShowFilm<'a> {
     /// A film from one view.
     pub fn new(planned: &'a PlannedShow<'a>, stage: &Stage, view: FilmView, size: FilmSize) -> Self {
         let painter = Painter::new(view, stage, (size.width, size.height));

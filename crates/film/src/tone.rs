@@ -24,13 +24,14 @@ pub(crate) fn light(code: u8) -> f32 {
     light as f32
 }
 
-/// Light from which on colours become paler, as film and eyes do it: above that of one robot with all that it adds to itself.
+/// Light from which on colours become paler, as film and eyes do it: above that of one robot with all that it adds to
+/// itself.
 const PALER_FROM: f32 = 1.5;
 /// How pale the brightest become.
 const PALEST: f32 = 0.3;
 
-/// The bytes of one pixel. Light beyond what a screen shows keeps its hue and becomes paler, so that neither clipping changes
-/// colours where lights overlap nor a robot's own colour is changed.
+/// The bytes of one pixel. Light beyond what a screen shows keeps its hue and becomes paler, so that neither clipping
+/// changes colours where lights overlap nor a robot's own colour is changed.
 pub(crate) fn bytes(codes: &[u8], [r, g, b]: [f32; 3]) -> [u8; 3] {
     let most = r.max(g).max(b);
     let [r, g, b] = if most > 1.0 {

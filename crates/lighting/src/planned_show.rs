@@ -104,8 +104,8 @@ impl<'a> PlannedShow<'a> {
 }
 
 impl PlannedScenes<'_> {
-    /// Fills `scene` with the robots of the frame at `at_s`, in their order. `at_s` counts from the start of the drive to the
-    /// first frame.
+    /// Fills `scene` with the robots of the frame at `at_s`, in their order. `at_s` counts from the start of the drive to
+    /// the first frame.
     pub fn at(&mut self, at_s: f64, scene: &mut Vec<SeenRobot>) {
         scene.clear();
         let planned = self.planned;

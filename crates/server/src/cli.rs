@@ -10,6 +10,7 @@ mod rehearse;
 mod render;
 mod replay;
 mod report;
+mod show;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -19,7 +20,7 @@ use lightbots_base::RobotId;
 use lightbots_control::OnReturn;
 use lightbots_exchange::formats_in_words;
 use lightbots_link::BrokerArguments;
-use lightbots_show::{Identity, SPEED_MIN_PERCENT};
+use lightbots_show::SPEED_MIN_PERCENT;
 
 use crate::logging::Log;
 use crate::numbers::{address, floor, robot, seed};
@@ -34,6 +35,8 @@ pub use rehearse::RehearseArguments;
 pub use render::RenderArguments;
 pub use replay::ReplayArguments;
 pub use report::ReportArguments;
+pub use show::ShowArguments;
+use show::show_help;
 
 /// Light shows on a floor: every robot is a pixel that drives.
 #[derive(Debug, Parser)]
@@ -87,35 +90,6 @@ pub enum Command {
     /// Decode a picture of a layer; this program starts it by itself
     #[command(hide = true)]
     Picture,
-}
-
-/// How a show is read.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct ShowArguments {
-    /// Floor in metres for shows that do not carry a stage [default: 3x3]
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor)]
-    pub floor: Option<(f64, f64)>,
-    /// Whether pixel id n is the same robot in every frame [default: as the show says, else any]
-    #[arg(long, value_enum)]
-    pub identity: Option<IdentityArgument>,
-}
-
-/// Whether robots are interchangeable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum IdentityArgument {
-    /// Any robot may show any pixel.
-    Any,
-    /// Pixel id n is the same robot in every frame.
-    Fixed,
-}
-
-impl From<IdentityArgument> for Identity {
-    fn from(argument: IdentityArgument) -> Self {
-        match argument {
-            IdentityArgument::Any => Self::Any,
-            IdentityArgument::Fixed => Self::Fixed,
-        }
-    }
 }
 
 /// `run`
@@ -340,11 +314,6 @@ pub struct ConvertArguments {
     /// IN is an FSEQ file: put its colours onto this show
     #[arg(long, value_name = "SHOW")]
     pub onto: Option<PathBuf>,
-}
-
-/// The help for a show file, with the endings of all formats.
-fn show_help() -> String {
-    format!("The {}", formats_in_words())
 }
 
 /// `robot-check`

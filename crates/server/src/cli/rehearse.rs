@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use lightbots_show::SPEED_MIN_PERCENT;
 
-use super::{ShowArguments, show_help};
+use super::show::{ShowArguments, show_help};
 use crate::numbers::seed;
 
 /// `rehearse`

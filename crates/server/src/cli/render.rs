@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use lightbots_film::FilmView;
 
-use super::ShowArguments;
+use super::show::ShowArguments;
 use crate::numbers::{fps, pixels};
 
 /// `render`

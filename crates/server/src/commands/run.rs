@@ -15,8 +15,6 @@ use tokio::task::JoinHandle;
 
 use super::{broker, count, first_operator, robots};
 use crate::broker_settings::{Settings, other_broker};
-#[cfg(feature = "sound")]
-use crate::cli::DeskArguments;
 use crate::cli::RunArguments;
 use crate::data_folder::DataFolder;
 use crate::failure::{Failure, Outcome};
@@ -58,7 +56,13 @@ struct Started {
 
 impl Started {
     /// Starts what follows desks and the broker's warnings.
-    fn follow(&mut self, (light, sound): Desks, shared: &Arc<Shared>, stop: &Stop) {
+    fn follow(
+        &mut self,
+        arguments: &RunArguments,
+        (light, sound): Desks,
+        shared: &Arc<Shared>,
+        stop: &Stop,
+    ) -> Result<(), Failure> {
         if let Some(light) = light {
             let light = light.run(shared.handle.clone(), shared.log.clone(), stop.clone());
             self.tasks.push(tokio::spawn(light));
@@ -74,15 +78,22 @@ impl Started {
         if let Some(lines) = self.broker.as_mut().and_then(EmbeddedBroker::notices) {
             self.tasks.push(tokio::spawn(relay(lines, shared.log.clone(), stop.clone())));
         }
+        self.sound(arguments, shared, stop)
+    }
+
+    /// Without the feature `sound` there is none.
+    #[cfg(not(feature = "sound"))]
+    fn sound(&mut self, _: &RunArguments, _: &Arc<Shared>, _: &Stop) -> Result<(), Failure> {
+        Ok(())
     }
 
     /// Plays the music of the open show on this machine, where that is asked for.
     #[cfg(feature = "sound")]
-    fn sound(&mut self, arguments: &DeskArguments, shared: &Arc<Shared>, stop: &Stop) -> Result<(), Failure> {
-        if !arguments.sound {
+    fn sound(&mut self, arguments: &RunArguments, shared: &Arc<Shared>, stop: &Stop) -> Result<(), Failure> {
+        if !arguments.desk.sound {
             return Ok(());
         }
-        let loudspeaker = Loudspeaker::open(arguments.sound_offset_ms)?;
+        let loudspeaker = Loudspeaker::open(arguments.desk.sound_offset_ms)?;
         let opened = shared.clone();
         let music_of = move || {
             let shown = opened.desk.shown();
@@ -178,9 +189,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         simulated: shared.simulated.clone(),
     };
     started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
-    started.follow(desks, &shared, stop);
-    #[cfg(feature = "sound")]
-    started.sound(&arguments.desk, &shared, stop)?;
+    started.follow(arguments, desks, &shared, stop)?;
     started.tasks.push(tokio::spawn(playlist_player::play(shared.clone(), stop.clone())));
     let scheme = shared.names.scheme().name();
     say::line(&format!("LightBots is at {scheme}://{} (Ctrl-C stops it)", own_address(address)));

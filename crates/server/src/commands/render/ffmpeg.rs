@@ -86,8 +86,8 @@ impl Music {
     }
 }
 
-/// Finds the show's music: in the show, or beside its file. A film without it is silent, which an issue says. A copy of music
-/// that is in the show lies beside `out`.
+/// Finds the show's music: in the show, or beside its file. A film without it is silent, which an issue says. A copy of
+/// music that is in the show lies beside `out`.
 pub(super) fn music(
     show: &Show,
     (file, out): (&Path, &Path),

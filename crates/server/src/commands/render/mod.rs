@@ -10,7 +10,7 @@ use std::path::Path;
 use lightbots_api as api;
 use lightbots_base::Vec2;
 use lightbots_film::{
-    Film, FilmSize, GifError, GifPalette, GifWriter, SHEET_FRAMES_MAX, contact_sheet, crew_sheet,
+    FilmSize, GifError, GifPalette, GifWriter, SHEET_FRAMES_MAX, ShowFilm, contact_sheet, crew_sheet,
 };
 use lightbots_lighting::{PlannedShow, ShowLight};
 use lightbots_plan::ShowPlan;
@@ -114,7 +114,7 @@ impl Work<'_> {
         let (light, _) = ShowLight::new(self.show);
         let planned = PlannedShow::new(self.show, self.plan, &light);
         let view = self.arguments.view.into();
-        let film = |size: FilmSize| Film::new(&planned, &self.show.stage, view, size);
+        let film = |size: FilmSize| ShowFilm::new(&planned, &self.show.stage, view, size);
         let out = &self.arguments.out;
         match output {
             Output::Sheet => {
@@ -153,7 +153,7 @@ impl Work<'_> {
     /// Calls `add` with each picture, with a bar that begins at a share of it.
     fn pictures(
         &self,
-        mut film: Film<'_>,
+        mut film: ShowFilm<'_>,
         size: FilmSize,
         mut add: impl FnMut(&[u8]) -> Result<(), Failure>,
     ) -> Result<FilmFacts, Failure> {
@@ -168,7 +168,7 @@ impl Work<'_> {
         Ok(FilmFacts { pictures, duration_s: api::rounded(pictures as f64 / size.fps, 3) })
     }
 
-    fn gif(&self, mut film: Film<'_>, size: FilmSize) -> Result<FilmFacts, Failure> {
+    fn gif(&self, mut film: ShowFilm<'_>, size: FilmSize) -> Result<FilmFacts, Failure> {
         let out = &self.arguments.out;
         self.bar.set(0.0, "choosing colours");
         let pictures = film.times().pictures;
@@ -194,7 +194,7 @@ impl Work<'_> {
         Ok(facts)
     }
 
-    fn video(&self, film: Film<'_>, video: &Video<'_>, size: FilmSize) -> Result<FilmFacts, Failure> {
+    fn video(&self, film: ShowFilm<'_>, video: &Video<'_>, size: FilmSize) -> Result<FilmFacts, Failure> {
         let out = &self.arguments.out;
         let file = Draft::beside(out);
         let duration_s = film.times().pictures as f64 / size.fps;

@@ -1,7 +1,7 @@
 //! Plays the open show's music on a sound device of this machine, without a browser. Only with the feature `sound`.
 //!
-//! The rule is that of the screen's player: sound that is off by 3 ms or less is left alone, up to 30 ms it is made at most 0.5 %
-//! faster or slower, and beyond that it begins anew at the right place. It stands where the show stands.
+//! The rule is that of the screen's player: sound that is off by 3 ms or less is left alone, up to 30 ms it is made at most
+//! 0.5 % faster or slower, and beyond that it begins anew at the right place. It stands where the show stands.
 
 mod playhead;
 
@@ -17,7 +17,7 @@ use rodio::{Decoder, Source};
 use super::handle::Handle;
 use crate::failure::Failure;
 use crate::stop::Stop;
-use playhead::{Music, Playhead};
+use playhead::{LoudMusic, Playhead};
 
 /// Time between two looks at where the show is.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
@@ -29,7 +29,7 @@ const LONGEST_S: usize = 1_200;
 /// What is to be heard.
 #[derive(Debug, Default)]
 struct Wanted {
-    music: Option<Arc<Music>>,
+    music: Option<Arc<LoudMusic>>,
     /// Where the show was at a moment, while it moves on, seconds of the music.
     position: Option<(Instant, f64)>,
 }
@@ -136,7 +136,7 @@ impl Wanted {
 }
 
 /// The samples of a file; `None`: it is no music that is known, which the log says.
-fn decoded(file: Arc<[u8]>) -> Option<Music> {
+fn decoded(file: Arc<[u8]>) -> Option<LoudMusic> {
     let decoder = match Decoder::try_from(Cursor::new(file)) {
         Ok(decoder) => decoder,
         Err(error) => {
@@ -148,5 +148,5 @@ fn decoded(file: Arc<[u8]>) -> Option<Music> {
     let rate_hz = f64::from(u32::from(decoder.sample_rate()));
     let most = LONGEST_S * channels * rate_hz as usize;
     let samples: Vec<f32> = decoder.take(most).collect();
-    Some(Music { samples, channels, rate_hz })
+    Some(LoudMusic { samples, channels, rate_hz })
 }

@@ -2,7 +2,7 @@
 
 /// Decoded music.
 #[derive(Debug, Default)]
-pub(super) struct Music {
+pub(super) struct LoudMusic {
     /// Frames one after another, each with one sample for each channel; 1 is full scale.
     pub samples: Vec<f32>,
     pub channels: usize,
@@ -18,7 +18,7 @@ const RATE_MAX: f64 = 0.005;
 /// Time in which an error is to be gone, seconds.
 const GONE_IN_S: f64 = 2.0;
 
-impl Music {
+impl LoudMusic {
     /// A sample of a channel between two frames. Beyond its ends there is silence.
     fn at(&self, position_s: f64, channel: usize) -> f32 {
         let frame = position_s * self.rate_hz;
@@ -40,13 +40,13 @@ pub(super) struct Playhead {
 }
 
 impl Playhead {
-    /// Fills samples for a device, a frame for all channels after another. `target_s`: where the music is to be when the first of
-    /// them is heard.
+    /// Fills samples for a device, a frame for all channels after another. `target_s`: where the music is to be when the
+    /// first of them is heard.
     pub fn fill(
         &mut self,
         samples: &mut [f32],
         (channels, rate_hz): (usize, f64),
-        music: Option<&Music>,
+        music: Option<&LoudMusic>,
         target_s: Option<f64>,
     ) {
         let (Some(music), Some(target_s)) = (music, target_s) else {
@@ -74,9 +74,9 @@ mod tests {
     use super::*;
 
     /// A ramp in which each sample is its own second, on two channels.
-    fn ramp() -> Music {
+    fn ramp() -> LoudMusic {
         let samples = (0..1_000).flat_map(|frame| [frame as f32 / 100.0, -(frame as f32) / 100.0]).collect();
-        Music { samples, channels: 2, rate_hz: 100.0 }
+        LoudMusic { samples, channels: 2, rate_hz: 100.0 }
     }
 
     fn first(playhead: &mut Playhead, target_s: Option<f64>) -> [f32; 2] {
