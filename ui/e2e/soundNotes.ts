@@ -4,13 +4,15 @@ export interface SoundNotes {
   stops: number;
   /** How far music is ahead of the show, as the sound device says, milliseconds. */
   ahead_ms: number[];
+  /** Where the show was then, seconds. */
+  at_s: number[];
   /** Where the show was, seconds, at moments of the machine's clock. */
   shows: { wall_ms: number; show_s: number; runs: boolean }[];
 }
 
 /** Notes when music is started and stopped, and how far it is ahead of the show, as the sound device says. */
 export function noteSound() {
-  const sound: SoundNotes = { starts: 0, stops: 0, ahead_ms: [], shows: [] };
+  const sound: SoundNotes = { starts: 0, stops: 0, ahead_ms: [], at_s: [], shows: [] };
   Object.assign(globalThis, { sound });
   let since: { node: AudioBufferSourceNode; at_s: number; from_s: number; rate: number } | null =
     null;
@@ -53,6 +55,7 @@ export function noteSound() {
         const rate = since.node.playbackRate.value;
         if (rate !== since.rate) since = { ...since, at_s: heard_s, from_s: position_s, rate };
         sound.ahead_ms.push(1000 * (position_s - show_s));
+        sound.at_s.push(show_s);
       });
     }
   };

@@ -95,7 +95,11 @@ test(`${MINUTES} minutes with a pause, a hold and a late robot`, async () => {
       await page.waitForTimeout(LATE_MS);
       process.kill(late.pid, 'SIGCONT');
     }
-    const { ahead_ms, shows } = await notes(page);
+    const { ahead_ms, at_s, shows } = await notes(page);
+    const far = ahead_ms.flatMap((ms, i) =>
+      Math.abs(ms) > 100 ? [[at_s[i]?.toFixed(2), ms.toFixed(0)]] : [],
+    );
+    process.stdout.write(`\nfar off at, s and ms: ${far.join(' ')}\n`);
     const recorded = aheadOf(recorder.clicks_ms(), shows);
     print('audio clock of the browser', ahead_ms);
     print('recorded', recorded);

@@ -114,14 +114,14 @@ fn stream(wanted: Arc<Mutex<Wanted>>) -> Result<Stream, Failure> {
     let mut playhead = Playhead::default();
     let fill = move |samples: &mut [f32], info: &OutputCallbackInfo| {
         let stamp = info.timestamp();
-        let ahead = stamp.playback.duration_since(&stamp.callback).unwrap_or_default();
+        let ahead = stamp.playback.duration_since(stamp.callback);
         let wanted = wanted.lock().unwrap_or_else(PoisonError::into_inner);
         let target_s = wanted.position_at(Instant::now() + ahead);
         playhead.fill(samples, format, wanted.music.as_deref(), target_s);
     };
-    let complain = |error: cpal::StreamError| tracing::warn!("the sound device: {error}");
+    let complain = |error: cpal::Error| tracing::warn!("the sound device: {error}");
     let stream =
-        device.build_output_stream(&config, fill, complain, None).map_err(|error| no_sound(&error))?;
+        device.build_output_stream(config, fill, complain, None).map_err(|error| no_sound(&error))?;
     stream.play().map_err(|error| no_sound(&error))?;
     Ok(stream)
 }
