@@ -39,8 +39,12 @@ mod tests {
     fn the_schemas_in_the_docs_are_those_of_the_types() {
         for (name, schema) in schemas() {
             let kept = fs::read_to_string(Path::new(ROOT).join("docs/schemas").join(name)).unwrap();
-            let text = serde_json::to_string_pretty(schema.as_value()).unwrap() + "\n";
-            assert!(kept == text, "{name}: `cargo run -p lightbots-api --example schemas` writes it");
+            // As values: the order of fields depends on what else a build asks of `serde_json`.
+            let kept: serde_json::Value = serde_json::from_str(&kept).unwrap();
+            assert!(
+                kept == *schema.as_value(),
+                "{name}: `cargo run -p lightbots-api --example schemas` writes it"
+            );
         }
     }
 

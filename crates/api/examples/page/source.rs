@@ -53,10 +53,14 @@ pub struct VariantDoc {
     pub content: Option<Type>,
 }
 
+/// The types of a file that is no message: docs/show-format.md describes it.
+const FILE_TYPES: &str = "document.rs";
+
 /// All tables and types of the source files in a folder, by file name.
 pub fn read(folder: &Path) -> (Vec<RequestTable>, Vec<TypeDoc>) {
     let files = std::fs::read_dir(folder).expect("the crate has sources");
     let mut files: Vec<_> = files.map(|file| file.expect("the folder can be read").path()).collect();
+    files.retain(|file| !file.ends_with(FILE_TYPES));
     files.sort();
     let (mut tables, mut types) = (Vec::new(), Vec::new());
     for path in files {
