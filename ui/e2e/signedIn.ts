@@ -26,7 +26,7 @@ export async function startSignInServer(...more: string[]): Promise<Server> {
   return server;
 }
 
-/** A page of a person who has signed in. */
+/** A page after signing in. */
 export async function openAs(
   browser: Browser,
   server: Server,

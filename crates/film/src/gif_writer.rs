@@ -94,7 +94,7 @@ pub struct GifWriter<W: Write> {
     /// What was not written yet, because it may stand longer.
     waiting: Option<Frame<'static>>,
     fps: f64,
-    /// Pictures so far.
+    /// Number of pictures that were added.
     pictures: u64,
 }
 
