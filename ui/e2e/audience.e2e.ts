@@ -206,7 +206,7 @@ test('the preview is seen in the audience view, over the editor', async () => {
   const page = await bed.open('edit');
   await uploadText(page, 'preview.json', smallShow(12, 3));
   await pixelsAre(page, 12);
-  await button(page, 'Preview in the audience view (A)').click();
+  await button(page, 'Audience view of the preview (A)').click();
   const dialog = page.getByRole('dialog', { name: 'Audience view' });
   await dialog.waitFor();
   const first = await eventually(

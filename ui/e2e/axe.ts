@@ -8,6 +8,12 @@ const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.mi
 export async function findings(page: Page): Promise<string[]> {
   await page.evaluate(axe);
   return page.evaluate(async () => {
+    // What is fading in has less contrast than it will have.
+    const fading = document.getAnimations().filter((one) => {
+      const end = one.effect?.getComputedTiming().endTime;
+      return typeof end === 'number' && end < 2000;
+    });
+    await Promise.all(fading.map((one) => one.finished.catch(() => undefined)));
     const run = (globalThis as unknown as { axe: { run(): Promise<AxeResult> } }).axe.run;
     const { violations } = await run();
     return violations

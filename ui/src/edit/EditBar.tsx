@@ -66,7 +66,7 @@ export function EditBar() {
         running ? <IconPlayerPauseFilled size={18} /> : <IconPlayerPlayFilled size={18} />,
       )}
       {step(
-        'Preview in the audience view (A)',
+        'Audience view of the preview (A)',
         true,
         () => showAudience(editing),
         <IconDeviceProjector size={18} />,

@@ -63,7 +63,7 @@ export const KEYS: { title: string; keys: [string[], string][] }[] = [
       [['Ctrl', 'Z'], 'Undo'],
       [['Ctrl', 'Shift', 'Z'], 'Redo'],
       [['Space'], 'Preview, without robots'],
-      [['A'], 'Preview in the audience view'],
+      [['A'], 'Audience view of the preview'],
       [['Space', 'Drag'], 'Move the view'],
       [['M', 'N', 'H', 'W'], 'Snap, ids, onion skin, routes'],
       [['0', '+', '−'], 'Fit floor, zoom'],
