@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use crate::child::Child;
+use crate::child::{Child, run};
 use crate::sign_in::{session, start_with, token};
 use crate::{alone, http, shows};
 
@@ -68,14 +68,14 @@ fn the_python_example_runs_a_show_and_reads_its_report() {
 
 #[test]
 fn planned_and_driven_paths_are_drawn() {
-    let show = crate::shows::row_file(3, &[0.5, 0.5]);
-    let [plan, steps, out] = ["plan.json", "steps.csv", "paths.svg"].map(|name| crate::shows::file(name, ""));
-    assert_eq!(crate::child::run(&["plan", &show, "--out", &plan]).0, 0);
-    assert_eq!(crate::child::run(&["rehearse", &show, "--steps", &steps]).0, 0);
+    let show = shows::row_file(3, &[0.5, 0.5]);
+    let [plan, steps, out] = ["plan.json", "steps.csv", "paths.svg"].map(|name| shows::file(name, ""));
+    assert_eq!(run(&["plan", &show, "--out", &plan]).0, 0);
+    assert_eq!(run(&["rehearse", &show, "--steps", &steps]).0, 0);
     let rows = std::fs::read_to_string(&steps).unwrap();
     assert!(rows.starts_with("time_s,robot,x_m,y_m\n") && rows.lines().count() > 60, "{}", rows.len());
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/draw_paths.py");
-    let drawn = std::process::Command::new("python3").args([script, &plan, &steps, &out]).output().unwrap();
+    let drawn = Command::new("python3").args([script, &plan, &steps, &out]).output().unwrap();
     assert!(drawn.status.success(), "{}", String::from_utf8_lossy(&drawn.stderr));
     assert!(String::from_utf8_lossy(&drawn.stdout).starts_with("6 planned and 3 driven lines"));
     assert_eq!(std::fs::read_to_string(out).unwrap().matches("<polyline").count(), 9);
