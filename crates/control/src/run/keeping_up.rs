@@ -11,15 +11,13 @@ use lightbots_base::{Instant, Span};
 const STANDS: Span = Span::from_millis(500);
 /// Pictures that are later than this do not catch up by shorter air times alone, seconds.
 const LATE_MAX_S: f64 = 2.0;
-/// Show time that moves by more at once was moved on purpose, seconds: by a loop, or by a frame that is left out.
-const JUMP_S: f64 = 0.2;
 
 impl Run {
     /// Where the music of the show is on the timeline; for a show without music, where the show is.
     pub fn music_position(&self, now: Instant) -> Option<ShowPosition> {
         let show = self.show_position(now)?;
         let MusicTime { seen, runs, .. } = self.playback.music;
-        let Some((at, music_s, _)) = seen else { return Some(show) };
+        let Some((at, music_s)) = seen else { return Some(show) };
         let since_s = if runs { (now - at).as_secs() } else { 0.0 };
         Some(ShowPosition { show_s: music_s + since_s, runs })
     }
@@ -32,22 +30,18 @@ impl Run {
             return;
         };
         let before = self.playback.music;
-        let moved_s = before.seen.map_or(0.0, |(at, _, show_s)| {
-            let most_s = (now - at).as_secs();
-            // Show time moves no faster than the show clock, unless it jumps.
-            (show.show_s - show_s - most_s).max(0.0) + (show.show_s - show_s).min(0.0)
-        });
-        let jumps = moved_s.abs() > JUMP_S;
-        // Back: a loop begins again. Forward: a frame was left out, or a late picture was cut short.
+        let light = self.pipeline.light.current();
+        let (leg, leads) = light.map_or((before.leg, false), |light| (light.seq, light.leads_music));
+        // A frame that the operator chose, or that comes once more, is where the music goes too. A picture that is late, or
+        // left out, is not.
+        let is_led_there = leads && leg != before.leg;
         let is_before = self.tally.frames_played == 0;
-        let goes_along = is_before || moved_s < -JUMP_S || (before.is_led && jumps);
-        let is_led = before.is_led && !jumps;
-        let music_s = if goes_along { show.show_s } else { music.show_s };
+        let music_s = if is_before || is_led_there { show.show_s } else { music.show_s };
         let is_away = matches!(self.phase, RunPhase::Interrupted(_) | RunPhase::Over(..));
         let stands = self.playback.paused || is_away;
         let runs = if self.playback.waits_for_go || is_before { show.runs } else { !stands };
-        let seen = Some((now, music_s, show.show_s));
-        self.playback.music = MusicTime { seen, runs, is_led, stood: before.stood };
+        let is_led = before.is_led && !is_led_there;
+        self.playback.music = MusicTime { seen: Some((now, music_s)), leg, runs, is_led, stood: before.stood };
         if runs && !is_before {
             self.pipeline.light.keep_to_music(now, music_s);
         }

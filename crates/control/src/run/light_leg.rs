@@ -35,6 +35,10 @@ pub(crate) struct LegLight {
     pub reaches_frame: bool,
     /// Show time at the beginning of the drive, seconds.
     pub show_s: f64,
+    /// When the frame is to stand by the timeline, seconds. Show time then is later by what robots are behind.
+    pub due_s: f64,
+    /// The music goes there with it: the operator chose the frame, or frames repeat.
+    pub leads_music: bool,
     /// Duration of the drive by plan.
     pub drive: Span,
     /// How long the frame stands by the show.

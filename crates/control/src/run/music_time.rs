@@ -5,9 +5,11 @@ use lightbots_base::Instant;
 /// Where the music of a show is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MusicTime {
-    /// The moment at which that was known last, and show time of the music and of the robots then, seconds. `None`: music
-    /// is where the robots are.
-    pub seen: Option<(Instant, f64, f64)>,
+    /// The moment at which that was known last, and where it was then, seconds of the show. `None`: music is where the
+    /// robots are.
+    pub seen: Option<(Instant, f64)>,
+    /// Number of the routes that robots drove then, or had driven last.
+    pub leg: u32,
     /// Whether it moves on.
     pub runs: bool,
     /// The operator moves the show: the music goes with it.

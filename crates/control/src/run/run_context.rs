@@ -88,6 +88,7 @@ impl RunContext<'_> {
     /// Sends changes of light that are due.
     pub fn pump_lights(&mut self) {
         let Pipeline { lights, light, queue, driven: Some(driven), .. } = &mut *self.pipeline else { return };
+        light.look(self.now);
         if light.is_active() {
             light.pump(self.io, self.roster, self.now, (&driven.leg, queue.front()));
         } else {

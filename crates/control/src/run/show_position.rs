@@ -23,12 +23,16 @@ impl Run {
                     (until_end(left), is_reached && left > Span::ZERO)
                 }
             },
+            // This drive was broken off, and a new one begins.
+            RunPhase::Starting(_) if light.clock.is_none() => (light.seen, false),
             RunPhase::Starting(starting) => {
                 let left = (starting.at - now).max(Span::ZERO);
                 (until_end(left), left > Span::ZERO && left < light.air)
             }
-            RunPhase::Interrupted(_) | RunPhase::Gathering(_) | RunPhase::Over(..) => (light.seen, false),
+            RunPhase::Interrupted(_) | RunPhase::Gathering(_) | RunPhase::Over(..) => {
+                (light.seen.min(end.max(light.drive)), false)
+            }
         };
-        Some(ShowPosition { show_s: light.show_s + elapsed.as_secs(), runs })
+        Some(ShowPosition { show_s: light.due_s + (elapsed - light.drive).as_secs(), runs })
     }
 }

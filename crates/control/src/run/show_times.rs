@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 pub(crate) struct ShowTimes {
     /// Moments of the frames that were begun.
     pub begun: BTreeMap<usize, FrameTimes>,
+    /// `[frame]`: when its air time was due by the timeline, seconds. Frames that are late begin after that.
+    pub due: BTreeMap<usize, f64>,
     /// `[frame]`: how long the drive there from the frame before was first planned to take.
     drives: BTreeMap<usize, Span>,
 }
@@ -25,9 +27,30 @@ impl ShowTimes {
     /// nothing.
     pub fn begin_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
         let begun = self.begun.range(..=frame).rev().find(|(_, times)| times.air_s.is_finite());
-        let (first, begun_s) = begun.map_or((0, 0.0), |(&first, times)| (first, times.air_s));
+        self.count_s(playback, begun.map_or((0, 0.0), |(&first, times)| (first, times.air_s)), frame)
+    }
+
+    /// The same as [`ShowTimes::begin_s`] by the timeline, seconds: without the time that robots were late until now.
+    pub fn due_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
+        let due = self.due.range(..=frame).next_back();
+        self.count_s(playback, due.map_or((0, 0.0), |(&first, &due_s)| (first, due_s)), frame)
+    }
+
+    /// When a frame begins if `first` does at a time, seconds.
+    fn count_s(&self, playback: &PlayedShow, (first, begun_s): (usize, f64), frame: usize) -> f64 {
         let takes_s = |frame: usize| playback.air_time(frame).as_secs() + self.drive_s(playback, frame + 1);
         begun_s + (first..frame).map(takes_s).sum::<f64>()
+    }
+
+    /// How long the drive to a frame was first planned to take, seconds; `None`: it was not planned yet.
+    pub fn planned_s(&self, frame: usize) -> Option<f64> {
+        self.drives.get(&frame).map(|drive| drive.as_secs())
+    }
+
+    /// A new round begins.
+    pub fn clear(&mut self) {
+        self.begun.clear();
+        self.due.clear();
     }
 
     /// Show time at which the drive to a frame begins if all frames before it are played, seconds; `None`: not known.
@@ -49,6 +72,6 @@ impl ShowTimes {
 
     fn drive_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
         let wanted = playback.show.frames.get(frame).and_then(|frame| frame.transition_s);
-        self.drives.get(&frame).map_or(wanted.unwrap_or(0.0), |drive| drive.as_secs())
+        self.planned_s(frame).or(wanted).unwrap_or(0.0)
     }
 }

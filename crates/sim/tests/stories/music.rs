@@ -76,3 +76,28 @@ fn robots_keep_to_the_music_without_faults_and_with_lost_messages() {
         );
     }
 }
+
+#[test]
+fn music_goes_on_whenever_a_robot_is_cut_off() {
+    let fine = played(&with_music(), "");
+    // Before a START, which is postponed; in a drive, which all begin anew or go on without the robot; in a picture.
+    let from_s = fine.per_frame[2].at_s - 3.0;
+    let mut whole = 0;
+    for half_s in 0..16 {
+        let at_s = from_s + f64::from(half_s) / 2.0;
+        let report = play(&with_music(), &format!("cut=0@{at_s:.1}s+1.5s"), 1, Conditions::default());
+        assert_eq!(report.contacts, 0, "{at_s:.1} s: {:?}", report.issues);
+        let late = later_s(&report, &fine);
+        let end_s = report.duration_s - fine.duration_s;
+        // A picture stands for half a second at least. Where a frame was left out, the last one stands until the music ends.
+        let most_s = |before_s: f64| (before_s - (AIR_S - 0.5)).max(0.0) + 0.15;
+        let catches_up = late.len() < FRAMES || (-0.15..most_s(late[3])).contains(&late[4]);
+        assert!(
+            catches_up && end_s.abs() < 0.15,
+            "{at_s:.1} s: {late:?}, and the end is {end_s:.2} s later: {:?}",
+            report.issues
+        );
+        whole += usize::from(late.len() == FRAMES);
+    }
+    assert!(whole > 8, "{whole} of 16 shows were played without leaving out a frame");
+}

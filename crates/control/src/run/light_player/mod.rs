@@ -1,9 +1,10 @@
 //! Light over time: stretches that robots get ahead, and COLORs for robots that know no stretches.
 //!
 //! Runs of shows without layers do not use it until live light is put over them; their lights are in `lights`. `sending`
-//! sends what is due, and `live` has the layers of live light.
+//! sends what is due, `placing` says where a leg is on the timeline, and `live` has the layers of live light.
 
 mod live;
+mod placing;
 mod sending;
 
 pub(crate) use live::{LIVE_MAX, NAME_MAX};
@@ -113,28 +114,10 @@ impl LightPlayer {
         let before = self.before(context, roster, leg);
         self.number_robots(leg);
         let (drive, air) = (leg.duration, playback.air_time(leg.frame));
-        let frame = leg.cursor();
+        let place = self.place(playback, leg);
+        let (show_s, is_chosen) = (place.show_s, place.is_chosen);
         let current = self.current.as_ref();
-        let is_new_round = current.is_some_and(|current| current.frame.round != leg.round);
-        let is_same_frame = current.is_some_and(|current| current.frame == frame);
-        // A loop goes back to its first frame as a jump does.
-        let goes_back = current.is_some_and(|current| !is_new_round && leg.pass > current.frame.pass);
-        let is_chosen = playback.jump.is_some() || goes_back;
-        if is_new_round {
-            self.times.begun.clear();
-        }
-        let show_s = match current {
-            _ if is_chosen => self.times.begin_s(playback, leg.frame) - drive.as_secs(),
-            Some(current) if is_same_frame => {
-                let elapsed = if current.reaches_frame { current.seen } else { current.drive };
-                current.moment(elapsed.min(current.drive), Span::ZERO).show_s
-            }
-            Some(current) if !is_new_round => current.show_s + (current.drive + current.air).as_secs(),
-            _ => self.times.begin_s(playback, leg.frame) - drive.as_secs(),
-        };
-        if is_chosen {
-            self.times.begin_earlier(playback, leg.frame);
-        }
+        let is_same_frame = current.is_some_and(|current| current.frame == leg.cursor());
         let waits_for_go = leg.reaches_frame && playback.cue(leg.frame).is_some();
         let air_s = if leg.reaches_frame { show_s + drive.as_secs() } else { f64::INFINITY };
         let end_s = if waits_for_go { f64::INFINITY } else { air_s + air.as_secs() };
@@ -154,9 +137,11 @@ impl LightPlayer {
         let number = if self.is_active() { context.number_route() } else { 0 };
         let mut light = LegLight {
             seq: leg.seq,
-            frame,
+            frame: leg.cursor(),
             reaches_frame: leg.reaches_frame,
             show_s,
+            due_s: place.due_s,
+            leads_music: place.leads_music,
             drive,
             air: if leg.reaches_frame { air } else { Span::ZERO },
             waits_for_go,
@@ -225,6 +210,14 @@ impl LightPlayer {
     /// The light of the leg that is driven or was driven last.
     pub fn current(&self) -> Option<&LegLight> {
         self.current.as_ref()
+    }
+
+    /// Time passes, also where no stretches are sent.
+    pub fn look(&mut self, now: Instant) {
+        let Some(current) = &mut self.current else { return };
+        if let Some(elapsed) = current.elapsed(now) {
+            current.seen = elapsed;
+        }
     }
 
     /// The drive goes on by this clock.

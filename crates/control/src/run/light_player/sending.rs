@@ -59,11 +59,8 @@ impl LightPlayer {
     /// Sends what is due while a leg is driven or its frame stands. `legs`: that leg, and the one after it.
     pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, legs: (&Leg, Option<&Leg>)) {
         let Some(elapsed) = self.current.as_ref().and_then(|current| current.elapsed(now)) else { return };
-        if let Some(current) = &mut self.current {
-            current.seen = elapsed;
-            if let Some(clock) = &mut current.clock {
-                clock.end_hold(now);
-            }
+        if let Some(clock) = self.current.as_mut().and_then(|current| current.clock.as_mut()) {
+            clock.end_hold(now);
         }
         self.again_at = Instant::FAR;
         self.begin_stretch(context, now, elapsed, legs.0);
