@@ -8,12 +8,17 @@ const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.mi
 export async function findings(page: Page): Promise<string[]> {
   await page.evaluate(axe);
   return page.evaluate(async () => {
-    // What is fading in has less contrast than it will have.
-    const fading = document.getAnimations().filter((one) => {
-      const end = one.effect?.getComputedTiming().endTime;
-      return typeof end === 'number' && end < 2000;
-    });
-    await Promise.all(fading.map((one) => one.finished.catch(() => undefined)));
+    // What is fading in has less contrast than it will have, and may not have begun yet.
+    const areFading = () =>
+      document.getAnimations().some((one) => {
+        const end = one.effect?.getComputedTiming().endTime;
+        return one.playState === 'running' && typeof end === 'number' && end < 2000;
+      });
+    let still = 0;
+    for (let look = 0; look < 100 && still < 4; look++) {
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      still = areFading() ? 0 : still + 1;
+    }
     const run = (globalThis as unknown as { axe: { run(): Promise<AxeResult> } }).axe.run;
     const { violations } = await run();
     return violations

@@ -51,6 +51,8 @@ impl RecordingTarget {
 pub struct Recorder {
     recording: RecordingTarget,
     writer: Option<LogWriter>,
+    /// Threads of logs that ended, which may still write.
+    closing: Vec<JoinHandle<()>>,
     journal: Option<JournalFile>,
     /// The run that is on, also when its log ended before it.
     run: Option<RunNotes>,
@@ -67,7 +69,8 @@ impl Recorder {
         }
         let journal = recording.data_folder().map(|data| JournalFile::start(data, controller));
         let reports = ReportsUnderWay::default();
-        Self { recording, writer: None, journal, run: None, reports, run_bytes_max: RUN_BYTES_MAX }
+        let run_bytes_max = RUN_BYTES_MAX;
+        Self { recording, writer: None, closing: Vec::new(), journal, run: None, reports, run_bytes_max }
     }
 
     /// The logs whose reports are being made.
@@ -144,15 +147,18 @@ impl Recorder {
     /// Writes what is known of the run at its end, and closes the files.
     fn end_run(&mut self) {
         self.write_facts();
-        (self.writer, self.run) = (None, None);
+        self.run = None;
+        self.closing.retain(|thread| !thread.is_finished());
+        self.closing.extend(self.writer.take().map(|writer| writer.thread));
     }
 
     /// The program ends: waits for the disk.
     pub fn finish(mut self, controller: &mut RecordedController) {
         let _ = self.write(controller.end_log());
         self.write_facts();
-        if let Some(writer) = self.writer {
-            writer.finish();
+        // A failure of a thread was told before, or it came too late to be told.
+        for thread in self.closing.into_iter().chain(self.writer.map(|writer| writer.thread)) {
+            let _ = thread.join();
         }
         if let Some(journal) = self.journal {
             journal.finish(controller);
@@ -233,12 +239,6 @@ impl LogWriter {
         }
         self.pieces.try_send(Piece::Log(bytes)).err().map(|_| "the disk is too slow".to_owned())
     }
-
-    fn finish(self) {
-        drop(self.pieces);
-        // A failure of the thread was told before, or it came too late to be told.
-        let _ = self.thread.join();
-    }
 }
 
 /// Writes pieces into a file until there are no more. That of a run becomes its report meanwhile.
@@ -272,8 +272,6 @@ fn write_log(
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use lightbots_base::Vec2;
     use lightbots_control::{Config, Controller, MissingPolicy};
     use lightbots_show::{Frame, Pixel, Show};
@@ -330,12 +328,7 @@ mod tests {
         assert!(!controller.has_run());
         recorder.finish(&mut controller);
         let facts = facts_file(&crate::live::run_files::run_file(&data, 1));
-        // The thread that writes has its own time.
-        let is_ended = || RunFacts::read(&facts).is_some_and(|facts| facts.ended_ms.is_some());
-        assert!((0..600).any(|_| is_ended() || {
-            std::thread::sleep(Duration::from_millis(50));
-            false
-        }));
+        assert!(RunFacts::read(&facts).is_some_and(|facts| facts.ended_ms.is_some()));
         std::fs::remove_dir_all(data).unwrap();
     }
 }
