@@ -26,6 +26,8 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::Issue;
+
 /// A show in the library.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ShowEntry {
@@ -48,6 +50,8 @@ pub struct ShowEntry {
     pub read_only: Option<String>,
     /// Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
     pub copy_of: Option<ShowOrigin>,
+    /// What was found in the file, such as what it holds that shows have not. Only in the answer to a save.
+    pub issues: Vec<Issue>,
 }
 
 /// A saved state of a show.

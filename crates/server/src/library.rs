@@ -301,6 +301,7 @@ impl Library {
             origin,
             read_only: facts.unread.map(|reason| read_only_line(name, &reason)),
             copy_of: None,
+            issues: Vec::new(),
         })
     }
 }

@@ -958,7 +958,11 @@ read_only: string | null,
 /**
  * Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
  */
-copy_of: ShowOrigin | null, };
+copy_of: ShowOrigin | null, 
+/**
+ * What was found in the file, such as what it holds that shows have not. Only in the answer to a save.
+ */
+issues: Array<Issue>, };
 
 /**
  * Where a show of the library comes from. Only saved shows can be changed.

@@ -12,9 +12,11 @@ const TONES = {
   /** Shown longer, because the outcome differs from what the user expects. */
   kept: ['gray', LONG_MS],
   error: ['bad', LONG_MS],
+  /** Stays until it is closed: something was lost, of which nothing else on the screen tells. */
+  warning: ['care', false],
 } as const;
 
-/** Shows a notice in the corner for a few seconds. */
+/** Shows a notice in the corner for a few seconds; its message may have several lines. */
 export function notify(tone: keyof typeof TONES, message: string) {
   const [color, autoClose] = TONES[tone];
   notifications.show({
@@ -22,6 +24,7 @@ export function notify(tone: keyof typeof TONES, message: string) {
     color,
     autoClose,
     withBorder: true,
+    styles: { description: { whiteSpace: 'pre-line' } },
     closeButtonProps: { 'aria-label': 'Close' },
     role: tone === 'error' ? 'alert' : 'status',
   });

@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import { freeName, nameFromFile } from './upload';
+import type { Issue, Severity } from '../api/types.gen';
+import { freeName, importedLines, nameFromFile } from './upload';
 
 test('names come from files', () => {
   expect(nameFromFile('3210.json')).toBe('3210');
@@ -11,4 +12,28 @@ test('names come from files', () => {
 test('a taken name gets a number', () => {
   expect(freeName('Heart', ['heart', 'Heart 2'])).toBe('Heart 3');
   expect(freeName('Heart', [])).toBe('Heart');
+});
+
+test('what an import leaves out is named, and stays on the screen', () => {
+  const issue = (severity: Severity, message: string): Issue => ({
+    code: 'x',
+    severity,
+    frame: null,
+    pixels: [],
+    message,
+  });
+  expect(importedLines({ name: 'A', issues: [issue('note', 'By the way.')] })).toEqual([
+    'good',
+    ['Imported and opened "A".'],
+  ]);
+  const issues = [1, 2, 3, 4, 5, 6].map((n) => issue('warning', `Loss ${n}.`));
+  const [tone, lines] = importedLines({ name: 'A', issues });
+  expect([tone, ...lines.slice(1)]).toEqual([
+    'warning',
+    'Loss 1.',
+    'Loss 2.',
+    'Loss 3.',
+    'Loss 4.',
+    '2 more.',
+  ]);
 });

@@ -1,6 +1,6 @@
 import { stem } from '../api/formats';
 import { listShows, putShow, Refused } from '../api/http';
-import { FILE_BYTES_MAX } from '../api/types.gen';
+import { FILE_BYTES_MAX, type ShowEntry } from '../api/types.gen';
 import { notify } from './notices';
 import { openShow } from './openShow';
 import type { Session } from './session';
@@ -19,6 +19,24 @@ export function freeName(base: string, taken: readonly string[]): string {
   for (let n = 2; ; n++) if (!all.has(`${base} ${n}`.toLowerCase())) return `${base} ${n}`;
 }
 
+/** Most findings of an import that its notice lists. */
+const FINDINGS_MAX = 4;
+
+/** What a notice says of a show that was imported: what its file holds that shows have not is named. */
+export function importedLines({
+  name,
+  issues,
+}: Pick<ShowEntry, 'name' | 'issues'>): ['good' | 'warning', string[]] {
+  const findings = issues.filter((one) => one.severity !== 'note').map((one) => one.message);
+  const more = findings.length - FINDINGS_MAX;
+  const lines = [
+    `Imported and opened "${name}".`,
+    ...findings.slice(0, FINDINGS_MAX),
+    ...(more > 0 ? [`${more} more.`] : []),
+  ];
+  return [findings.length > 0 ? 'warning' : 'good', lines];
+}
+
 /** Puts a file into the library under a free name and opens it on every screen. */
 export async function uploadShow(session: Session, file: File) {
   if (file.size > FILE_BYTES_MAX) {
@@ -29,7 +47,9 @@ export async function uploadShow(session: Session, file: File) {
     const taken = (await listShows()).map((entry) => entry.name);
     const name = freeName(nameFromFile(file.name), taken);
     const entry = await putShow(name, await file.arrayBuffer(), 'new');
-    if (await openShow(session, entry.name)) notify('good', `Imported and opened "${entry.name}".`);
+    if (!(await openShow(session, entry.name))) return;
+    const [tone, lines] = importedLines(entry);
+    notify(tone, lines.join('\n'));
   } catch (error) {
     const reason = error instanceof Refused ? error.message : String(error);
     notify('error', `Can't import ${file.name}: ${reason}`);

@@ -32,7 +32,9 @@ impl Library {
                 self.files.folder().display()
             ))
         })?;
-        Ok(ShowEntry { copy_of: given.map(|given| given.origin), ..self.entry(&target)? })
+        let copy_of = given.map(|given| given.origin);
+        let issues = loaded.issues.iter().map(Into::into).collect();
+        Ok(ShowEntry { copy_of, issues, ..self.entry(&target)? })
     }
 
     fn store(&self, name: &str, bytes: &[u8], loaded: &Loaded) -> std::io::Result<()> {
