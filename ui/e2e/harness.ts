@@ -83,6 +83,14 @@ export async function startServer(...more: string[]): Promise<Server> {
   return server;
 }
 
+/** The part of the first operator's address that a server prints: `#first=…`. */
+export const firstAddress = (server: Server): Promise<string> =>
+  eventually(
+    async () => /#first=[0-9a-f]+/.exec(server.said())?.[0] ?? '',
+    (found) => found !== '',
+    'a one-time address',
+  );
+
 /** Processes that tests started beside the server. */
 const others = new Set<ChildProcess>();
 

@@ -5,6 +5,7 @@ import { expect, test } from 'vitest';
 import { findings } from './axe';
 import {
   endOthers,
+  firstAddress,
   PATIENCE_MS,
   startBroker,
   startRobots,
@@ -161,7 +162,7 @@ for (const [width, height, means, scheme] of SCREENS)
         if (process.env.SHOTS) await page.screenshot({ path: `${process.env.SHOTS}/${name}` });
       },
     };
-    await signIn(night, `${server.url}/${/#first=[0-9a-f]+/.exec(server.said())?.[0] ?? ''}`);
+    await signIn(night, `${server.url}/${await firstAddress(server)}`);
     const ends = await admitRobots(night);
     await loseRobots(night, ends);
     await loseBroker(night);

@@ -1,7 +1,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { findings } from './axe';
-import { eventually, launchBrowser, startServer, type Server } from './harness';
+import { eventually, firstAddress, launchBrowser, startServer, type Server } from './harness';
 
 let server: Server;
 let browser: Browser;
@@ -35,11 +35,7 @@ async function submit(page: Page, name: string, button: string) {
 }
 
 test('an operator adds a viewer, who may stop and is told why nothing else, and removes the viewer', async () => {
-  const token = await eventually(
-    async () => /#first=[0-9a-f]+/.exec(server.said())?.[0] ?? '',
-    (found) => found !== '',
-    'a one-time address',
-  );
+  const token = await firstAddress(server);
   const ann = await arrive(token);
   await submit(ann, 'ann', 'Make the first operator');
   await ann.getByRole('button', { name: 'Settings' }).click();

@@ -1,16 +1,12 @@
 import type { Browser, Page } from 'playwright-core';
-import { eventually, openPage, startServer, type Server } from './harness';
+import { firstAddress, openPage, startServer, type Server } from './harness';
 
 const PASSWORD = 'a long password';
 
 /** A server on the network, which asks for sign-in, with an operator, an editor and a viewer. */
 export async function startSignInServer(...more: string[]): Promise<Server> {
   const server = await startServer('--listen', '0.0.0.0:0', '--plain-http', ...more);
-  const token = await eventually(
-    async () => /#first=([0-9a-f]+)/.exec(server.said())?.[1] ?? '',
-    (found) => found !== '',
-    'a one-time address',
-  );
+  const token = (await firstAddress(server)).replace('#first=', '');
   const post = (path: string, body: unknown, cookie = '') =>
     fetch(`${server.url}${path}`, {
       method: 'POST',

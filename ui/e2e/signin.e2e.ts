@@ -1,7 +1,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { findings } from './axe';
-import { eventually, launchBrowser, startServer, type Server } from './harness';
+import { firstAddress, launchBrowser, startServer, type Server } from './harness';
 
 let server: Server;
 let browser: Browser;
@@ -27,11 +27,7 @@ async function submit(page: Page, password: string, button: string) {
 const session = (page: Page) => page.evaluate(async () => (await fetch('/api/session')).status);
 
 test('the first operator comes by the one-time address, signs out, and signs in again', async () => {
-  const token = await eventually(
-    async () => /#first=[0-9a-f]+/.exec(server.said())?.[0] ?? '',
-    (found) => found !== '',
-    'a one-time address',
-  );
+  const token = await firstAddress(server);
   const page = await browser.newPage({ ignoreHTTPSErrors: true });
   await page.goto(`${server.url}/${token}`);
   await page.getByRole('heading', { name: 'Make the first operator' }).waitFor();

@@ -32,7 +32,9 @@ pub use colour::{Rgb, srgb_decoded};
 pub use hash::StateHash;
 pub use id::RobotId;
 pub use light_cursor::LightCursor;
-pub use light_track::{LightRecord, LightTrack, LightTrackError, TICK, TICKS_MAX, decode_light_track};
+pub use light_track::{
+    LightRecord, LightTrack, LightTrackError, TICK, TICKS_MAX, decode_light_track, varint,
+};
 pub use limits::Limits;
 pub use path::{Motion, PathRef, Piece};
 pub use time::{Instant, Span};

@@ -119,17 +119,17 @@ impl LightTrack<'_> {
         for &record in self.records {
             match record {
                 LightRecord::Line { ticks, to } => {
-                    varint(2 * ticks, &mut write);
+                    varint((2 * ticks).into(), &mut write);
                     colour_bytes(to).into_iter().for_each(&mut write);
                 }
                 LightRecord::Step { ticks, to } => {
-                    varint(2 * ticks + 1, &mut write);
+                    varint((2 * ticks + 1).into(), &mut write);
                     colour_bytes(to).into_iter().for_each(&mut write);
                 }
                 LightRecord::Repeat { records, times } => {
                     write(1);
-                    varint(records, &mut write);
-                    varint(times, &mut write);
+                    varint(records.into(), &mut write);
+                    varint(times.into(), &mut write);
                 }
             }
         }
@@ -200,7 +200,7 @@ fn read_varint(rest: &mut &[u8]) -> Result<u32, LightTrackError> {
 }
 
 /// Seven bits a byte, the lowest first; the eighth says that more follow (LEB128).
-fn varint(mut value: u32, write: &mut impl FnMut(u8)) {
+pub fn varint(mut value: u64, write: &mut impl FnMut(u8)) {
     while value >= 0x80 {
         write(value as u8 | 0x80);
         value >>= 7;

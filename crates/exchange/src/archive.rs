@@ -12,7 +12,7 @@ use lightbots_show::AssetHash;
 use sha2::{Digest, Sha256};
 
 /// Name of the document in an archive.
-const DOCUMENT: &str = "show.lightbots.json";
+pub(crate) const DOCUMENT: &str = "show.lightbots.json";
 /// Folder of the assets in an archive.
 const ASSETS: &str = "assets/";
 /// Most files of an archive: the document and the most assets of a show.

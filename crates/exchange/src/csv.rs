@@ -8,13 +8,14 @@ pub(crate) use read::read;
 pub(crate) use write::encode;
 
 use crate::zip_files::holds;
+use crate::{archive, skyc};
 
 /// First line of a table.
 const HEAD: &str = "Time [msec],x [m],y [m],z [m],Red,Green,Blue";
 
 /// Whether an archive holds tables and no document of a show.
 pub(crate) fn sniff(bytes: &[u8]) -> bool {
-    let is_document = |name: &[u8]| name == b"show.lightbots.json" || name == b"show.json";
+    let is_document = |name: &[u8]| [archive::DOCUMENT, skyc::DOCUMENT].map(str::as_bytes).contains(&name);
     holds(bytes, is_table_bytes) && !holds(bytes, is_document)
 }
 

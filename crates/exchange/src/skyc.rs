@@ -8,10 +8,11 @@ mod write;
 pub(crate) use read::read;
 pub(crate) use write::encode;
 
+use crate::archive;
 use crate::zip_files::holds;
 
 /// Name of the document in an archive.
-const DOCUMENT: &str = "show.json";
+pub(crate) const DOCUMENT: &str = "show.json";
 /// Most drones of a file that Skybrush reads.
 const DRONES_MAX: usize = 5_000;
 /// Ticks of light programs in a second.
@@ -19,5 +20,6 @@ const TICKS_PER_S: f64 = 50.0;
 
 /// Whether an archive holds Skybrush's document and not ours.
 pub(crate) fn sniff(bytes: &[u8]) -> bool {
-    holds(bytes, |name| name == DOCUMENT.as_bytes()) && !holds(bytes, |name| name == b"show.lightbots.json")
+    holds(bytes, |name| name == DOCUMENT.as_bytes())
+        && !holds(bytes, |name| name == archive::DOCUMENT.as_bytes())
 }

@@ -3,7 +3,7 @@
 
 use std::io::{Cursor, Read, Write};
 
-use lightbots_show::excerpt;
+use lightbots_show::{Issue, excerpt};
 use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
@@ -103,7 +103,12 @@ pub(crate) fn damaged(why: &str) -> ReadError {
 }
 
 /// An archive of files with their names. The same files give the same bytes: entries have no date.
-pub(crate) fn pack<'a>(files: impl IntoIterator<Item = (String, &'a [u8])>) -> ZipResult<Vec<u8>> {
+pub(crate) fn pack<'a>(files: impl IntoIterator<Item = (String, &'a [u8])>) -> Result<Vec<u8>, Issue> {
+    let cannot = |error| Issue::error("not-packed", format!("the archive could not be made: {error}"));
+    packed(files).map_err(cannot)
+}
+
+fn packed<'a>(files: impl IntoIterator<Item = (String, &'a [u8])>) -> ZipResult<Vec<u8>> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default());

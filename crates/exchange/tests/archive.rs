@@ -3,15 +3,13 @@
 mod extras;
 #[path = "../../show/tests/rows/mod.rs"]
 mod rows;
-
-use std::io::{Cursor, Write};
+mod zipped;
 
 use extras::with_every_part;
 use lightbots_exchange::{ARCHIVE, LIGHTBOTS, Loaded, ReadError, hash_of, read, sniff};
 use lightbots_show::{Asset, Show};
 use rows::{row, show};
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zipped::archive;
 
 const LOGO: &[u8] = b"<svg xmlns=\"http://www.w3.org/2000/svg\"/>";
 
@@ -32,17 +30,6 @@ fn with_logo() -> Show {
 
 fn document() -> Vec<u8> {
     LIGHTBOTS.write(&with_logo(), None).bytes
-}
-
-/// An archive of these files.
-fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
-    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, content) in files {
-        archive.start_file(*name, options).unwrap();
-        archive.write_all(content).unwrap();
-    }
-    archive.finish().unwrap().into_inner()
 }
 
 fn open(bytes: &[u8]) -> Result<Loaded, ReadError> {

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use lightbots_draw::font_faces;
 use lightbots_lighting::PlannedShow;
-use lightbots_show::Show;
+use lightbots_show::{Show, clock_label};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 use crate::camera::FilmView;
 use crate::film::{FilmSize, ShowFilm};
-use crate::words::{clock, numbered, short};
+use crate::words::{numbered, short};
 
 /// Most frames on a sheet.
 pub const SHEET_FRAMES_MAX: usize = 400;
@@ -104,7 +104,7 @@ fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<
         "{} robots · {} frames · {}",
         planned.robots(),
         show.frames.len(),
-        clock(planned.duration_s())
+        clock_label(planned.duration_s())
     );
     if layout.size.0 > 700 {
         line(width - GAP, 42, 18, true, &facts);
@@ -112,7 +112,7 @@ fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<
     for (frame, times) in planned.times().iter().take(frames).enumerate() {
         let (left, top) = layout.corner(frame);
         let y = top + layout.picture.1 + 20;
-        let moment = clock(planned.first_drive_s() + times.air_s);
+        let moment = clock_label(planned.first_drive_s() + times.air_s);
         line(left, y, 15, false, &numbered(frame, &show.frames[frame].name, layout.picture.0 / 12));
         line(left + layout.picture.0, y, 15, true, &moment);
     }

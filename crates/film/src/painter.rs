@@ -73,7 +73,7 @@ impl Painter {
     pub fn paint(&mut self, scene: &[SeenRobot]) -> &[u8] {
         self.light.copy_from_slice(&self.floor);
         for robot in scene {
-            let colour = [robot.colour.r, robot.colour.g, robot.colour.b].map(tone::light);
+            let colour = tone::light(robot.colour);
             if colour != [0.0; 3] {
                 self.robot(robot, colour);
             }

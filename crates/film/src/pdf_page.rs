@@ -7,6 +7,7 @@ use krilla::metadata::Metadata;
 use krilla::page::PageSettings;
 use krilla::paint::{Fill, Stroke};
 use krilla::text::{Font, TextDirection};
+use lightbots_draw::text::{FONTS, FontInfo};
 
 /// Width and height of A4, points.
 pub(crate) const PAGE: (f32, f32) = (595.28, 841.89);
@@ -14,7 +15,8 @@ pub(crate) const PAGE: (f32, f32) = (595.28, 841.89);
 pub(crate) const MARGIN: f32 = 42.0;
 /// Control points of a quarter of a circle, as a share of its radius.
 const QUARTER: f32 = 0.552_284_8;
-const FONT: &[u8] = include_bytes!("../../draw/fonts/Lato-Bold.ttf");
+/// The font, by its name among the fonts inside.
+const FONT: &str = "lato";
 
 /// A grey, 0 black and 255 white.
 pub(crate) type Grey = u8;
@@ -54,7 +56,8 @@ pub(crate) enum Mark {
 
 /// The bytes of a file with these pages. The same pages give the same bytes: it has no dates.
 pub(crate) fn document(title: &str, pages: &[Vec<Mark>]) -> Vec<u8> {
-    let Some(font) = Font::new(FONT.to_vec().into(), 0) else { return Vec::new() };
+    let file = FONTS.iter().find(|font| font.name == FONT).and_then(FontInfo::outline_file);
+    let Some(font) = file.and_then(|file| Font::new(file.to_vec().into(), 0)) else { return Vec::new() };
     let mut document = Document::new();
     document.set_metadata(Metadata::new().title(title.to_owned()).creator("LightBots".into()));
     for (number, marks) in pages.iter().enumerate() {

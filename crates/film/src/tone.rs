@@ -2,26 +2,23 @@
 
 use std::sync::OnceLock;
 
+use lightbots_base::Rgb;
+use lightbots_light::Linear;
+
 /// Entries of the table: the steps are finer than a byte's where light is darkest.
 const STEPS: usize = 1 << 14;
 
 /// sRGB code of linear light from 0 to 1, by steps.
 pub(crate) fn codes() -> &'static [u8] {
     static CODES: OnceLock<Vec<u8>> = OnceLock::new();
-    CODES.get_or_init(|| (0..=STEPS).map(|step| code(step as f64 / STEPS as f64)).collect())
+    let code = |step: usize| Linear::new(step as f64 / STEPS as f64, 0.0, 0.0).to_rgb().r;
+    CODES.get_or_init(|| (0..=STEPS).map(code).collect())
 }
 
-fn code(light: f64) -> u8 {
-    let value =
-        if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055 };
-    libm::round(255.0 * value) as u8
-}
-
-/// Linear light of an sRGB code.
-pub(crate) fn light(code: u8) -> f32 {
-    let value = f64::from(code) / 255.0;
-    let light = if value <= 0.040_45 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) };
-    light as f32
+/// The linear light of a colour.
+pub(crate) fn light(colour: Rgb) -> [f32; 3] {
+    let Linear { r, g, b } = Linear::from_rgb(colour);
+    [r, g, b].map(|channel| channel as f32)
 }
 
 /// Light from which on colours become paler, as film and eyes do it: above that of one robot with all that it adds to
@@ -51,7 +48,7 @@ mod tests {
     fn each_code_comes_back() {
         // Below code 6 a step of the table is coarser than a code, which is far darker than any lamp.
         for code in 6..=255 {
-            assert_eq!(bytes(codes(), [light(code); 3]), [code; 3]);
+            assert_eq!(bytes(codes(), light(Rgb::new(code, code, code))), [code; 3]);
         }
     }
 

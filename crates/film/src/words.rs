@@ -1,11 +1,5 @@
 //! Words on sheets.
 
-/// `1:02.5`, minutes and seconds.
-pub(crate) fn clock(seconds: f64) -> String {
-    let tenths = (seconds.max(0.0) * 10.0).round() as u64;
-    format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
-}
-
 /// At most `most` characters of a text, without control characters; the last is an ellipsis where more follow.
 pub(crate) fn short(text: &str, most: usize) -> String {
     let mut letters = text.chars().filter(|letter| !letter.is_control());
@@ -28,7 +22,6 @@ mod tests {
 
     #[test]
     fn texts_are_bounded() {
-        assert_eq!((clock(62.46), clock(-3.0)), ("1:02.5".into(), "0:00.0".into()));
         assert_eq!((short("héart", 5), short("héarts\n", 5)), ("héart".into(), "héar…".into()));
         assert_eq!((numbered(2, "", 9), numbered(2, "Heart", 9)), ("3".into(), "3 Heart".into()));
     }

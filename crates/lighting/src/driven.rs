@@ -12,6 +12,17 @@ pub fn fade_of(drive: Span) -> Span {
     FADE_MAX.min(Span(drive.0 / 2)).max(Span::ZERO)
 }
 
+/// How far the change of a pixel's colour at the end of a drive is, `elapsed` after the drive began; 0 to 1.
+pub fn changed(drive: Span, elapsed: Span) -> f64 {
+    let over = fade_of(drive);
+    let since = elapsed - (drive - over);
+    match since {
+        since if since >= over => 1.0,
+        since if since <= Span::ZERO => 0.0,
+        since => since.as_secs() / over.as_secs(),
+    }
+}
+
 /// What one robot does from the beginning of a drive to a frame until it leaves the frame.
 #[derive(Clone, Copy, Debug)]
 pub struct DrivenLight<'a> {
@@ -70,15 +81,8 @@ impl DrivenLight<'_> {
         }
     }
 
-    /// How far the change at the end of the drive is, 0 to 1.
     fn changed(&self, elapsed: Span) -> f64 {
-        let over = fade_of(self.drive);
-        let since = elapsed - (self.drive - over);
-        match since {
-            since if since >= over => 1.0,
-            since if since <= Span::ZERO => 0.0,
-            since => since.as_secs() / over.as_secs(),
-        }
+        changed(self.drive, elapsed)
     }
 
     /// The colour at a moment.

@@ -19,7 +19,7 @@ mod settings;
 mod show_light;
 mod times;
 
-pub use driven::{DrivenLight, LightMoment, fade_of};
+pub use driven::{DrivenLight, LightMoment, changed, fade_of};
 pub use fit::{LightFit, Tolerance, fit, is_seen_apart};
 pub use flashes::{FlashWarning, LitFrame, flashes};
 pub use issues::{flash_issue, flashes_of, validate};

@@ -64,6 +64,11 @@ impl<'a> PlannedShow<'a> {
         self.drives.iter().map(|drive| drive.pixels.len()).max().unwrap_or(0)
     }
 
+    /// `[robot]`: its number in effects.
+    pub fn numbers(&self) -> &[u32] {
+        &self.numbers
+    }
+
     /// `[frame]`: when it is driven to, reached and left, seconds of show time.
     pub fn times(&self) -> &[FrameTimes] {
         &self.times

@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 
+use lightbots_show::clock_label;
+
 use crate::charts;
 use crate::escape::{escaped, json_in_html};
 use crate::model::{FrameFigures, RobotFigures, RunKind, ShowReport};
 use crate::packed;
 use crate::track::Scrub;
-use crate::words::{clock, count, millimetres, some};
+use crate::words::{count, millimetres, some};
 
 /// Colours and sizes, the same as the screen's.
 const TOKENS: &str = include_str!("../../../ui/src/style/tokens.css");
@@ -81,7 +83,7 @@ fn figures(page: &mut String, report: &ShowReport) {
     let closest = report.closest_m.map_or("–".into(), millimetres);
     let cells = [
         (format!("{} of {}", report.frames_played, report.frames), "frames shown", String::new()),
-        (clock(report.duration_s), "duration", format!("planned {}", clock(report.planned_s))),
+        (clock_label(report.duration_s), "duration", format!("planned {}", clock_label(report.planned_s))),
         (
             millimetres(report.tracking_error_m.median),
             "off the route, median",
@@ -162,7 +164,7 @@ fn happened(page: &mut String, report: &ShowReport) {
         let _ = write!(
             page,
             "<li><time>{}</time><span class=\"sign {}\" aria-hidden=\"true\">{sign}</span><p>{}</p></li>",
-            clock(incident.at_s),
+            clock_label(incident.at_s),
             incident.tone,
             escaped(&incident.line)
         );

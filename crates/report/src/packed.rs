@@ -7,6 +7,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use lightbots_base::varint;
 use serde::Serialize;
 
 use crate::track::{Scrub, ScrubTrack};
@@ -58,12 +59,7 @@ pub(crate) fn numbers(scrub: &Scrub) -> String {
 }
 
 fn push(bytes: &mut Vec<u8>, number: i64) {
-    let mut rest = ((number << 1) ^ (number >> 63)) as u64;
-    while rest >= 0x80 {
-        bytes.push(rest as u8 | 0x80);
-        rest >>= 7;
-    }
-    bytes.push(rest as u8);
+    varint(((number << 1) ^ (number >> 63)) as u64, &mut |byte| bytes.push(byte));
 }
 
 #[cfg(test)]

@@ -54,12 +54,6 @@ pub(crate) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
-/// `1:04.8`
-pub(crate) fn clock(seconds: f64) -> String {
-    let tenths = (seconds.max(0.0) * 10.0).round() as u64;
-    format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
-}
-
 /// `14 mm`
 pub(crate) fn millimetres(metres: f64) -> String {
     let mm = metres * 1e3;
@@ -118,7 +112,6 @@ mod tests {
 
     #[test]
     fn times_and_lengths_are_for_people() {
-        assert_eq!((clock(64.84), clock(59.96)), ("1:04.8".into(), "1:00.0".into()));
         assert_eq!((millimetres(0.0142), millimetres(0.0031)), ("14 mm".into(), "3.1 mm".into()));
     }
 }

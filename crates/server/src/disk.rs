@@ -47,10 +47,8 @@ pub fn replace_with<E: From<io::Error>>(
     let draft = Draft::beside(path);
     let mut file = draft.create(readers)?;
     write(&mut file)?;
-    file.sync_all()?;
     drop(file);
-    fs::rename(&draft.0, path)?;
-    Ok(sync_folder(folder_of(path))?)
+    Ok(draft.finish(path)?)
 }
 
 /// Gives a file another name in the same file system. A file of that name is replaced.
@@ -128,7 +126,8 @@ impl Draft {
 
     /// The draft becomes the file.
     pub fn finish(self, path: &Path) -> io::Result<()> {
-        File::open(&self.0)?.sync_all()?;
+        // Some systems bring only files that may be written to the disk.
+        OpenOptions::new().write(true).open(&self.0)?.sync_all()?;
         rename(&self.0, path)
     }
 

@@ -1,5 +1,8 @@
 //! Why a command ends early.
 
+use std::fmt::Display;
+use std::path::Path;
+
 /// One line for people, and the exit code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
@@ -16,6 +19,11 @@ impl Failure {
     /// Wrong use or unreadable input.
     pub fn input(line: impl Into<String>) -> Self {
         Self { line: line.into(), code: 2 }
+    }
+
+    /// A file that was asked for cannot be written.
+    pub fn unwritable(path: &Path, error: &dyn Display) -> Self {
+        Self::input(format!("{}: cannot be written: {error}", path.display()))
     }
 
     /// It was asked for rightly, but could not be done.

@@ -66,8 +66,7 @@ pub fn format_of(path: &Path) -> Result<&'static Format, Failure> {
 
 /// Writes a file. A failure is one line with the file's name.
 pub fn write(path: &Path, bytes: Vec<u8>) -> Result<(), Failure> {
-    std::fs::write(path, bytes)
-        .map_err(|error| Failure::input(format!("{}: cannot be written: {error}", path.display())))
+    std::fs::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
 /// The show in a file's bytes.

@@ -11,6 +11,12 @@ pub fn frame_label(index: usize, name: &str) -> String {
     format!("frame {} \"{}\"", index + 1, excerpt(name))
 }
 
+/// `1:02.5`: minutes and seconds. Times before 0 are 0.
+pub fn clock_label(seconds: f64) -> String {
+    let tenths = (seconds.max(0.0) * 10.0).round() as u64;
+    format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
+}
+
 /// The beginning of a text, for messages. Control characters become U+FFFD, because they would break the line.
 pub fn excerpt(text: &str) -> String {
     let printable = |char: char| if char.is_control() { char::REPLACEMENT_CHARACTER } else { char };
@@ -24,6 +30,12 @@ pub fn excerpt(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn clocks_are_rounded_to_tenths() {
+        assert_eq!((clock_label(64.84), clock_label(59.96)), ("1:04.8".into(), "1:00.0".into()));
+        assert_eq!((clock_label(62.46), clock_label(-3.0)), ("1:02.5".into(), "0:00.0".into()));
+    }
 
     #[test]
     fn names_cannot_break_the_line() {

@@ -31,7 +31,7 @@ pub use asset::{Asset, AssetHash, Assets};
 pub use frame_loop::{FrameLoop, frame_loops};
 pub use front::{front_rows, starting_places};
 pub use issue::{Issue, Issues, Severity};
-pub use label::{excerpt, frame_label};
+pub use label::{clock_label, excerpt, frame_label};
 pub use layer_picture::LayerPicture;
 pub use model::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, with_floor};
 pub use motion::PictureMotion;

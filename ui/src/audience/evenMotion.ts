@@ -1,6 +1,7 @@
 import { ROBOT_STATUSES, type Robots } from '../api/types.gen';
 import { mix, type Rgb } from '../base/colour';
 import type { Dot } from '../base/geometry';
+import { JUMP_M, LEAST_MS, REPORT_MS } from '../session/track';
 
 /**
  * Measured lights, drawn so that they move evenly at any number of pictures a second. Robots report about twice a second:
@@ -34,13 +35,8 @@ interface State {
   vy: number;
 }
 
-/** A jump above this distance means that the robot was carried, metres. */
-const JUMP_M = 0.6;
 /** A curve lasts this much longer than the last two reports were apart: enough for reports that jitter by a tenth. */
 const LONGER = 1.2;
-/** Times between reports of a driving robot, milliseconds: of one that stood, the time before says nothing. */
-const REPORT_MIN_MS = 50;
-const REPORT_MAX_MS = 700;
 /** A robot that begins a curve faster than this multiple of the curve's mean speed would drive past its end. */
 const FASTER_MAX = 3;
 /** Times within which a colour changes, milliseconds. */
@@ -145,7 +141,8 @@ function advance(curve: Curve, x: number, y: number, goesOn: boolean, now_ms: nu
     return;
   }
   stateOn(curve, now_ms, from);
-  const apart_ms = Math.max(REPORT_MIN_MS, Math.min(REPORT_MAX_MS, now_ms - curve.reported_ms));
+  // Of a robot that stood, the time since its last report says nothing.
+  const apart_ms = Math.max(LEAST_MS, Math.min(REPORT_MS, now_ms - curve.reported_ms));
   curve.began_ms = curve.reported_ms = now_ms;
   curve.lasts_ms = apart_ms * LONGER;
   const [meanX, meanY] = [(x - from.x) / curve.lasts_ms, (y - from.y) / curve.lasts_ms];

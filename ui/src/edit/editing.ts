@@ -89,6 +89,8 @@ export interface Editing {
   making: Store<Making | null>;
   /** Files that this screen took, by hash; they reach the server when a frame uses them. */
   files: Map<string, TakenFile>;
+  /** A file of the show by its hash: taken on this screen, or from the server. */
+  fileOf(hash: string): Promise<Uint8Array<ArrayBuffer>>;
   /** The space key on the stage. */
   space: SpaceHold;
   /** Whether the audience view lies over the editor. */
@@ -167,6 +169,7 @@ export function createEditing(
     choices: createStore<MakeChoices | null>(null),
     making: createStore<Making | null>(null),
     files,
+    fileOf,
     space: createSpaceHold(() => tool.get() === 'hand', preview.toggle),
     audience: createStore(false),
     menu: createStore<MenuAt | null>(null),

@@ -1,5 +1,5 @@
 import { messageOf } from '../base/errors';
-import { getAsset, putAsset } from '../api/http';
+import { putAsset } from '../api/http';
 import { draftOf, newDraft, sourceTitle, type Draft, type Tab } from '../make/draft';
 import { pixelsOf } from '../make/frame';
 import { createMaking, type Making } from '../make/making';
@@ -44,7 +44,7 @@ export function openMaking(
     robots: fleetSize(show) || ROBOTS_USUAL,
     draft: isSame ? kept : { ...newDraft(tab ?? 'text'), ...fields },
     moved: isSame ? (source?.moved ?? []) : [],
-    fileOf: (hash) => fileOf(editing, hash),
+    fileOf: editing.fileOf,
   });
   making.set(begun);
   return begun;
@@ -63,7 +63,7 @@ export async function takeMade(editing: Editing, making: Making) {
   const hashes = new Set(pictures.flatMap(({ source }) => source.asset ?? []));
   try {
     for (const hash of hashes)
-      if (editing.files.has(hash)) await putAsset(hash, await fileOf(editing, hash));
+      if (editing.files.has(hash)) await putAsset(hash, await editing.fileOf(hash));
   } catch (error) {
     notify('error', `The file is not saved: ${messageOf(error)}`);
     return;
@@ -94,10 +94,6 @@ function apply(editing: Editing, frame: number, pictures: readonly Picture[]) {
 }
 
 const namedBy = (name: string | null) => (name ? { name } : {});
-
-async function fileOf(editing: Editing, hash: string): Promise<Uint8Array<ArrayBuffer>> {
-  return editing.files.get(hash)?.bytes ?? (await getAsset(hash));
-}
 
 /** The name of a file of the show, for people. */
 export function fileName(editing: Editing, hash: string | null): string | null {

@@ -1,8 +1,9 @@
+import { addressOfView } from '../session/address';
 import { notify } from '../session/notices';
 
 /** Opens the audience view in a window of its own, which can be moved to a projector; or brings it to the front. */
 export function openAudience() {
-  const address = `${location.pathname}#/audience`;
+  const address = location.pathname + addressOfView('audience');
   const opened = window.open(address, 'lightbots-audience', 'popup,width=1280,height=720');
   if (opened) opened.focus();
   else

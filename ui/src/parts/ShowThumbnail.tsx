@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from 'react';
 import { readShow } from '../model/json';
-import type { Frame, Stage } from '../model/show';
+import { middleFrame, type Frame, type Stage } from '../model/show';
 import { Thumbnail } from '../stage/Thumbnail';
 import styles from './ShowThumbnail.module.css';
 
@@ -20,10 +20,9 @@ interface Props {
 const pictures = new Map<string, Picture>();
 const PICTURES_MAX = 100;
 
-/** The frame that represents a show: the middle one, because many shows begin and end in rows. */
 async function pictureOf(load: () => Promise<unknown>): Promise<Picture | null> {
   const show = readShow(await load());
-  const frame = show.frames[Math.floor(show.frames.length / 2)];
+  const frame = middleFrame(show);
   return frame ? { frame, stage: show.stage } : null;
 }
 

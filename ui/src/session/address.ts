@@ -39,7 +39,10 @@ export const viewNow = (): View =>
 
 export const useView = (): View => useSyncExternalStore(subscribe, viewNow);
 
-export const goTo = (view: View) => change(`#/${view}`);
+/** The address of a view. */
+export const addressOfView = (view: View) => `#/${view}`;
+
+export const goTo = (view: View) => change(addressOfView(view));
 
 /** The show that the address names: the one that this screen edits. Null: it names none. */
 export function showInAddress(): string | null {

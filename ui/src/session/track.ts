@@ -37,13 +37,13 @@ interface Places {
 }
 
 /** A jump above this distance means that the robot was carried, metres. */
-const JUMP_M = 0.6;
+export const JUMP_M = 0.6;
 /** Errors below this are not worth a line, metres: a snapshot's worth of driving and half as much again. */
 const ERROR_MIN_M = 0.02;
 /** Reports come at least this often from a robot that drives, milliseconds. */
-const REPORT_MS = 700;
+export const REPORT_MS = 700;
 /** Least duration of a drawn motion, milliseconds. */
-const LEAST_MS = 50;
+export const LEAST_MS = 50;
 
 export function createTrack(): Track {
   let legs = noLegs(0);

@@ -4,7 +4,8 @@ import { listShows, putShow } from '../api/http';
 import { messageOf } from '../base/errors';
 import { countText } from '../base/numbers';
 import { assetsOf } from '../model/assets';
-import type { Show } from '../model/show';
+import { fleetSize } from '../model/commands';
+import { middleFrame, type Show } from '../model/show';
 import { unpackShow, type LinkedShow } from '../model/showLink';
 import { Gate, useWhyNot } from '../parts/Gate';
 import { editShow, goTo, useShared } from '../session/address';
@@ -51,9 +52,7 @@ const titleOf = ({ name }: Show) => name.trim().slice(0, TITLE_MAX) || 'A show w
 function Facts({ linked: { document, show } }: { linked: LinkedShow }) {
   const [isSaving, setSaving] = useState(false);
   const reason = useWhyNot('editor', 'open it as a new show');
-  // Many shows begin and end in rows.
-  const frame = show.frames[Math.floor(show.frames.length / 2)];
-  const robots = show.frames.reduce((most, { pixels }) => Math.max(most, pixels.length), 0);
+  const frame = middleFrame(show);
   const [stage] = useState({
     ...show.stage,
     radius_m: Math.min(show.stage.radius_m, RADIUS_MAX_M),
@@ -81,7 +80,7 @@ function Facts({ linked: { document, show } }: { linked: LinkedShow }) {
         {titleOf(show)}
       </Title>
       <Text>
-        {countText(robots, 'robot')}, {countText(show.frames.length, 'frame')}
+        {countText(fleetSize(show), 'robot')}, {countText(show.frames.length, 'frame')}
       </Text>
       <Text c="dimmed" maw="34rem">
         This show came with a link. Nothing is saved until you open it.

@@ -23,7 +23,7 @@ const EDGES: [(&str, &[&str]); 23] = [
     ("dmx", &["base", "light", "wire"]),
     ("api", &["base", "show", "plan", "exchange"]),
     ("browser", &["base", "show", "plan", "lighting", "exchange", "draw", "make", "film", "music", "api"]),
-    ("film", &["base", "show", "draw", "lighting"]),
+    ("film", &["base", "show", "draw", "light", "lighting"]),
     ("link", &["base", "wire"]),
     ("webots", &["base", "wire", "robot", "link"]),
     ("standin", &[]),

@@ -90,12 +90,19 @@ const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes:
     FontInfo { name, title, licence: "OFL-1.1", offered, file: File::Outlines(bytes) }
 }
 
+impl FontInfo {
+    /// The file of a font with outlines.
+    pub fn outline_file(&self) -> Option<&'static [u8]> {
+        match self.file {
+            File::Outlines(bytes) => Some(bytes),
+            File::Strokes(_) => None,
+        }
+    }
+}
+
 /// The files of all fonts with outlines, in the order of [`FONTS`].
 pub(crate) fn outline_files() -> impl Iterator<Item = &'static [u8]> {
-    FONTS.iter().filter_map(|info| match info.file {
-        File::Outlines(bytes) => Some(bytes),
-        File::Strokes(_) => None,
-    })
+    FONTS.iter().filter_map(FontInfo::outline_file)
 }
 
 impl Font {

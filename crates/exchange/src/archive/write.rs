@@ -30,8 +30,8 @@ pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
     let assets = show.assets.iter().filter_map(|(hash, asset)| Some((hash, asset.content.as_deref()?)));
     let assets = assets.map(|(hash, content)| (format!("{ASSETS}{hash}"), content));
     let bytes =
-        pack([(DOCUMENT.to_owned(), &document[..])].into_iter().chain(assets)).unwrap_or_else(|error| {
-            issues.push(Issue::error("not-packed", format!("the archive could not be made: {error}")));
+        pack([(DOCUMENT.to_owned(), &document[..])].into_iter().chain(assets)).unwrap_or_else(|issue| {
+            issues.push(issue);
             Vec::new()
         });
     Written { bytes, issues }

@@ -26,10 +26,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     let mut show = TimedShow::default();
     let mut names = BTreeSet::new();
     for (name, content) in tables {
-        let robot = table(stem(&name), &content, &mut room).map_err(|error| ReadError {
-            what: format!("{} (in the table \"{}\")", error.what, excerpt(&name)),
-            ..error
-        })?;
+        let robot = table(stem(&name), &content, &mut room)
+            .map_err(|error| error.within(&format!("the table \"{}\"", excerpt(&name))))?;
         if !names.insert(robot.name.clone()) {
             return Err(damaged(&format!("two tables are called \"{}\"", excerpt(&robot.name))));
         }

@@ -38,8 +38,7 @@ fn archive(exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Issue> {
         }
         tables.push((file_name(&robot.name, &mut names), table));
     }
-    let bytes = pack(tables.iter().map(|(name, table)| (name.clone(), table.as_bytes())))
-        .map_err(|error| Issue::error("not-packed", format!("the archive could not be made: {error}")))?;
+    let bytes = pack(tables.iter().map(|(name, table)| (name.clone(), table.as_bytes())))?;
     let note = sampled_note(
         "paths become lines of a tenth of a second, and lights linear light of eight bits; the darkest colours become black",
     );

@@ -1,11 +1,14 @@
 //! Light programs: bytes of an operation, its colour and its duration in ticks of 20 ms.
 
+use lightbots_base::varint;
+
 use super::TICKS_PER_S;
+use crate::limits::LONGEST_S;
 use crate::timed::fit::FittedStretch;
 use crate::timed::light::{CodeStretch, TimedLight};
 
-/// Latest tick: a day.
-const TICKS_MAX: u64 = 86_400 * 50;
+/// Latest tick.
+const TICKS_MAX: u64 = (LONGEST_S * TICKS_PER_S) as u64;
 /// Deepest nesting of loops.
 const LOOPS_MAX: usize = 32;
 
@@ -36,7 +39,7 @@ pub(super) fn program(stretches: &[FittedStretch]) -> Vec<u8> {
             (true, _) => colour(&mut bytes, FADE, stretch.to),
         }
         if ticks > 0 || now != Some(stretch.to) {
-            varint(&mut bytes, ticks);
+            varint(ticks, &mut |byte| bytes.push(byte));
         }
         (begin, now) = (stretch.end, Some(stretch.to));
     }
@@ -52,15 +55,6 @@ fn colour(bytes: &mut Vec<u8>, first: u8, code: [u8; 3]) {
         [grey, g, b] if g == grey && b == grey => bytes.extend([first + 1, grey]),
         [r, g, b] => bytes.extend([first, r, g, b]),
     }
-}
-
-/// Seven bits a byte, the lowest first; the highest bit says that more follow.
-fn varint(bytes: &mut Vec<u8>, mut value: u64) {
-    while value >= 0x80 {
-        bytes.push(value as u8 | 0x80);
-        value >>= 7;
-    }
-    bytes.push(value as u8);
 }
 
 /// A program that is read.

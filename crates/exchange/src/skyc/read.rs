@@ -52,11 +52,6 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     Ok(loaded)
 }
 
-/// The error with the part of the file that it is in.
-fn in_part(part: &str, error: ReadError) -> ReadError {
-    ReadError { what: format!("{} (in {part})", error.what), ..error }
-}
-
 /// Reads drones, and counts what they may still have.
 struct Reader {
     /// The other files of the archive.
@@ -80,13 +75,9 @@ struct Drone {
 
 impl Reader {
     fn document(&mut self, document: &[u8]) -> Result<TimedShow, ReadError> {
-        let mut json = Json::new(text(document).map_err(|error| in_part(DOCUMENT, error))?);
-        let show = self.show(&mut json).map_err(|error| in_part(DOCUMENT, error))?;
-        if json.is_at_end() {
-            Ok(show)
-        } else {
-            Err(in_part(DOCUMENT, json.unexpected("the end of the file")))
-        }
+        let mut json = Json::new(text(document).map_err(|error| error.within(DOCUMENT))?);
+        let show = self.show(&mut json).map_err(|error| error.within(DOCUMENT))?;
+        if json.is_at_end() { Ok(show) } else { Err(json.unexpected("the end of the file").within(DOCUMENT)) }
     }
 
     fn show(&mut self, json: &mut Json<'_>) -> Result<TimedShow, ReadError> {
@@ -142,10 +133,7 @@ impl Reader {
                 _ => json.skip(),
             });
             let robot = read.and_then(|()| self.robot(drone).map_err(|what| before.fail("bad-drone", what)));
-            robots.push(robot.map_err(|error| ReadError {
-                what: format!("drone {}: {}", index + 1, error.what),
-                ..error
-            })?);
+            robots.push(robot.map_err(|error| error.of_nth("drone", index))?);
             Ok(())
         })
     }
@@ -221,8 +209,8 @@ fn referred<T>(
         )
     })?;
     json.skip()?;
-    let content = text(file).map_err(|error| in_part(name, error))?;
-    read(&mut Json::new(content)).map_err(|error| in_part(&excerpt(name), error))
+    let content = text(file).map_err(|error| error.within(name))?;
+    read(&mut Json::new(content)).map_err(|error| error.within(&excerpt(name)))
 }
 
 fn trajectory(json: &mut Json<'_>, pieces: &mut usize) -> Result<TimedPath, ReadError> {

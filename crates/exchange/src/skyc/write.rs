@@ -34,8 +34,7 @@ fn archive(show: &Show, exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Is
             format!("the show has more than {} MiB for Skybrush; export a part of it", MAX_BYTES >> 20);
         return Err(Issue::error("too-big", what));
     }
-    let bytes = pack([(DOCUMENT.to_owned(), document.as_bytes())])
-        .map_err(|error| Issue::error("not-packed", format!("the archive could not be made: {error}")))?;
+    let bytes = pack([(DOCUMENT.to_owned(), document.as_bytes())])?;
     let note = sampled_note(
         "lights are written each 20 ms in linear light of eight bits, within one step; the darkest colours become black",
     );

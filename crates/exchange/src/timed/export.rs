@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use lightbots_base::{Piece, Rgb, Span, Vec2};
-use lightbots_lighting::{PlannedShow, ShowLight, numbers};
+use lightbots_lighting::{PlannedShow, ShowLight};
 use lightbots_plan::{Path, ShowPlan};
 use lightbots_show::{Issue, Issues, Show};
 
@@ -54,11 +54,11 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
     let duration = paths.first().map_or(Span::ZERO, |path| path.as_ref().duration());
     let colours = colours(&planned, paths.len(), duration)?;
     // As effects number robots, so that robot n of a file is robot n of a layer `sequence`.
-    let numbers = numbers(plan.mapping.first().into_iter().flatten().copied());
-    let names = names(plan, &numbers);
+    let numbers = planned.numbers();
+    let names = names(plan, numbers);
     let robots = names.into_iter().zip(paths).zip(colours);
     let robots = robots.map(|((name, path), colours)| ExportedRobot { name, path, colours });
-    let mut numbered: Vec<(u32, ExportedRobot)> = numbers.into_iter().zip(robots).collect();
+    let mut numbered: Vec<(u32, ExportedRobot)> = numbers.iter().copied().zip(robots).collect();
     numbered.sort_by_key(|(number, _)| *number);
     let robots = numbered.into_iter().map(|(_, robot)| robot).collect();
     let first_sample = (planned.first_drive_s() / SAMPLE.as_secs()).round() as usize;

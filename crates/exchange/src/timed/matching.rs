@@ -1,7 +1,7 @@
 //! Whether the colours of pixels say all of a file's light.
 
 use lightbots_base::{Rgb, Span};
-use lightbots_lighting::{FrameTimes, fade_of};
+use lightbots_lighting::{FrameTimes, changed};
 use lightbots_show::Show;
 
 use super::TimedShow;
@@ -30,18 +30,14 @@ pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bo
                 frame += 1;
             }
             let before = frame.checked_sub(1).map_or(Rgb::BLACK, colour);
-            let plain = |at_s: f64| before.mixed(colour(frame), changed(&times[frame], at_s));
+            let FrameTimes { drive_s, air_s, .. } = times[frame];
+            let (drive, since) =
+                (Span::from_secs(air_s - drive_s), |at_s: f64| Span::from_secs(at_s - drive_s));
+            let plain = |at_s: f64| before.mixed(colour(frame), changed(drive, since(at_s)));
             let bounds = [plain(at_s - EARLIER_S), plain(at_s), plain(at_s + EARLIER_S)];
             !is_between(light.at(at_s), bounds)
         })
     })
-}
-
-/// How far the change of colour at the end of a drive is, 0 to 1.
-fn changed(times: &FrameTimes, at_s: f64) -> f64 {
-    let over_s = fade_of(Span::from_secs(times.air_s - times.drive_s)).as_secs();
-    let since_s = at_s - (times.air_s - over_s);
-    if since_s >= over_s { 1.0 } else { (since_s / over_s).max(0.0) }
 }
 
 /// Whether a colour is as near as counts to the range of others.

@@ -99,10 +99,7 @@ impl Reader {
                 let what = format!("more than {MAX_PIXELS} performances; take some away");
                 return Err(json.fail("too-many-robots", what));
             }
-            let robot = self.performance(json).map_err(|error| ReadError {
-                what: format!("performance {}: {}", index + 1, error.what),
-                ..error
-            })?;
+            let robot = self.performance(json).map_err(|error| error.of_nth("performance", index))?;
             self.show.robots.push(robot);
             Ok(())
         })

@@ -10,11 +10,8 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     let opened = show_file::open(&arguments.show, &arguments.reading)?;
     let (made, plan) = show_plan::plan(&opened.show, &opened.issues);
     let out = &arguments.out;
-    let cannot = |error: &dyn std::fmt::Display| {
-        Failure::input(format!("{}: cannot be written: {error}", out.display()))
-    };
-    let text = serde_json::to_string(&plan).map_err(|error| cannot(&error))?;
-    std::fs::write(out, text + "\n").map_err(|error| cannot(&error))?;
+    let text = serde_json::to_string(&plan).map_err(|error| Failure::unwritable(out, &error))?;
+    show_file::write(out, (text + "\n").into_bytes())?;
     let summary = Summary::new(&opened.show, &made, &plan);
     if arguments.json {
         print_json(&summary)?;

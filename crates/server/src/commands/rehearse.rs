@@ -78,7 +78,7 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     if let (Some(file), Some(told)) = (&arguments.report, told) {
         let page =
             told.page(&report, title(&opened.show.name, &arguments.show), show.stage.limits.radius_m)?;
-        std::fs::write(file, page).map_err(|error| unwritable(file, &error))?;
+        std::fs::write(file, page).map_err(|error| Failure::unwritable(file, &error))?;
     }
     if arguments.json {
         print_json(&readable(report.clone()))?;
@@ -144,7 +144,7 @@ struct GrowingFile<'a> {
 
 impl<'a> GrowingFile<'a> {
     fn create(path: &'a Path) -> Result<Self, Failure> {
-        let file = std::fs::File::create(path).map_err(|error| unwritable(path, &error))?;
+        let file = std::fs::File::create(path).map_err(|error| Failure::unwritable(path, &error))?;
         Ok(Self { path, file: BufWriter::new(file), failure: None })
     }
 
@@ -156,7 +156,7 @@ impl<'a> GrowingFile<'a> {
 
     fn finish(mut self) -> Result<(), Failure> {
         let failure = self.failure.or_else(|| self.file.flush().err());
-        failure.map_or(Ok(()), |error| Err(unwritable(self.path, &error)))
+        failure.map_or(Ok(()), |error| Err(Failure::unwritable(self.path, &error)))
     }
 }
 
@@ -170,10 +170,6 @@ fn steps_file(path: &Path) -> Result<GrowingFile<'_>, Failure> {
 fn step_row(at: Instant, name: RobotId, place: Vec2) -> Vec<u8> {
     let quoted = name.as_str().replace('"', "\"\"");
     format!("{:.3},\"{quoted}\",{:.5},{:.5}\n", at.as_secs(), place.x, place.y).into_bytes()
-}
-
-fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::input(format!("{}: cannot be written: {error}", path.display()))
 }
 
 /// What people should know of a log: how to rehearse the same again.

@@ -16,8 +16,19 @@ const KINDS: Record<FilmKind, string> = { mp4: 'MP4 (H.264)', webm: 'WebM (VP9)'
 const VIEWS = { above: 'From above', front: "From the audience's seats" };
 const FPS = 30;
 
-const options = (of: Record<string, string>) =>
-  Object.entries(of).map(([value, label]) => ({ value, label }));
+interface ChoiceProps<T extends string> {
+  label: string;
+  of: Readonly<Record<T, string>>;
+  value: T;
+  onChange: (to: T) => void;
+  disabled: boolean;
+}
+
+function Choice<T extends string>({ of, onChange, ...props }: ChoiceProps<T>) {
+  const data = Object.entries<string>(of).map(([value, label]) => ({ value, label }));
+  const choose = (to: string | null) => to !== null && onChange(to as T);
+  return <Select {...props} data={data} onChange={choose} allowDeselect={false} />;
+}
 
 /** Makes a film of the show, as the audience sees it, and saves it as a file. */
 export default function FilmDialog({ onClose }: { onClose: () => void }) {
@@ -25,9 +36,9 @@ export default function FilmDialog({ onClose }: { onClose: () => void }) {
   const show = useEditor((s) => s.show);
   const plan = useStore(editing.full.plan);
   useEffect(() => editing.full.follow(), [editing]);
-  const [size, setSize] = useState('1280x720');
+  const [size, setSize] = useState<keyof typeof SIZES>('1280x720');
   const [kind, setKind] = useState<FilmKind>('mp4');
-  const [view, setView] = useState('above');
+  const [view, setView] = useState<keyof typeof VIEWS>('above');
   const hasMusic = musicOf(show) !== null;
   const [withMusic, setWithMusic] = useState(hasMusic);
   const { state, make, cancel } = useFilm(editing);
@@ -45,30 +56,9 @@ export default function FilmDialog({ onClose }: { onClose: () => void }) {
   return (
     <Modal opened onClose={leave} title="Film of the show">
       <Stack>
-        <Select
-          label="View"
-          data={options(VIEWS)}
-          value={view}
-          onChange={(to) => setView(to ?? view)}
-          allowDeselect={false}
-          disabled={isMaking}
-        />
-        <Select
-          label="Size"
-          data={options(SIZES)}
-          value={size}
-          onChange={(to) => setSize(to ?? size)}
-          allowDeselect={false}
-          disabled={isMaking}
-        />
-        <Select
-          label="File"
-          data={options(KINDS)}
-          value={kind}
-          onChange={(to) => setKind((to ?? kind) as FilmKind)}
-          allowDeselect={false}
-          disabled={isMaking}
-        />
+        <Choice label="View" of={VIEWS} value={view} onChange={setView} disabled={isMaking} />
+        <Choice label="Size" of={SIZES} value={size} onChange={setSize} disabled={isMaking} />
+        <Choice label="File" of={KINDS} value={kind} onChange={setKind} disabled={isMaking} />
         {hasMusic ? (
           <Switch
             label="With the music of the show"

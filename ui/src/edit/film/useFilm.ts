@@ -1,7 +1,6 @@
 import { useEffect, useRef, useState } from 'react';
 import type { Plan } from '../../api/types.gen';
 import { messageOf } from '../../base/errors';
-import { getAsset } from '../../api/http';
 import { startFilmWorker } from '../../film/browserWorker';
 import { decodeForFilm } from '../../film/filmMusic';
 import { startFilm, type Filming } from '../../film/filming';
@@ -31,15 +30,13 @@ export function useFilm(editing: Editing) {
     const show = editing.editor.state.get().show;
     setState({ of: 'making', share: 0 });
     try {
-      const fileOf = async (hash: string) =>
-        editing.files.get(hash)?.bytes ?? (await getAsset(hash));
       const file = withMusic ? musicOf(show) : null;
-      const music = file && (await decodeForFilm(await fileOf(file.hash)));
+      const music = file && (await decodeForFilm(await editing.fileOf(file.hash)));
       const filming = startFilm(
         startFilmWorker,
         { show, transitions: plan.transitions },
         { settings, music },
-        fileOf,
+        editing.fileOf,
         (share) => setState({ of: 'making', share }),
       );
       current.current = filming;

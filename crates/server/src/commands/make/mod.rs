@@ -10,7 +10,7 @@ use lightbots_base::Vec2;
 use lightbots_draw::{DrawError, Note, Quality, READABLE, Readability, enough_robots};
 use lightbots_lighting::validate;
 use lightbots_make::{MadeFrame, make_frame_from, picture_floor};
-use lightbots_show::{Issue, Issues, Show};
+use lightbots_show::{Issue, Issues, Show, most_pixels};
 use serde::Serialize;
 
 use super::{count, guard, print_issues, print_json};
@@ -71,7 +71,7 @@ pub fn run(arguments: &MakeArguments) -> Outcome {
     let summary = Summary {
         ok: !issues.iter().any(Issue::is_error),
         frames: show.frames.len(),
-        pixels: show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0),
+        pixels: most_pixels(&show),
         pictures,
         issues: issues.iter().map(api::Issue::from).collect(),
         out: arguments.out.display().to_string(),

@@ -5,7 +5,6 @@ mod output;
 
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::Path;
 
 use lightbots_api as api;
 use lightbots_base::Vec2;
@@ -14,7 +13,7 @@ use lightbots_film::{
 };
 use lightbots_lighting::{PlannedShow, ShowLight};
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Issue, Show, starting_places};
+use lightbots_show::{Issue, Show, most_pixels, starting_places};
 use serde::Serialize;
 
 use super::{count, print_issues, print_json};
@@ -59,7 +58,7 @@ pub fn run(arguments: &RenderArguments, stop: &Stop) -> Outcome {
     let mut summary = Summary {
         ok: document.ok,
         frames: opened.show.frames.len(),
-        pixels: opened.show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0),
+        pixels: most_pixels(&opened.show),
         issues: document.issues,
         out: arguments.out.display().to_string(),
         film: None,
@@ -150,7 +149,7 @@ impl Work<'_> {
         }
     }
 
-    /// Calls `add` with each picture, with a bar that begins at a share of it.
+    /// Calls `add` with each picture.
     fn pictures(
         &self,
         mut film: ShowFilm<'_>,
@@ -183,14 +182,14 @@ impl Work<'_> {
         let palette = GifPalette::new(samples.iter().map(Vec::as_slice));
         drop(samples);
         let file = Draft::beside(out);
-        let opened = File::create(file.path()).map_err(|error| unwritable(out, &error))?;
-        let cannot = |error: GifError| unwritable(out, &error);
+        let opened = File::create(file.path()).map_err(|error| Failure::unwritable(out, &error))?;
+        let cannot = |error: GifError| Failure::unwritable(out, &error);
         let writer = BufWriter::new(opened);
         let mut gif = GifWriter::new(writer, (size.width, size.height), size.fps, palette).map_err(cannot)?;
         let facts = self.pictures(film, size, |picture| gif.add(picture).map_err(cannot))?;
         let written = gif.finish().map_err(cannot)?;
-        written.into_inner().map_err(|error| unwritable(out, error.error()))?;
-        file.finish(out).map_err(|error| unwritable(out, &error))?;
+        written.into_inner().map_err(|error| Failure::unwritable(out, error.error()))?;
+        file.finish(out).map_err(|error| Failure::unwritable(out, &error))?;
         Ok(facts)
     }
 
@@ -202,13 +201,9 @@ impl Work<'_> {
         let facts = self.pictures(film, size, |picture| encoder.add(picture))?;
         self.bar.set(1.0, "finishing");
         encoder.finish()?;
-        file.finish(out).map_err(|error| unwritable(out, &error))?;
+        file.finish(out).map_err(|error| Failure::unwritable(out, &error))?;
         Ok(facts)
     }
-}
-
-fn unwritable(out: &Path, error: &dyn std::fmt::Display) -> Failure {
-    Failure::input(format!("{}: cannot be written: {error}", out.display()))
 }
 
 /// `[start]`: the robot that the show asks for by name, where it starts.
