@@ -2,10 +2,10 @@
 
 use lightbots_base::Vec2;
 use lightbots_lighting::{FrameTimes, PlannedShow};
-use lightbots_show::{CuePlace, Show};
+use lightbots_show::{CuePlace, Show, clock_label};
 
 use crate::pdf_page::{MARGIN, Mark, PAGE, document};
-use crate::words::{clock, numbered, short};
+use crate::words::{numbered, short};
 
 /// Height of a row of a table, and size of its letters, points.
 const ROW: f32 = 14.0;
@@ -47,11 +47,15 @@ pub fn crew_sheet(
         Some(Some(name)) => short(name, 14),
         _ => (robot + 1).to_string(),
     };
+    let takes_any = (0..starts.len()).any(|robot| names.get(robot).is_none_or(Option::is_none));
     let names: Vec<String> = (0..starts.len()).map(name).collect();
     let mut sheet = Sheet::default();
     sheet.heading(&title, 20.0);
     sheet.text(&facts(show, planned));
     sheet.heading("Starting places", 13.0);
+    if takes_any {
+        sheet.text("A place with a number takes any robot that no other place names.");
+    }
     map(&mut sheet, show, starts, &names);
     starting_places(&mut sheet, starts, &names);
     sheet.heading("Frames and cues", 13.0);
@@ -140,7 +144,7 @@ fn facts(show: &Show, planned: &PlannedShow<'_>) -> String {
         "{} robots   {} frames   {} from the first movement to the end   Floor: {} x {} m{music}",
         planned.robots(),
         show.frames.len(),
-        clock(planned.duration_s()),
+        clock_label(planned.duration_s()),
         stage.width_m,
         stage.depth_m,
     )
@@ -202,7 +206,7 @@ fn cue_list(sheet: &mut Sheet, show: &Show, planned: &PlannedShow<'_>) {
         sheet.row(&columns([
             numbered(index, &frame.name, 34),
             format!("{:.1} s", times.air_s - times.drive_s),
-            clock(planned.first_drive_s() + times.air_s),
+            clock_label(planned.first_drive_s() + times.air_s),
             format!("{:.1}", frame.air_time_s),
             then(show, index, times),
         ]));
