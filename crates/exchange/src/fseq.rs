@@ -13,6 +13,9 @@ use crate::timed::sequence::add_file;
 
 /// Samples of a frame: 40 ms, which every player of FSEQ keeps up with.
 const SAMPLES: usize = 2;
+/// Most bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Some readers know no compression, and others
+/// zstd alone (docs/exchange.md); longer files would be large.
+const PLAIN_MAX: usize = 16 << 20;
 
 /// Whether the bytes begin like a file of FSEQ.
 pub fn sniff(bytes: &[u8]) -> bool {
@@ -48,7 +51,8 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
     let note = sampled_note(
         "the file has the colours of robots each 40 ms from the first frame on, and neither their paths nor their names",
     );
-    (sequence.bytes(), vec![note])
+    let bytes = if sequence.codes.len() <= PLAIN_MAX { sequence.plain_bytes() } else { sequence.bytes() };
+    (bytes, vec![note])
 }
 
 /// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins with the air time of the

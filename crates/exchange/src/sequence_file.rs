@@ -1,33 +1,24 @@
-//! FSEQ 2: colours of lights, one frame each few milliseconds. Header, list of blocks, variables, then frames of one byte a
-//! channel, little endian.
+//! FSEQ 2: colours of lights, one frame each few milliseconds. Header, lists of blocks and of ranges of channels, variables,
+//! then frames of one byte a channel, little endian.
 
-use std::io::{Cursor, Read, Write};
+mod header;
+
+use std::io::{Read, Write};
 
 use flate2::Compression;
-use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use lightbots_light::PICTURE_PIXELS_MAX;
 use lightbots_show::LayerPicture;
-use ruzstd::decoding::StreamingDecoder;
 
-/// First bytes of a file.
-pub(crate) const MAGIC: &[u8] = b"PSEQ";
-/// Length of the header without the list of blocks, bytes.
-const HEADER: usize = 32;
+pub(crate) use header::MAGIC;
+use header::{ChannelRange, HEADER, Header, PLAIN, Refusal, ZLIB, cut_off};
+
 /// Most blocks that readers of version 2.0 count: one byte.
 const BLOCKS_MAX: usize = 255;
 /// Frames of a block, unless the file would have too many blocks.
 const BLOCK_FRAMES: usize = 250;
-/// Most channels of a file: a frame is held in memory.
-const CHANNELS_MAX: usize = 8 << 20;
-/// Most bytes that a file unpacks to: 1 GiB takes three seconds.
-const UNPACKED_MAX: u64 = 1 << 30;
-/// Kinds of compression in the header: none, zstd, zlib.
-const PLAIN: u8 = 0;
-/// See [`PLAIN`].
-const ZSTD: u8 = 1;
-/// See [`PLAIN`].
-const ZLIB: u8 = 2;
+/// Bytes of whole frames that are unpacked at once, unless one frame has more: one by one, short frames take ten times as long.
+const UNPACKED_AT_ONCE: usize = 64 << 10;
 
 /// What a file holds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,9 +33,6 @@ pub(crate) struct SequenceFile {
     pub music: Option<String>,
 }
 
-/// Words after "the file".
-type Refusal = String;
-
 impl SequenceFile {
     /// Number of frames.
     pub fn frames(&self) -> usize {
@@ -54,13 +42,32 @@ impl SequenceFile {
     /// The bytes of a file, in zlib blocks.
     pub fn bytes(&self) -> Vec<u8> {
         let block_frames = BLOCK_FRAMES.max(self.frames().div_ceil(BLOCKS_MAX));
-        let blocks: Vec<Vec<u8>> =
-            self.codes.chunks(block_frames * self.channels.max(1)).map(compressed).collect();
+        let frames = self.codes.chunks(block_frames * self.channels.max(1));
+        let blocks: Vec<Vec<u8>> = frames.map(compressed).collect();
+        let mut list = Vec::new();
+        for (nth, block) in blocks.iter().enumerate() {
+            list.extend(((nth * block_frames) as u32).to_le_bytes());
+            list.extend((block.len() as u32).to_le_bytes());
+        }
+        let mut bytes = self.head(ZLIB, &list);
+        blocks.iter().for_each(|block| bytes.extend(block));
+        bytes
+    }
+
+    /// The bytes of a file that is not compressed. Every reader of FSEQ 2 understands it.
+    pub fn plain_bytes(&self) -> Vec<u8> {
+        let mut bytes = self.head(PLAIN, &[]);
+        bytes.extend(&self.codes);
+        bytes
+    }
+
+    /// All that stands before the frames. The list of blocks has eight bytes for each.
+    fn head(&self, compression: u8, blocks: &[u8]) -> Vec<u8> {
         let mut variables = variable(b"sp", "LightBots");
         if let Some(music) = &self.music {
             variables.extend(variable(b"mf", music));
         }
-        let variables_at = HEADER + 8 * blocks.len();
+        let variables_at = HEADER + blocks.len();
         let data_at = (variables_at + variables.len()).next_multiple_of(4);
         let mut bytes = Vec::new();
         bytes.extend(MAGIC);
@@ -69,44 +76,79 @@ impl SequenceFile {
         bytes.extend((variables_at as u16).to_le_bytes());
         bytes.extend((self.channels as u32).to_le_bytes());
         bytes.extend((self.frames() as u32).to_le_bytes());
-        bytes.extend([self.step_ms, 0, ZLIB, blocks.len() as u8, 0, 0]);
+        bytes.extend([self.step_ms, 0, compression, (blocks.len() / 8) as u8, 0, 0]);
         // A number of its own for the file; a moment would make the same show give other bytes.
         bytes.extend([0; 8]);
-        for (nth, block) in blocks.iter().enumerate() {
-            bytes.extend(((nth * block_frames) as u32).to_le_bytes());
-            bytes.extend((block.len() as u32).to_le_bytes());
-        }
+        bytes.extend(blocks);
         bytes.extend(variables);
         bytes.resize(data_at, 0);
-        blocks.iter().for_each(|block| bytes.extend(block));
         bytes
     }
 
-    /// Reads a file; of each frame, the first `channels` bytes at most, and of many frames each n-th, so that the
-    /// lights have at most [`PICTURE_PIXELS_MAX`] colours.
+    /// Reads a file; the first `channels` channels at most, and of many frames each n-th, so that the lights have at most
+    /// [`PICTURE_PIXELS_MAX`] colours. Channels that a sparse file leaves out are black.
     pub fn read(bytes: &[u8], channels: usize) -> Result<Self, Refusal> {
         let header = Header::read(bytes)?;
-        let kept = header.channels.min(channels.max(3)) / 3 * 3;
-        if kept == 0 || header.frames == 0 {
+        let ranges = header.ranges(bytes)?;
+        let width = ranges.iter().map(|range| range.end()).max().unwrap_or(0);
+        let kept = width.min(channels.max(3)) / 3 * 3;
+        if kept == 0 || header.frames == 0 || header.channels == 0 {
             return Err("has no lights; choose another".into());
+        }
+        if !ranges.iter().any(|range| range.first < kept && range.count > 0) {
+            return Err(format!(
+                "has no channel below number {kept}, and lights begin at 0; save those of the robots"
+            ));
         }
         let every = (header.frames * kept).div_ceil(3 * PICTURE_PIXELS_MAX).max(1);
         let step_ms = u8::try_from(usize::from(header.step_ms) * every)
             .map_err(|_| "is too long for its lights; cut it into several".to_owned())?;
-        let mut codes = Vec::new();
-        let mut row = vec![0; header.channels];
-        let mut number = 0;
-        for block in header.blocks(bytes)? {
-            let mut data = block.data(header.compression)?;
-            for _ in 0..block.frames {
-                data.read_exact(&mut row).map_err(|_| cut_off())?;
-                if number % every == 0 {
-                    codes.extend(&row[..kept]);
-                }
-                number += 1;
+        let codes = kept_codes(&header, bytes, &ranges, (kept, every))?;
+        Ok(Self { step_ms, channels: kept, codes, music: header.music(bytes) })
+    }
+}
+
+/// Of each `every`-th frame, the first `kept` channels.
+fn kept_codes(
+    header: &Header,
+    bytes: &[u8],
+    ranges: &[ChannelRange],
+    (kept, every): (usize, usize),
+) -> Result<Vec<u8>, Refusal> {
+    let at_once = (UNPACKED_AT_ONCE / header.channels).max(1);
+    let mut rows = vec![0; at_once * header.channels];
+    let mut codes = Vec::new();
+    let mut number = 0_usize;
+    for block in header.blocks(bytes)? {
+        let mut data = header.data(&block)?;
+        let mut left = block.frames;
+        while left > 0 {
+            let count = left.min(at_once);
+            let rows = &mut rows[..count * header.channels];
+            data.read_exact(rows).map_err(|_| cut_off())?;
+            let first = number.next_multiple_of(every) - number;
+            for row in rows.chunks_exact(header.channels).skip(first).step_by(every) {
+                add_row(&mut codes, row, ranges, kept);
             }
+            number += count;
+            left -= count;
         }
-        Ok(Self { step_ms, channels: kept, codes, music: music(bytes, &header) })
+    }
+    Ok(codes)
+}
+
+/// Adds the first `kept` channels of a frame.
+fn add_row(codes: &mut Vec<u8>, row: &[u8], ranges: &[ChannelRange], kept: usize) {
+    let begin = codes.len();
+    codes.resize(begin + kept, 0);
+    let mut at = 0;
+    for range in ranges {
+        let count = range.end().min(kept).saturating_sub(range.first);
+        if count > 0 {
+            let to = begin + range.first;
+            codes[to..to + count].copy_from_slice(&row[at..at + count]);
+        }
+        at += range.count;
     }
 }
 
@@ -134,125 +176,9 @@ fn variable(name: &[u8; 2], text: &str) -> Vec<u8> {
     [&length.to_le_bytes()[..], name, text.as_bytes(), &[0]].concat()
 }
 
-fn cut_off() -> Refusal {
-    "ends before its last frame; copy it again".into()
-}
-
-struct Header {
-    data_at: usize,
-    variables_at: usize,
-    channels: usize,
-    frames: usize,
-    step_ms: u8,
-    compression: u8,
-    blocks: usize,
-}
-
-/// Some frames of a file.
-struct Block<'a> {
-    bytes: &'a [u8],
-    frames: usize,
-}
-
-impl Header {
-    fn read(bytes: &[u8]) -> Result<Self, Refusal> {
-        if !bytes.starts_with(MAGIC) {
-            return Err("is no FSEQ file; choose another".into());
-        }
-        let bytes = bytes.get(..HEADER).ok_or_else(cut_off)?;
-        let short = |at: usize| usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
-        let long = |at: usize| short(at) | short(at + 2) << 16;
-        let (minor, major) = (bytes[6], bytes[7]);
-        if major != 2 {
-            return Err(format!("has FSEQ version {major}.{minor}; save it as version 2"));
-        }
-        let header = Self {
-            data_at: short(4),
-            variables_at: short(8),
-            channels: long(10),
-            frames: long(14),
-            step_ms: bytes[18],
-            compression: bytes[20] & 0x0f,
-            // Version 2.1 has four more bits for the number of blocks.
-            blocks: usize::from(bytes[21]) | usize::from(bytes[20] >> 4) << 8,
-        };
-        if bytes[22] != 0 {
-            return Err("holds only some of its channels (a sparse file); save it whole".into());
-        }
-        if header.step_ms == 0 {
-            return Err("says that its frames last 0 ms; save it again".into());
-        }
-        let unpacked = header.channels as u64 * header.frames as u64;
-        if header.channels > CHANNELS_MAX || unpacked > UNPACKED_MAX {
-            let (channels, frames) = (header.channels, header.frames);
-            return Err(format!(
-                "has {frames} frames of {channels} channels, more than 1 GiB; save fewer channels"
-            ));
-        }
-        Ok(header)
-    }
-
-    /// The blocks, together with all frames.
-    fn blocks<'a>(&self, bytes: &'a [u8]) -> Result<Vec<Block<'a>>, Refusal> {
-        let data = bytes.get(self.data_at..).ok_or_else(cut_off)?;
-        if self.compression == PLAIN {
-            return Ok(vec![Block { bytes: data, frames: self.frames }]);
-        }
-        let list = bytes.get(HEADER..HEADER + 8 * self.blocks).ok_or_else(cut_off)?;
-        let word =
-            |at: usize| u32::from_le_bytes([list[at], list[at + 1], list[at + 2], list[at + 3]]) as usize;
-        // Unused entries at the end have no bytes.
-        let entries: Vec<(usize, usize)> = (0..self.blocks)
-            .map(|nth| (word(8 * nth), word(8 * nth + 4)))
-            .filter(|(_, length)| *length > 0)
-            .collect();
-        let begins = entries.iter().map(|(first, _)| *first).chain([self.frames]).collect::<Vec<_>>();
-        let is_ordered = begins.first() == Some(&0) && begins.windows(2).all(|pair| pair[0] <= pair[1]);
-        if !is_ordered {
-            return Err("has blocks out of order; save it again".into());
-        }
-        let mut at = 0;
-        let mut blocks = Vec::new();
-        for (nth, (first, length)) in entries.into_iter().enumerate() {
-            let bytes = data.get(at..at + length).ok_or_else(cut_off)?;
-            blocks.push(Block { bytes, frames: begins[nth + 1] - first });
-            at += length;
-        }
-        Ok(blocks)
-    }
-}
-
-impl<'a> Block<'a> {
-    fn data(&self, compression: u8) -> Result<Box<dyn Read + 'a>, Refusal> {
-        match compression {
-            PLAIN => Ok(Box::new(Cursor::new(self.bytes))),
-            ZLIB => Ok(Box::new(ZlibDecoder::new(self.bytes))),
-            ZSTD => {
-                let decoder = StreamingDecoder::new(self.bytes);
-                Ok(Box::new(decoder.map_err(|_| "has a damaged block; copy it again".to_owned())?))
-            }
-            other => Err(format!("has an unknown compression ({other}); save it uncompressed")),
-        }
-    }
-}
-
-/// The name of the music among the variables.
-fn music(bytes: &[u8], header: &Header) -> Option<String> {
-    let mut at = header.variables_at;
-    while at + 4 <= header.data_at.min(bytes.len()) {
-        let length = usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
-        let text = bytes.get(at + 4..at + length)?;
-        if &bytes[at + 2..at + 4] == b"mf" {
-            let text = text.split(|byte| *byte == 0).next().unwrap_or_default();
-            return Some(String::from_utf8_lossy(text).into_owned()).filter(|text| !text.is_empty());
-        }
-        at += length;
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
+    use super::header::ZSTD;
     use super::*;
 
     fn file(frames: usize) -> SequenceFile {
@@ -272,12 +198,64 @@ mod tests {
 
     #[test]
     fn an_uncompressed_file_is_read() {
-        let mut bytes = file(2).bytes();
-        let (data_at, codes) = (usize::from(bytes[4]), file(2).codes);
-        (bytes[20], bytes[21]) = (PLAIN, 0);
-        bytes.truncate(data_at);
-        bytes.extend(&codes);
-        assert_eq!(SequenceFile::read(&bytes, usize::MAX).unwrap().codes, codes);
+        for frames in [1, 2, 20_000] {
+            let file = file(frames);
+            let bytes = file.plain_bytes();
+            assert!(bytes.ends_with(&file.codes) && bytes[20..23] == [PLAIN, 0, 0]);
+            assert_eq!(SequenceFile::read(&bytes, usize::MAX).unwrap(), file);
+        }
+    }
+
+    /// A file of two frames of six channels that are those with these numbers.
+    fn sparse(compression: u8, ranges: &[(u32, u32)]) -> Vec<u8> {
+        let codes = file(2).codes;
+        let block = match compression {
+            ZLIB => compressed(&codes),
+            ZSTD => {
+                let level = ruzstd::encoding::CompressionLevel::Fastest;
+                ruzstd::encoding::compress_to_vec(&codes[..], level)
+            }
+            _ => codes,
+        };
+        let mut list = Vec::new();
+        if compression != PLAIN {
+            list.extend([0; 4]);
+            list.extend((block.len() as u32).to_le_bytes());
+        }
+        let mut bytes = file(2).head(compression, &list);
+        let three = |number: u32| number.to_le_bytes().into_iter().take(3);
+        let ranges_at = HEADER + list.len();
+        let both: Vec<u8> =
+            ranges.iter().flat_map(|(first, count)| three(*first).chain(three(*count))).collect();
+        bytes[22] = ranges.len() as u8;
+        for at in [4, 8] {
+            // The frames and the variables move back.
+            bytes[at] += both.len() as u8;
+        }
+        bytes.splice(ranges_at..ranges_at, both);
+        bytes.extend(block);
+        bytes
+    }
+
+    #[test]
+    fn channels_that_a_sparse_file_leaves_out_are_black() {
+        for compression in [PLAIN, ZLIB, ZSTD] {
+            let bytes = sparse(compression, &[(9, 2), (3, 4)]);
+            let read = SequenceFile::read(&bytes, usize::MAX).unwrap();
+            assert_eq!((read.channels, read.music.as_deref()), (9, Some("march.ogg")), "{compression}");
+            assert_eq!(read.codes, [0, 0, 0, 2, 3, 4, 5, 0, 0, 0, 0, 0, 8, 9, 10, 11, 0, 0]);
+            let two = SequenceFile::read(&bytes, 6).unwrap();
+            assert_eq!(two.codes, [0, 0, 0, 2, 3, 4, 0, 0, 0, 8, 9, 10]);
+            assert!(SequenceFile::read(&bytes, 3).unwrap_err().contains("no channel below number 3"));
+        }
+        for (ranges, part) in [
+            (&[(0, 5)][..], "5 channels in its ranges and 6 in its frames"),
+            (&[(0xff_ffff, 6)], "channels above number"),
+            (&[(0, 0xff_ffff), (0, 7)], "channels in its ranges"),
+        ] {
+            let error = SequenceFile::read(&sparse(ZLIB, ranges), usize::MAX).unwrap_err();
+            assert!(error.contains(part), "{error}");
+        }
     }
 
     #[test]
@@ -318,7 +296,7 @@ mod tests {
             (18, 0, "0 ms"),
             (20, ZSTD, "damaged block"),
             (20, 9, "unknown compression"),
-            (22, 1, "sparse"),
+            (22, 1, "in its ranges"),
             (32, 1, "out of order"),
         ] {
             let error = with(at, value);

@@ -1,0 +1,182 @@
+//! What an FSEQ file says before its frames: channels, blocks, ranges of channels, music.
+
+use std::io::{Cursor, Read};
+
+use flate2::read::ZlibDecoder;
+use ruzstd::decoding::StreamingDecoder;
+
+/// First bytes of a file.
+pub(crate) const MAGIC: &[u8] = b"PSEQ";
+/// Length of the header without the lists of blocks and ranges, bytes.
+pub(super) const HEADER: usize = 32;
+/// Length of a range of channels in the header: first channel and number of channels, of three bytes each.
+const RANGE: usize = 6;
+/// Most channels of a file: a frame is held in memory.
+const CHANNELS_MAX: usize = 8 << 20;
+/// Most bytes that a file unpacks to: 1 GiB takes three seconds.
+const UNPACKED_MAX: u64 = 1 << 30;
+/// Kinds of compression in the header: none, zstd, zlib.
+pub(super) const PLAIN: u8 = 0;
+/// See [`PLAIN`].
+pub(super) const ZSTD: u8 = 1;
+/// See [`PLAIN`].
+pub(super) const ZLIB: u8 = 2;
+
+/// Words after "the file".
+pub(super) type Refusal = String;
+
+/// The head of a file.
+pub(super) struct Header {
+    data_at: usize,
+    variables_at: usize,
+    /// Bytes of a frame.
+    pub channels: usize,
+    pub frames: usize,
+    pub step_ms: u8,
+    compression: u8,
+    blocks: usize,
+    ranges: usize,
+}
+
+/// Some frames of a file.
+pub(super) struct Block<'a> {
+    bytes: &'a [u8],
+    pub frames: usize,
+}
+
+/// Channels that follow each other in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ChannelRange {
+    /// Number of the first one.
+    pub first: usize,
+    pub count: usize,
+}
+
+impl Header {
+    pub fn read(bytes: &[u8]) -> Result<Self, Refusal> {
+        if !bytes.starts_with(MAGIC) {
+            return Err("is no FSEQ file; choose another".into());
+        }
+        let bytes = bytes.get(..HEADER).ok_or_else(cut_off)?;
+        let short = |at: usize| usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
+        let long = |at: usize| short(at) | short(at + 2) << 16;
+        let (minor, major) = (bytes[6], bytes[7]);
+        if major != 2 {
+            return Err(format!("has FSEQ version {major}.{minor}; save it as version 2"));
+        }
+        let header = Self {
+            data_at: short(4),
+            variables_at: short(8),
+            channels: long(10),
+            frames: long(14),
+            step_ms: bytes[18],
+            compression: bytes[20] & 0x0f,
+            // Version 2.1 has four more bits for the number of blocks.
+            blocks: usize::from(bytes[21]) | usize::from(bytes[20] >> 4) << 8,
+            ranges: usize::from(bytes[22]),
+        };
+        if header.step_ms == 0 {
+            return Err("says that its frames last 0 ms; save it again".into());
+        }
+        let unpacked = header.channels as u64 * header.frames as u64;
+        if header.channels > CHANNELS_MAX || unpacked > UNPACKED_MAX {
+            let (channels, frames) = (header.channels, header.frames);
+            return Err(format!(
+                "has {frames} frames of {channels} channels, more than 1 GiB; save fewer channels"
+            ));
+        }
+        Ok(header)
+    }
+
+    /// Which channels a frame has, in their order. A sparse file has only some.
+    pub fn ranges(&self, bytes: &[u8]) -> Result<Vec<ChannelRange>, Refusal> {
+        if self.ranges == 0 {
+            return Ok(vec![ChannelRange { first: 0, count: self.channels }]);
+        }
+        let begin = HEADER + 8 * self.blocks;
+        let list = bytes.get(begin..begin + RANGE * self.ranges).ok_or_else(cut_off)?;
+        let three = |at: usize| {
+            usize::from(list[at]) | usize::from(list[at + 1]) << 8 | usize::from(list[at + 2]) << 16
+        };
+        let range = |at: usize| ChannelRange { first: three(at), count: three(at + 3) };
+        let ranges: Vec<ChannelRange> = (0..list.len()).step_by(RANGE).map(range).collect();
+        let (count, channels) = (ranges.iter().map(|range| range.count).sum::<usize>(), self.channels);
+        if count != channels {
+            return Err(format!(
+                "has {count} channels in its ranges and {channels} in its frames; save it again"
+            ));
+        }
+        if ranges.iter().any(|range| range.end() > CHANNELS_MAX) {
+            return Err(format!("has channels above number {CHANNELS_MAX}; save fewer channels"));
+        }
+        Ok(ranges)
+    }
+
+    /// The blocks, together with all frames.
+    pub fn blocks<'a>(&self, bytes: &'a [u8]) -> Result<Vec<Block<'a>>, Refusal> {
+        let data = bytes.get(self.data_at..).ok_or_else(cut_off)?;
+        if self.compression == PLAIN {
+            return Ok(vec![Block { bytes: data, frames: self.frames }]);
+        }
+        let list = bytes.get(HEADER..HEADER + 8 * self.blocks).ok_or_else(cut_off)?;
+        let word =
+            |at: usize| u32::from_le_bytes([list[at], list[at + 1], list[at + 2], list[at + 3]]) as usize;
+        // Unused entries at the end have no bytes.
+        let entries: Vec<(usize, usize)> = (0..self.blocks)
+            .map(|nth| (word(8 * nth), word(8 * nth + 4)))
+            .filter(|(_, length)| *length > 0)
+            .collect();
+        let begins = entries.iter().map(|(first, _)| *first).chain([self.frames]).collect::<Vec<_>>();
+        let is_ordered = begins.first() == Some(&0) && begins.windows(2).all(|pair| pair[0] <= pair[1]);
+        if !is_ordered {
+            return Err("has blocks out of order; save it again".into());
+        }
+        let mut at = 0;
+        let mut blocks = Vec::new();
+        for (nth, (first, length)) in entries.into_iter().enumerate() {
+            let bytes = data.get(at..at + length).ok_or_else(cut_off)?;
+            blocks.push(Block { bytes, frames: begins[nth + 1] - first });
+            at += length;
+        }
+        Ok(blocks)
+    }
+
+    /// The name of the music among the variables.
+    pub fn music(&self, bytes: &[u8]) -> Option<String> {
+        let mut at = self.variables_at;
+        while at + 4 <= self.data_at.min(bytes.len()) {
+            let length = usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
+            let text = bytes.get(at + 4..at + length)?;
+            if &bytes[at + 2..at + 4] == b"mf" {
+                let text = text.split(|byte| *byte == 0).next().unwrap_or_default();
+                return Some(String::from_utf8_lossy(text).into_owned()).filter(|text| !text.is_empty());
+            }
+            at += length;
+        }
+        None
+    }
+
+    /// The frames of a block, unpacked while they are read.
+    pub fn data<'a>(&self, block: &Block<'a>) -> Result<Box<dyn Read + 'a>, Refusal> {
+        match self.compression {
+            PLAIN => Ok(Box::new(Cursor::new(block.bytes))),
+            ZLIB => Ok(Box::new(ZlibDecoder::new(block.bytes))),
+            ZSTD => {
+                let decoder = StreamingDecoder::new(block.bytes);
+                Ok(Box::new(decoder.map_err(|_| "has a damaged block; copy it again".to_owned())?))
+            }
+            other => Err(format!("has an unknown compression ({other}); save it uncompressed")),
+        }
+    }
+}
+
+impl ChannelRange {
+    /// Number of the channel behind the last one.
+    pub fn end(self) -> usize {
+        self.first + self.count
+    }
+}
+
+pub(super) fn cut_off() -> Refusal {
+    "ends before its last frame; copy it again".into()
+}
