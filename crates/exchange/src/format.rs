@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Issue, Issues, Show};
+use lightbots_show::{Asset, Issue, Issues, Show};
 
 use crate::error::ReadError;
 use crate::part::{Part, uses};
@@ -20,6 +20,8 @@ pub struct Format {
     pub media_type: &'static str,
     /// What a file keeps besides frames with their names, air times and pixels, which every format keeps.
     pub carries: &'static [Part],
+    /// Whether a file holds the music itself, if the show does.
+    pub holds_music: bool,
     /// Whether a file holds timed paths or lights, so that it cannot be written without the plan of the show.
     pub needs_plan: bool,
     /// Whether bytes look like this format. Reads nothing and never fails.
@@ -67,7 +69,11 @@ impl Format {
 
     /// A warning for each part that the show uses and a file does not keep, in the order of [`Part::all`].
     fn losses(&self, show: &Show, plan: Option<&ShowPlan>) -> Issues {
-        let lost = Part::all().filter(|part| !self.keeps(*part) && uses(*part, show, plan));
+        // A music that the format holds is not lost with the list of files.
+        let is_music = |asset: &Asset| self.holds_music && show.music.as_ref() == Some(&asset.name);
+        let others = show.assets.values().any(|asset| !is_music(asset));
+        let counts = |part: Part| others || !matches!(part, Part::Assets | Part::AssetFiles);
+        let lost = Part::all().filter(|part| !self.keeps(*part) && counts(*part) && uses(*part, show, plan));
         let warning = |part: Part| {
             let message = format!("a file for {} does not keep {}", self.program, part.words());
             Issue::warning("lost-in-format", message)

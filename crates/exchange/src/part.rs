@@ -97,11 +97,12 @@ impl Part {
         Self::Plan,
     ];
 
-    /// [`Self::TIMED`] and names of robots.
-    pub(crate) const TIMED_WITH_NAMES: [Self; 8] = {
-        let mut parts = [Self::ChosenRobots; 8];
-        let (timed, _) = parts.split_at_mut(Self::TIMED.len());
+    /// [`Self::TIMED`], the music and names of robots.
+    pub(crate) const TIMED_WITH_NAMES: [Self; 9] = {
+        let mut parts = [Self::ChosenRobots; 9];
+        let (timed, others) = parts.split_at_mut(Self::TIMED.len());
         timed.copy_from_slice(&Self::TIMED);
+        others[0] = Self::Music;
         parts
     };
 

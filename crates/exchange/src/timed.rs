@@ -8,11 +8,13 @@ pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod light;
 mod matching;
+pub(crate) mod music;
 pub(crate) mod path;
 pub(crate) mod sequence;
 mod stands;
 
 use light::TimedLight;
+use music::TimedMusic;
 use path::TimedPath;
 
 /// A show of a file.
@@ -22,6 +24,8 @@ pub(crate) struct TimedShow {
     pub name: String,
     /// The robots in the order of the file.
     pub robots: Vec<TimedRobot>,
+    /// Its music; `None`: the file holds none.
+    pub music: Option<TimedMusic>,
 }
 
 /// A robot of a file.

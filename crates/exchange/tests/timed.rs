@@ -5,10 +5,12 @@
 mod played;
 mod zipped;
 
+use std::sync::Arc;
+
 use lightbots_base::Vec2;
-use lightbots_exchange::{CSV, FORMATS, FSEQ, Format, SKYC, VVIZ, put_onto, read, replanned};
+use lightbots_exchange::{CSV, FORMATS, FSEQ, Format, SKYC, VVIZ, hash_of, put_onto, read, replanned};
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Issue, Show, validate};
+use lightbots_show::{Asset, Issue, Show, validate};
 use played::{Apart, apart, lit_show, moments, order, planned, prescribed, seen, small_show};
 
 /// Writes a show, reads it again and compares both.
@@ -70,6 +72,38 @@ fn a_show_from_skybrush_is_proven_and_lasts_as_long() {
 }
 
 #[test]
+fn music_in_an_archive_comes_back_with_the_first_frame() {
+    let content: Arc<[u8]> = b"OggS, and what follows".as_slice().into();
+    for mut show in [small_show(), lit_show()] {
+        let asset = Asset {
+            name: "march.ogg".into(),
+            media_type: "audio/ogg".into(),
+            bytes: content.len() as u64,
+            content: Some(content.clone()),
+            picture: None,
+        };
+        show.assets.insert(hash_of(&content), asset.clone());
+        let plan = planned(&show);
+        let written = SKYC.write(&show, Some(&plan));
+        let lost: Vec<&str> = written.issues.iter().map(|issue| issue.message.as_str()).collect();
+        assert!(
+            lost.iter().all(|lost| !lost.contains("music") && !lost.contains("files that belong")),
+            "{lost:?}"
+        );
+        let back = read(&written.bytes, None).unwrap();
+        assert!(back.issues.iter().all(|issue| issue.code != "music-moved"), "{:?}", back.issues);
+        assert_eq!(back.show.music.as_deref(), Some("march.ogg"));
+        assert_eq!(back.show.assets.get(&hash_of(&content)), Some(&asset));
+        assert_eq!(back.show.frames.len(), 3, "no frame is before that with the music");
+        // Without the sound there is nothing to keep.
+        show.assets.clear();
+        let silent = SKYC.write(&show, Some(&plan));
+        assert!(silent.issues.iter().any(|issue| issue.message.contains("add it to the show")));
+        assert_eq!(read(&silent.bytes, None).unwrap().show.music, None);
+    }
+}
+
+#[test]
 fn without_its_paths_a_show_is_planned_anew_in_the_same_time() {
     let show = small_show();
     let plan = planned(&show);
@@ -96,7 +130,7 @@ fn colours_of_a_sequence_are_put_onto_a_show() {
     // Places are those of the show, which has no trajectories.
     after.starts = Some(lightbots_show::starting_places(&plain));
     lightbots_lighting::attach_pictures(&mut after, |_, asset| {
-        lightbots_exchange::sequence_picture(asset.content.as_ref().unwrap()).map(std::sync::Arc::new)
+        lightbots_exchange::sequence_picture(asset.content.as_ref().unwrap()).map(Arc::new)
     });
     let after = seen(&after, &plan, &moments_s);
     let all: Vec<usize> = (0..4).collect();

@@ -107,6 +107,42 @@ fn parts_in_files_of_their_own_are_read() {
 }
 
 #[test]
+fn music_in_the_document_or_in_a_file_of_its_own_is_read() {
+    let open = |media: &str, files: &[(&str, &[u8])]| {
+        let drones = skybrush(&[("[[0,[0,0,0]],[5,[0,0,0]],[9,[1,0,0]],[12,[1,0,0]]]", "")]);
+        let document = drones.replacen("\"version\":1,", &format!("\"version\":1,\"media\":{media},"), 1);
+        read(&archive(&[&[("show.json", document.as_bytes())], files].concat()), None)
+    };
+    let inline = "{\"audio\":{\"data\":\"SUQz\",\"mediaType\":\"audio/mpeg\",\"startTime\":0}}";
+    let loaded = open(inline, &[]).unwrap();
+    assert_eq!(loaded.show.music.as_deref(), Some("music.mp3"));
+    let asset = loaded.show.assets.values().next().unwrap();
+    assert_eq!(
+        (asset.content.as_deref(), asset.media_type.as_str()),
+        (Some(b"ID3".as_slice()), "audio/mpeg")
+    );
+    assert!(loaded.issues.iter().all(|issue| issue.code != "music-moved"));
+
+    let named = "{\"audio\":{\"data\":{\"$ref\":\"assets/a/march.ogg\"},\"mediaType\":\"text/html\",\"startTime\":1.5},\"video\":1}";
+    let loaded = open(named, &[("assets/a/march.ogg", b"OggS")]).unwrap();
+    assert_eq!(loaded.show.music.as_deref(), Some("march.ogg"));
+    assert_eq!(loaded.show.assets.values().next().unwrap().media_type, "audio/mpeg");
+    let messages: Vec<&str> = loaded.issues.iter().map(|issue| issue.message.as_str()).collect();
+    assert!(messages.iter().any(|line| line.contains("began 1.50 s after the first frame")), "{messages:?}");
+    assert!(messages.iter().any(|line| line.ends_with("left out: media besides music")), "{messages:?}");
+
+    let missing = open(named, &[]).unwrap();
+    assert_eq!((missing.show.music, missing.show.assets.len()), (None, 0));
+    for (media, part) in [
+        (inline.replace("SUQz", "*"), "the sound of the music is not base64"),
+        (inline.replace(":0}", ":1e9}"), "it must start within a day"),
+    ] {
+        let error = open(&media, &[]).unwrap_err().to_string();
+        assert!(error.contains(part) && error.ends_with("(in show.json)"), "{error}");
+    }
+}
+
+#[test]
 fn what_is_wrong_in_a_skybrush_show_is_named() {
     for (points, more, part) in [
         ("[[0,[1,2]]]", "", "drone 1: a place has 2 coordinates"),

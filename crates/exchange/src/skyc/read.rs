@@ -6,7 +6,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use lightbots_show::{Issue, MAX_PIXELS, excerpt};
 
-use super::{DOCUMENT, light_program};
+use super::reference::file_name;
+use super::{DOCUMENT, light_program, media};
 use crate::error::ReadError;
 use crate::format::Loaded;
 use crate::json::frames::missing;
@@ -101,7 +102,11 @@ impl Reader {
                         _ => json.skip(),
                     })?;
                 }
-                "media" => self.leave_out("media", json)?,
+                "media" => {
+                    let media = media::read(json, &mut self.files)?;
+                    show.music = media.music;
+                    self.left_out(media.left_out);
+                }
                 _ => json.skip()?,
             }
             Ok(())
@@ -114,10 +119,15 @@ impl Reader {
     }
 
     fn leave_out(&mut self, name: &'static str, json: &mut Json<'_>) -> Result<(), ReadError> {
-        if !self.unused.contains(&name) {
+        self.left_out(name);
+        json.skip()
+    }
+
+    /// Notes that a part is left out; an empty name is none.
+    fn left_out(&mut self, name: &'static str) {
+        if !name.is_empty() && !self.unused.contains(&name) {
             self.unused.push(name);
         }
-        json.skip()
     }
 
     fn drones(&mut self, json: &mut Json<'_>, robots: &mut Vec<TimedRobot>) -> Result<(), ReadError> {
@@ -193,9 +203,7 @@ fn referred<T>(
 ) -> Result<T, ReadError> {
     json.peek()?;
     let Some(Scalar::Text(reference)) = json.ahead("$ref") else { return read(json) };
-    let name = reference.strip_prefix("./").unwrap_or(&reference);
-    let name = name.strip_suffix('/').unwrap_or(name);
-    let name = name.strip_suffix('#').unwrap_or(name);
+    let name = file_name(&reference);
     let Some(file) = files.get(name) else {
         let what =
             format!("it names the file \"{}\", which is not in the archive; export it again", excerpt(name));

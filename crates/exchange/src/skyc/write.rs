@@ -7,7 +7,7 @@ use lightbots_plan::{Path, ShowPlan};
 use lightbots_show::{Issue, Issues, Show};
 
 use super::light_program::program;
-use super::{DOCUMENT, DRONES_MAX};
+use super::{DOCUMENT, DRONES_MAX, media};
 use crate::format::Written;
 use crate::json::text::{exact, lines, quoted};
 use crate::limits::MAX_BYTES;
@@ -15,6 +15,8 @@ use crate::timed::export::{ExportedRobot, ExportedShow, linear, sampled_note, wr
 use crate::timed::fit::fitted;
 use crate::zip_files::pack;
 
+/// Most bytes of the document besides its drones: the names of show and music, and words.
+const HEAD_MAX: usize = 8 << 10;
 /// Control points that differ less from those of a line are on one, metres.
 const STRAIGHT_M: f64 = 1e-9;
 
@@ -28,27 +30,41 @@ fn archive(show: &Show, exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Is
         let what = format!("Skybrush reads at most {DRONES_MAX} robots, and the show has {robots}");
         return Err(Issue::error("too-many-robots", what));
     }
-    let document = text(show, exported);
-    if document.len() > MAX_BYTES {
+    let mut issues = vec![sampled_note(
+        "lights are written each 20 ms in linear light of eight bits, within one step; the darkest colours become black",
+    )];
+    let mut music = media::written(show, exported.first_s).unwrap_or_else(|lost| {
+        issues.push(lost);
+        None
+    });
+    let drones = drones(exported);
+    if drones.len() + HEAD_MAX > MAX_BYTES {
         let what =
             format!("the show has more than {} MiB for Skybrush; export a part of it", MAX_BYTES >> 20);
         return Err(Issue::error("too-big", what));
     }
-    let bytes = pack([(DOCUMENT.to_owned(), document.as_bytes())])?;
-    let note = sampled_note(
-        "lights are written each 20 ms in linear light of eight bits, within one step; the darkest colours become black",
-    );
-    Ok((bytes, vec![note]))
+    if music.as_ref().is_some_and(|music| drones.len() + HEAD_MAX + music.content.len() > MAX_BYTES) {
+        let what =
+            format!("with its music the file would have more than {} MiB: it is left out", MAX_BYTES >> 20);
+        issues.push(Issue::warning("music-left-out", what));
+        music = None;
+    }
+    let document = text(show, music.as_ref().map_or("", |music| &music.words), &drones);
+    let mut files = vec![(DOCUMENT.to_owned(), document.as_bytes())];
+    files.extend(music.iter().map(|music| (music.file.clone(), &*music.content)));
+    Ok((pack(files)?, issues))
 }
 
-fn text(show: &Show, exported: &ExportedShow) -> String {
-    let drones = exported.robots.iter().map(drone);
+fn text(show: &Show, media: &str, drones: &str) -> String {
     format!(
-        "{{\"version\":1,\"meta\":{{\"title\":{}}},\"settings\":{{}},\"environment\":{{\"type\":\"indoor\"}},\
-         \"swarm\":{{\"drones\":{}}}}}\n",
-        quoted(&show.name),
-        lines(drones, "")
+        "{{\"version\":1,{media}\"meta\":{{\"title\":{}}},\"settings\":{{}},\"environment\":{{\"type\":\"indoor\"}},\
+         \"swarm\":{{\"drones\":{drones}}}}}\n",
+        quoted(&show.name)
     )
+}
+
+fn drones(exported: &ExportedShow) -> String {
+    lines(exported.robots.iter().map(drone), "")
 }
 
 fn drone(robot: &ExportedRobot) -> String {

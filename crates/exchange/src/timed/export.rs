@@ -23,6 +23,8 @@ const CHORDS_MAX: usize = 1_000;
 pub(crate) struct ExportedShow {
     /// The sample at which the air time of the first frame begins, and with it the music.
     pub first_sample: usize,
+    /// The same moment, seconds.
+    pub first_s: f64,
     pub robots: Vec<ExportedRobot>,
 }
 
@@ -62,7 +64,7 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
     numbered.sort_by_key(|(number, _)| *number);
     let robots = numbered.into_iter().map(|(_, robot)| robot).collect();
     let first_sample = (planned.first_drive_s() / SAMPLE.as_secs()).round() as usize;
-    Ok(ExportedShow { first_sample, robots })
+    Ok(ExportedShow { first_sample, first_s: planned.first_drive_s(), robots })
 }
 
 /// The file of a show, or the error that there is none. `encode` gets the show as it goes into the file.

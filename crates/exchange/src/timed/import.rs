@@ -3,17 +3,18 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 
-use lightbots_base::{Rgb, RobotId, Vec2};
-use lightbots_lighting::FrameTimes;
+use lightbots_base::{Rgb, RobotId, Span, Vec2};
+use lightbots_lighting::{FrameTimes, fade_of};
 use lightbots_plan::turn_time;
 use lightbots_show::{
     Frame, Identity, Issue, Issues, MAX_FRAMES, MAX_LABEL_CHARS, MAX_PIXELS, MAX_TRAJECTORIES,
     MAX_TRAJECTORY_PIECES, Pixel, Show, Stage, Trajectory, TrajectoryPiece,
 };
 
+use super::matching::{EARLIER_S, differs};
 use super::path::is_still;
 use super::stands::stands;
-use super::{TimedRobot, TimedShow, matching, sequence};
+use super::{TimedRobot, TimedShow, music, sequence};
 use crate::error::ReadError;
 use crate::format::Loaded;
 
@@ -39,8 +40,9 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
     let mut times = times(file, turn_time(FRAC_PI_2, &stage.limits).as_secs());
     let mut issues = Issues::new();
     let mut show = framed(file, stage.clone(), &times, &mut issues)?;
-    if matching::differs(file, &show, &times) {
-        if times[0].air_s > 0.0 {
+    if differs(file, &show, &times) {
+        let dark_s = dark_s(file, &times[0]);
+        if !file.robots.iter().all(|robot| robot.light.is_dark_until(dark_s)) {
             // Layers shine on robots with a pixel: one where they begin lets them shine on the way to the first picture.
             times.insert(0, FrameTimes { drive_s: 0.0, air_s: 0.0, end_s: 0.0 });
             issues.clear();
@@ -50,8 +52,18 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
         }
         issues.extend(sequence::add(&mut show, file, &times));
     }
+    let heard = file.music.as_ref();
+    issues.extend(heard.and_then(|heard| music::add(&mut show, heard, times[0].air_s)));
     issues.extend(findings(file, &show));
     Ok(Loaded { show, plan: None, has_stage: true, unread: None, issues })
+}
+
+/// Until when robots must be dark for the show to begin with its first picture. Music that begins with the picture is worth
+/// more than how lights fade in before it: that is faded twice.
+fn dark_s(file: &TimedShow, first: &FrameTimes) -> f64 {
+    let is_in_step = file.music.as_ref().is_some_and(|music| music.late_s(first.air_s) == 0.0);
+    let fade_s = fade_of(Span::from_secs(first.air_s - first.drive_s)).as_secs();
+    if is_in_step { first.air_s - fade_s - EARLIER_S } else { first.air_s }
 }
 
 /// The show of a file with frames at these times.

@@ -41,6 +41,22 @@ impl TimedLight {
         self.stretches.last().map_or(0.0, |stretch| stretch.end_s)
     }
 
+    /// Whether it is black all the time before `at_s` seconds.
+    pub fn is_dark_until(&self, at_s: f64) -> bool {
+        let (mut begin_s, mut from) = (0.0, self.start);
+        for stretch in &self.stretches {
+            if begin_s >= at_s {
+                return true;
+            }
+            let is_lit = stretch.to != [0; 3] || stretch.fades && from != [0; 3];
+            if is_lit && stretch.end_s > begin_s {
+                return false;
+            }
+            (begin_s, from) = (stretch.end_s, stretch.to);
+        }
+        begin_s >= at_s || from == [0; 3]
+    }
+
     /// Codes at the end.
     pub fn last(&self) -> [u8; 3] {
         self.stretches.last().map_or(self.start, |stretch| stretch.to)
@@ -135,6 +151,18 @@ mod tests {
         let codes = [0.0, 0.9, 1.0, 2.0, 2.9, 3.0, 99.0].map(|at_s| player.at(at_s).r);
         assert_eq!(codes, [10, 10, 10, 60, 105, 7, 7]);
         assert_eq!(TimedLight::default().player().at(1.0), Rgb::BLACK);
+    }
+
+    #[test]
+    fn dark_lights_are_told_from_lit_ones() {
+        let stretch = |end_s: f64, code: u8, fades| CodeStretch { end_s, to: [code, 0, 0], fades };
+        let dark = |stretches: Vec<CodeStretch>, at_s: f64| {
+            TimedLight { stretches, ..TimedLight::default() }.is_dark_until(at_s)
+        };
+        let late = vec![stretch(2.0, 0, false), stretch(3.0, 9, false)];
+        assert!(dark(late.clone(), 2.0) && !dark(late, 2.1));
+        assert!(!dark(vec![stretch(2.0, 9, true)], 1.0) && dark(vec![stretch(2.0, 9, true)], 0.0));
+        assert!(dark(Vec::new(), 5.0) && !TimedLight::constant([1; 3]).is_dark_until(5.0));
     }
 
     #[test]

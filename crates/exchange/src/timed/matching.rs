@@ -9,7 +9,7 @@ use super::TimedShow;
 /// Largest difference that is none, codes: linear light of eight bits makes the six darkest codes black.
 const CODES: u8 = 8;
 /// A file samples light at moments of its own, seconds: a change may be this much earlier or later.
-const EARLIER_S: f64 = 0.025;
+pub(super) const EARLIER_S: f64 = 0.025;
 /// Distance of two compared moments, seconds.
 const STEP_S: f64 = 0.02;
 /// Most comparisons. A longer show is compared at moments farther apart.

@@ -1,0 +1,55 @@
+//! The music of a file -> that of a show.
+
+use std::sync::Arc;
+
+use lightbots_show::{Asset, Issue, MAX_LABEL_CHARS, Show};
+
+use crate::archive::hash_of;
+
+/// Music that begins further away from the first frame than this is heard to be wrong, seconds (docs/exchange.md).
+const TOLERANCE_S: f64 = 0.05;
+
+/// Music in a file.
+#[derive(Clone, Debug)]
+pub(crate) struct TimedMusic {
+    /// Name of its file, for people.
+    pub name: String,
+    /// Such as `audio/mpeg`.
+    pub media_type: String,
+    /// When it begins, seconds since the begin of the file.
+    pub start_s: f64,
+    /// The sound.
+    pub content: Arc<[u8]>,
+}
+
+impl TimedMusic {
+    /// How much later than `first_s` of the file it begins, seconds; 0 if no difference is heard.
+    pub fn late_s(&self, first_s: f64) -> f64 {
+        let late_s = self.start_s - first_s;
+        if late_s.abs() > TOLERANCE_S { late_s } else { 0.0 }
+    }
+}
+
+/// Adds the music to a show whose first frame is on air at `first_s` of the file. Music of a show begins there, so an issue
+/// says if it began at another moment.
+pub(super) fn add(show: &mut Show, music: &TimedMusic, first_s: f64) -> Option<Issue> {
+    let name: String = music.name.chars().take(MAX_LABEL_CHARS).collect();
+    let asset = Asset {
+        name: name.clone(),
+        media_type: music.media_type.clone(),
+        bytes: music.content.len() as u64,
+        content: Some(music.content.clone()),
+        picture: None,
+    };
+    show.assets.insert(hash_of(&music.content), asset);
+    show.music = Some(name);
+    let late_s = music.late_s(first_s);
+    let what = if late_s > 0.0 {
+        format!("{late_s:.2} s after the first frame, and is now early: put silence before it")
+    } else if late_s < 0.0 {
+        format!("{:.2} s before the first frame, and is now late: cut its begin off", -late_s)
+    } else {
+        return None;
+    };
+    Some(Issue::warning("music-moved", format!("the music of the file began {what}")))
+}
