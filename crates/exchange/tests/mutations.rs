@@ -4,12 +4,17 @@ mod extras;
 mod mutator;
 mod numbers;
 mod played;
+mod sequences;
 mod zipped;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use extras::with_every_part;
 use lightbots_base::{Rgb, Vec2};
-use lightbots_exchange::{CSV, FORMATS, FSEQ, LIGHTBOTS, SKYC, VVIZ, put_onto, read};
-use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
+use lightbots_exchange::{
+    ARCHIVE, CSV, FORMATS, FSEQ, Format, LIGHTBOTS, SKYC, VVIZ, hash_of, put_onto, read,
+};
+use lightbots_show::{Asset, Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
 use mutator::mutant;
 use numbers::Numbers;
 
@@ -89,44 +94,134 @@ fn is_read(bytes: &[u8]) -> bool {
     }
 }
 
+/// How many mutants were read and refused.
+#[derive(Default)]
+struct Counted {
+    were_read: usize,
+    refused: usize,
+}
+
+impl Counted {
+    fn add(&mut self, is_read: bool) {
+        *(if is_read { &mut self.were_read } else { &mut self.refused }) += 1;
+    }
+
+    #[track_caller]
+    fn has_both(&self) {
+        let Self { were_read, refused } = self;
+        assert!(*were_read > 20 && *refused > 20, "{were_read} read, {refused} refused");
+    }
+}
+
+/// Mutants of one file inside of an archive, whose checksums are right.
+fn mutated_inside(files: &[(String, Vec<u8>)], rounds: usize, numbers: &mut Numbers) -> Counted {
+    let mut counted = Counted::default();
+    for _ in 0..rounds {
+        let changed = numbers.below(files.len());
+        let mutated = mutant(&files[changed].1, 1, numbers);
+        let content = |index: usize| if index == changed { &mutated } else { &files[index].1 };
+        let all: Vec<(&str, &[u8])> =
+            files.iter().enumerate().map(|(index, (name, _))| (name.as_str(), &content(index)[..])).collect();
+        counted.add(is_read(&zipped::archive(&all)));
+    }
+    counted
+}
+
+/// The lit show with its music, its plan, and a file of it.
+fn file_of(format: &Format) -> Vec<u8> {
+    let mut show = played::lit_show();
+    let content = b"OggS, and what follows";
+    let asset = Asset {
+        name: "march.ogg".into(),
+        media_type: "audio/ogg".into(),
+        bytes: content.len() as u64,
+        content: Some(content.as_slice().into()),
+        picture: None,
+    };
+    show.assets.insert(hash_of(content), asset);
+    let plan = format.needs_plan.then(|| played::planned(&show));
+    format.write(&show, plan.as_ref()).bytes
+}
+
 #[test]
-fn no_mutation_breaks_reading_files_of_other_programs() {
-    let show = played::lit_show();
-    let plan = played::planned(&show);
+fn no_mutation_breaks_reading_archives() {
     let mut numbers = Numbers(3);
-    let (mut were_read, mut refused) = (0, 0);
-    let mut count = |is_read: bool| if is_read { were_read += 1 } else { refused += 1 };
-    for format in [&SKYC, &CSV] {
-        let whole = format.write(&show, Some(&plan)).bytes;
-        let files = zipped::texts(&whole);
-        for round in 0..300 {
+    for format in [&SKYC, &CSV, &ARCHIVE] {
+        let whole = file_of(format);
+        mutated_inside(&zipped::contents(&whole), 300, &mut numbers).has_both();
+        for _ in 0..75 {
             // A changed archive is nearly always one with a wrong checksum.
-            if round % 4 == 0 {
-                count(is_read(&mutant(&whole, 2, &mut numbers)));
-            }
-            let changed = numbers.below(files.len());
-            let contents: Vec<Vec<u8>> = files.iter().map(|(_, text)| text.clone().into_bytes()).collect();
-            let files = files.iter().zip(&contents).enumerate().map(|(index, ((name, _), content))| {
-                let content =
-                    if index == changed { mutant(content, 1, &mut numbers) } else { content.clone() };
-                (name.as_str(), content)
-            });
-            let files: Vec<(&str, Vec<u8>)> = files.collect();
-            let files: Vec<(&str, &[u8])> =
-                files.iter().map(|(name, content)| (*name, &content[..])).collect();
-            count(is_read(&zipped::archive(&files)));
+            is_read(&mutant(&whole, 2, &mut numbers));
         }
     }
-    let vviz = VVIZ.write(&show, Some(&plan)).bytes;
-    for _ in 0..300 {
-        count(is_read(&mutant(&vviz, 1, &mut numbers)));
-    }
-    let fseq = FSEQ.write(&show, Some(&plan)).bytes;
+}
+
+#[test]
+fn no_mutation_breaks_reading_parts_and_music_in_files_of_their_own() {
+    let files = [
+        (
+            "show.json",
+            "{\"version\":1,\"media\":{\"audio\":{\"data\":{\"$ref\":\"./a.mp3#\"},\"filename\":\"a\",\"startTime\":1}},\
+             \"swarm\":{\"drones\":[{\"settings\":{\"name\":\"r1\",\"trajectory\":{\"$ref\":\"./p.json#\"},\
+             \"lights\":{\"$ref\":\"./l.json#\"}}}]}}",
+        ),
+        ("p.json", "{\"version\":1,\"points\":[[0,[0,0,0],[]],[5,[1,0,0],[[0.5,1,0]]]],\"takeoffTime\":3}"),
+        ("l.json", "{\"version\":1,\"data\":\"B6MQAA==\"}"),
+        ("a.mp3", "sound"),
+    ];
+    let files = files.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec()));
+    mutated_inside(&files, 1_000, &mut Numbers(4)).has_both();
+}
+
+#[test]
+fn no_mutation_breaks_reading_light_programs() {
+    let mut numbers = Numbers(5);
+    // Set, sleep, a loop with a fade, wait until, pyrotechnics, end.
+    let program =
+        [4, 255, 9, 0, 100, 2, 50, 12, 3, 8, 0, 0, 255, 25, 6, 25, 13, 3, 0x90, 3, 0x14, 2, 7, 30, 0];
+    let mut counted = Counted::default();
     for _ in 0..1_000 {
-        let bytes = mutant(&fseq, 3, &mut numbers);
-        let put = put_onto(&mut show.clone(), &bytes);
-        count(put.is_ok());
-        assert!(put.is_ok() || !put.unwrap_err().to_string().contains('\n'));
+        let data = STANDARD.encode(mutant(&program, 2, &mut numbers));
+        let document = format!(
+            "{{\"version\":1,\"swarm\":{{\"drones\":[{{\"settings\":{{\"trajectory\":{{\"version\":1,\"points\":\
+             [[0,[0,0,0]],[9,[1,0,0]]]}},\"lights\":{{\"version\":1,\"data\":\"{data}\"}}}}}}]}}}}"
+        );
+        counted.add(is_read(&zipped::archive(&[("show.json", document.as_bytes())])));
     }
-    assert!(were_read > 100 && refused > 300, "{were_read} read, {refused} refused");
+    counted.has_both();
+}
+
+#[test]
+fn no_mutation_breaks_reading_vviz() {
+    let (vviz, mut numbers, mut counted) = (file_of(&VVIZ), Numbers(6), Counted::default());
+    for _ in 0..300 {
+        counted.add(is_read(&mutant(&vviz, 1, &mut numbers)));
+    }
+    counted.has_both();
+}
+
+#[test]
+fn no_mutation_breaks_reading_sequences() {
+    let (show, mut numbers) = (played::lit_show(), Numbers(7));
+    let plain = file_of(&FSEQ);
+    for compression in [sequences::PLAIN, sequences::ZSTD, sequences::ZLIB] {
+        for ranges in [&[][..], &[(0, 4), (5, 8)]] {
+            let file = sequences::packed(&plain, compression, ranges);
+            put_onto(&mut show.clone(), &file).expect("the file itself is read");
+            // What stands before the frames is a small part of the file.
+            let (head, frames) = file.split_at(sequences::data_at(&file));
+            let mut counted = Counted::default();
+            for round in 0..400 {
+                let bytes = if round % 4 == 0 {
+                    mutant(&file, 3, &mut numbers)
+                } else {
+                    [mutant(head, 1, &mut numbers), frames.to_vec()].concat()
+                };
+                let put = put_onto(&mut show.clone(), &bytes);
+                counted.add(put.is_ok());
+                assert!(put.is_ok() || !put.unwrap_err().to_string().contains('\n'));
+            }
+            counted.has_both();
+        }
+    }
 }

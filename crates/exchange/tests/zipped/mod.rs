@@ -17,14 +17,20 @@ pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
     archive.finish().unwrap().into_inner()
 }
 
+/// The files of an archive with their names.
+pub fn contents(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
+    let content = |index: usize| {
+        let mut file = archive.by_index(index).unwrap();
+        let mut content = Vec::new();
+        file.read_to_end(&mut content).unwrap();
+        (file.name().unwrap().into_owned(), content)
+    };
+    (0..ZipArchive::new(Cursor::new(bytes)).unwrap().len()).map(content).collect()
+}
+
 /// The files of an archive as texts, by their names.
 pub fn texts(bytes: &[u8]) -> Vec<(String, String)> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
-    let text = |index: usize| {
-        let mut file = archive.by_index(index).unwrap();
-        let mut text = String::new();
-        file.read_to_string(&mut text).unwrap();
-        (file.name().unwrap().into_owned(), text)
-    };
-    (0..ZipArchive::new(Cursor::new(bytes)).unwrap().len()).map(text).collect()
+    let text = |(name, content)| (name, String::from_utf8(content).unwrap());
+    contents(bytes).into_iter().map(text).collect()
 }
