@@ -13,8 +13,8 @@ use crate::timed::sequence::add_file;
 
 /// Samples of a frame: 40 ms, which every player of FSEQ keeps up with.
 const SAMPLES: usize = 2;
-/// Most bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Some readers know no compression, and others
-/// zstd alone (docs/exchange.md); longer files would be large.
+/// Most bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Some readers know no compression,
+/// others only zstd (docs/exchange.md). With a larger bound, files of large fleets are ten times as long.
 const PLAIN_MAX: usize = 16 << 20;
 
 /// Whether the bytes begin like a file of FSEQ.

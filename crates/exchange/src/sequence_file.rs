@@ -11,13 +11,14 @@ use lightbots_light::PICTURE_PIXELS_MAX;
 use lightbots_show::LayerPicture;
 
 pub(crate) use header::MAGIC;
-use header::{ChannelRange, HEADER, Header, PLAIN, Refusal, ZLIB, cut_off};
+use header::{BadSequence, ChannelRange, HEADER, Header, PLAIN, ZLIB, cut_off};
 
 /// Most blocks that readers of version 2.0 count: one byte.
 const BLOCKS_MAX: usize = 255;
 /// Frames of a block, unless the file would have too many blocks.
 const BLOCK_FRAMES: usize = 250;
-/// Bytes of whole frames that are unpacked at once, unless one frame has more: one by one, short frames take ten times as long.
+/// Bytes of whole frames that are unpacked at once, unless one frame has more. One by one, 358 million frames of three
+/// channels took 46 s, and with this 0.9 s (2026-11-28).
 const UNPACKED_AT_ONCE: usize = 64 << 10;
 
 /// What a file holds.
@@ -87,7 +88,7 @@ impl SequenceFile {
 
     /// Reads a file; the first `channels` channels at most, and of many frames each n-th, so that the lights have at most
     /// [`PICTURE_PIXELS_MAX`] colours. Channels that a sparse file leaves out are black.
-    pub fn read(bytes: &[u8], channels: usize) -> Result<Self, Refusal> {
+    pub fn read(bytes: &[u8], channels: usize) -> Result<Self, BadSequence> {
         let header = Header::read(bytes)?;
         let ranges = header.ranges(bytes)?;
         let width = ranges.iter().map(|range| range.end()).max().unwrap_or(0);
@@ -114,7 +115,7 @@ fn kept_codes(
     bytes: &[u8],
     ranges: &[ChannelRange],
     (kept, every): (usize, usize),
-) -> Result<Vec<u8>, Refusal> {
+) -> Result<Vec<u8>, BadSequence> {
     let at_once = (UNPACKED_AT_ONCE / header.channels).max(1);
     let mut rows = vec![0; at_once * header.channels];
     let mut codes = Vec::new();

@@ -1,6 +1,6 @@
 //! Skybrush's compiled shows, `.skyc`: a zip archive with `show.json`. Each drone has a path of lines and Bézier
-//! curves whose parameter is proportional to time, as ours, and a light program of bytes. Colours are linear light. The music
-//! may be in the archive.
+//! curves whose parameter is proportional to time, as ours, and a light program of bytes. Colours are linear light.
+//! The music may be in the archive.
 
 mod light_program;
 mod media;

@@ -123,7 +123,8 @@ fn music_in_the_document_or_in_a_file_of_its_own_is_read() {
     );
     assert!(loaded.issues.iter().all(|issue| issue.code != "music-moved"));
 
-    let named = "{\"audio\":{\"data\":{\"$ref\":\"assets/a/march.ogg\"},\"mediaType\":\"text/html\",\"startTime\":1.5},\"video\":1}";
+    let named = "{\"audio\":{\"data\":{\"$ref\":\"assets/a/march.ogg\"},\"mediaType\":\"text/html\",\"startTime\":1.5},\
+                 \"video\":1}";
     let loaded = open(named, &[("assets/a/march.ogg", b"OggS")]).unwrap();
     assert_eq!(loaded.show.music.as_deref(), Some("march.ogg"));
     assert_eq!(loaded.show.assets.values().next().unwrap().media_type, "audio/mpeg");

@@ -23,7 +23,7 @@ pub(super) const ZSTD: u8 = 1;
 pub(super) const ZLIB: u8 = 2;
 
 /// Words after "the file".
-pub(super) type Refusal = String;
+pub(super) type BadSequence = String;
 
 /// The head of a file.
 pub(super) struct Header {
@@ -39,7 +39,7 @@ pub(super) struct Header {
 }
 
 /// Some frames of a file.
-pub(super) struct Block<'a> {
+pub(super) struct FrameBlock<'a> {
     bytes: &'a [u8],
     pub frames: usize,
 }
@@ -53,7 +53,7 @@ pub(super) struct ChannelRange {
 }
 
 impl Header {
-    pub fn read(bytes: &[u8]) -> Result<Self, Refusal> {
+    pub fn read(bytes: &[u8]) -> Result<Self, BadSequence> {
         if !bytes.starts_with(MAGIC) {
             return Err("is no FSEQ file; choose another".into());
         }
@@ -89,7 +89,7 @@ impl Header {
     }
 
     /// Which channels a frame has, in their order. A sparse file has only some.
-    pub fn ranges(&self, bytes: &[u8]) -> Result<Vec<ChannelRange>, Refusal> {
+    pub fn ranges(&self, bytes: &[u8]) -> Result<Vec<ChannelRange>, BadSequence> {
         if self.ranges == 0 {
             return Ok(vec![ChannelRange { first: 0, count: self.channels }]);
         }
@@ -113,10 +113,10 @@ impl Header {
     }
 
     /// The blocks, together with all frames.
-    pub fn blocks<'a>(&self, bytes: &'a [u8]) -> Result<Vec<Block<'a>>, Refusal> {
+    pub fn blocks<'a>(&self, bytes: &'a [u8]) -> Result<Vec<FrameBlock<'a>>, BadSequence> {
         let data = bytes.get(self.data_at..).ok_or_else(cut_off)?;
         if self.compression == PLAIN {
-            return Ok(vec![Block { bytes: data, frames: self.frames }]);
+            return Ok(vec![FrameBlock { bytes: data, frames: self.frames }]);
         }
         let list = bytes.get(HEADER..HEADER + 8 * self.blocks).ok_or_else(cut_off)?;
         let word =
@@ -135,7 +135,7 @@ impl Header {
         let mut blocks = Vec::new();
         for (nth, (first, length)) in entries.into_iter().enumerate() {
             let bytes = data.get(at..at + length).ok_or_else(cut_off)?;
-            blocks.push(Block { bytes, frames: begins[nth + 1] - first });
+            blocks.push(FrameBlock { bytes, frames: begins[nth + 1] - first });
             at += length;
         }
         Ok(blocks)
@@ -157,7 +157,7 @@ impl Header {
     }
 
     /// The frames of a block, unpacked while they are read.
-    pub fn data<'a>(&self, block: &Block<'a>) -> Result<Box<dyn Read + 'a>, Refusal> {
+    pub fn data<'a>(&self, block: &FrameBlock<'a>) -> Result<Box<dyn Read + 'a>, BadSequence> {
         match self.compression {
             PLAIN => Ok(Box::new(Cursor::new(block.bytes))),
             ZLIB => Ok(Box::new(ZlibDecoder::new(block.bytes))),
@@ -177,6 +177,6 @@ impl ChannelRange {
     }
 }
 
-pub(super) fn cut_off() -> Refusal {
+pub(super) fn cut_off() -> BadSequence {
     "ends before its last frame; copy it again".into()
 }

@@ -17,8 +17,8 @@ pub fn data_at(file: &[u8]) -> usize {
     usize::from(u16::from_le_bytes([file[4], file[5]]))
 }
 
-/// A file without compression and ranges, with the first channels of its frames in ranges (first channel, number), in one block.
-/// Without ranges, all channels.
+/// A plain file, with its frames in one block and their first channels in ranges (first channel, number). Without ranges,
+/// all channels.
 pub fn packed(plain: &[u8], compression: u8, ranges: &[(u32, u32)]) -> Vec<u8> {
     let begin = data_at(plain);
     let channels = u32::from_le_bytes(plain[10..14].try_into().unwrap());
