@@ -41,7 +41,8 @@ impl Run {
         let stands = self.playback.paused || is_away;
         let runs = if self.playback.waits_for_go || is_before { show.runs } else { !stands };
         let is_led = before.is_led && !is_led_there;
-        self.playback.music = MusicTime { seen: Some((now, music_s)), leg, runs, is_led, stood: before.stood };
+        self.playback.music =
+            MusicTime { seen: Some((now, music_s)), leg, runs, is_led, stood: before.stood };
         if runs && !is_before {
             self.pipeline.light.keep_to_music(now, music_s);
         }

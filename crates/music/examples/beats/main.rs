@@ -48,6 +48,7 @@ fn write(folder: &str, piece: &Piece) {
     };
     let path = std::path::Path::new(folder).join(format!("{}.wav", piece.name.replace(' ', "-")));
     let loudest = piece.samples.iter().fold(1e-9_f32, |a, b| a.max(b.abs()));
+    std::fs::create_dir_all(folder).expect("the folder can be made");
     let mut writer = hound::WavWriter::create(path, spec).expect("the folder can be written");
     for sample in &piece.samples {
         writer.write_sample((sample / loudest * 32_000.0) as i16).expect("the file can be written");

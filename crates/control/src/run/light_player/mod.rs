@@ -114,7 +114,7 @@ impl LightPlayer {
         let before = self.before(context, roster, leg);
         self.number_robots(leg);
         let (drive, air) = (leg.duration, playback.air_time(leg.frame));
-        let place = self.place(playback, leg);
+        let place = placing::place(&mut self.times, self.current.as_ref(), (playback, leg));
         let (show_s, is_chosen) = (place.show_s, place.is_chosen);
         let current = self.current.as_ref();
         let is_same_frame = current.is_some_and(|current| current.frame == leg.cursor());

@@ -1,8 +1,9 @@
 //! Where a leg is on the show clock, and when its frame is due on the timeline that the music keeps to.
 
 use crate::leg::Leg;
-use crate::run::light_player::LightPlayer;
+use crate::run::light_leg::LegLight;
 use crate::run::playback::PlayedShow;
+use crate::run::show_times::ShowTimes;
 use lightbots_base::Span;
 
 /// Where a leg is.
@@ -18,40 +19,41 @@ pub(super) struct LegPlace {
     pub leads_music: bool,
 }
 
-impl LightPlayer {
-    /// Finds where the next leg is. Show time goes on through a drive that is planned anew, and the frame is due when it was
-    /// before: robots are late then.
-    pub(super) fn place(&mut self, playback: &PlayedShow, leg: &Leg) -> LegPlace {
-        let drive_s = leg.duration.as_secs();
-        let current = self.current.as_ref();
-        let is_new_round = current.is_some_and(|current| current.frame.round != leg.round);
-        let is_same_frame = current.is_some_and(|current| current.frame == leg.cursor());
-        // A loop goes back to its first frame as a jump does.
-        let goes_back = current.is_some_and(|current| !is_new_round && leg.pass > current.frame.pass);
-        let is_chosen = playback.jump.is_some() || goes_back;
-        let leads_music = is_new_round || goes_back || playback.jump.is_some() && playback.music.is_led;
-        if is_new_round {
-            self.times.clear();
-        }
-        let (show_s, due_s) = match current {
-            Some(current) if is_same_frame && !is_chosen => {
-                let elapsed = if current.reaches_frame { current.seen } else { current.drive };
-                (current.moment(elapsed.min(current.drive), Span::ZERO).show_s, current.due_s)
-            }
-            Some(current) if !is_new_round && !is_chosen => {
-                let air_s = current.air.as_secs();
-                let due_s = current.due_s + air_s + self.times.planned_s(leg.frame).unwrap_or(drive_s);
-                (current.show_s + current.drive.as_secs() + air_s, due_s)
-            }
-            _ => {
-                let begin_s = self.times.begin_s(playback, leg.frame);
-                (begin_s - drive_s, self.times.due_s(playback, leg.frame))
-            }
-        };
-        if is_chosen {
-            self.times.begin_earlier(playback, leg.frame);
-        }
-        self.times.due.insert(leg.frame, due_s);
-        LegPlace { show_s, due_s, is_chosen, leads_music }
+/// Finds where the leg after `current` is. Show time goes on through a drive that is planned anew, and the frame is due when
+/// it was before: robots are late then.
+pub(super) fn place(
+    times: &mut ShowTimes,
+    current: Option<&LegLight>,
+    (playback, leg): (&PlayedShow, &Leg),
+) -> LegPlace {
+    let drive_s = leg.duration.as_secs();
+    let is_new_round = current.is_some_and(|current| current.frame.round != leg.round);
+    let is_same_frame = current.is_some_and(|current| current.frame == leg.cursor());
+    // A loop goes back to its first frame as a jump does.
+    let goes_back = current.is_some_and(|current| !is_new_round && leg.pass > current.frame.pass);
+    let is_chosen = playback.jump.is_some() || goes_back;
+    let leads_music = is_new_round || goes_back || playback.jump.is_some() && playback.music.is_led;
+    if is_new_round {
+        times.clear();
     }
+    let (show_s, due_s) = match current {
+        Some(current) if is_same_frame && !is_chosen => {
+            let elapsed = if current.reaches_frame { current.seen } else { current.drive };
+            (current.moment(elapsed.min(current.drive), Span::ZERO).show_s, current.due_s)
+        }
+        Some(current) if !is_new_round && !is_chosen => {
+            let air_s = current.air.as_secs();
+            let due_s = current.due_s + air_s + times.planned_s(leg.frame).unwrap_or(drive_s);
+            (current.show_s + current.drive.as_secs() + air_s, due_s)
+        }
+        _ => {
+            let begin_s = times.begin_s(playback, leg.frame);
+            (begin_s - drive_s, times.due_s(playback, leg.frame))
+        }
+    };
+    if is_chosen {
+        times.begin_earlier(playback, leg.frame);
+    }
+    times.due.insert(leg.frame, due_s);
+    LegPlace { show_s, due_s, is_chosen, leads_music }
 }
