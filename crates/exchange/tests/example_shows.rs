@@ -8,6 +8,7 @@ use std::path::Path;
 use lightbots_base::Vec2;
 use lightbots_exchange::{ORIGINAL, read, sniff};
 use lightbots_show::{close_pairs, validate};
+use programme::Entry;
 
 /// Between the pixels of a frame, metres: more than 76.4 mm keeps synchronised straight lines apart.
 const LEAST_GAP_M: f64 = 0.08;
@@ -44,6 +45,22 @@ fn those_in_the_originals_format_suit_its_thirty_robots() {
         for frame in &entry.show.frames {
             let ids: Vec<u32> = frame.pixels.iter().map(|pixel| pixel.id).collect();
             assert_eq!(ids, (0..30).collect::<Vec<_>>(), "{}, {}", entry.file, frame.name);
+        }
+    }
+}
+
+#[test]
+fn the_gallery_has_a_film_a_contact_sheet_and_words_for_each_show() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let words = std::fs::read_to_string(docs.join("gallery.md")).unwrap();
+    let shown: Vec<_> = programme::all().into_iter().filter(|entry| *entry.format != ORIGINAL).collect();
+    assert_eq!(shown.len(), 10);
+    for Entry { file, show, .. } in shown {
+        let name = file.split('.').next().unwrap_or_default();
+        assert!(words.contains(&format!("## {}\n", show.name)), "{file} has no words");
+        for part in [format!("../shows/{file}"), format!("gallery/{name}.mp4"), format!("gallery/{name}.png")]
+        {
+            assert!(words.contains(&part) && docs.join(&part).is_file(), "{file} lacks {part}");
         }
     }
 }

@@ -43,7 +43,7 @@ pub fn shaded(places: impl IntoIterator<Item = Vec2>, shade: impl Fn(Vec2) -> Rg
 }
 
 /// Files keep tenths of millimetres.
-fn tidy(at: Vec2) -> Vec2 {
+pub fn tidy(at: Vec2) -> Vec2 {
     let round = |metres: f64| (metres * 1e4).round() / 1e4 + 0.0;
     Vec2::new(round(at.x), round(at.y))
 }

@@ -7,6 +7,7 @@ use super::color::{CYAN, EMBER, GOLD, GREEN, ORANGE, RED, ROSE, VIOLET, WHITE, g
 use super::draw::{Dot, frame, lit, shaded, show as on_floor};
 use super::galaxy::sunflower;
 use super::stroke::{ring, row};
+use super::timeline::with_layers;
 
 /// Where the three shells burst, with their colours from the inside out.
 const SHELLS: [(Vec2, [Rgb; 3]); 3] = [
@@ -16,6 +17,14 @@ const SHELLS: [(Vec2, [Rgb; 3]); 3] = [
 ];
 /// Robots and radius (of 1) of each ring of a shell, from the inside.
 const LAYERS: [(usize, f64); 3] = [(6, 0.32), (11, 0.66), (16, 1.0)];
+
+/// Embers flicker, shells crackle.
+const LIGHT: &str = r##"
+{"name": "Crackle", "kind": "sparkle", "frames": ["3", "7"], "settings": {"palette": ["#000000", "#ffffff"], "speed_hz": 7,
+    "density": 0.12, "blend": "screen"}},
+{"name": "Glow", "kind": "noise", "frames": ["1", "2"], "settings": {"palette": ["#404040", "#ffffff"], "size_m": 0.3,
+    "speed_hz": 1.2, "blend": "multiply"}}
+"##;
 
 pub fn show() -> Show {
     let frames = vec![
@@ -27,7 +36,7 @@ pub fn show() -> Show {
         frame("Last shell", 0.2, shaded(sunflower(100, 0.62), |_| WHITE)),
         frame("Finale", 2.5, shaded(sunflower(100, 1.85), chrysanthemum)),
     ];
-    on_floor("Fireworks", 4.0, frames)
+    with_layers(on_floor("Fireworks", 4.0, frames), LIGHT)
 }
 
 fn ground() -> Frame {

@@ -6,18 +6,32 @@ use lightbots_show::{Frame, Show};
 use super::color::{BLUE, CYAN, GOLD, ROSE, VIOLET, WHITE, gradient};
 use super::draw::{frame, shaded, show as on_floor};
 use super::stroke::along;
+use super::timeline::{turned, with_layers};
 
 const ROBOTS: usize = 60;
 const RADIUS_M: f64 = 1.4;
 
+/// Stars that twinkle, and light that turns with the arms.
+const LIGHT: &str = r##"
+{"name": "Arms", "kind": "chase", "frames": ["2", "5"], "settings": {"along": "angle", "palette": ["#707070", "#ffffff"],
+    "speed_hz": 0.12, "width": 0.7, "blend": "multiply"}},
+{"name": "Stars", "kind": "twinkle", "settings": {"palette": ["#000000", "#ffffff"], "speed_hz": 0.5, "density": 0.35,
+    "width": 0.4, "blend": "screen"}}
+"##;
+
 pub fn show() -> Show {
-    let mut frames = vec![frame("Stars", 1.0, shaded(sunflower(ROBOTS, RADIUS_M), |_| WHITE))];
-    for (nth, name) in ["Galaxy", "Turning", "Turning", "Turning"].into_iter().enumerate() {
-        frames.push(spiral(name, 2, nth as f64 / 12.0));
-    }
-    frames.push(spiral("Three arms", 3, 0.35));
-    frames.push(frame("Nebula", 2.0, shaded(sunflower(ROBOTS, RADIUS_M), glow)));
-    on_floor("Galaxy", 3.0, frames)
+    let two = spiral("Galaxy", 2, 0.0);
+    let turned_once = turned(&two, "Turning", 0.3, 1.6);
+    let three = spiral("Three arms", 3, 0.35);
+    let frames = vec![
+        frame("Stars", 1.5, shaded(sunflower(ROBOTS, RADIUS_M), |_| WHITE)),
+        two,
+        turned_once,
+        three.clone(),
+        turned(&three, "The other way", 0.3, -1.2),
+        frame("Nebula", 3.0, shaded(sunflower(ROBOTS, RADIUS_M), glow)),
+    ];
+    with_layers(on_floor("Galaxy", 3.0, frames), LIGHT)
 }
 
 fn spiral(name: &str, arms: usize, turned: f64) -> Frame {

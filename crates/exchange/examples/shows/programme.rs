@@ -9,12 +9,16 @@ mod galaxy;
 mod glyph;
 mod heart;
 mod hello;
+mod march;
 mod rings;
+mod sea;
 mod stroke;
 mod thousand;
+mod timeline;
+mod voyage;
 mod words;
 
-use lightbots_exchange::{Format, LIGHTBOTS, ORIGINAL};
+use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, ORIGINAL};
 use lightbots_show::Show;
 
 /// One example.
@@ -47,6 +51,9 @@ pub fn all() -> Vec<Entry> {
         ours("fireworks.lightbots.json", fireworks::show()),
         ours("dancers.lightbots.json", dancers::show()),
         ours("words.lightbots.json", words::show()),
+        Entry { file: "march.lightbots.zip", format: &ARCHIVE, show: march::show() },
+        ours("voyage.lightbots.json", voyage::show()),
+        ours("sea.lightbots.json", sea::show()),
         ours("thousand.lightbots.json", thousand::show()),
     ]
 }

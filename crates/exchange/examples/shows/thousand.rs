@@ -8,12 +8,28 @@ use super::draw::{frame, shaded, show as on_floor};
 use super::galaxy::{arm, sunflower};
 use super::heart::outline;
 use super::stroke::{along, ring};
+use super::timeline::with_layers;
 
 const ROBOTS: usize = 1_000;
 const RADIUS_M: f64 = 5.6;
 
+/// Light over each picture.
+const LIGHT: &str = r##"
+{"name": "Northern lights", "kind": "plasma", "frames": ["1", "1"], "settings": {"palette": ["#04122b", "#00c878", "#5cffb0", "#7a2bd6"],
+    "size_m": 5, "speed_hz": 0.12}},
+{"name": "Petals", "kind": "chase", "frames": ["2", "2"], "settings": {"along": "distance", "size_m": 3, "palette": ["#505050", "#ffffff"],
+    "speed_hz": 0.3, "width": 0.8, "blend": "multiply"}},
+{"name": "Stars", "kind": "twinkle", "frames": ["3", "3"], "settings": {"palette": ["#000000", "#ffffff"], "speed_hz": 0.5,
+    "density": 0.35, "width": 0.4, "blend": "screen"}},
+{"name": "Heartbeat", "kind": "pulse", "frames": ["4", "4"], "settings": {"palette": ["#505050", "#ffffff"], "speed_hz": 1.1,
+    "width": 0.2, "blend": "multiply"}},
+{"name": "Ripple", "kind": "wave", "frames": ["5", "5"], "settings": {"along": "distance", "size_m": 2.8, "palette": ["#303030", "#ffffff"],
+    "speed_hz": 0.5, "blend": "multiply"}}
+"##;
+
 pub fn show() -> Show {
-    on_floor("A thousand", 12.0, vec![field(), flower(), spiral(), filled_heart(), ripples()])
+    let frames = vec![field(), flower(), spiral(), filled_heart(), ripples()];
+    with_layers(on_floor("A thousand", 12.0, frames), LIGHT)
 }
 
 fn field() -> Frame {
@@ -21,19 +37,19 @@ fn field() -> Frame {
         let (column, row) = (nth % 40, nth / 40);
         Vec2::new(column as f64 * 0.28 - 5.46, 5.4 - row as f64 * 0.28)
     });
-    frame("Field", 1.0, shaded(places, |at| gradient(&[BLUE, CYAN, GREEN, GOLD], (at.x + at.y + 6.0) / 16.0)))
+    frame("Field", 4.0, shaded(places, |at| gradient(&[BLUE, CYAN, GREEN, GOLD], (at.x + at.y + 6.0) / 16.0)))
 }
 
 fn flower() -> Frame {
     let petal = |at: Vec2| gradient(&[ORANGE, GOLD, WHITE, ROSE, VIOLET], at.length() / RADIUS_M);
-    frame("Sunflower", 1.0, shaded(sunflower(ROBOTS, RADIUS_M), petal))
+    frame("Sunflower", 3.0, shaded(sunflower(ROBOTS, RADIUS_M), petal))
 }
 
 fn spiral() -> Frame {
     let places = (0..5).flat_map(|nth| along(&arm(f64::from(nth) / 5.0, RADIUS_M, 1.4), ROBOTS / 5));
     frame(
         "Galaxy",
-        1.0,
+        3.0,
         shaded(places, |at| gradient(&[WHITE, GOLD, ROSE, VIOLET, BLUE, CYAN], at.length() / RADIUS_M)),
     )
 }
@@ -47,7 +63,7 @@ fn filled_heart() -> Frame {
     places.truncate(ROBOTS);
     let blood =
         |at: Vec2| -> Rgb { gradient(&[RED, ROSE, ORANGE, GOLD], at.distance(Vec2::new(-1.5, 2.0)) / 8.0) };
-    frame("Heart", 1.5, shaded(places, blood))
+    frame("Heart", 3.0, shaded(places, blood))
 }
 
 /// From the top row to the bottom row.
@@ -82,5 +98,5 @@ fn ripples() -> Frame {
         let places = ring(Vec2::ZERO, 0.35 * nth as f64, count, 0.25);
         dots.extend(shaded(places, |at| rainbow(nth as f64 / 16.0 + at.angle() / std::f64::consts::TAU)));
     }
-    frame("Ripples", 3.0, dots)
+    frame("Ripples", 4.0, dots)
 }
