@@ -35,14 +35,19 @@ const notes = (page: Page) =>
   page.evaluate(() => (globalThis as unknown as { sound: SoundNotes }).sound);
 
 const print = (clock: string, ahead_ms: readonly number[]) => {
-  const sorted = ahead_ms.map(Math.abs).sort((a, b) => a - b);
-  const share = (of: number) => sorted[Math.min(sorted.length - 1, Math.floor(of * sorted.length))];
   const signed = [...ahead_ms].sort((a, b) => a - b);
+  const median_ms = signed[signed.length >> 1] ?? 0;
+  const within = (from_ms: number) => {
+    const sorted = ahead_ms.map((ms) => Math.abs(ms - from_ms)).sort((a, b) => a - b);
+    return (of: number) => sorted[Math.min(sorted.length - 1, Math.floor(of * sorted.length))];
+  };
+  const share = within(0);
   const row = {
     clock,
     minutes: MINUTES,
     moments: ahead_ms.length,
-    median_ahead_ms: signed[signed.length >> 1],
+    median_ahead_ms: median_ms,
+    '95_%_within_of_the_median_ms': within(median_ms)(0.95),
     '95_%_within_ms': share(0.95),
     '99_%_within_ms': share(0.99),
     largest_ms: share(1),
