@@ -79,3 +79,23 @@ test('a film on its way is cancelled, and another one is made', async () => {
   await dialog.getByRole('button', { name: 'Close' }).last().click();
   await dialog.waitFor({ state: 'detached' });
 });
+
+test('a first film of a show of one’s own takes four clicks', async () => {
+  const page = await bed.open('live');
+  await page.evaluate(() => {
+    const counted = globalThis as unknown as { clicks: number };
+    counted.clicks = 0;
+    addEventListener('click', (event) => (counted.clicks += event.detail > 0 ? 1 : 0), true);
+  });
+  await button(page, 'New').click();
+  await page.getByRole('textbox', { name: 'Words to show' }).fill('HI');
+  await page.getByRole('textbox', { name: 'Words to show' }).press('Enter');
+  await page.getByText('Made from the words “HI”').waitFor();
+  await button(page, 'Download or copy the show').click();
+  await page.getByRole('menuitem', { name: 'Make a film…' }).click();
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Make the film' }).click();
+  expect((await download).suggestedFilename()).toMatch(/^HI\.(mp4|webm)$/);
+  const clicks = await page.evaluate(() => (globalThis as unknown as { clicks: number }).clicks);
+  expect(clicks).toBe(4);
+});

@@ -26,7 +26,7 @@ test('what an import leaves out is named, and stays on the screen', () => {
     'good',
     ['Imported and opened "A".'],
   ]);
-  const issues = [1, 2, 3, 4, 5, 6].map((n) => issue('warning', `Loss ${n}.`));
+  const issues = [1, 2, 3, 4, 5, 6].map((n) => issue('warning', `loss ${n}`));
   const [tone, lines] = importedLines({ name: 'A', issues });
   expect([tone, ...lines.slice(1)]).toEqual([
     'warning',

@@ -22,12 +22,18 @@ export function freeName(base: string, taken: readonly string[]): string {
 /** Most findings of an import that its notice lists. */
 const FINDINGS_MAX = 4;
 
+/** A finding as a sentence: programs get it without a capital letter and a full stop. */
+const asSentence = (text: string) =>
+  `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.!?)]$/.test(text) ? '' : '.'}`;
+
 /** What a notice says of a show that was imported: what its file holds that shows have not is named. */
 export function importedLines({
   name,
   issues,
 }: Pick<ShowEntry, 'name' | 'issues'>): ['good' | 'warning', string[]] {
-  const findings = issues.filter((one) => one.severity !== 'note').map((one) => one.message);
+  const findings = issues
+    .filter((one) => one.severity !== 'note')
+    .map((one) => asSentence(one.message));
   const more = findings.length - FINDINGS_MAX;
   const lines = [
     `Imported and opened "${name}".`,
