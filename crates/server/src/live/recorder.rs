@@ -156,12 +156,13 @@ impl Recorder {
     pub fn finish(mut self, controller: &mut RecordedController) {
         let _ = self.write(controller.end_log());
         self.write_facts();
-        // A failure of a thread was told before, or it came too late to be told.
-        for thread in self.closing.into_iter().chain(self.writer.map(|writer| writer.thread)) {
-            let _ = thread.join();
-        }
         if let Some(journal) = self.journal {
             journal.finish(controller);
+        }
+        // Reports, for which these wait, take longer than the journal. A failure of a thread was told before, or it came
+        // too late to be told.
+        for thread in self.closing.into_iter().chain(self.writer.map(|writer| writer.thread)) {
+            let _ = thread.join();
         }
     }
 

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
 
 use lightbots_report::{GrowingReport, page};
 
@@ -55,6 +56,7 @@ pub struct RunReporter {
     pieces: SyncSender<Piece>,
     /// The run is over: people wait for its report.
     is_over: Arc<AtomicBool>,
+    thread: JoinHandle<()>,
 }
 
 impl RunReporter {
@@ -64,7 +66,7 @@ impl RunReporter {
         let under_way = reports.begin(log);
         let is_over = Arc::new(AtomicBool::new(false));
         let over = is_over.clone();
-        std::thread::spawn(move || {
+        let thread = std::thread::spawn(move || {
             let _under_way = under_way;
             set_priority(NICE);
             // The controller may fail in the run as it failed in the recorded one.
@@ -75,7 +77,7 @@ impl RunReporter {
                 Err(_) => tracing::warn!("no report was made during the run: the controller failed"),
             }
         });
-        Self { pieces, is_over }
+        Self { pieces, is_over, thread }
     }
 
     /// Hands on bytes of the log; `false`: the thread is too slow, and gives up once this is dropped.
@@ -83,11 +85,14 @@ impl RunReporter {
         self.pieces.try_send(Piece::Log(bytes)).is_ok()
     }
 
-    /// The log is whole.
+    /// The log is whole: waits for the report. A program that ended before it would leave the run without one.
     pub fn end(self) {
         self.is_over.store(true, Ordering::Relaxed);
         // A thread that gave up has said why; one that is too slow gives up when this is dropped.
         let _ = self.pieces.try_send(Piece::End);
+        drop(self.pieces);
+        // What it failed with was told by itself.
+        let _ = self.thread.join();
     }
 }
 
@@ -174,7 +179,7 @@ mod tests {
         }
         assert!(reports.contains(&path) && !report_file(&path).exists());
         reporter.end();
-        wait_for(&reports, &path);
+        assert!(!reports.contains(&path));
         let (report, scrub) = report_of(&log, &mut |_| {}).unwrap();
         assert_eq!(std::fs::read_to_string(report_file(&path)).unwrap(), page(&report, &scrub));
 
