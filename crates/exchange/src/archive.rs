@@ -8,7 +8,9 @@ pub(crate) use crate::zip_files::is_zip as sniff;
 pub(crate) use read::read;
 pub(crate) use write::encode;
 
-use lightbots_show::AssetHash;
+use std::sync::Arc;
+
+use lightbots_show::{Asset, AssetHash};
 use sha2::{Digest, Sha256};
 
 /// Name of the document in an archive.
@@ -21,6 +23,19 @@ const ENTRIES_MAX: usize = 1 + lightbots_show::MAX_ASSETS;
 /// The SHA-256 by which a show names a file.
 pub fn hash_of(content: &[u8]) -> AssetHash {
     AssetHash(Sha256::digest(content).into())
+}
+
+/// A file as an asset that a show holds, by its hash.
+pub fn asset_of(name: &str, media_type: &str, content: Arc<[u8]>) -> (AssetHash, Asset) {
+    let hash = hash_of(&content);
+    let asset = Asset {
+        name: name.to_owned(),
+        media_type: media_type.to_owned(),
+        bytes: content.len() as u64,
+        content: Some(content),
+        picture: None,
+    };
+    (hash, asset)
 }
 
 #[cfg(test)]

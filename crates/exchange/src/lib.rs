@@ -39,7 +39,7 @@ mod timed;
 mod vviz;
 mod zip_files;
 
-pub use archive::hash_of;
+pub use archive::{asset_of, hash_of};
 pub use error::{PixelName, ReadError};
 pub use format::{Format, Loaded, Written};
 pub use fseq::{put_onto, sniff as is_sequence};

@@ -2,6 +2,7 @@
 //! curves whose parameter is proportional to time, as ours, and a light program of bytes. Colours are linear light.
 //! The music may be in the archive.
 
+mod encoded;
 mod light_program;
 mod media;
 mod read;

@@ -6,8 +6,8 @@ mod rows;
 mod zipped;
 
 use extras::with_every_part;
-use lightbots_exchange::{ARCHIVE, LIGHTBOTS, Loaded, ReadError, hash_of, read, sniff};
-use lightbots_show::{Asset, Show};
+use lightbots_exchange::{ARCHIVE, LIGHTBOTS, Loaded, ReadError, asset_of, hash_of, read, sniff};
+use lightbots_show::Show;
 use rows::{row, show};
 use zipped::archive;
 
@@ -16,15 +16,9 @@ const LOGO: &[u8] = b"<svg xmlns=\"http://www.w3.org/2000/svg\"/>";
 /// A show with one file.
 fn with_logo() -> Show {
     let mut show = with_every_part(show(vec![row(3)]));
-    let asset = Asset {
-        name: "logo.svg".into(),
-        media_type: "image/svg+xml".into(),
-        bytes: LOGO.len() as u64,
-        content: Some(LOGO.into()),
-        picture: None,
-    };
-    show.assets = [(hash_of(LOGO), asset)].into();
-    show.frames[0].sources[0].asset = Some(hash_of(LOGO));
+    let (hash, logo) = asset_of("logo.svg", "image/svg+xml", LOGO.into());
+    show.assets = [(hash, logo)].into();
+    show.frames[0].sources[0].asset = Some(hash);
     show
 }
 

@@ -12,9 +12,9 @@ use base64::engine::general_purpose::STANDARD;
 use extras::with_every_part;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{
-    ARCHIVE, CSV, FORMATS, FSEQ, Format, LIGHTBOTS, SKYC, VVIZ, hash_of, put_onto, read,
+    ARCHIVE, CSV, FORMATS, FSEQ, Format, LIGHTBOTS, SKYC, VVIZ, asset_of, put_onto, read,
 };
-use lightbots_show::{Asset, Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
+use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
 use mutator::mutant;
 use numbers::Numbers;
 
@@ -131,14 +131,7 @@ fn mutated_inside(files: &[(String, Vec<u8>)], rounds: usize, numbers: &mut Numb
 fn file_of(format: &Format) -> Vec<u8> {
     let mut show = played::lit_show();
     let content = b"OggS, and what follows";
-    let asset = Asset {
-        name: "march.ogg".into(),
-        media_type: "audio/ogg".into(),
-        bytes: content.len() as u64,
-        content: Some(content.as_slice().into()),
-        picture: None,
-    };
-    show.assets.insert(hash_of(content), asset);
+    show.assets.extend([asset_of("march.ogg", "audio/ogg", content.as_slice().into())]);
     let plan = format.needs_plan.then(|| played::planned(&show));
     format.write(&show, plan.as_ref()).bytes
 }

@@ -8,9 +8,9 @@ mod zipped;
 use std::sync::Arc;
 
 use lightbots_base::Vec2;
-use lightbots_exchange::{CSV, FORMATS, FSEQ, Format, SKYC, VVIZ, hash_of, put_onto, read, replanned};
+use lightbots_exchange::{CSV, FORMATS, FSEQ, Format, SKYC, VVIZ, asset_of, put_onto, read, replanned};
 use lightbots_plan::ShowPlan;
-use lightbots_show::{Asset, Issue, Show, validate};
+use lightbots_show::{Issue, Show, validate};
 use played::{Apart, apart, lit_show, moments, order, planned, prescribed, seen, small_show};
 
 /// Writes a show, reads it again and compares both.
@@ -75,14 +75,8 @@ fn a_show_from_skybrush_is_proven_and_lasts_as_long() {
 fn music_in_an_archive_comes_back_with_the_first_frame() {
     let content: Arc<[u8]> = b"OggS, and what follows".as_slice().into();
     for mut show in [small_show(), lit_show()] {
-        let asset = Asset {
-            name: "march.ogg".into(),
-            media_type: "audio/ogg".into(),
-            bytes: content.len() as u64,
-            content: Some(content.clone()),
-            picture: None,
-        };
-        show.assets.insert(hash_of(&content), asset.clone());
+        let (hash, asset) = asset_of("march.ogg", "audio/ogg", content.clone());
+        show.assets.insert(hash, asset.clone());
         let plan = planned(&show);
         let written = SKYC.write(&show, Some(&plan));
         let lost: Vec<&str> = written.issues.iter().map(|issue| issue.message.as_str()).collect();
@@ -93,7 +87,7 @@ fn music_in_an_archive_comes_back_with_the_first_frame() {
         let back = read(&written.bytes, None).unwrap();
         assert!(back.issues.iter().all(|issue| issue.code != "music-moved"), "{:?}", back.issues);
         assert_eq!(back.show.music.as_deref(), Some("march.ogg"));
-        assert_eq!(back.show.assets.get(&hash_of(&content)), Some(&asset));
+        assert_eq!(back.show.assets.get(&hash), Some(&asset));
         assert_eq!(back.show.frames.len(), 3, "no frame is before that with the music");
         // Without the sound there is nothing to keep.
         show.assets.clear();

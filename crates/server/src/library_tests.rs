@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use lightbots_exchange::asset_of;
+
 use super::*;
 
 #[path = "library/state_tests.rs"]
@@ -222,14 +224,7 @@ fn a_start_file_with_unknown_fields_has_no_copies_by_itself() {
 /// The show `DOT` with one file.
 fn with_picture() -> Show {
     let content: Arc<[u8]> = b"picture".as_slice().into();
-    let asset = lightbots_show::Asset {
-        name: "a.png".into(),
-        media_type: "image/png".into(),
-        bytes: content.len() as u64,
-        content: Some(content.clone()),
-        picture: None,
-    };
-    Show { assets: [(hash_of(&content), asset)].into(), ..titled("Picture") }
+    Show { assets: [asset_of("a.png", "image/png", content)].into(), ..titled("Picture") }
 }
 
 /// The bytes of the only file of a show of the library.

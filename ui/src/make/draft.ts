@@ -1,5 +1,6 @@
 import { fromHex, toHex, type Rgb } from '../base/colour';
 import type { Point } from '../base/geometry';
+import { capitalised } from '../base/words';
 import { drawnKind } from './drawnLine';
 import { list, pair } from '../model/jsonFields';
 import type { FrameSource, SourceKind } from '../model/sources';
@@ -257,5 +258,5 @@ export function sourceTitle(source: FrameSource, fileName: string | null): strin
       .replaceAll('\n', ' ')
       .slice(0, NAME_MAX);
   const name = source.kind === 'shape' ? String(shape ?? 'circle') : stem(fileName ?? '');
-  return (name.charAt(0).toUpperCase() + name.slice(1)).slice(0, NAME_MAX);
+  return capitalised(name).slice(0, NAME_MAX);
 }

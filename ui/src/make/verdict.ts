@@ -1,5 +1,6 @@
 import type { MakeAnswer } from '../api/types.gen';
 import { countText } from '../base/numbers';
+import { sentence } from '../base/words';
 import type { Pictures } from './pictures';
 
 /** A sentence for people about what was made. */
@@ -39,8 +40,3 @@ function verdictOfSeries(answers: readonly MakeAnswer[]): Verdict {
     ? { tone: 'good', text: `${countText(answers.length, 'frame')}, all readable` }
     : { tone: 'care', text: `${countText(answers.length, 'frame')}, ${hard} hard to read` };
 }
-
-const sentence = (text: string) => {
-  const first = text.charAt(0).toUpperCase() + text.slice(1);
-  return /[.!?]$/.test(first) ? first : `${first}.`;
-};

@@ -118,11 +118,11 @@ export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
   };
 }
 
-/** A new show: one frame with all robots at the front edge, warm white. */
 /** The frame that represents a show: the middle one, because many shows begin and end in rows. */
 export const middleFrame = ({ frames }: Show): Frame | undefined =>
   frames[Math.floor(frames.length / 2)];
 
+/** A new show: one frame with all robots at the front edge, warm white. */
 export function newShow(name: string, count: number, stage: Stage = EMPTY_STAGE): Show {
   const frames = [newFrame('Start', frontRows(stage, count, 0xffc878))];
   return { name, stage, identity: 'any', music: null, frames, rest: {} };

@@ -1,9 +1,9 @@
 import type { PreflightState } from '../api/types.gen';
+import { capitalised } from '../base/words';
 
 /** What robots do in a preflight, and in which round. */
 export function preflightDoing({ doing, round, rounds }: PreflightState): string {
-  const words = doing ?? '';
-  const what = words.charAt(0).toUpperCase() + words.slice(1);
+  const what = capitalised(doing ?? '');
   return rounds > 1 ? `${what} (round ${round} of ${rounds})` : what;
 }
 

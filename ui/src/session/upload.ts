@@ -1,6 +1,7 @@
 import { stem } from '../api/formats';
 import { listShows, putShow, Refused } from '../api/http';
 import { FILE_BYTES_MAX, type ShowEntry } from '../api/types.gen';
+import { sentence } from '../base/words';
 import { notify } from './notices';
 import { openShow } from './openShow';
 import type { Session } from './session';
@@ -22,10 +23,6 @@ export function freeName(base: string, taken: readonly string[]): string {
 /** Most findings of an import that its notice lists. */
 const FINDINGS_MAX = 4;
 
-/** A finding as a sentence: programs get it without a capital letter and a full stop. */
-const asSentence = (text: string) =>
-  `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.!?)]$/.test(text) ? '' : '.'}`;
-
 /** What a notice says of a show that was imported: what its file holds that shows have not is named. */
 export function importedLines({
   name,
@@ -33,7 +30,7 @@ export function importedLines({
 }: Pick<ShowEntry, 'name' | 'issues'>): ['good' | 'warning', string[]] {
   const findings = issues
     .filter((one) => one.severity !== 'note')
-    .map((one) => asSentence(one.message));
+    .map((one) => sentence(one.message));
   const more = findings.length - FINDINGS_MAX;
   const lines = [
     `Imported and opened "${name}".`,

@@ -1,11 +1,10 @@
 //! A hundred robots to music: each picture begins with a bar, and light keeps to the beats.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use lightbots_base::Vec2;
-use lightbots_exchange::hash_of;
-use lightbots_show::{Asset, BeatGrid, Beats, Frame, PictureMotion, Show};
+use lightbots_exchange::asset_of;
+use lightbots_show::{BeatGrid, Beats, Frame, PictureMotion, Show};
 
 use super::color::{BLUE, CYAN, GOLD, ORANGE, RED, ROSE, VIOLET, WHITE, gradient, rainbow};
 use super::draw::{frame, shaded, show as on_floor};
@@ -17,6 +16,8 @@ use super::timeline::{moved, turned, with_layers};
 const ROBOTS: usize = 100;
 /// Made by `cargo run --release -p lightbots-music --example beats`, cut and packed by ffmpeg.
 const MUSIC: &[u8] = include_bytes!("march.ogg");
+/// The name of its file.
+const FILE: &str = "march.ogg";
 /// Four bars of four beats, 120 a minute.
 const PICTURE_S: f64 = 8.0;
 /// How long robots drive to a picture: the rest of the bars it stands.
@@ -32,32 +33,23 @@ const LIGHT: &str = r##"
 "##;
 
 pub fn show() -> Show {
-    let rings = rings();
-    let star = star();
-    let heart = heart();
+    let (rings, heart) = (rings(), heart());
     let breath = PictureMotion::Breathe { center: Vec2::ZERO, size: 1.1, times: 2 };
     let frames = vec![
         march(),
         wheel(),
         rings.clone(),
         turned(&rings, "Rings turn", 0.0, TAU / 10.0),
-        star,
+        star(),
         heart.clone(),
         moved(&heart, "The heart breathes", 0.0, breath),
     ];
     let mut frames: Vec<Frame> = frames.into_iter().map(on_bars).collect();
     // The music begins once the first picture stands.
     frames[0].transition_s = None;
-    let asset = Asset {
-        name: "march.ogg".into(),
-        media_type: "audio/ogg".into(),
-        bytes: MUSIC.len() as u64,
-        content: Some(Arc::from(MUSIC)),
-        picture: None,
-    };
     let show = Show {
-        music: Some(asset.name.clone()),
-        assets: [(hash_of(MUSIC), asset)].into(),
+        music: Some(FILE.into()),
+        assets: [asset_of(FILE, "audio/ogg", MUSIC.into())].into(),
         beats: Some(Beats { grid: BeatGrid::Steady { bpm: 120.0, offset_s: 0.0 }, per_bar: 4 }),
         ..on_floor("March", 4.0, frames)
     };

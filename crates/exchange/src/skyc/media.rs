@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use lightbots_show::{Asset, Issue, Show, excerpt};
 
+use super::encoded::encoded;
 use super::reference::file_name;
 use crate::error::ReadError;
 use crate::json::text::{exact, quoted};
@@ -18,8 +17,8 @@ use crate::timed::music::TimedMusic;
 const MPEG: &str = "audio/mpeg";
 /// Name of music without one.
 const NAME: &str = "music.mp3";
-/// Longest media type and longest ending of a name that are kept, bytes.
-const WORD_MAX: usize = 60;
+/// Longest media type that is kept, bytes.
+const MEDIA_TYPE_MAX: usize = 60;
 
 /// What `media` says.
 #[derive(Default)]
@@ -72,7 +71,8 @@ fn audio(
     }
     let name = name.rsplit(['/', '\\']).next().unwrap_or_default().trim();
     let name = if name.is_empty() { NAME } else { name };
-    let is_sound = media_type.starts_with("audio/") && media_type.len() <= WORD_MAX && media_type.is_ascii();
+    let is_sound =
+        media_type.starts_with("audio/") && media_type.len() <= MEDIA_TYPE_MAX && media_type.is_ascii();
     let media_type = if is_sound { media_type } else { MPEG.to_owned() };
     Ok(Some(TimedMusic { name: name.to_owned(), media_type, start_s, content: content.into() }))
 }
@@ -94,11 +94,7 @@ fn sound(
         }
         return Ok(files.remove(file).unwrap_or_default());
     }
-    let begin = json.clone();
-    let text = json.text("the sound of the music")?;
-    STANDARD
-        .decode(text.as_bytes())
-        .map_err(|_| begin.fail("bad-base64", "the sound of the music is not base64; export the show again"))
+    encoded(json, "the sound of the music", "export the show again")
 }
 
 /// When the music begins, seconds.

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use lightbots_show::{Issue, MAX_PIXELS, excerpt};
 
+use super::encoded::encoded;
 use super::reference::file_name;
 use super::{DOCUMENT, light_program, media};
 use crate::error::ReadError;
@@ -326,13 +325,7 @@ fn lights(json: &mut Json<'_>) -> Result<Vec<u8>, ReadError> {
         match key {
             "version" => has_version = version(json, "its light program")?,
             "data" => {
-                json.peek()?;
-                let begin = json.clone();
-                let text = json.text("the data of its light program")?;
-                let bytes = STANDARD.decode(text.as_bytes());
-                data = Some(bytes.map_err(|_| {
-                    begin.fail("bad-base64", "the data of its light program is not base64; export it again")
-                })?);
+                data = Some(encoded(json, "the data of its light program", "export it again")?);
             }
             _ => json.skip()?,
         }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lightbots_show::{Asset, Issue, MAX_LABEL_CHARS, Show};
+use lightbots_show::{Issue, MAX_LABEL_CHARS, Show};
 
-use crate::archive::hash_of;
+use crate::archive::asset_of;
 
 /// Music that begins further away from the first frame than this is heard to be wrong, seconds (docs/exchange.md).
 const TOLERANCE_S: f64 = 0.05;
@@ -34,14 +34,7 @@ impl TimedMusic {
 /// says if it began at another moment.
 pub(super) fn add(show: &mut Show, music: &TimedMusic, first_s: f64) -> Option<Issue> {
     let name: String = music.name.chars().take(MAX_LABEL_CHARS).collect();
-    let asset = Asset {
-        name: name.clone(),
-        media_type: music.media_type.clone(),
-        bytes: music.content.len() as u64,
-        content: Some(music.content.clone()),
-        picture: None,
-    };
-    show.assets.insert(hash_of(&music.content), asset);
+    show.assets.extend([asset_of(&name, &music.media_type, music.content.clone())]);
     show.music = Some(name);
     let late_s = music.late_s(first_s);
     let what = if late_s > 0.0 {

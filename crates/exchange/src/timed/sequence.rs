@@ -5,10 +5,10 @@ use std::sync::Arc;
 use lightbots_base::Rgb;
 use lightbots_light::PICTURE_PIXELS_MAX;
 use lightbots_lighting::FrameTimes;
-use lightbots_show::{Asset, Issue, Layer, LayerSpan, Setting, Show};
+use lightbots_show::{Issue, Layer, LayerSpan, Setting, Show};
 
 use super::TimedShow;
-use crate::archive::hash_of;
+use crate::archive::asset_of;
 use crate::sequence_file::SequenceFile;
 
 /// Distances of two samples that are tried, milliseconds: the first at which the samples of all robots fit.
@@ -44,14 +44,7 @@ pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Op
 
 /// Adds a layer and the file of its sequence. Its first sample is shown at `start_s` of show time.
 pub(crate) fn add_file(show: &mut Show, name: &str, content: Arc<[u8]>, step_ms: u8, start_s: f64) {
-    let hash = hash_of(&content);
-    let asset = Asset {
-        name: format!("{name}.fseq"),
-        media_type: MEDIA_TYPE.into(),
-        bytes: content.len() as u64,
-        content: Some(content),
-        picture: None,
-    };
+    let (hash, asset) = asset_of(&format!("{name}.fseq"), MEDIA_TYPE, content);
     show.assets.insert(hash, asset);
     show.layers.push(Layer {
         name: name.into(),

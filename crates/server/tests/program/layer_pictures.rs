@@ -1,9 +1,7 @@
 //! Pictures that layers project on the floor: read in a process of their own, shown by robots, and what is wrong is said.
 
-use std::sync::Arc;
-
-use lightbots_exchange::{ARCHIVE, hash_of, read};
-use lightbots_show::{Asset, Layer, LayerSpan, Setting, Show};
+use lightbots_exchange::{ARCHIVE, asset_of, read};
+use lightbots_show::{Layer, LayerSpan, Setting, Show};
 use serde_json::{Value, json};
 
 use crate::run::start;
@@ -20,7 +18,7 @@ const HUGE: &[u8] =
 /// Four robots in a row, and a picture 0.2 m wide over the two in the middle.
 fn show(picture: &[u8], name: &str) -> Show {
     let mut show = read(shows::row(4, &[60.0]).as_bytes(), None).unwrap().show;
-    let hash = hash_of(picture);
+    let (hash, asset) = asset_of(name, "image/gif", picture.into());
     let settings = vec![
         ("picture".to_owned(), Setting::Text(hash.to_string())),
         ("place".to_owned(), Setting::List(vec![Setting::Number(0.0), Setting::Number(1.2)])),
@@ -28,13 +26,6 @@ fn show(picture: &[u8], name: &str) -> Show {
     ];
     show.layers =
         vec![Layer { name: "Halves".into(), kind: "picture".into(), span: LayerSpan::Show, settings }];
-    let asset = Asset {
-        name: name.into(),
-        media_type: "image/gif".into(),
-        bytes: picture.len() as u64,
-        content: Some(Arc::from(picture)),
-        picture: None,
-    };
     show.assets = [(hash, asset)].into();
     show
 }

@@ -1,5 +1,6 @@
 import { IconCopy, IconTrash } from '@tabler/icons-react';
 import type { HTMLAttributes, KeyboardEvent } from 'react';
+import { capitalised } from '../../base/words';
 import { titleOf } from '../../model/layerKinds';
 import { framesOf, type Layer } from '../../model/layers';
 import type { Show } from '../../model/show';
@@ -82,6 +83,5 @@ function whenText(show: Show, layer: Layer): string {
   if (!range) return 'A frame that is gone';
   const [first, last] = range;
   const frames = first === last ? `frame ${first + 1}` : `frames ${first + 1} to ${last + 1}`;
-  const text = PHASES[when.phase] + frames;
-  return text.charAt(0).toUpperCase() + text.slice(1);
+  return capitalised(PHASES[when.phase] + frames);
 }

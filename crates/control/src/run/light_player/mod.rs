@@ -117,13 +117,12 @@ impl LightPlayer {
         let place = placing::place(&mut self.times, self.current.as_ref(), (playback, leg));
         let (show_s, is_chosen) = (place.show_s, place.is_chosen);
         let current = self.current.as_ref();
-        let is_same_frame = current.is_some_and(|current| current.frame == leg.cursor());
         let waits_for_go = leg.reaches_frame && playback.cue(leg.frame).is_some();
         let air_s = if leg.reaches_frame { show_s + drive.as_secs() } else { f64::INFINITY };
         let end_s = if waits_for_go { f64::INFINITY } else { air_s + air.as_secs() };
         let drive_s = match (is_chosen, self.times.begun.get(&leg.frame)) {
             (true, _) => self.times.drive_begin_s(playback, leg.frame).unwrap_or(show_s),
-            (false, known) => known.filter(|_| is_same_frame).map_or(show_s, |times| times.drive_s),
+            (false, known) => known.filter(|_| place.is_same_frame).map_or(show_s, |times| times.drive_s),
         };
         self.times.begun.insert(leg.frame, FrameTimes { drive_s, air_s, end_s });
         let mut layers = self.show.in_frame(leg.frame, |frame| self.times.begun.get(&frame).copied());

@@ -13,6 +13,8 @@ pub(super) struct LegPlace {
     pub show_s: f64,
     /// When its frame is to stand by the timeline, seconds.
     pub due_s: f64,
+    /// It leads where the leg before it did.
+    pub is_same_frame: bool,
     /// Frames before it were passed over, or it comes once more.
     pub is_chosen: bool,
     /// The music goes there with it.
@@ -55,5 +57,5 @@ pub(super) fn place(
         times.begin_earlier(playback, leg.frame);
     }
     times.due.insert(leg.frame, due_s);
-    LegPlace { show_s, due_s, is_chosen, leads_music }
+    LegPlace { show_s, due_s, is_same_frame, is_chosen, leads_music }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lightbots_draw::{DrawError, Drawing};
-use lightbots_exchange::hash_of;
+use lightbots_exchange::asset_of;
 use lightbots_make::{Content, Material, Placing, Recipe, material};
 use lightbots_show::{Asset, AssetHash, Frame, Stage};
 
@@ -35,14 +35,7 @@ impl Wanted {
 /// A file as an asset of the show, by its hash.
 pub fn asset(path: &Path, bytes: &[u8], media_type: &str) -> (AssetHash, Asset) {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let asset = Asset {
-        name,
-        media_type: media_type.into(),
-        bytes: bytes.len() as u64,
-        content: Some(Arc::from(bytes)),
-        picture: None,
-    };
-    (hash_of(bytes), asset)
+    asset_of(&name, media_type, Arc::from(bytes))
 }
 
 /// A frame of one source, whose file is given.

@@ -1,0 +1,16 @@
+//! Bytes in a document, as base64.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use crate::error::ReadError;
+use crate::json::Json;
+
+/// The bytes of a text. An error names `what` they are, and the `remedy`.
+pub(super) fn encoded(json: &mut Json<'_>, what: &str, remedy: &str) -> Result<Vec<u8>, ReadError> {
+    json.peek()?;
+    let begin = json.clone();
+    let text = json.text(what)?;
+    let bytes = STANDARD.decode(text.as_bytes());
+    bytes.map_err(|_| begin.fail("bad-base64", format!("{what} is not base64; {remedy}")))
+}
