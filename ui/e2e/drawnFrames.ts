@@ -17,48 +17,75 @@ export function noteDraws() {
   note('putImageData', '[data-viewpoint]');
 }
 
-/** Notes, in place of drawn stages, the moment of every frame in which the timeline was scrolled or its last block moved. */
-export function noteTimeline() {
-  const moved: number[] = [];
-  Object.assign(globalThis, { drawn: moved });
-  const scroller = document.querySelector('[data-testid=timeline]');
-  let before = '';
-  const look = () => {
-    requestAnimationFrame(look);
-    const blocks = scroller?.querySelectorAll<HTMLElement>('[data-frame]');
-    const now = `${scroller?.scrollLeft} ${blocks?.item(blocks.length - 1).style.left}`;
-    if (now !== before) moved.push(Number(document.timeline.currentTime));
-    before = now;
-  };
-  look();
+/** Frames a second, the gap that one frame in twenty exceeds, and main-thread work a frame. */
+export interface Measured {
+  fps: number;
+  late_ms: number | null;
+  busy_ms: number;
 }
 
-/** Frames a second with the stage drawn, the gap that one frame in twenty exceeds, and main-thread work a frame. */
-export async function measure(page: Page, lasts_ms = 6000) {
+/** Of moments of frames in a span, milliseconds, and of the main thread's time. */
+function measured(moments: readonly number[], span_ms: number, busy_ms: number): Measured {
+  const gaps = moments.slice(1).map((at, i) => at - (moments[i] ?? at));
+  const sorted = gaps.sort((a, b) => a - b);
+  return {
+    fps: (moments.length / span_ms) * 1000,
+    late_ms: sorted[Math.floor(sorted.length * 0.95)] ?? null,
+    busy_ms: busy_ms / Math.max(1, moments.length),
+  };
+}
+
+/** The main thread's own time on a core during some work, milliseconds: what else the machine does is not its work. */
+async function busyDuring<T>(page: Page, work: () => Promise<T>): Promise<[T, number]> {
   const client = await page.context().newCDPSession(page);
-  // Its own time on a core: what else the machine does is not its work.
   await client.send('Performance.enable', { timeDomain: 'threadTicks' });
   const busy_s = async () =>
     (await client.send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration')
       ?.value ?? 0;
   const before_s = await busy_s();
-  const gaps = await page.evaluate(async (span_ms) => {
-    const { drawn } = globalThis as unknown as { drawn: number[] };
-    drawn.length = 0;
-    const began = performance.now();
-    await new Promise((resolve) => setTimeout(resolve, span_ms));
-    return {
-      count: drawn.length,
-      span_ms: performance.now() - began,
-      all: drawn.slice(1).map((at, i) => at - (drawn[i] ?? at)),
-    };
-  }, lasts_ms);
+  const done = await work();
   const busy_ms = ((await busy_s()) - before_s) * 1000;
   await client.detach();
-  const sorted = gaps.all.sort((a, b) => a - b);
-  return {
-    fps: (gaps.count / gaps.span_ms) * 1000,
-    late_ms: sorted[Math.floor(sorted.length * 0.95)] ?? null,
-    busy_ms: busy_ms / Math.max(1, gaps.count),
+  return [done, busy_ms];
+}
+
+/** Frames in which the stage was drawn. */
+export async function measure(page: Page, lasts_ms = 6000): Promise<Measured> {
+  const [gaps, busy_ms] = await busyDuring(page, () =>
+    page.evaluate(async (span_ms) => {
+      const { drawn } = globalThis as unknown as { drawn: number[] };
+      drawn.length = 0;
+      const began = performance.now();
+      await new Promise((resolve) => setTimeout(resolve, span_ms));
+      return { moments: [...drawn], span_ms: performance.now() - began };
+    }, lasts_ms),
+  );
+  return measured(gaps.moments, gaps.span_ms, busy_ms);
+}
+
+interface TraceEvent {
+  name: string;
+  /** Microseconds. */
+  ts: number;
+}
+
+/**
+ * Frames that the browser put on the screen, of a page of which nothing else moves. What scrolls is drawn without the
+ * page's own thread, so that the page cannot count it.
+ */
+export async function measureShown(page: Page, lasts_ms = 6000): Promise<Measured> {
+  const browser = page.context().browser();
+  if (!browser) throw new Error('There is no browser.');
+  await browser.startTracing(page, { categories: ['viz'] });
+  const began = performance.now();
+  const [span_ms, busy_ms] = await busyDuring(page, async () => {
+    await page.waitForTimeout(lasts_ms);
+    return performance.now() - began;
+  });
+  const trace = JSON.parse((await browser.stopTracing()).toString()) as {
+    traceEvents: TraceEvent[];
   };
+  const shown = trace.traceEvents.filter(({ name }) => name === 'DirectRenderer::DrawFrame');
+  const moments = shown.map(({ ts }) => ts / 1000).sort((a, b) => a - b);
+  return measured(moments, span_ms, busy_ms);
 }

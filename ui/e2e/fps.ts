@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { test } from 'vitest';
 import { crowdShow, LAYERS, longShow, sideOf } from './crowds';
-import { measure, noteDraws, noteTimeline } from './drawnFrames';
+import { measure, measureShown, noteDraws, type Measured } from './drawnFrames';
 import { eventually, openPage, startServer } from './harness';
 import { scaleOf } from './journeys';
 import { createBrowserBed } from './testBed';
@@ -38,12 +38,7 @@ const snapshots = (page: Page) =>
     };
   });
 
-const row = (
-  scene: string,
-  robots: number,
-  measured: Awaited<ReturnType<typeof measure>>,
-  more = {},
-) =>
+const row = (scene: string, robots: number, measured: Measured, more = {}) =>
   process.stdout.write(
     `\n${JSON.stringify({
       scene,
@@ -59,11 +54,12 @@ const row = (
     })}\n`,
   );
 
-/** Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms, with Alt (1) or no key. */
+/** Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms, with Alt (1) or no key, and counts frames `by` a
+ * function. */
 async function measureDrag(
   page: Page,
   path: (turn: number) => { x: number; y: number },
-  modifiers = 0,
+  { modifiers = 0, by = measure } = {},
 ) {
   const from = path(0);
   await page.mouse.move(from.x, from.y);
@@ -81,7 +77,7 @@ async function measureDrag(
       await new Promise((resolve) => setTimeout(resolve, 8));
     }
   })();
-  const measured = await measure(page);
+  const measured = await by(page);
   moving = false;
   await hand;
   await client.detach();
@@ -199,7 +195,7 @@ async function measureScroll(page: Page, at: { x: number; y: number }) {
       await new Promise((resolve) => setTimeout(resolve, 8));
     }
   })();
-  const measured = await measure(page);
+  const measured = await measureShown(page);
   rolling = false;
   await wheel;
   await client.detach();
@@ -219,7 +215,6 @@ test(`frames a second of a timeline of ${FRAMES} frames and ${TIMELINE_LAYERS} l
     for (let i = 0; i < 2; i++)
       await page.getByRole('button', { name: 'Zoom the timeline out (−)' }).click();
     await page.locator('[data-frame="2"]').click();
-    await page.evaluate(noteTimeline);
     const list = await page.getByRole('listbox', { name: 'Frames on the timeline' }).boundingBox();
     if (!list) throw new Error('There are no frames.');
     row(
@@ -240,7 +235,7 @@ test(`frames a second of a timeline of ${FRAMES} frames and ${TIMELINE_LAYERS} l
     const from = { x: edge.x + edge.width / 2, y: edge.y + edge.height / 2 };
     // With Alt, which leaves out snapping: a drag that snaps moves in steps, and not in every frame.
     const path = (turn: number) => ({ x: from.x + 60 * (1 - Math.cos(turn)), y: from.y });
-    const dragged = await measureDrag(page, path, 1);
+    const dragged = await measureDrag(page, path, { modifiers: 1, by: measureShown });
     row('drag in timeline', TIMELINE_ROBOTS, dragged);
     await page.close();
   } finally {

@@ -1,7 +1,7 @@
 import { list, number, object, text, without } from './jsonFields';
 import { withId } from './frameIds';
 import { listField } from './listField';
-import type { Show } from './show';
+import type { Frame, Show } from './show';
 
 /** A layer of light over time; docs/light.md has the settings of each kind. Values are never changed in place. */
 export interface Layer {
@@ -138,13 +138,23 @@ export function setLayerFrames(
   });
 }
 
+const indices = new WeakMap<readonly Frame[], ReadonlyMap<string | null, number>>();
+
+/** Indices of frames by their ids; the timeline asks at each step of a drag, for each layer. */
+function indicesOf(frames: readonly Frame[]): ReadonlyMap<string | null, number> {
+  const known = indices.get(frames);
+  if (known) return known;
+  const made = new Map(frames.map((frame, index) => [frame.id, index]));
+  indices.set(frames, made);
+  return made;
+}
+
 /** Indices of a layer's first and last frame; null: it is not of frames, or the show has them no more. */
 export function framesOf(show: Show, { when }: Layer): readonly [number, number] | null {
   if (when.of !== 'frames') return null;
-  const [first, last] = [when.first, when.last].map((id) =>
-    show.frames.findIndex((frame) => frame.id === id),
-  ) as [number, number];
-  return first < 0 || last < 0 ? null : [first, last];
+  const places = indicesOf(show.frames);
+  const [first, last] = [places.get(when.first), places.get(when.last)];
+  return first === undefined || last === undefined ? null : [first, last];
 }
 
 /**

@@ -23,9 +23,9 @@ const endOf = (block: Block, { when }: Layer) =>
 export function layerBar(show: Show, blocks: readonly Block[], layer: Layer): LayerBar | null {
   const { when } = layer;
   if (when.of === 'seconds') return { from_s: when.from_s, to_s: when.to_s, hasEnds: true };
-  const [first, last] = framesOf(show, layer) ?? [0, blocks.length - 1];
-  const [begin, end] = [blocks[first], blocks[last]];
-  if (!begin || !end || (when.of === 'frames' && !framesOf(show, layer))) return null;
+  const range = when.of === 'show' ? ([0, blocks.length - 1] as const) : framesOf(show, layer);
+  const [begin, end] = range ? [blocks[range[0]], blocks[range[1]]] : [];
+  if (!begin || !end) return null;
   return {
     from_s: beginOf(begin, layer),
     to_s: endOf(end, layer),
