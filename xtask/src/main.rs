@@ -3,6 +3,7 @@
 mod bench;
 mod browser;
 mod demo;
+mod fuzz;
 mod house;
 mod shell;
 mod test;
@@ -22,6 +23,7 @@ cargo xtask <command>
   browser          build the module that the screen runs as WebAssembly; `npm run build` does this first
   bench [PART…]    measure and write docs/benchmarks.md; an unknown PART names them all
   pairs [COUNT [FIRST [FAULTS]]]   rehearse random pairs of frames, ten thousand unless told otherwise: for the night
+  fuzz [NAME [SECONDS]]   let fuzzers that follow the code's branches look for files and messages that break it
   simulate [--seeds N] [--from K] [--robots R] [--tell] [--mutant NAME|all]   the fault campaign: docs/campaign.md
   formations [OPTION VALUE]…       rehearse drives to grids, hexagons, discs, rings and rows of every spacing; see --help
   webots [--robots N] [--floor METRES] [--blind]   write the Webots worlds and put the driver in place
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Some("bench") => bench::run(rest),
         Some("pairs") => shell::cargo(&example("pairs", rest)),
         Some("simulate") => shell::cargo(&campaign(rest)),
+        Some("fuzz") => fuzz::run(rest),
         Some("formations") => shell::cargo(&example("formations", rest)),
         Some("tidy") => tidy::run(),
         Some("house") => house::run(rest),

@@ -7,6 +7,8 @@ mod played;
 mod sequences;
 mod zipped;
 
+use std::path::PathBuf;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use extras::with_every_part;
@@ -15,7 +17,7 @@ use lightbots_exchange::{
     ARCHIVE, CSV, FORMATS, FSEQ, Format, LIGHTBOTS, SKYC, VVIZ, asset_of, put_onto, read,
 };
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage, front_rows, validate};
-use mutator::mutant;
+use mutator::{corpus_files, mutant};
 use numbers::Numbers;
 
 fn seed_show() -> Show {
@@ -216,5 +218,24 @@ fn no_mutation_breaks_reading_sequences() {
             }
             counted.has_both();
         }
+    }
+}
+
+/// Files that fuzzers found their ways through (`cargo xtask fuzz`), and those that broke a reader once.
+#[test]
+fn files_that_fuzzers_found_are_read_or_refused() {
+    let corpus =
+        |kind: &str| corpus_files(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(kind));
+    let mut counted = Counted::default();
+    for bytes in corpus("show") {
+        counted.add(is_read(&bytes));
+    }
+    assert!(counted.were_read >= 5, "the seeds are read");
+    let show = played::lit_show();
+    let sequences = corpus("sequence");
+    assert!(!sequences.is_empty());
+    for bytes in sequences {
+        let put = put_onto(&mut show.clone(), &bytes);
+        assert!(put.is_ok() || !put.unwrap_err().to_string().contains('\n'));
     }
 }

@@ -86,6 +86,7 @@ impl ReportBuilder {
             ReplayStep::Message { topic, payload } if self.is_running => self.message(now, topic, payload),
             ReplayStep::Event(event) => self.event(event, controller),
             ReplayStep::Message { .. } | ReplayStep::Woken => {}
+            ReplayStep::Input(_) | ReplayStep::Sent(_) => return,
         }
         if self.is_running {
             self.now = self.now.max(now);

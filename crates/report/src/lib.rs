@@ -14,6 +14,7 @@ mod figures;
 mod frames;
 mod growing;
 mod html;
+mod lines;
 mod model;
 mod packed;
 mod robots;
@@ -25,11 +26,12 @@ mod words;
 pub use builder::{report_of, report_with_truth};
 pub use growing::GrowingReport;
 pub use html::page;
+pub use lines::{LogLine, LogMessage, LogNote, log_lines};
 pub use model::{
     ClosestApproach, FrameFigures, Loss, MessageFigures, ReportBrakes, ReportedEvent, RobotFigures, RunKind,
     ShowReport,
 };
-pub use schema::schema;
+pub use schema::schemas;
 pub use track::{Scrub, ScrubTrack};
 pub use truth::Truth;
 pub use words::verdict;

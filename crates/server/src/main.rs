@@ -14,6 +14,7 @@ mod disk;
 mod examples;
 mod failure;
 mod fleet_book;
+mod growing_file;
 mod layer_pictures;
 mod library;
 mod live;

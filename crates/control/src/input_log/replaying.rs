@@ -7,6 +7,7 @@ use super::{LogHeader, MAGIC, VERSION};
 use crate::controller::Controller;
 use crate::event::Event;
 use crate::mutant::Mutant;
+use crate::outbox::Send;
 use crate::plan_request::{PlanRequest, PlanResult};
 use core::fmt;
 use lightbots_base::{Instant, Span};
@@ -94,6 +95,10 @@ pub enum ReplayStep<'a> {
         /// Its payload.
         payload: &'a [u8],
     },
+    /// Another input than time and messages came: what, for people.
+    Input(&'a str),
+    /// The controller sent a message.
+    Sent(&'a Send),
     /// The controller said that something happened.
     Event(&'a Event),
     /// Time passed.
@@ -190,25 +195,28 @@ impl Replay {
             }
             Record::OtherMessage { after, topic, payload } => self.message((after, topic, payload), observe),
             Record::Connected(after) => {
-                self.input(after, || "the broker was connected".into());
+                self.other_input(after, || "the broker was connected".into(), observe);
                 self.controller.connected(self.now);
             }
             Record::Disconnected(after) => {
-                self.input(after, || "the broker was lost".into());
+                self.other_input(after, || "the broker was lost".into(), observe);
                 self.controller.disconnected(self.now);
             }
             Record::Operation { after, operation } => {
-                self.input(after, || operation.name().into());
+                self.other_input(after, || operation.name().into(), observe);
                 let answer = self.controller.operate(self.now, operation);
                 self.digest.answer(&answer);
             }
             Record::TakeUp { after, run, on_return } => {
                 let run = Some(run).filter(|run| run.is_sound())?;
-                self.input(after, || "a run was taken up".into());
+                self.other_input(after, || "a run was taken up".into(), observe);
                 let answer = self.controller.take_up(self.now, &run, on_return);
                 self.digest.answer(&answer);
             }
-            Record::Planned { after, number, cancelled_at } => self.planned(after, number, cancelled_at),
+            Record::Planned { after, number, cancelled_at } => {
+                self.other_input(after, || format!("plan {number} was made"), observe);
+                self.planned(number, cancelled_at);
+            }
             Record::Outputs { taken, digest } => self.compare(taken, digest, observe),
             Record::End { digest } => {
                 self.is_complete = true;
@@ -226,6 +234,12 @@ impl Replay {
         self.last = what();
     }
 
+    /// An input that is neither time nor a message.
+    fn other_input(&mut self, after: Span, what: impl FnOnce() -> String, observe: &mut ReplayObserver<'_>) {
+        self.input(after, what);
+        observe(self.now, &self.controller, ReplayStep::Input(&self.last));
+    }
+
     fn message(&mut self, (after, topic, payload): (Span, &str, &[u8]), observe: &mut ReplayObserver<'_>) {
         self.messages += 1;
         self.input(after, String::new);
@@ -237,8 +251,7 @@ impl Replay {
         self.controller.message(self.now, topic, payload);
     }
 
-    fn planned(&mut self, after: Span, number: u64, cancelled_at: u64) {
-        self.input(after, || format!("plan {number} was made"));
+    fn planned(&mut self, number: u64, cancelled_at: u64) {
         let request = self.requests.remove(&number);
         self.requests = self.requests.split_off(&number);
         // The plan of a request from before the log is of no use to anyone.
@@ -258,6 +271,7 @@ impl Replay {
         };
         if taken & OutputKinds::SENDS != 0 {
             while let Some(send) = self.controller.next_send() {
+                observe(self.now, &self.controller, ReplayStep::Sent(&send));
                 self.digest.send(&send);
                 self.outputs += 1;
                 line(&|| format!("{} {}", send.topic.write(), String::from_utf8_lossy(&send.payload)));

@@ -1,6 +1,5 @@
 //! `rehearse`: plays the whole show in virtual time.
 
-use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use lightbots_api::{self as api, rounded};
@@ -14,6 +13,7 @@ use lightbots_sim::{
 use super::{count, print_issues, print_json};
 use crate::cli::RehearseArguments;
 use crate::failure::{Failure, Outcome};
+use crate::growing_file::GrowingFile;
 use crate::numbers::rounded_spread;
 use crate::progress::Bar;
 use crate::{say, show_file};
@@ -132,32 +132,6 @@ fn unplayed_page(found: &RehearsalReport, show: String) -> String {
         ..ShowReport::default()
     };
     page(&report, &Scrub::default())
-}
-
-/// A file that is written while a rehearsal goes on.
-struct GrowingFile<'a> {
-    path: &'a Path,
-    file: BufWriter<std::fs::File>,
-    /// The first failure, after which nothing is written.
-    failure: Option<std::io::Error>,
-}
-
-impl<'a> GrowingFile<'a> {
-    fn create(path: &'a Path) -> Result<Self, Failure> {
-        let file = std::fs::File::create(path).map_err(|error| Failure::unwritable(path, &error))?;
-        Ok(Self { path, file: BufWriter::new(file), failure: None })
-    }
-
-    fn append(&mut self, bytes: &[u8]) {
-        if self.failure.is_none() {
-            self.failure = self.file.write_all(bytes).err();
-        }
-    }
-
-    fn finish(mut self) -> Result<(), Failure> {
-        let failure = self.failure.or_else(|| self.file.flush().err());
-        failure.map_or(Ok(()), |error| Err(Failure::unwritable(self.path, &error)))
-    }
 }
 
 fn steps_file(path: &Path) -> Result<GrowingFile<'_>, Failure> {

@@ -2,9 +2,11 @@
 
 use std::panic::{RefUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use lightbots_api::rounded;
 use lightbots_control::{LogEnd, LogError, ReplayReport, replay};
+use lightbots_report::{LogLine, log_lines};
 use serde_json::json;
 
 use super::{count, print_json};
@@ -12,6 +14,7 @@ use crate::cli::ReplayArguments;
 use crate::data_folder::DataFolder;
 use crate::disk;
 use crate::failure::{Failure, Outcome};
+use crate::growing_file::GrowingFile;
 use crate::live::run_files::run_file;
 use crate::progress::Bar;
 use crate::say;
@@ -20,9 +23,16 @@ use crate::say;
 const BYTES_MAX: u64 = 32 << 30;
 
 pub fn run(arguments: &ReplayArguments) -> Outcome {
+    let lines = arguments.lines.as_deref().map(GrowingFile::create).transpose()?.map(Mutex::new);
     let (report, bytes) = replayed(&arguments.run, arguments.data.as_ref(), "replaying", |log, progress| {
-        Ok((replay(log, progress)?, log.len()))
+        let report = match &lines {
+            Some(lines) => log_lines(log, progress, &mut |line| append(lines, line))?,
+            None => replay(log, progress)?,
+        };
+        Ok((report, log.len()))
     })?;
+    let lines = lines.map(|lines| lines.into_inner().unwrap_or_else(PoisonError::into_inner));
+    lines.map_or(Ok(()), GrowingFile::finish)?;
     let ok = report.difference.is_none();
     if arguments.json {
         print_json(&as_json(&report))?
@@ -30,6 +40,14 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
         print(&report, bytes)
     }
     Ok(ok)
+}
+
+/// Writes a line into a file that only one thread uses.
+fn append(lines: &Mutex<GrowingFile<'_>>, line: &LogLine) {
+    // Every line can be written as JSON.
+    let Ok(mut text) = serde_json::to_vec(line) else { return };
+    text.push(b'\n');
+    lines.lock().unwrap_or_else(PoisonError::into_inner).append(&text);
 }
 
 /// What `replay` makes of the log of a run, which is a file or the number of a run in a data folder. `doing` stands at the

@@ -36,6 +36,15 @@ fn a_recorded_rehearsal_is_replayed_to_the_bit() {
     let (code, text, _) = run(&["replay", &file]);
     assert!(code == 0 && text.starts_with("the same to the bit: "), "{text}");
 
+    let lines = shows::folder().join("rehearsal.jsonl");
+    run(&["replay", &file, "--lines", lines.to_str().unwrap()]);
+    let lines = std::fs::read_to_string(lines).unwrap();
+    let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.last().unwrap()["digest"], report["digest"]);
+    let of = |kind: &str| lines.iter().filter(|line| line["of"] == kind).count();
+    assert_eq!(json!(of("message")), report["messages"]);
+    assert!(of("sent") >= 6 && of("event") >= 6 && of("input") >= 3, "{}", lines.len());
+
     let mut bytes = std::fs::read(&file).unwrap();
     bytes.truncate(bytes.len() / 2);
     std::fs::write(&file, &bytes).unwrap();
