@@ -54,8 +54,10 @@ const row = (scene: string, robots: number, measured: Measured, more = {}) =>
     })}\n`,
   );
 
-/** Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms, with Alt (1) or no key, and counts frames `by` a
- * function. */
+/**
+ * Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms, with Alt (1) or no key. `by`
+ * counts the frames.
+ */
 async function measureDrag(
   page: Page,
   path: (turn: number) => { x: number; y: number },

@@ -26,7 +26,7 @@ mod words;
 pub use builder::{report_of, report_with_truth};
 pub use growing::GrowingReport;
 pub use html::page;
-pub use lines::{LogLine, LogMessage, LogNote, log_lines};
+pub use lines::{LogMessage, LogNote, RunLine, run_lines};
 pub use model::{
     ClosestApproach, FrameFigures, Loss, MessageFigures, ReportBrakes, ReportedEvent, RobotFigures, RunKind,
     ShowReport,

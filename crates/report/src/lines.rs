@@ -10,7 +10,7 @@ use serde::Serialize;
 /// A line of a run. Payloads that are no text have � in place of their other bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "of", rename_all = "snake_case")]
-pub enum LogLine {
+pub enum RunLine {
     /// A message came, mostly from a robot.
     Message(LogMessage),
     /// The controller sent a message to a robot or to all.
@@ -53,10 +53,10 @@ pub struct LogNote {
 }
 
 /// Plays a log again and gives its lines. `progress` is called again and again with the share that is done.
-pub fn log_lines(
+pub fn run_lines(
     log: &[u8],
     progress: &mut dyn FnMut(f64),
-    write: &mut dyn FnMut(&LogLine),
+    write: &mut dyn FnMut(&RunLine),
 ) -> Result<ReplayReport, LogError> {
     let message = |at: Instant, topic: &str, payload: &[u8]| LogMessage {
         at_s: seconds(at),
@@ -66,15 +66,15 @@ pub fn log_lines(
     let note = |at: Instant, what: String| LogNote { at_s: seconds(at), what };
     let report = replay_observed(log, progress, &mut |now, _, step| {
         let line = match step {
-            ReplayStep::Message { topic, payload } => LogLine::Message(message(now, topic, payload)),
-            ReplayStep::Sent(send) => LogLine::Sent(message(now, &send.topic.write(), &send.payload)),
-            ReplayStep::Input(what) => LogLine::Input(note(now, what.to_owned())),
-            ReplayStep::Event(event) => LogLine::Event(note(event.at, event.kind.to_string())),
+            ReplayStep::Message { topic, payload } => RunLine::Message(message(now, topic, payload)),
+            ReplayStep::Sent(send) => RunLine::Sent(message(now, &send.topic.write(), &send.payload)),
+            ReplayStep::Input(what) => RunLine::Input(note(now, what.to_owned())),
+            ReplayStep::Event(event) => RunLine::Event(note(event.at, event.kind.to_string())),
             ReplayStep::Woken => return,
         };
         write(&line);
     })?;
-    write(&LogLine::End {
+    write(&RunLine::End {
         program: report.program.clone(),
         notes: report.notes.iter().cloned().collect(),
         is_same: report.end == LogEnd::Complete && report.difference.is_none(),

@@ -2,12 +2,12 @@
 
 use schemars::{Schema, schema_for};
 
-use crate::lines::LogLine;
+use crate::lines::RunLine;
 use crate::model::ShowReport;
 
 /// The schemas with the names of their files.
 pub fn schemas() -> [(&'static str, Schema); 2] {
-    [("report.schema.json", schema_for!(ShowReport)), ("run-log.schema.json", schema_for!(LogLine))]
+    [("report.schema.json", schema_for!(ShowReport)), ("run-log.schema.json", schema_for!(RunLine))]
 }
 
 #[cfg(test)]
@@ -19,7 +19,7 @@ mod tests {
     use lightbots_show::{Frame, Pixel, Show};
 
     use super::*;
-    use crate::lines::log_lines;
+    use crate::lines::run_lines;
 
     fn validator(nth: usize) -> jsonschema::Validator {
         jsonschema::validator_for(schemas()[nth].1.as_value()).unwrap()
@@ -69,17 +69,17 @@ mod tests {
     #[test]
     fn every_line_of_a_run_is_valid() {
         let (validator, mut lines) = (validator(1), Vec::new());
-        log_lines(&log(), &mut |_| {}, &mut |line| lines.push(line.clone())).unwrap();
+        run_lines(&log(), &mut |_| {}, &mut |line| lines.push(line.clone())).unwrap();
         for line in &lines {
             let value = serde_json::to_value(line).unwrap();
             assert!(validator.is_valid(&value), "{value}");
         }
-        let came = |at: usize| matches!(&lines[at], LogLine::Message(message) if !message.payload.is_empty());
-        assert!(matches!(&lines[0], LogLine::Input(note) if note.at_s == 0.002), "{lines:?}");
+        let came = |at: usize| matches!(&lines[at], RunLine::Message(message) if !message.payload.is_empty());
+        assert!(matches!(&lines[0], RunLine::Input(note) if note.at_s == 0.002), "{lines:?}");
         assert!(came(1) && came(2), "{lines:?}");
-        assert!(lines.iter().any(|line| matches!(line, LogLine::Sent(_))), "{lines:?}");
-        assert!(lines.iter().any(|line| matches!(line, LogLine::Event(_))), "{lines:?}");
-        assert!(matches!(lines.last(), Some(LogLine::End { is_same: true, .. })), "{lines:?}");
+        assert!(lines.iter().any(|line| matches!(line, RunLine::Sent(_))), "{lines:?}");
+        assert!(lines.iter().any(|line| matches!(line, RunLine::Event(_))), "{lines:?}");
+        assert!(matches!(lines.last(), Some(RunLine::End { is_same: true, .. })), "{lines:?}");
         assert!(!validator.is_valid(&serde_json::json!({ "of": "message", "at_s": 1 })));
     }
 }

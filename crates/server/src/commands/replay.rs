@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use lightbots_api::rounded;
 use lightbots_control::{LogEnd, LogError, ReplayReport, replay};
-use lightbots_report::{LogLine, log_lines};
+use lightbots_report::{RunLine, run_lines};
 use serde_json::json;
 
 use super::{count, print_json};
@@ -26,7 +26,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
     let lines = arguments.lines.as_deref().map(GrowingFile::create).transpose()?.map(Mutex::new);
     let (report, bytes) = replayed(&arguments.run, arguments.data.as_ref(), "replaying", |log, progress| {
         let report = match &lines {
-            Some(lines) => log_lines(log, progress, &mut |line| append(lines, line))?,
+            Some(lines) => run_lines(log, progress, &mut |line| append(lines, line))?,
             None => replay(log, progress)?,
         };
         Ok((report, log.len()))
@@ -43,7 +43,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
 }
 
 /// Writes a line into a file that only one thread uses.
-fn append(lines: &Mutex<GrowingFile<'_>>, line: &LogLine) {
+fn append(lines: &Mutex<GrowingFile<'_>>, line: &RunLine) {
     // Every line can be written as JSON.
     let Ok(mut text) = serde_json::to_vec(line) else { return };
     text.push(b'\n');
