@@ -72,32 +72,47 @@ export function FramesLane({ blocks, axis, drawn }: TrackProps) {
         onDoubleClick={hand.rename}
         onKeyDown={press}
       >
-        {blocks.map((block, i) => {
-          const left = xOf(axis, block.driveFrom_s);
-          const width = xOf(axis, block.until_s) - left;
-          // The chosen one is there also when it is out of sight: the list says which it is.
-          const isDrawn = left < drawn.to_px && left + width > drawn.from_px;
-          if (!isDrawn && i !== at) return null;
-          const travel_s = block.shownFrom_s - block.driveFrom_s;
-          return (
-            <FrameBlock
-              key={block.key}
-              id={idOf(block.key) ?? ''}
-              index={i}
-              frame={block.frame}
-              left={left}
-              width={width}
-              travel_px={travel_s * axis.scale}
-              travel_s={travel_s}
-              least_s={block.least_s}
-              least_px={(block.least_s ?? 0) * axis.scale}
-              isFastest={isFastest(block)}
-              isChosen={chosen.has(i)}
-              isCurrent={i === at}
-              isWrong={wrong.has(i)}
-              go={block.go}
-              label={blockText(block, i)}
-            />
+        {groupsOf(blocks.length).map((group) => {
+          const origin_px = xOf(axis, blocks[group[0] ?? 0]?.driveFrom_s ?? 0);
+          const made = group.flatMap((i) => {
+            const block = blocks[i];
+            if (!block) return [];
+            const left = xOf(axis, block.driveFrom_s);
+            const width = xOf(axis, block.until_s) - left;
+            // The chosen one is there also when it is out of sight: the list says which it is.
+            const isDrawn = left < drawn.to_px && left + width > drawn.from_px;
+            if (!isDrawn && i !== at) return [];
+            const travel_s = block.shownFrom_s - block.driveFrom_s;
+            return [
+              <FrameBlock
+                key={block.key}
+                id={idOf(block.key) ?? ''}
+                index={i}
+                frame={block.frame}
+                left={steady(left - origin_px)}
+                width={steady(width)}
+                travel_px={steady(travel_s * axis.scale)}
+                travel_s={steady(travel_s)}
+                least_s={block.least_s}
+                least_px={(block.least_s ?? 0) * axis.scale}
+                isFastest={isFastest(block)}
+                isChosen={chosen.has(i)}
+                isCurrent={i === at}
+                isWrong={wrong.has(i)}
+                go={block.go}
+                label={blockText(block, i)}
+              />,
+            ];
+          });
+          return made.length === 0 ? null : (
+            <div
+              key={group[0]}
+              role="presentation"
+              className={styles.group}
+              style={{ left: origin_px }}
+            >
+              {made}
+            </div>
           );
         })}
       </div>
@@ -118,5 +133,16 @@ export function FramesLane({ blocks, axis, drawn }: TrackProps) {
     </>
   );
 }
+
+/** Blocks beside each other that a drag before them moves as one: it makes all later ones go the same way. */
+const GROUP = 12;
+
+const groupsOf = (count: number): number[][] =>
+  Array.from({ length: Math.ceil(count / GROUP) }, (_, group) =>
+    Array.from({ length: Math.min(GROUP, count - group * GROUP) }, (__, i) => group * GROUP + i),
+  );
+
+/** The same number for differences that were computed in other ways, so that nothing is drawn for rounding. */
+const steady = (value: number) => Math.round(value * 1e3) / 1e3;
 
 const idOf = (key: number | undefined) => (key === undefined ? undefined : `timeline-frame-${key}`);
