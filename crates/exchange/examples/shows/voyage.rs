@@ -11,8 +11,10 @@ use super::timeline::with_layers;
 const ROBOTS: usize = 200;
 /// Where the sea is, metres.
 const SEA_M: f64 = -1.75;
-/// Distance of two lights of the sea, metres.
-const SEA_STEP_M: f64 = 0.11;
+/// From the first to the last light of a row of the sea, metres.
+const SEA_WIDTH_M: f64 = 4.3;
+/// Most lights in a row of the sea.
+const SEA_ROW: usize = 50;
 /// Least distance of two lights of a drawing, metres.
 const GAP_M: f64 = 0.084;
 /// Robots that draw the sea at least.
@@ -56,15 +58,18 @@ fn picture(name: &str, strokes: &[Stroke], shade: impl Fn(Vec2) -> Rgb) -> Frame
     frame(name, 3.0, dots)
 }
 
-/// Waves in rows of forty.
+/// Waves in rows of fifty at most, all as long.
 fn sea(count: usize) -> Vec<Vec2> {
-    (0..count)
-        .map(|nth| {
-            let (line, column) = (nth / 40, nth % 40);
-            let x = (column as f64 - 19.5) * SEA_STEP_M;
-            Vec2::new(x, SEA_M - 0.14 * line as f64 + 0.05 * Vec2::unit(x * 5.0).y)
-        })
-        .collect()
+    let lines = count.div_ceil(SEA_ROW);
+    let place = |line: usize, column: usize, columns: usize| {
+        let x = (column as f64 / (columns - 1) as f64 - 0.5) * SEA_WIDTH_M;
+        Vec2::new(x, SEA_M - 0.14 * line as f64 + 0.05 * Vec2::unit(x * 5.0).y)
+    };
+    let row = |line: usize| {
+        let columns = count * (line + 1) / lines - count * line / lines;
+        (0..columns).map(move |column| place(line, column, columns))
+    };
+    (0..lines).flat_map(row).collect()
 }
 
 /// Part of an ellipse, angles in turns.
@@ -111,14 +116,14 @@ fn ship() -> Vec<Stroke> {
 }
 
 fn whale() -> Vec<Stroke> {
-    let mut back = arc(Vec2::new(-0.3, -0.75), Vec2::new(1.35, 0.95), 0.5, 0.04);
-    back.extend(line(&[(1.35, -0.35), (1.75, 0.25)]));
-    let mut belly = arc(Vec2::new(-0.3, -0.75), Vec2::new(1.35, 0.6), 0.5, 0.98);
-    belly.extend(line(&[(1.5, -0.5), (1.75, 0.25)]));
+    let mut back = arc(Vec2::new(-0.3, -0.75), Vec2::new(1.35, 0.95), 0.5, 0.06);
+    back.extend(line(&[(1.35, -0.3), (1.7, 0.3)]));
+    let mut belly = arc(Vec2::new(-0.3, -0.75), Vec2::new(1.35, 0.6), 0.5, 0.96);
+    belly.extend(line(&[(1.5, -0.6), (1.85, 0.3)]));
     vec![
         back,
         belly,
-        line(&[(1.75, 0.25), (1.25, 0.6), (1.75, 0.45), (2.2, 0.75), (1.75, 0.25)]),
+        line(&[(1.7, 0.3), (1.2, 0.8), (1.8, 0.65), (2.3, 1.0), (1.85, 0.3)]),
         arc(Vec2::new(-0.95, 0.55), Vec2::new(0.35, 0.75), 0.0, 0.25),
         arc(Vec2::new(-0.25, 0.55), Vec2::new(0.35, 0.75), 0.5, 0.25),
         arc(Vec2::new(-1.05, -0.6), Vec2::new(0.07, 0.07), 0.0, 1.0),
@@ -128,9 +133,9 @@ fn whale() -> Vec<Stroke> {
 
 fn fish() -> Vec<Stroke> {
     vec![
-        arc(Vec2::new(-0.3, -0.7), Vec2::new(1.4, 1.35), 0.42, 0.09),
-        arc(Vec2::new(-0.3, 0.9), Vec2::new(1.4, 1.35), 0.58, 0.91),
-        line(&[(0.88, 0.07), (1.7, 0.85), (1.5, 0.1), (1.7, -0.65), (0.88, 0.13)]),
+        arc(Vec2::new(-0.3, -0.7), Vec2::new(1.4, 1.35), 0.399, 0.101),
+        arc(Vec2::new(-0.3, 0.9), Vec2::new(1.4, 1.35), 0.601, 0.899),
+        line(&[(0.83, 0.1), (1.7, 0.85), (1.5, 0.1), (1.7, -0.65), (0.83, 0.1)]),
         arc(Vec2::new(-0.9, 0.25), Vec2::new(0.09, 0.09), 0.0, 1.0),
         arc(Vec2::new(-1.0, 0.1), Vec2::new(0.5, 0.6), -0.11, 0.11),
         line(&[(-0.3, 0.85), (0.1, 1.15), (0.45, 0.7)]),
