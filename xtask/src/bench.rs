@@ -149,7 +149,7 @@ const PARTS: [Part; 16] = [
         about: "The built screen in headless Chromium, 1440 × 900, drawn in software, with server, broker and \
                 simulated robots on the same cores. Counted are frames in which the stage was drawn, while all pixels \
                 are dragged in the editor, and while a show in which all robots drive is watched. In the scenes of the \
-                timeline those frames count in which it was scrolled or its blocks moved: 200 frames, 50 layers.",
+                timeline, with 200 frames and 50 layers, those frames count that the browser put on the screen.",
     },
     Part {
         name: "sound",

@@ -23,6 +23,11 @@ use crate::say;
 const BYTES_MAX: u64 = 32 << 30;
 
 pub fn run(arguments: &ReplayArguments) -> Outcome {
+    let recording = path_of(&arguments.run, arguments.data.as_ref());
+    if let Some(lines) = arguments.lines.as_deref().filter(|lines| is_same_file(lines, &recording)) {
+        let why = format!("--lines: {} is the recording itself; choose another file", lines.display());
+        return Err(Failure::input(why));
+    }
     let lines = arguments.lines.as_deref().map(GrowingFile::create).transpose()?.map(Mutex::new);
     let (report, bytes) = replayed(&arguments.run, arguments.data.as_ref(), "replaying", |log, progress| {
         let report = match &lines {
@@ -42,6 +47,19 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
     Ok(ok)
 }
 
+/// The file of a run, which is a file or the number of a run in a data folder.
+fn path_of(run: &Path, data: Option<&PathBuf>) -> PathBuf {
+    let number = run.to_str().and_then(|text| text.parse().ok());
+    match number.filter(|_| !run.exists()) {
+        Some(number) => run_file(&data.cloned().unwrap_or_else(DataFolder::usual), number),
+        None => run.to_owned(),
+    }
+}
+
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
+}
+
 /// Writes a line into a file that only one thread uses.
 fn append(lines: &Mutex<GrowingFile<'_>>, line: &RunLine) {
     // Every line can be written as JSON.
@@ -58,11 +76,7 @@ pub fn replayed<T>(
     doing: &str,
     replay: impl Fn(&[u8], &mut dyn FnMut(f64)) -> Result<T, LogError> + RefUnwindSafe,
 ) -> Result<T, Failure> {
-    let number = run.to_str().and_then(|text| text.parse().ok());
-    let path = match number.filter(|_| !run.exists()) {
-        Some(number) => run_file(&data.cloned().unwrap_or_else(DataFolder::usual), number),
-        None => run.to_owned(),
-    };
+    let path = path_of(run, data);
     let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
     let log =
         disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;

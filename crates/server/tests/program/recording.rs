@@ -45,6 +45,9 @@ fn a_recorded_rehearsal_is_replayed_to_the_bit() {
     assert_eq!(json!(of("message")), report["messages"]);
     assert!(of("sent") >= 6 && of("event") >= 6 && of("input") >= 3, "{}", lines.len());
 
+    let (code, _, err) = run(&["replay", &file, "--lines", &file]);
+    assert!(code == 2 && err.contains("choose another file"), "{err}");
+
     let mut bytes = std::fs::read(&file).unwrap();
     bytes.truncate(bytes.len() / 2);
     std::fs::write(&file, &bytes).unwrap();
