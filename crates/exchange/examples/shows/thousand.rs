@@ -18,13 +18,13 @@ const LIGHT: &str = r##"
 {"name": "Northern lights", "kind": "plasma", "frames": ["1", "1"], "settings": {"palette": ["#04122b", "#00c878", "#5cffb0", "#7a2bd6"],
     "size_m": 5, "speed_hz": 0.12}},
 {"name": "Petals", "kind": "chase", "frames": ["2", "2"], "settings": {"along": "distance", "size_m": 3, "palette": ["#505050", "#ffffff"],
-    "speed_hz": 0.3, "width": 0.8, "blend": "multiply"}},
+    "speed_hz": 0.3, "width": 0.8, "blend": "multiply", "opacity": [[0, 0], [2, 1]]}},
 {"name": "Stars", "kind": "twinkle", "frames": ["3", "3"], "settings": {"palette": ["#000000", "#ffffff"], "speed_hz": 0.5,
-    "density": 0.35, "width": 0.4, "blend": "screen"}},
+    "density": 0.35, "width": 0.4, "blend": "screen", "opacity": [[0, 0], [2, 1]]}},
 {"name": "Heartbeat", "kind": "pulse", "frames": ["4", "4"], "settings": {"palette": ["#505050", "#ffffff"], "speed_hz": 1.1,
-    "width": 0.2, "blend": "multiply"}},
+    "width": 0.2, "blend": "multiply", "opacity": [[0, 0], [2, 1]]}},
 {"name": "Ripple", "kind": "wave", "frames": ["5", "5"], "settings": {"along": "distance", "size_m": 2.8, "palette": ["#303030", "#ffffff"],
-    "speed_hz": 0.5, "blend": "multiply"}}
+    "speed_hz": 0.5, "blend": "multiply", "opacity": [[0, 0], [2, 1]]}}
 "##;
 
 pub fn show() -> Show {
