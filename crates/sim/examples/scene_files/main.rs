@@ -1,8 +1,8 @@
 //! Files of the benchmark's scenes: `cargo run --release -p lightbots-sim --example scene_files FOLDER [ROBOTS…]`.
 //!
-//! Each scene of docs/benchmarks.md becomes a show of one drive, with 30, 100 and 1,000 robots unless told otherwise.
-//! `scenes.csv` beside them lists them: file, scene, robots and the seed of the rehearsals. Another program that reads the
-//! files then solves the same problems: starts, pixels, who shows which, and what stands in the way.
+//! Each scene of docs/benchmarks.md becomes a show whose last drive it is, with 30, 100 and 1,000 robots unless told
+//! otherwise. `scenes.csv` beside them lists them: file, scene, robots and the seed of the rehearsals. Another program that
+//! reads the files then solves the same problems: starts, pixels, which robot shows which pixel, and what is in the way.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -19,14 +19,13 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::LIGHTBOTS;
 use lightbots_plan::TransitionProblem;
 use lightbots_show::{Frame, Identity, Obstacle, Pixel, Show, Stage};
+use lightbots_sim::RehearsalOptions;
 
 const USAGE: &str = "usage: scene_files FOLDER [ROBOTS…]";
 /// Numbers of robots unless told otherwise.
 const ROBOTS: [usize; 3] = [30, 100, 1_000];
 /// How long the picture stands, seconds.
 const AIR_S: f64 = 1.0;
-/// The rehearsals of the benchmark take this seed unless they say otherwise.
-const REHEARSAL_SEED: u64 = 0;
 
 fn main() -> ExitCode {
     arguments::main(run)
@@ -43,13 +42,15 @@ fn run(args: &[String]) -> Result<bool, String> {
     };
     let folder = Path::new(folder);
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    // The rehearsals of the benchmark take this one.
+    let seed = RehearsalOptions::default().seed;
     let mut list = "file,scene,robots,rehearsal_seed\n".to_owned();
     for scene in bench::ALL {
         for &robots in counts.iter().filter(|&&robots| robots <= scene.most) {
             let problem = (scene.build)(robots);
             let name = format!("{} {robots}", scene.name);
             let file = format!("{}.lightbots.json", name.replace('°', "").replace(' ', "-").to_lowercase());
-            list += &format!("{file},{},{},{REHEARSAL_SEED}\n", scene.name, problem.starts.len());
+            list += &format!("{file},{},{},{seed}\n", scene.name, problem.starts.len());
             write(&folder.join(&file), &LIGHTBOTS.write(&show(name, &problem), None).bytes)?;
         }
     }
