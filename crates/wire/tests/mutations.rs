@@ -4,6 +4,7 @@
 //! `LIGHTBOTS_MUTATIONS=1000000 cargo test -p lightbots-wire --release --test mutations` tries more than the usual run.
 //! Bytes that break a decoder are written to `corpus`, whose files every run reads.
 
+mod checks;
 #[path = "../../exchange/tests/mutator/mod.rs"]
 mod mutator;
 #[path = "../../exchange/tests/numbers/mod.rs"]
@@ -12,7 +13,7 @@ mod numbers;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-use lightbots_wire::{Command, Report, TimeQuestion, Topic, commands, encode};
+use checks::read;
 use mutator::{corpus_files, keep_broken, mutant, rounds};
 use numbers::Numbers;
 
@@ -46,34 +47,6 @@ const GOOD: [&str; 19] = [
 
 fn corpus() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus")
-}
-
-/// Reads the bytes as everything that can come over the wire; answers whether any decoder took them.
-fn read(bytes: &[u8]) -> bool {
-    let mut is_read = false;
-    for command in commands(bytes).flatten() {
-        is_read = true;
-        // A robot refuses such a target (R19); its last decimals are beyond what a number holds.
-        if matches!(command, Command::Target(to) if to.x.abs().max(to.y.abs()) > 1_000.0) {
-            continue;
-        }
-        let mut text = String::new();
-        encode(&command, &mut text).unwrap();
-        let mut again = String::new();
-        commands(text.as_bytes()).flatten().for_each(|command| encode(&command, &mut again).unwrap());
-        assert_eq!(again, text);
-    }
-    if let Some(report) = Report::decode(bytes) {
-        is_read = true;
-        let mut text = String::new();
-        report.encode(&mut text).unwrap();
-        let mut again = String::new();
-        let report = Report::decode(text.as_bytes()).unwrap_or_else(|| panic!("{text} is not read again"));
-        report.encode(&mut again).unwrap();
-        assert_eq!(again, text);
-    }
-    is_read |= TimeQuestion::decode(bytes).is_some();
-    is_read | std::str::from_utf8(bytes).is_ok_and(|text| Topic::parse(text).is_some())
 }
 
 fn holds(bytes: &[u8]) -> bool {

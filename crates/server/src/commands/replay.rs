@@ -1,8 +1,7 @@
 //! `replay`: a recorded run again, input by input.
 
-use std::panic::{RefUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use lightbots_api::rounded;
 use lightbots_control::{LogEnd, LogError, ReplayReport, replay};
@@ -28,15 +27,14 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
         let why = format!("--lines: {} is the recording itself; choose another file", lines.display());
         return Err(Failure::input(why));
     }
-    let lines = arguments.lines.as_deref().map(GrowingFile::create).transpose()?.map(Mutex::new);
+    let mut lines = arguments.lines.as_deref().map(GrowingFile::create).transpose()?;
     let (report, bytes) = replayed(&arguments.run, arguments.data.as_ref(), "replaying", |log, progress| {
-        let report = match &lines {
+        let report = match &mut lines {
             Some(lines) => run_lines(log, progress, &mut |line| append(lines, line))?,
             None => replay(log, progress)?,
         };
         Ok((report, log.len()))
     })?;
-    let lines = lines.map(|lines| lines.into_inner().unwrap_or_else(PoisonError::into_inner));
     lines.map_or(Ok(()), GrowingFile::finish)?;
     let ok = report.difference.is_none();
     if arguments.json {
@@ -60,12 +58,11 @@ fn is_same_file(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
-/// Writes a line into a file that only one thread uses.
-fn append(lines: &Mutex<GrowingFile<'_>>, line: &RunLine) {
+fn append(lines: &mut GrowingFile<'_>, line: &RunLine) {
     // Every line can be written as JSON.
     let Ok(mut text) = serde_json::to_vec(line) else { return };
     text.push(b'\n');
-    lines.lock().unwrap_or_else(PoisonError::into_inner).append(&text);
+    lines.append(&text);
 }
 
 /// What `replay` makes of the log of a run, which is a file or the number of a run in a data folder. `doing` stands at the
@@ -74,17 +71,17 @@ pub fn replayed<T>(
     run: &Path,
     data: Option<&PathBuf>,
     doing: &str,
-    replay: impl Fn(&[u8], &mut dyn FnMut(f64)) -> Result<T, LogError> + RefUnwindSafe,
+    replay: impl FnOnce(&[u8], &mut dyn FnMut(f64)) -> Result<T, LogError>,
 ) -> Result<T, Failure> {
     let path = path_of(run, data);
     let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
     let log =
         disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;
-    // A log may come from a program that failed: then the core fails again.
-    let made = catch_unwind(|| {
+    // A log may come from a program that failed: then the core fails again, and nothing of its work is used.
+    let made = catch_unwind(AssertUnwindSafe(|| {
         let bar = Bar::new();
         replay(&log, &mut |share| bar.set(share, doing))
-    });
+    }));
     let Ok(made) = made else {
         return Err(Failure::problem(format!("{}: the controller failed in this run", path.display())));
     };

@@ -1,13 +1,12 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import { useStore } from '../../base/store';
 import { xOf } from '../../model/timelineAxis';
-import { isFastest } from '../../model/timelineBlocks';
 import * as acts from '../acts';
 import { useEditing, useEditorNow } from '../context';
 import { NameField } from '../NameField';
-import { blockText, revealFrame, sayBlock, stepEdge, toggleCues, toggleNail } from './blockActs';
+import { revealFrame, sayBlock, stepEdge, toggleCues, toggleNail } from './blockActs';
 import { edgeKey, takeKey } from './edgeKeys';
-import { FrameBlock } from './FrameBlock';
+import { blockId, FrameBlocks } from './FrameBlocks';
 import { framesHand } from './framesHand';
 import { useTimelineView, type TrackProps } from './timelineView';
 import styles from './Timeline.module.css';
@@ -65,56 +64,21 @@ export function FramesLane({ blocks, axis, drawn }: TrackProps) {
         aria-label="Frames on the timeline"
         aria-orientation="horizontal"
         aria-multiselectable
-        aria-activedescendant={idOf(blocks[at]?.key)}
+        aria-activedescendant={blocks[at] && blockId(blocks[at])}
         aria-keyshortcuts="[ ] Shift+[ Shift+] C N Enter"
         onPointerDown={hand.down}
         onClick={hand.click}
         onDoubleClick={hand.rename}
         onKeyDown={press}
       >
-        {groupsOf(blocks.length).map((group) => {
-          const origin_px = xOf(axis, blocks[group[0] ?? 0]?.driveFrom_s ?? 0);
-          const made = group.flatMap((i) => {
-            const block = blocks[i];
-            if (!block) return [];
-            const left = xOf(axis, block.driveFrom_s);
-            const width = xOf(axis, block.until_s) - left;
-            // The chosen one is there also when it is out of sight: the list says which it is.
-            const isDrawn = left < drawn.to_px && left + width > drawn.from_px;
-            if (!isDrawn && i !== at) return [];
-            const travel_s = block.shownFrom_s - block.driveFrom_s;
-            return [
-              <FrameBlock
-                key={block.key}
-                id={idOf(block.key) ?? ''}
-                index={i}
-                frame={block.frame}
-                left={steady(left - origin_px)}
-                width={steady(width)}
-                travel_px={steady(travel_s * axis.scale)}
-                travel_s={steady(travel_s)}
-                least_s={block.least_s}
-                least_px={(block.least_s ?? 0) * axis.scale}
-                isFastest={isFastest(block)}
-                isChosen={chosen.has(i)}
-                isCurrent={i === at}
-                isWrong={wrong.has(i)}
-                go={block.go}
-                label={blockText(block, i)}
-              />,
-            ];
-          });
-          return made.length === 0 ? null : (
-            <div
-              key={group[0]}
-              role="presentation"
-              className={styles.group}
-              style={{ left: origin_px }}
-            >
-              {made}
-            </div>
-          );
-        })}
+        <FrameBlocks
+          blocks={blocks}
+          axis={axis}
+          drawn={drawn}
+          at={at}
+          chosen={chosen}
+          wrong={wrong}
+        />
       </div>
       {lasso ? <i className={styles.lasso} style={lasso} /> : null}
       {named && renaming !== null ? (
@@ -133,16 +97,3 @@ export function FramesLane({ blocks, axis, drawn }: TrackProps) {
     </>
   );
 }
-
-/** Blocks beside each other that a drag before them moves as one: it makes all later ones go the same way. */
-const GROUP = 12;
-
-const groupsOf = (count: number): number[][] =>
-  Array.from({ length: Math.ceil(count / GROUP) }, (_, group) =>
-    Array.from({ length: Math.min(GROUP, count - group * GROUP) }, (__, i) => group * GROUP + i),
-  );
-
-/** The same number for differences that were computed in other ways, so that nothing is drawn for rounding. */
-const steady = (value: number) => Math.round(value * 1e3) / 1e3;
-
-const idOf = (key: number | undefined) => (key === undefined ? undefined : `timeline-frame-${key}`);
