@@ -24,6 +24,7 @@ mod bumps;
 mod campaign;
 mod conditions;
 mod contacts;
+mod controller_clock;
 mod controller_crashes;
 mod dice;
 mod disk;

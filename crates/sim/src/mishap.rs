@@ -33,6 +33,10 @@ pub enum Mishap {
     Person(Option<Vec2>),
     /// The disk of the journal is full for this long.
     DiskFull(Span),
+    /// The time of day of the controller's computer is set by this.
+    ClockSet(Span),
+    /// The controller's computer sleeps for this long, with the broker on it: its show clock stands.
+    Sleeps(Span),
     /// For the first span, a piece of the journal takes the second until it is on the disk.
     DiskSlow(Span, Span),
 }

@@ -1,21 +1,20 @@
 //! The loop of a rehearsal: one queue of messages, one clock, one step after the other.
 
 mod breaking;
+mod messages;
 
 use std::collections::VecDeque;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
-use lightbots_control::{
-    Config, Controller, EventKind, MissingPolicy, Operation, RecordedController, RobotView,
-};
+use lightbots_control::{Config, Controller, MissingPolicy, Operation, RecordedController, RobotView};
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
 use crate::breakdowns::Breakdowns;
 use crate::broker_outages::BrokerOutages;
 use crate::campaign::Invariants;
+use crate::controller_clock::ControllerClock;
 use crate::controller_crashes::ControllerCrashes;
 use crate::forgeries::Forgeries;
 use crate::light_watch::{self, LightWatch};
@@ -35,9 +34,6 @@ const GATHERING: Span = Span::from_millis(8_000);
 const PLACES_EVERY: u64 = 6;
 /// Steps between two times that the world's state enters the hash: about a second.
 const HASH_EVERY: u64 = 64;
-/// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
-const ROUNDS_PER_STEP: usize = 1_000_000;
-
 /// A show being rehearsed.
 pub(crate) struct Play {
     show: Arc<Show>,
@@ -51,6 +47,8 @@ pub(crate) struct Play {
     breakdowns: Breakdowns,
     broker: BrokerOutages,
     crashes: ControllerCrashes,
+    /// The clocks of the controller's computer.
+    clock: ControllerClock,
     forgeries: Forgeries,
     /// `(name, robot)` of robots that have the name of another.
     namesakes: Vec<(RobotId, usize)>,
@@ -98,6 +96,7 @@ impl Play {
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
             broker: BrokerOutages::new(conditions, starts.len(), *seed),
             crashes: ControllerCrashes::new(&conditions.crashed),
+            clock: ControllerClock::default(),
             controllers: 0,
             operator: Operator::new(conditions.go_after),
             mishaps: Timetable::new(conditions.mishaps.clone()),
@@ -157,23 +156,29 @@ impl Play {
     fn switch_on(&mut self, log: Option<Vec<(String, String)>>) {
         if let Some(notes) = log {
             // A new controller is at rest.
-            self.controller.begin_log(self.now, notes);
+            self.controller.begin_log(self.shown(), notes);
         }
         if self.crashes.are_there() {
             self.controller.keep_journal();
         }
-        self.controller.connected(self.now);
+        self.controller.connected(self.shown());
         // Opening is refused only during a run.
-        let _ = self.controller.operate(self.now, Operation::Open(self.show.clone()));
+        let _ = self.controller.operate(self.shown(), Operation::Open(self.show.clone()));
         for robot in 0..self.robots.len() {
             self.robots.link(self.now, robot, true);
         }
         self.drain_controller();
     }
 
+    /// What the controller's clock shows.
+    fn shown(&self) -> Instant {
+        self.clock.shows(self.now)
+    }
+
     fn compare_lights(&mut self) {
-        let Self { robots, by_id, lights, controller, now, .. } = self;
-        lights.compare(controller, *now, |id| {
+        let shown = self.shown();
+        let Self { robots, by_id, lights, controller, .. } = self;
+        lights.compare(controller, shown, |id| {
             let place = by_id.binary_search_by_key(&id, |entry| entry.0).ok()?;
             Some(robots.light(by_id[place].1))
         });
@@ -199,7 +204,7 @@ impl Play {
         self.befall();
         let Self { robots, network, record, breakdowns, broker, forgeries, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
-            send(network, record, (breakdowns, broker, forgeries), next, (robot, topic, text))
+            messages::send(network, record, (breakdowns, broker, forgeries), next, (robot, topic, text))
         });
         for (robot, text) in self.forgeries.floods() {
             self.network.send(next, Way::ToController(robot), Topic::Status, text.into());
@@ -214,63 +219,12 @@ impl Play {
         }
     }
 
-    /// Handles messages and wake-ups until `until`, in order.
-    fn pass_time(&mut self, until: Instant) {
-        for _ in 0..ROUNDS_PER_STEP {
-            let wake = self.controller.wake_at().map(|at| at.max(self.now));
-            let wake = wake.filter(|_| !self.crashes.is_gone());
-            let message = self.network.next_at();
-            let wakes_first = wake.is_some_and(|wake| message.is_none_or(|message| wake < message));
-            if wakes_first {
-                let at = wake.unwrap_or(until);
-                if at > until {
-                    return;
-                }
-                self.now = at;
-                self.controller.wake(at);
-                self.drain_controller();
-            } else {
-                let Some((at, message)) = self.network.next_until(until) else { return };
-                self.now = at.max(self.now);
-                if let Some(robot) = self.network.next_receiver() {
-                    self.robots.prefetch_receiver(robot);
-                }
-                match message.way {
-                    Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) || self.broker.is_cut(robot) => {}
-                    Way::ToRobot(robot) => {
-                        if let Some(invariants) = &mut self.invariants {
-                            invariants.received(robot, self.now);
-                        }
-                        self.robots.receive(self.now, robot, message.topic, &message.payload);
-                        let Self { robots, network, record, breakdowns, broker, forgeries, now, .. } = self;
-                        robots.drain_messages(robot, &mut |robot, topic, text| {
-                            send(
-                                network,
-                                record,
-                                (breakdowns, broker, forgeries),
-                                *now,
-                                (robot, topic, text),
-                            );
-                        });
-                    }
-                    Way::ToController(_) if self.crashes.is_gone() => {}
-                    Way::ToController(robot) => {
-                        self.hash.word(at.0 ^ (robot as u64) << 48);
-                        self.hash.bytes(&message.payload);
-                        self.controller.message(self.now, &message.topic.write(), &message.payload);
-                        self.drain_controller();
-                    }
-                }
-            }
-        }
-    }
-
     /// Begins the show once all robots are present and know the show clock, or after [`GATHERING`].
     fn begin(&mut self) {
         if !(self.now.0 / STEP.0 as u64).is_multiple_of(8) {
             return;
         }
-        let robots = self.controller.snapshot(self.now).robots;
+        let robots = self.controller.snapshot(self.shown()).robots;
         // An original robot reports neither its state nor its clock.
         let is_ready = |robot: &&RobotView| {
             robot.reported.at.is_some()
@@ -283,7 +237,7 @@ impl Play {
         }
         self.began = true;
         let missing = if late { MissingPolicy::LeaveOut } else { MissingPolicy::Refuse };
-        if let Err(refusal) = self.controller.operate(self.now, Operation::Play { from: 0, missing }) {
+        if let Err(refusal) = self.controller.operate(self.shown(), Operation::Play { from: 0, missing }) {
             self.record.refused(&refusal.to_string());
         }
         self.drain_controller();
@@ -294,7 +248,7 @@ impl Play {
     fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         while let Some(job) = self.controller.next_plan_request() {
             progress(Progress::Planning);
-            self.controller.planned(self.now, job.run());
+            self.controller.planned(self.shown(), job.run());
             self.drain_controller();
             progress(self.progress());
         }
@@ -310,50 +264,13 @@ impl Play {
         let number_of = |id| number(id).ok().map(|place| self.by_id[place].1);
         let paths: Vec<_> =
             view.paths.iter().filter_map(|&(id, path)| Some((number_of(id)?, path))).collect();
-        let begins_s = (view.began - first).as_secs();
+        let begins_s = (self.clock.when(view.began) - first).as_secs();
         progress(Progress::Departing { frame: view.frame, begins_s, paths: &paths });
     }
 
     fn progress(&self) -> Progress<'static> {
         let frames = self.record.frames_played();
         Progress::Playing { at_s: self.now.as_secs(), planned_s: self.planned_s, frames }
-    }
-
-    fn drain_controller(&mut self) {
-        while let Some(send) = self.controller.next_send() {
-            let payload: Rc<[u8]> = send.payload.into();
-            match send.topic {
-                Topic::Robot(id) => {
-                    let place = self.by_id.binary_search_by_key(&id, |entry| entry.0);
-                    let first = place.ok().map(|place| self.by_id[place]);
-                    let named = first.iter().chain(&self.namesakes).filter(|(name, _)| *name == id);
-                    // A robot that has another name by now has subscribed to that one.
-                    for &(_, robot) in named.filter(|(_, robot)| self.robots.id(*robot) == id) {
-                        self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
-                    }
-                }
-                topic => {
-                    for robot in 0..self.robots.len() {
-                        self.network.send(self.now, Way::ToRobot(robot), topic, payload.clone());
-                    }
-                }
-            }
-        }
-        while let Some(event) = self.controller.next_event() {
-            if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
-                self.operator.asked(self.now);
-            }
-            if matches!(event.kind, EventKind::FrameReached { .. })
-                && let Some(frame) = self.visits.pop_front()
-            {
-                self.operator.does(self.now, Operation::GoTo(frame));
-            }
-            if let Some(invariants) = &mut self.invariants {
-                invariants.event(&event, &self.by_id);
-            }
-            self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
-        }
-        self.write_journal();
     }
 
     /// The report of what was played.
@@ -373,22 +290,6 @@ impl Play {
             report.issues.push(Issue::warning("seed", message));
         }
         report
-    }
-}
-
-/// Sends a message of a robot to the controller, unless the robot is mute.
-fn send(
-    network: &mut Network,
-    record: &mut RehearsalRecord,
-    (breakdowns, broker, forgeries): (&Breakdowns, &BrokerOutages, &mut Forgeries),
-    now: Instant,
-    (robot, topic, text): (usize, Topic, &[u8]),
-) {
-    if topic == Topic::Arrival {
-        record.arrived(robot, now);
-    }
-    if !breakdowns.is_mute(robot) && !broker.is_cut(robot) {
-        network.send(now, Way::ToController(robot), topic, forgeries.forge(robot, topic, text).into());
     }
 }
 

@@ -34,8 +34,8 @@ pub enum OnReturn {
 
 impl Controller {
     /// Takes up a run whose controller is gone. It stands still until its robots report, and is then planned from where they
-    /// stand. Call this before [`connected`](Self::connected), with a show clock that goes on from the run's
-    /// [`last_written`](UnfinishedRun::last_written).
+    /// stand. Call this before [`connected`](Self::connected), with a show clock that goes on from
+    /// [`show_clock_at`](UnfinishedRun::show_clock_at).
     pub fn take_up(
         &mut self,
         now: Instant,

@@ -33,13 +33,8 @@ impl Clock {
         Self::starting_at(unix_us())
     }
 
-    /// A clock that goes on from where another one was: it showed `at` at `wall_us`, microseconds since 1970. Robots that
-    /// still drive by it must not be led to another moment of their paths. The time of day may have been set back since.
-    pub fn going_on((at, wall_us): (Instant, u64)) -> Self {
-        Self::starting_at(at.0.saturating_add(unix_us().saturating_sub(wall_us)))
-    }
-
-    fn starting_at(offset_us: u64) -> Self {
+    /// A clock that shows this many microseconds now.
+    pub fn starting_at(offset_us: u64) -> Self {
         let shared = Shared {
             withheld_us: AtomicU64::new(0),
             limit_us: AtomicU64::new(u64::MAX),
@@ -96,15 +91,6 @@ pub fn unix_us() -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_clock_goes_on_from_another_one() {
-        let (at, wall_us) = (Instant(5_000_000), unix_us() - 2_000_000);
-        let shown = Clock::going_on((at, wall_us)).now() - at;
-        assert!(shown.as_secs() >= 2.0, "{shown:?}");
-        let set_back = Clock::going_on((at, u64::MAX)).now();
-        assert!(set_back >= at, "{set_back:?}");
-    }
 
     #[test]
     fn deadlines_are_moments_of_the_same_clock() {

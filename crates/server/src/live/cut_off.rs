@@ -7,7 +7,7 @@ use lightbots_base::Instant;
 use lightbots_control::{Config, OnReturn, UnfinishedRun};
 use lightbots_show::Show;
 
-use super::clock::Clock;
+use super::clock::{Clock, unix_us};
 use super::journal;
 use crate::cli::OnReturnArgument;
 use crate::library::Library;
@@ -33,7 +33,7 @@ impl CutOffRun {
 
     /// The clock that goes on from the run's.
     pub fn clock(&self) -> Clock {
-        Clock::going_on(self.unfinished.last_written())
+        Clock::starting_at(self.unfinished.show_clock_at(unix_us()).0)
     }
 
     /// The show for the screen with its name in the library: the run's, which may have been changed there since.

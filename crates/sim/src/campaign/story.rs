@@ -25,6 +25,10 @@ const FURTHER_FROM: u64 = 1_000;
 /// Seeds from here on have people, in this share of the stories.
 const PEOPLE_FROM: u64 = 2_000;
 const PEOPLE: f64 = 0.5;
+/// Seeds from here on have a fault of the controller's clocks each, and outages of the broker that overlap.
+const CLOCKS_FROM: u64 = 3_000;
+/// By how much the time of day is set, seconds, forwards or back: by the first at most, or by the second.
+const SET_S: (f64, f64) = (6.0, 7_200.0);
 /// How far lies are off, metres: from and to.
 const LIE_M: (f64, f64) = (0.05, 0.5);
 /// How long a slow disk takes to write a piece, seconds: from and to.
@@ -44,6 +48,9 @@ enum Fault {
     Freeze(Span),
     Gone(Span),
     Crash(Span),
+    /// A crash during which the time of day is set.
+    CrashAndSet(Span, Span),
+    Sleep(Span),
     Pause(Span),
     Lies(usize, Vec2, Span),
     Floods(usize, Span),
@@ -60,6 +67,7 @@ impl Fault {
         match self {
             Self::Cut(_, over) | Self::Blind(_, over) | Self::Rebooted(_, over) => over,
             Self::Freeze(over) | Self::Gone(over) | Self::Crash(over) | Self::Pause(over) => over,
+            Self::CrashAndSet(over, _) | Self::Sleep(over) => over,
             Self::Lies(_, _, over) | Self::Floods(_, over) => over,
             Self::DiskFull(over) | Self::DiskSlow(over, _) | Self::Person(_, over) => over,
             Self::Dead(_) | Self::Stuck(_) | Self::Moved(..) | Self::Named(..) | Self::Stop => Span::ZERO,
@@ -76,24 +84,29 @@ impl Fault {
         }
     }
 
-    /// Whether one of both cannot begin before the other has ended.
-    fn excludes(self, other: Self) -> bool {
+    /// Whether one of both cannot begin before the other has ended. `may_overlap`: one outage of the broker may begin in
+    /// another.
+    fn excludes(self, other: Self, may_overlap: bool) -> bool {
         let is_of_broker = |fault| matches!(fault, Self::Freeze(_) | Self::Gone(_));
-        let is_crash = |fault| matches!(fault, Self::Crash(_));
+        let is_gone = |fault| matches!(fault, Self::Gone(_));
+        let is_crash = |fault| matches!(fault, Self::Crash(_) | Self::CrashAndSet(..) | Self::Sleep(_));
         let is_person = |fault| matches!(fault, Self::Person(..));
-        is_of_broker(self) && is_of_broker(other)
+        is_of_broker(self) && is_of_broker(other) && !may_overlap
+            || is_gone(self) && is_gone(other)
             || is_crash(self) && is_crash(other)
             || is_person(self) && is_person(other)
     }
 }
 
 /// Faults in order of time, without those that cannot happen: a second one of the same robot, a broker that is gone twice.
-fn without_overlaps(faults: Vec<(Span, Fault)>) -> Vec<(Span, Fault)> {
+/// `may_overlap`: see [`Fault::excludes`].
+fn without_overlaps(faults: Vec<(Span, Fault)>, may_overlap: bool) -> Vec<(Span, Fault)> {
     let mut kept: Vec<(Span, Fault)> = Vec::new();
     for (at, fault) in faults {
         let is_of_same_robot = |other: Fault| fault.robot().is_some() && fault.robot() == other.robot();
         let overlaps = |&(began, other): &(Span, Fault)| {
-            is_of_same_robot(other) || fault.excludes(other) && began + other.over() + FOUND_AGAIN > at
+            is_of_same_robot(other)
+                || fault.excludes(other, may_overlap) && began + other.over() + FOUND_AGAIN > at
         };
         if !kept.iter().any(overlaps) {
             kept.push((at, fault));
@@ -127,8 +140,11 @@ impl Story {
         if seed >= PEOPLE_FROM && dice.chance(PEOPLE) {
             faults.push(person(&mut dice, scene));
         }
+        if seed >= CLOCKS_FROM {
+            faults.push(clock_fault(&mut dice));
+        }
         faults.sort_by_key(|&(at, _)| at);
-        let faults = without_overlaps(faults);
+        let faults = without_overlaps(faults, seed >= CLOCKS_FROM);
         Self { faults, link, slip, originals }
     }
 
@@ -223,6 +239,18 @@ fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
+/// A fault of the clocks of the controller's computer.
+fn clock_fault(dice: &mut Dice) -> (Span, Fault) {
+    let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
+    let (from_s, to_s) = if dice.chance(SHORT) { SHORT_S } else { LONG_S };
+    let over = Span::from_secs(dice.between(from_s, to_s));
+    if dice.chance(0.5) {
+        return (at, Fault::Sleep(over));
+    }
+    let most_s = if dice.chance(SHORT) { SET_S.0 } else { SET_S.1 };
+    (at, Fault::CrashAndSet(over, Span::from_secs(dice.between(-most_s, most_s))))
+}
+
 fn person(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
     let half = Vec2::new(scene.show.stage.width_m, scene.show.stage.depth_m) * 0.5;
@@ -244,6 +272,11 @@ fn add(conditions: &mut Conditions, at: Span, fault: Fault) {
         Fault::Freeze(over) => conditions.frozen.push(Outage { at, over }),
         Fault::Gone(over) => conditions.gone.push(Outage { at, over }),
         Fault::Crash(over) => conditions.crashed.push(Outage { at, over }),
+        Fault::CrashAndSet(over, by) => {
+            conditions.crashed.push(Outage { at, over });
+            conditions.mishaps.push((at, Mishap::ClockSet(by)));
+        }
+        Fault::Sleep(over) => conditions.mishaps.push((at, Mishap::Sleeps(over))),
         Fault::Pause(over) => conditions.mishaps.extend([(at, Mishap::Pause), (at + over, Mishap::Resume)]),
         Fault::Stop => conditions.mishaps.push((at, Mishap::Stop)),
         Fault::Lies(robot, off, over) => {
@@ -281,6 +314,17 @@ impl fmt::Display for Fault {
             Self::Gone(over) => write!(f, "the broker is gone for {:.2} s", over.as_secs()),
             Self::Crash(over) => {
                 write!(f, "the controller is killed, and started again after {:.2} s", over.as_secs())
+            }
+            Self::CrashAndSet(over, by) => {
+                let (over_s, by_s) = (over.as_secs(), by.as_secs());
+                write!(
+                    f,
+                    "the controller is killed, the time of day is set by {by_s:+.2} s, and it is started again after \
+                     {over_s:.2} s"
+                )
+            }
+            Self::Sleep(over) => {
+                write!(f, "the controller's computer sleeps for {:.2} s, with the broker", over.as_secs())
             }
             Self::Pause(over) => write!(f, "the operator pauses the show for {:.2} s", over.as_secs()),
             Self::Stop => write!(f, "the operator stops all robots"),

@@ -1,5 +1,6 @@
 //! What goes wrong in a rehearsal: robots, broker and controller break down by the conditions.
 
+use lightbots_base::Span;
 use lightbots_control::{Config, Controller, OnReturn, Operation, RecordedController, Refusal};
 use lightbots_show::{Layer, LayerSpan, Setting};
 
@@ -40,11 +41,11 @@ impl Play {
                 BrokerEvent::Dies => {
                     self.network.clear();
                     (0..self.robots.len()).for_each(|robot| self.robots.link(self.now, robot, false));
-                    self.controller.disconnected(self.now);
+                    self.controller.disconnected(self.shown());
                 }
                 BrokerEvent::RobotBack(robot) => self.robots.link(self.now, robot, true),
                 BrokerEvent::ControllerBack if self.crashes.is_gone() => {}
-                BrokerEvent::ControllerBack => self.controller.connected(self.now),
+                BrokerEvent::ControllerBack => self.controller.connected(self.shown()),
             }
             self.drain_controller();
             self.record.broker(event, self.now);
@@ -73,12 +74,13 @@ impl Play {
         self.controller.keep_journal();
         if let Some(run) = self.crashes.unfinished_run() {
             // A new controller has no run.
-            let _ = self.controller.take_up(self.now, &run, OnReturn::GoOrAsk);
+            self.clock.go_on(self.now, &run);
+            let _ = self.controller.take_up(self.shown(), &run, OnReturn::GoOrAsk);
         } else if let Some(invariants) = &mut self.invariants {
             invariants.run_is_gone(self.now);
         }
         if !self.broker.is_controller_away() {
-            self.controller.connected(self.now);
+            self.controller.connected(self.shown());
         }
         self.drain_controller();
     }
@@ -86,17 +88,26 @@ impl Play {
     /// The operator lets an interrupted show go on, and gives GO: to a frame that has stood for its air time, and in the
     /// last round of frames that repeat.
     pub(super) fn press(&mut self) {
+        if self.clock.is_asleep(self.now) {
+            return;
+        }
         self.operate_again();
         let is_last_round = self.controller.loop_round().is_some_and(|round| round >= self.loop_rounds);
-        let is_cue_due = self.operator.gives_go(self.now, self.controller.is_at_cue(self.now));
-        if (is_last_round || is_cue_due) && self.controller.operate(self.now, Operation::Go).is_ok() {
+        let is_cue_due = self.operator.gives_go(self.now, self.controller.is_at_cue(self.shown()));
+        if (is_last_round || is_cue_due) && self.controller.operate(self.shown(), Operation::Go).is_ok() {
             self.drain_controller();
         }
         self.operator.sees(self.now, self.controller.may_go_on());
-        if self.operator.presses(self.now) && self.controller.operate(self.now, Operation::GoOn).is_ok() {
+        if self.operator.presses(self.now) && self.controller.operate(self.shown(), Operation::GoOn).is_ok() {
             self.record.pressed(self.now);
             self.drain_controller();
         }
+    }
+
+    /// The controller's computer sleeps, and the broker on it: messages wait.
+    fn sleep(&mut self, over: Span) {
+        self.clock.sleep(self.now, over);
+        self.network.freeze(self.now + over);
     }
 
     /// A robot begins anew with the name of another one.
@@ -112,7 +123,7 @@ impl Play {
             self.controller.begin_journal_again();
         }
         if self.crashes.disk.is_ready()
-            && let Some(piece) = self.controller.take_journal(self.now.0)
+            && let Some(piece) = self.controller.take_journal(self.clock.time_of_day_us(self.now))
         {
             self.crashes.disk.write(self.now, piece);
         }
@@ -138,6 +149,8 @@ impl Play {
                 Mishap::Person(to) => self.robots.put_foot(&self.show.stage, to),
                 Mishap::DiskFull(over) => self.crashes.disk.fill(self.now + over),
                 Mishap::DiskSlow(over, takes) => self.crashes.disk.slow(self.now + over, takes),
+                Mishap::ClockSet(by) => self.clock.set(by),
+                Mishap::Sleeps(over) => self.sleep(over),
             }
             if let Some(invariants) = &mut self.invariants {
                 invariants.befell(mishap, self.now);
@@ -148,9 +161,9 @@ impl Play {
     /// The operator does what was not possible before, once there is a controller with a broker.
     fn operate_again(&mut self) {
         while let Some(operation) = self.operator.next_at(self.now) {
-            let refusal = match self.crashes.is_gone() {
+            let refusal = match self.is_controller_away() {
                 true => Some(Refusal::NotConnected),
-                false => self.controller.operate(self.now, operation.clone()).err(),
+                false => self.controller.operate(self.shown(), operation.clone()).err(),
             };
             self.drain_controller();
             if refusal == Some(Refusal::NotConnected) {
