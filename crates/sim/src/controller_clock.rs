@@ -1,4 +1,4 @@
-//! The clocks of the controller's computer: the show clock, and the time of day. In virtual time neither jumps by itself.
+//! The clocks of the controller's computer: the show clock, and the time of day.
 
 use lightbots_base::{Instant, Span};
 use lightbots_control::{Event, EventKind, UnfinishedRun};
@@ -13,7 +13,7 @@ pub(crate) struct ControllerClock {
     ahead: Span,
     /// How far the time of day is ahead of what it was at the begin.
     day_ahead: Span,
-    /// The computer sleeps until then: its show clock stands.
+    /// The computer sleeps until then.
     asleep_until: Instant,
 }
 
@@ -21,7 +21,7 @@ impl ControllerClock {
     /// The moment that the show clock shows.
     #[inline]
     pub fn shows(&self, now: Instant) -> Instant {
-        now.max(self.asleep_until) + self.ahead
+        now + self.ahead
     }
 
     /// When the show clock shows a moment.
@@ -49,10 +49,8 @@ impl ControllerClock {
         self.day_ahead += by;
     }
 
-    /// The computer sleeps for a while. Its show clock stands; the time of day goes on.
-    pub fn sleep(&mut self, now: Instant, over: Span) {
-        let until = now + over;
-        self.ahead = self.ahead - (until - self.asleep_until.max(now));
+    /// The computer sleeps. Its clocks go on.
+    pub fn sleep(&mut self, until: Instant) {
         self.asleep_until = self.asleep_until.max(until);
     }
 
@@ -73,15 +71,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_show_clock_stands_while_the_computer_sleeps() {
+    fn the_computer_sleeps_until_the_later_moment() {
         let mut clock = ControllerClock::default();
-        clock.sleep(Instant(1_000), Span(500));
-        clock.sleep(Instant(1_200), Span(400));
-        let shown = [1_000, 1_300, 1_599, 1_600, 2_000].map(|now| clock.shows(Instant(now)).0);
-        assert_eq!(shown, [1_000, 1_000, 1_000, 1_000, 1_400]);
-        assert!(clock.is_asleep(Instant(1_599)) && !clock.is_asleep(Instant(1_600)));
-        assert_eq!(clock.when(Instant(1_400)), Instant(2_000));
-        assert_eq!(clock.when(Instant::FAR), Instant::FAR);
+        clock.sleep(Instant(1_500));
+        clock.sleep(Instant(1_200));
+        assert!(clock.is_asleep(Instant(1_499)) && !clock.is_asleep(Instant(1_500)));
     }
 
     #[test]

@@ -35,7 +35,7 @@ pub enum Mishap {
     DiskFull(Span),
     /// The time of day of the controller's computer is set by this.
     ClockSet(Span),
-    /// The controller's computer sleeps for this long, with the broker on it: its show clock stands.
+    /// The controller's computer sleeps for this long, with the broker on it.
     Sleeps(Span),
     /// For the first span, a piece of the journal takes the second until it is on the disk.
     DiskSlow(Span, Span),

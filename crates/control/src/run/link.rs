@@ -15,6 +15,9 @@ pub(crate) const REPEAT: Span = Span::from_millis(40);
 pub(crate) const ASK_AGAIN: Span = Span::from_millis(50);
 /// Shortest time by which HOLD and RESUME are stated ahead: four copies, 30 ms apart, and the way of the last one.
 const HOLD_LEAD: Span = Span::from_millis(150);
+/// Longest time by which they are stated ahead. Above, robots drive on for too long into what blocks another one. Below,
+/// on a slow link some robots slow down later than others.
+const HOLD_LEAD_MAX: Span = Span::from_millis(450);
 /// Shortest time before a START at which its confirmations are counted: enough to state a later one to all.
 const CHECK_AHEAD: Span = Span::from_millis(80);
 /// Time that each robot adds to the lead of a START, because their reports share one link: 20 ms for 1,000 robots.
@@ -32,6 +35,9 @@ const RESTORES: Span = Span::from_millis(15_000);
 pub(crate) struct LinkEstimate {
     /// The longest time until a message was acknowledged, both ways included; it fades by a tenth each frame.
     pub round_trip: Span,
+    /// The same as far as it was measured. Robots that do not confirm a START widen the other alone: dead and silent ones
+    /// make no link slow.
+    measured: Span,
     /// Time added to the lead of a START, because answers were lost.
     pub loss_margin: Span,
     /// When the broker came back last.
@@ -49,7 +55,7 @@ impl LinkEstimate {
 
     /// How long ahead HOLD and RESUME are stated.
     pub fn hold_lead(&self) -> Span {
-        self.round_trip.max(HOLD_LEAD)
+        self.measured.clamp(HOLD_LEAD, HOLD_LEAD_MAX)
     }
 
     /// How long before a START its confirmations are counted.
@@ -65,6 +71,7 @@ impl LinkEstimate {
     /// A message took this long to be acknowledged.
     pub fn measure(&mut self, round_trip: Span) {
         self.round_trip = self.round_trip.max(round_trip);
+        self.measured = self.measured.max(round_trip);
     }
 
     /// Many robots did not confirm in time: the link is slower than estimated.
@@ -80,6 +87,7 @@ impl LinkEstimate {
     /// A frame was reached: old evidence fades.
     pub fn fade(&mut self) {
         self.round_trip = self.round_trip * 9 / 10;
+        self.measured = self.measured * 9 / 10;
         self.loss_margin = self.loss_margin * 9 / 10;
     }
 }

@@ -6,12 +6,12 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use lightbots_base::Instant;
 
-/// Microseconds since 1970 at the program's start, from then on counted by the monotonic clock: it never goes back,
-/// and a controller that is started again goes on close to where the one before it was. It may be made to stand for a
-/// while, together with all its clones.
+/// Microseconds since 1970 at the program's start, from then on counted by a clock that never goes back and goes on while
+/// the computer sleeps: robots' clocks do so too. A controller that is started again goes on close to where the one before
+/// it was. It may be made to stand for a while, together with all its clones.
 #[derive(Clone, Debug)]
 pub struct Clock {
-    began: std::time::Instant,
+    began: Duration,
     offset_us: u64,
     shared: Arc<Shared>,
 }
@@ -40,7 +40,7 @@ impl Clock {
             limit_us: AtomicU64::new(u64::MAX),
             shown_us: AtomicU64::new(0),
         };
-        Self { began: std::time::Instant::now(), offset_us, shared: Arc::new(shared) }
+        Self { began: uptime(), offset_us, shared: Arc::new(shared) }
     }
 
     /// The moment it is.
@@ -57,7 +57,7 @@ impl Clock {
     }
 
     fn free_us(&self) -> u64 {
-        let elapsed_us = self.began.elapsed().as_micros() as u64;
+        let elapsed_us = uptime().saturating_sub(self.began).as_micros() as u64;
         elapsed_us.saturating_sub(self.shared.withheld_us.load(Ordering::Relaxed))
     }
 
@@ -71,6 +71,26 @@ impl Clock {
         let ahead = Duration::from_micros(at.0.saturating_sub(self.now().0));
         tokio::time::Instant::now() + ahead.min(Duration::from_secs(86_400 * 365))
     }
+}
+
+/// Time since a moment that stays the same while the program runs. `std::time::Instant` stands while a computer with Linux or
+/// macOS sleeps.
+#[cfg(unix)]
+fn uptime() -> Duration {
+    use rustix::time::{ClockId, clock_gettime};
+    #[cfg(any(target_os = "linux", target_os = "android"))]
+    let clock = ClockId::Boottime;
+    #[cfg(not(any(target_os = "linux", target_os = "android")))]
+    let clock = ClockId::Monotonic;
+    let shown = clock_gettime(clock);
+    Duration::new(shown.tv_sec.unsigned_abs(), shown.tv_nsec.unsigned_abs() as u32)
+}
+
+/// Time since a moment that stays the same while the program runs. The counter goes on while the computer sleeps.
+#[cfg(not(unix))]
+fn uptime() -> Duration {
+    static FIRST: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    FIRST.get_or_init(std::time::Instant::now).elapsed()
 }
 
 /// A first route number that no controller started before on this machine has reached.

@@ -106,7 +106,7 @@ impl Play {
 
     /// The controller's computer sleeps, and the broker on it: messages wait.
     fn sleep(&mut self, over: Span) {
-        self.clock.sleep(self.now, over);
+        self.clock.sleep(self.now + over);
         self.network.freeze(self.now + over);
     }
 
