@@ -11,7 +11,7 @@ use crate::plan_request::{PlanRequest, PlanResult};
 use crate::preflight::PreflightReport;
 use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::{Age, Counters};
-use crate::stopping::Stopping;
+use crate::stopping::{self, Stopping};
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_show::Show;
 use lightbots_wire::{Command, Report, TimeQuestion, Topic};
@@ -161,8 +161,11 @@ impl Controller {
         } else if let Some(run) = &mut self.run {
             run.on_report(context, now, received, topic, report);
             self.conclude(now);
-        } else if topic == Topic::Arrival && !received.found {
-            context.report_unexpected(now, report);
+        } else {
+            stopping::stop_late_comer(context, received.index);
+            if topic == Topic::Arrival && !received.found {
+                context.report_unexpected(now, report);
+            }
         }
     }
 

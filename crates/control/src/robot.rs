@@ -57,6 +57,8 @@ pub(crate) struct KnownRobot {
     pub is_admitted: bool,
     /// Whether another robot has the same name.
     pub namesakes: Namesakes,
+    /// It took part in a run that is over, and has not said since that it keeps no route.
+    pub may_keep_route: bool,
     /// Its number in the run.
     pub participant: Option<u32>,
     /// The pixel it showed when the last run ended.
@@ -92,6 +94,7 @@ impl KnownRobot {
             is_light_sure: true,
             is_admitted: true,
             namesakes: Namesakes::default(),
+            may_keep_route: false,
             participant: None,
             pixel: None,
             goal: None,

@@ -19,6 +19,23 @@ const CHECK: Span = Span::from_millis(100);
 /// A robot that knows TARGET only and has moved this far since it was told to stop is told again, metres.
 const MOVED_M: f64 = 0.01;
 
+/// There is no run. A robot that was cut off when its run ended may keep a route of it: it is told by name, until it says
+/// that it keeps none.
+pub(crate) fn stop_late_comer(context: &mut Context, index: usize) {
+    let robot = context.fleet.robot_mut(index);
+    let Some(state) = robot.reported.state.filter(|_| robot.may_keep_route) else { return };
+    robot.may_keep_route = keeps_route(state);
+    if robot.may_keep_route {
+        context.send(index, &[Command::Stop]);
+    }
+}
+
+/// Whether a robot that says this drives, or keeps a route to drive. One that is cut has aborted the route under way only
+/// (R43 of docs/protocol.md); which of them it says depends on the order of R12.
+fn keeps_route(state: RobotState) -> bool {
+    matches!(state, RobotState::Driving | RobotState::Held | RobotState::Ready | RobotState::Cut)
+}
+
 /// All are being stopped.
 #[derive(Clone, Debug)]
 pub(crate) struct Stopping {
@@ -56,14 +73,13 @@ impl Stopping {
         context.send(index, &[Command::Target(at), Command::Uuid]);
     }
 
-    /// Whether a robot drives, or keeps a route to drive. One that is cut has aborted the route under way only (R43 of
-    /// docs/protocol.md); which of them it says depends on the order of R12.
+    /// Whether a robot may drive, now or later.
     fn may_go_on(&self, robot: &KnownRobot) -> bool {
         if robot.contact.age == Age::Gone {
             return false;
         }
         match robot.reported.state {
-            Some(RobotState::Driving | RobotState::Held | RobotState::Ready | RobotState::Cut) => true,
+            Some(state) if keeps_route(state) => true,
             Some(_) => robot.contact.heard < self.since,
             None => false,
         }

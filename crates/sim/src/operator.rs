@@ -20,6 +20,10 @@ pub(crate) struct Operator {
     wants: VecDeque<Operation>,
     /// When the operator tries the next of it.
     tries_at: Instant,
+    /// The operator wants the show to be paused.
+    wants_pause: bool,
+    /// Since when it is paused though the operator does not want that.
+    paused_since: Option<Instant>,
 }
 
 impl Operator {
@@ -62,9 +66,24 @@ impl Operator {
         self.presses_at.take_if(|at| now >= *at).is_some()
     }
 
+    /// Whether the operator resumes now: the show is paused though nobody wants that, because a controller that was started
+    /// again has an old journal.
+    pub fn resumes(&mut self, now: Instant, is_paused: bool) -> bool {
+        if !is_paused || self.wants_pause {
+            self.paused_since = None;
+            return false;
+        }
+        now - *self.paused_since.get_or_insert(now) >= Self::LOOKS
+    }
+
     /// The operator presses another button.
     pub fn does(&mut self, now: Instant, operation: Operation) {
         self.tries_at = now;
+        match operation {
+            Operation::Pause => self.wants_pause = true,
+            Operation::Resume => self.wants_pause = false,
+            _ => {}
+        }
         self.wants.push_back(operation);
     }
 
@@ -112,6 +131,16 @@ mod tests {
             !presses_at(1, false) && !presses_at(2, true) && !presses_at(11, true) && presses_at(12, true)
         );
         assert!(!presses_at(13, false) && !presses_at(14, true));
+    }
+
+    #[test]
+    fn the_operator_resumes_what_is_paused_without_being_asked() {
+        let mut operator = Operator::default();
+        operator.does(Instant(0), Operation::Pause);
+        assert!(!operator.resumes(Instant(0), true) && !operator.resumes(Instant(9_000_000), true));
+        operator.does(Instant(9_000_000), Operation::Resume);
+        assert!(!operator.resumes(Instant(9_000_000), true) && !operator.resumes(Instant(9_500_000), false));
+        assert!(!operator.resumes(Instant(10_000_000), true) && operator.resumes(Instant(12_000_000), true));
     }
 
     #[test]

@@ -70,6 +70,8 @@ impl LinkEstimate {
 
     /// A message took this long to be acknowledged.
     pub fn measure(&mut self, round_trip: Span) {
+        // A broker or a computer that stood still for a while makes no link slow.
+        let round_trip = round_trip.min(ROUND_TRIP_MAX);
         self.round_trip = self.round_trip.max(round_trip);
         self.measured = self.measured.max(round_trip);
     }
@@ -107,6 +109,17 @@ mod tests {
         assert_eq!((link.round_trip, link.loss_margin), (ROUND_TRIP_MAX, LOSS_MARGIN_MAX));
         (0..60).for_each(|_| link.fade());
         assert!(link.round_trip < Span::from_millis(5) && link.loss_margin < Span::from_millis(5));
+    }
+
+    #[test]
+    fn a_hold_is_stated_ahead_by_what_was_measured() {
+        let mut link = LinkEstimate::default();
+        assert_eq!(link.hold_lead(), HOLD_LEAD);
+        link.measure(Span::from_millis(250));
+        (0..20).for_each(|_| link.widen());
+        assert_eq!((link.round_trip, link.hold_lead()), (ROUND_TRIP_MAX, Span::from_millis(250)));
+        link.measure(Span::from_millis(30_000));
+        assert_eq!((link.round_trip, link.hold_lead()), (ROUND_TRIP_MAX, HOLD_LEAD_MAX));
     }
 
     #[test]

@@ -70,6 +70,7 @@ use pipeline::{DrivenLeg, Pipeline};
 use run_context::RunContext;
 use std::ops::ControlFlow;
 use tally::Tally;
+use target_commands::PASSED_ERROR_M;
 use target_progress::TargetProgress;
 
 impl Run {
@@ -137,6 +138,7 @@ impl Run {
             let step = step.filter(|_| !known.is_excluded());
             let robot = context.fleet.robot_mut(known.robot);
             robot.participant = None;
+            robot.may_keep_route = !robot.is_original();
             robot.pixel = step.and_then(|step| step.pixel).filter(|_| self.playback.purpose.is_of_show());
             robot.goal = step.map(|step| step.goal);
         }
@@ -185,8 +187,9 @@ impl Run {
             (RunPhase::Starting(starting), Some(details)) => {
                 starting.on_arrival(&mut cx, participant, details)
             }
-            (RunPhase::Standing(_), _) if topic == Topic::Arrival => {
-                standing::check_place(&mut cx, participant, report.at);
+            (RunPhase::Standing(_), _) => {
+                let noise_m = if topic == Topic::Arrival { 0.0 } else { PASSED_ERROR_M };
+                standing::check_place(&mut cx, participant, report.at, noise_m);
                 Next::Stay
             }
             _ => Next::Stay,

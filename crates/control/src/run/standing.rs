@@ -9,6 +9,7 @@ use crate::run::obstacles;
 use crate::run::pipeline::Pipeline;
 use crate::run::requests;
 use crate::run::run_context::RunContext;
+use crate::run::target_commands;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Details, RobotState};
 
@@ -67,6 +68,7 @@ impl Standing {
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if cx.now >= self.check_at {
             self.check_at = cx.now + CHECK_EVERY;
+            target_commands::ask_places(cx);
             if let Some(silent) = link_loss::apparent(cx) {
                 return Next::Interrupt(Some(silent));
             }
@@ -136,10 +138,12 @@ pub(crate) fn drop_if_unfit(participant: usize, details: &Details) -> Next {
     }
 }
 
-/// An arrival while all stand: an old report, or a robot that went somewhere on its own.
-pub(crate) fn check_place(cx: &mut RunContext, participant: usize, at: Option<Vec2>) {
+/// A place that is reported while all stand: an arrival that is old or of a robot that went somewhere on its own, or a robot
+/// that knows TARGET only and was lifted, which does not notice that.
+pub(crate) fn check_place(cx: &mut RunContext, participant: usize, at: Option<Vec2>, noise_m: f64) {
     let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return };
-    if is_there(at, goal, cx.io.config.arrival_tolerance_m) {
+    let is_known = cx.pipeline.planning.is_outdated;
+    if is_known || is_there(at, goal, cx.io.config.arrival_tolerance_m + noise_m) {
         return;
     }
     let robot = cx.robot(participant).id;

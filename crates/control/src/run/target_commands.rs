@@ -79,6 +79,16 @@ pub(crate) fn begin(cx: &mut RunContext) {
     }
 }
 
+/// Asks robots that know TARGET only where they stand.
+pub(crate) fn ask_places(cx: &mut RunContext) {
+    for participant in 0..cx.roster.len() {
+        let is_asked = !cx.roster.is_excluded(participant) && cx.robot(participant).is_original();
+        if is_asked && cx.now - cx.robot(participant).contact.heard > ASK {
+            cx.send(participant, &[Command::Uuid]);
+        }
+    }
+}
+
 /// Robots on a straight drive stop a little ahead of where they last said they are, and say where that is.
 pub(crate) fn halt_all(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {

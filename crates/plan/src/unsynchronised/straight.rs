@@ -61,6 +61,11 @@ impl StraightDrive {
         if squared > 0.0 { (place - self.from).dot(line) / squared } else { 1.0 }
     }
 
+    /// How far a place is from the drive's line, metres.
+    pub fn distance_m(&self, place: Vec2) -> f64 {
+        place.distance(self.at(self.share_at(place).clamp(0.0, 1.0)))
+    }
+
     /// Share of this drive, 0 to 1, that keeps `gap_m` to the remaining part of another drive, of which the share
     /// `passed` is done. It holds at any speed of both robots.
     pub fn clear_share(&self, other: &Self, passed: f64, gap_m: f64) -> f64 {

@@ -1,7 +1,9 @@
 //! What goes wrong in a rehearsal: robots, broker and controller break down by the conditions.
 
 use lightbots_base::Span;
-use lightbots_control::{Config, Controller, OnReturn, Operation, RecordedController, Refusal};
+use lightbots_control::{
+    Config, Controller, ControllerState, OnReturn, Operation, RecordedController, Refusal,
+};
 use lightbots_show::{Layer, LayerSpan, Setting};
 
 use super::Play;
@@ -95,6 +97,12 @@ impl Play {
         let is_last_round = self.controller.loop_round().is_some_and(|round| round >= self.loop_rounds);
         let is_cue_due = self.operator.gives_go(self.now, self.controller.is_at_cue(self.shown()));
         if (is_last_round || is_cue_due) && self.controller.operate(self.shown(), Operation::Go).is_ok() {
+            self.drain_controller();
+        }
+        let is_paused = self.controller.state() == ControllerState::Paused;
+        if self.operator.resumes(self.now, is_paused)
+            && self.controller.operate(self.shown(), Operation::Resume).is_ok()
+        {
             self.drain_controller();
         }
         self.operator.sees(self.now, self.controller.may_go_on());

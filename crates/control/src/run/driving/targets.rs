@@ -62,10 +62,14 @@ impl Driving {
         let Some(place) = targets.under_way(participant) else { return Next::Stay };
         let is_held = self.clock.is_held();
         let (drive, state) = (&leg.drives[place], &mut targets.states[place]);
+        if !is_held && drive.distance_m(at) > MISSED_M {
+            // It was lifted: its way leads past others.
+            return Next::drop(participant, Trouble::Missed);
+        }
         let length_m = drive.length_m();
-        let passed = drive.share_at(at) - PASSED_ERROR_M / length_m;
+        let passed = (drive.share_at(at) - PASSED_ERROR_M / length_m).min(1.0);
         if (passed - state.passed) * length_m > MOVED_M {
-            (state.passed, state.moved_at) = (passed.min(1.0), cx.now);
+            (state.passed, state.moved_at) = (passed, cx.now);
         }
         if state.granted >= 1.0 && (arrived || !is_held) {
             let (ended, next) = self.settle_target(cx, place, at, arrived);
