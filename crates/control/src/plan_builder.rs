@@ -251,7 +251,10 @@ impl<'a> PlanBuilder<'a> {
                 DriveStage::Targets(drives) => self.targets(drives, rests),
                 DriveStage::Routes(paths) => {
                     let duration = paths.first().map_or(Span::ZERO, |(_, path)| path.as_ref().duration());
-                    self.routes(paths, rests, duration, 0.0)?
+                    let originals = places.iter().zip(&original).filter(|(_, original)| **original);
+                    let mut standing = self.problem.standing.clone();
+                    standing.extend(originals.map(|(at, _)| *at));
+                    self.routes(paths, rests, duration, (None, &standing))?
                 }
             };
             for (robot, place) in self.problem.robots.iter().zip(&mut places) {
@@ -292,7 +295,8 @@ impl<'a> PlanBuilder<'a> {
     fn synchronised(&self, plan: Transition, rests: &[RobotLeg]) -> Result<Leg, String> {
         let closest_m = plan.closest.map_or(f64::INFINITY, |closest| closest.distance_m);
         let room_m = closest_m - self.problem.show.stage.limits.contact_m();
-        self.routes(plan.paths.into_iter().enumerate().collect(), rests, plan.duration, room_m)
+        let around = (Some(room_m), &self.problem.standing[..]);
+        self.routes(plan.paths.into_iter().enumerate().collect(), rests, plan.duration, around)
     }
 
     fn routes(
@@ -300,14 +304,14 @@ impl<'a> PlanBuilder<'a> {
         paths: Vec<(usize, Path)>,
         rests: &[RobotLeg],
         duration: Span,
-        room_m: f64,
+        (room_m, standing): (Option<f64>, &[Vec2]),
     ) -> Result<Leg, String> {
         if paths.iter().any(|(_, path)| path.pieces.len() > MAX_PIECES) {
             return Err(format!("a path has more than the {MAX_PIECES} pieces a robot can keep"));
         }
-        let mut leg = self.leg(LegKind::Routes, rests, paths.len(), duration, room_m);
+        let mut leg = self.leg(LegKind::Routes, rests, paths.len(), duration, room_m.unwrap_or(0.0));
         let contact_m = self.problem.show.stage.limits.contact_m();
-        let around = surroundings(&paths, &self.problem.standing, room_m, contact_m);
+        let around = surroundings(&paths, standing, room_m, contact_m);
         for ((robot, path), Surroundings { room_m, neighbours }) in paths.into_iter().zip(around) {
             let goal = path.as_ref().end();
             let step = &mut leg.robots[self.problem.robots[robot].participant];

@@ -44,19 +44,16 @@ struct Sighting {
 }
 
 /// `[path]`: what is around each. `standing` are discs that do not move meanwhile, `least_m` what the plan leaves to the
-/// closest two of all; 0: not known.
+/// closest two of all; `None`: not known.
 pub(crate) fn surroundings(
     paths: &[(usize, Path)],
     standing: &[Vec2],
-    least_m: f64,
+    least_m: Option<f64>,
     contact_m: f64,
 ) -> Vec<Surroundings> {
     let alike = |room_m| vec![Surroundings { room_m, neighbours: None }; paths.len()];
-    if least_m <= 0.0 {
-        return alike(0.0);
-    }
     if paths.len() > MOST {
-        return alike(least_m);
+        return alike(least_m.unwrap_or(0.0));
     }
     let longest = paths.iter().map(|(_, path)| path.as_ref().duration()).max().unwrap_or(Span::ZERO);
     let every = STEP.max(Span(longest.0 / MOST_STEPS));
@@ -190,7 +187,7 @@ mod tests {
         let along = |y| straight(Vec2::new(0.0, y), Vec2::new(1.0, y));
         let back = straight(Vec2::new(1.0, 0.07), Vec2::new(0.0, 0.07));
         let paths = [(0, along(0.0)), (1, back), (2, along(0.5)), (3, along(1.0))];
-        let around = surroundings(&paths, &[Vec2::new(0.5, 0.58)], 0.016, 0.054);
+        let around = surroundings(&paths, &[Vec2::new(0.5, 0.58)], Some(0.016), 0.054);
         let room_m = |index: usize| around[index].room_m;
         assert!((room_m(0) - 0.016).abs() < 0.001 && room_m(0) == room_m(1), "{around:?}");
         assert!((room_m(2) - 0.026).abs() < 0.001 && room_m(3) == f64::INFINITY, "{around:?}");
@@ -201,7 +198,7 @@ mod tests {
         let along = |y| straight(Vec2::new(0.0, y), Vec2::new(1.0, y));
         let back = straight(Vec2::new(1.0, 0.07), Vec2::new(0.0, 0.07));
         let paths = [(0, along(0.0)), (1, back)];
-        let around = surroundings(&paths, &[Vec2::new(0.8, -0.07)], 0.016, 0.054);
+        let around = surroundings(&paths, &[Vec2::new(0.8, -0.07)], Some(0.016), 0.054);
         let named = around[0].neighbours.as_deref().unwrap();
         assert_eq!(named.list.len(), 2);
         let meets = Span::from_millis(2_000);
@@ -215,13 +212,15 @@ mod tests {
     fn in_a_large_crowd_everybody_has_the_least_room_of_all() {
         let far = |index: usize| Vec2::new(index as f64, 0.0);
         let paths: Vec<_> = (0..=MOST).map(|index| (index, straight(far(index), far(index)))).collect();
-        let around = surroundings(&paths, &[], 0.007, 0.054);
+        let around = surroundings(&paths, &[], Some(0.007), 0.054);
         assert!(around.iter().all(|one| one.room_m == 0.007 && one.neighbours.is_none()));
     }
 
     #[test]
-    fn where_the_plan_knows_none_there_is_none() {
+    fn what_stands_is_named_where_the_plan_tells_no_clearance() {
         let paths = [(0, straight(Vec2::ZERO, Vec2::new(1.0, 0.0)))];
-        assert_eq!(surroundings(&paths, &[], 0.0, 0.054)[0].room_m, 0.0);
+        let around = surroundings(&paths, &[Vec2::new(0.5, 0.064)], None, 0.054);
+        assert!((around[0].room_m - 0.01).abs() < 1e-6, "{}", around[0].room_m);
+        assert_eq!(around[0].neighbours.as_ref().map(|named| named.list.len()), Some(1));
     }
 }

@@ -153,9 +153,12 @@ impl Routes {
         }
     }
 
-    /// Whether the route under way names its neighbours.
-    pub(crate) fn names_neighbours(&self, storage: &RouteStorage) -> bool {
-        self.running.as_ref().is_some_and(|running| !storage.at(running.slot).neighbours.list.is_empty())
+    /// Whether the route under way tells which neighbours come within a range: it names them, or they all stay farther away.
+    pub(crate) fn tells_neighbours(&self, range_m: f32, storage: &RouteStorage) -> bool {
+        self.running.as_ref().is_some_and(|running| {
+            let is_alone = running.room_mm.is_some_and(|room_mm| f32::from(room_mm) > 1e3 * range_m);
+            is_alone || !storage.at(running.slot).neighbours.list.is_empty()
+        })
     }
 
     /// Notes a HOLD or a RESUME.

@@ -46,8 +46,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let most_mps = if hot.routes.under_way() {
             let [speed_mps, told_mps] = [wanted.speed_mps, hot.drive.speed_mps()].map(|mps| mps as f32);
             let wish = Wish { speed_mps, told_mps, dt: dt as f32 };
-            let named = hot.routes.names_neighbours(self.storage.borrow());
-            let most_mps = self.reflex.limit(wish, hot.routes.room_mm().filter(|_| !named));
+            let are_told = hot.routes.tells_neighbours(hot.range_m, self.storage.borrow());
+            let most_mps = self.reflex.limit(wish, hot.routes.room_mm().filter(|_| !are_told));
             self.reflex.note(hot.now);
             most_mps
         } else {
