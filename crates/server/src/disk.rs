@@ -6,6 +6,12 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
+#[cfg(test)]
+pub mod power_cut;
+
+#[cfg(test)]
+use power_cut::{Operation, note};
+
 /// The ending of drafts: files that take the place of others once they are complete.
 const DRAFT: &str = ".saving";
 
@@ -27,7 +33,11 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     match fs::create_dir(folder) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists && folder.is_dir() => Ok(()),
         Err(error) => Err(error),
-        Ok(()) => sync_folder(folder_of(folder)),
+        Ok(()) => {
+            #[cfg(test)]
+            note(|| Operation::MadeFolder(folder.to_owned()));
+            sync_folder(folder_of(folder))
+        }
     }
 }
 
@@ -54,14 +64,28 @@ pub fn replace_with<E: From<io::Error>>(
 /// Gives a file another name in the same file system. A file of that name is replaced.
 pub fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
+    #[cfg(test)]
+    note(|| Operation::Moved(from.to_owned(), to.to_owned()));
     sync_folder(folder_of(to))?;
     if folder_of(from) == folder_of(to) { Ok(()) } else { sync_folder(folder_of(from)) }
+}
+
+/// Gives a file a second name in the same file system.
+pub fn link(from: &Path, to: &Path) -> io::Result<()> {
+    fs::hard_link(from, to)?;
+    #[cfg(test)]
+    note(|| Operation::Linked(from.to_owned(), to.to_owned()));
+    sync_folder(folder_of(to))
 }
 
 /// Removes a file that may not be there.
 pub fn remove(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
-        Ok(()) => sync_folder(folder_of(path)),
+        Ok(()) => {
+            #[cfg(test)]
+            note(|| Operation::Removed(path.to_owned()));
+            sync_folder(folder_of(path))
+        }
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
         Err(error) => Err(error),
     }
@@ -126,8 +150,12 @@ impl Draft {
 
     /// The draft becomes the file.
     pub fn finish(self, path: &Path) -> io::Result<()> {
+        #[cfg(test)]
+        note(|| Operation::Wrote(self.0.clone(), fs::read(&self.0).unwrap_or_default()));
         // Some systems bring only files that may be written to the disk.
         OpenOptions::new().write(true).open(&self.0)?.sync_all()?;
+        #[cfg(test)]
+        note(|| Operation::SyncedFile(self.0.clone()));
         rename(&self.0, path)
     }
 
@@ -161,6 +189,8 @@ fn folder_of(path: &Path) -> &Path {
 fn sync_folder(folder: &Path) -> io::Result<()> {
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;
+    #[cfg(test)]
+    note(|| Operation::SyncedFolder(folder.to_owned()));
     #[cfg(not(unix))]
     let _ = folder;
     Ok(())

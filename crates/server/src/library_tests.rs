@@ -4,6 +4,8 @@ use lightbots_exchange::asset_of;
 
 use super::*;
 
+#[path = "library/power_cut_tests.rs"]
+mod power_cut_tests;
 #[path = "library/state_tests.rs"]
 mod state_tests;
 

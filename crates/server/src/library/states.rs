@@ -59,7 +59,7 @@ impl States {
         let folder = self.0.join(show);
         disk::create_folder(&folder)?;
         let state = folder.join(format!("{number}{ending}"));
-        if fs::hard_link(file, &state).is_err() {
+        if disk::link(file, &state).is_err() {
             copy(file, &state)?;
         }
         for state in too_many(&self.of(show), modified_ms) {

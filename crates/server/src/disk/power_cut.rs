@@ -1,0 +1,215 @@
+//! What a power cut leaves of files, for tests: the operations of this thread are noted as they happen, and a model says what
+//! may be on the disk after any of them.
+//!
+//! The model is that of POSIX: bytes are surely on the disk once their file was synced, and a name once its folder was. Of
+//! what was not synced any part may be there, in any order (Pillai and others, *All File Systems Are Not Created Equal*, OSDI
+//! 2014). A name moves within a folder as a whole or not at all.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// One operation on the disk.
+#[derive(Clone, Debug)]
+pub enum Operation {
+    MadeFolder(PathBuf),
+    /// A file has these bytes, which need not be on the disk.
+    Wrote(PathBuf, Vec<u8>),
+    SyncedFile(PathBuf),
+    SyncedFolder(PathBuf),
+    Moved(PathBuf, PathBuf),
+    Linked(PathBuf, PathBuf),
+    Removed(PathBuf),
+}
+
+thread_local! {
+    static NOTED: RefCell<Option<Vec<Operation>>> = const { RefCell::new(None) };
+}
+
+/// The operations of this thread are noted from now on.
+pub fn begin() {
+    NOTED.with(|noted| *noted.borrow_mut() = Some(Vec::new()));
+}
+
+/// The operations that were noted since this was asked last.
+pub fn take() -> Vec<Operation> {
+    NOTED.with(|noted| noted.borrow_mut().as_mut().map(std::mem::take).unwrap_or_default())
+}
+
+/// Notes an operation.
+pub fn note(operation: impl FnOnce() -> Operation) {
+    NOTED.with(|noted| {
+        if let Some(noted) = noted.borrow_mut().as_mut() {
+            noted.push(operation());
+        }
+    });
+}
+
+/// A change of names in one folder.
+#[derive(Clone, Debug)]
+struct Renaming {
+    removed: Option<PathBuf>,
+    added: Option<(PathBuf, Node)>,
+}
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Node {
+    Folder,
+    /// Index of the file.
+    File(usize),
+}
+
+/// The bytes of a file.
+#[derive(Clone, Debug, Default)]
+struct Content {
+    now: Vec<u8>,
+    synced: Option<Vec<u8>>,
+}
+
+/// What is on the disk for sure, and what may be.
+#[derive(Clone, Debug, Default)]
+pub struct Disk {
+    files: Vec<Content>,
+    /// Names as programs see them.
+    now: BTreeMap<PathBuf, Node>,
+    /// Names that are surely on the disk.
+    synced: BTreeMap<PathBuf, Node>,
+    pending: Vec<Renaming>,
+}
+
+impl Disk {
+    /// Carries out an operation.
+    pub fn apply(&mut self, operation: &Operation) {
+        match operation {
+            Operation::MadeFolder(path) => self.rename(None, Some((path.clone(), Node::Folder))),
+            Operation::Wrote(path, bytes) => {
+                self.files.push(Content { now: bytes.clone(), synced: None });
+                self.rename(None, Some((path.clone(), Node::File(self.files.len() - 1))));
+            }
+            Operation::SyncedFile(path) => {
+                if let Some(Node::File(file)) = self.now.get(path) {
+                    let content = &mut self.files[*file];
+                    content.synced = Some(content.now.clone());
+                }
+            }
+            Operation::SyncedFolder(folder) => self.sync_folder(folder),
+            Operation::Moved(from, to) => {
+                let node = self.now[from];
+                self.rename(Some(from.clone()), Some((to.clone(), node)));
+            }
+            Operation::Linked(from, to) => {
+                let node = self.now[from];
+                self.rename(None, Some((to.clone(), node)));
+            }
+            Operation::Removed(path) => self.rename(Some(path.clone()), None),
+        }
+    }
+
+    fn rename(&mut self, removed: Option<PathBuf>, added: Option<(PathBuf, Node)>) {
+        let renaming = Renaming { removed, added };
+        renaming.apply(&mut self.now);
+        self.pending.push(renaming);
+    }
+
+    fn sync_folder(&mut self, folder: &Path) {
+        let is_in = |path: &PathBuf| path.parent() == Some(folder);
+        let (done, pending) = std::mem::take(&mut self.pending).into_iter().partition(|renaming| {
+            let removed = renaming.removed.iter();
+            removed.chain(renaming.added.iter().map(|(path, _)| path)).all(is_in)
+        });
+        self.pending = pending;
+        let done: Vec<Renaming> = done;
+        done.iter().for_each(|renaming| renaming.apply(&mut self.synced));
+    }
+
+    /// The power is cut: what is found afterwards. `chance`: whether something that was not synced is there.
+    pub fn cut(&self, mut chance: impl FnMut() -> bool) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
+        let mut names = self.synced.clone();
+        for renaming in self.pending.iter().filter(|_| chance()) {
+            renaming.apply(&mut names);
+        }
+        let folders: BTreeSet<PathBuf> =
+            names.iter().filter(|(_, node)| **node == Node::Folder).map(|(path, _)| path.clone()).collect();
+        let is_reachable = |path: &Path| {
+            path.ancestors().skip(1).all(|above| above == Path::new("") || folders.contains(above))
+        };
+        let mut found = BTreeMap::new();
+        for (path, node) in names.into_iter().filter(|(path, _)| is_reachable(path)) {
+            let bytes = match node {
+                Node::Folder => None,
+                Node::File(file) => {
+                    let content = &self.files[file];
+                    let torn = || content.now[..content.now.len() / 2].to_vec();
+                    Some(
+                        content
+                            .synced
+                            .clone()
+                            .unwrap_or_else(|| if chance() { content.now.clone() } else { torn() }),
+                    )
+                }
+            };
+            found.insert(path, bytes);
+        }
+        found
+    }
+}
+
+impl Renaming {
+    fn apply(&self, names: &mut BTreeMap<PathBuf, Node>) {
+        if let Some(path) = &self.removed {
+            names.remove(path);
+        }
+        if let Some((path, node)) = &self.added {
+            names.insert(path.clone(), *node);
+        }
+    }
+}
+
+/// Puts what a power cut left into a folder of the real disk. `base`: the folder whose content it was.
+pub fn restore(found: &BTreeMap<PathBuf, Option<Vec<u8>>>, folder: &Path) {
+    fs::create_dir_all(folder).unwrap();
+    for (path, bytes) in found {
+        match bytes {
+            None => fs::create_dir_all(folder.join(path)).unwrap(),
+            Some(bytes) => fs::write(folder.join(path), bytes).unwrap(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn replaced(syncs: &[&str]) -> Disk {
+        let path = PathBuf::from;
+        let mut disk = Disk::default();
+        let operations = [
+            Operation::Wrote(path("a"), b"old!".to_vec()),
+            Operation::SyncedFile(path("a")),
+            Operation::SyncedFolder(path("")),
+            Operation::Wrote(path("draft"), b"new!".to_vec()),
+        ];
+        operations.iter().for_each(|operation| disk.apply(operation));
+        if syncs.contains(&"file") {
+            disk.apply(&Operation::SyncedFile(path("draft")));
+        }
+        disk.apply(&Operation::Moved(path("draft"), path("a")));
+        if syncs.contains(&"folder") {
+            disk.apply(&Operation::SyncedFolder(path("")));
+        }
+        disk
+    }
+
+    #[test]
+    fn what_is_not_synced_may_be_lost_or_torn() {
+        let a = |disk: &Disk, is_there: bool| disk.cut(|| is_there)[Path::new("a")].clone().unwrap();
+        assert_eq!(
+            (a(&replaced(&["file"]), false), a(&replaced(&["file"]), true)),
+            (b"old!".to_vec(), b"new!".to_vec())
+        );
+        assert_eq!(a(&replaced(&["file", "folder"]), false), b"new!");
+        assert_eq!(a(&replaced(&["folder"]), false), b"ne", "the name came before the bytes");
+    }
+}
