@@ -32,8 +32,6 @@ pub(crate) struct Departure {
     /// How far the neighbour drove by plan since the last stop was added, metres.
     driven_m: f32,
     stops: heapless::Vec<Stop, STOPS>,
-    /// Distance from rim to rim by the plan, and by the offset, metres; infinite before it was seen.
-    gap_m: f32,
 }
 
 /// The hypothesis that the neighbour stopped at a place.
@@ -63,7 +61,6 @@ impl Departure {
             variance: sigma_m * sigma_m,
             driven_m: STOP_EVERY_M,
             stops: heapless::Vec::new(),
-            gap_m: f32::INFINITY,
         }
     }
 
@@ -82,11 +79,6 @@ impl Departure {
             let _ = departure.stops.push(Stop { at, offset_m: 0.0, log_ratio: 0.0 });
         }
         departure
-    }
-
-    /// Distance from rim to rim by the plan, but for the offset of the readings, metres; infinite before it was seen.
-    pub fn gap_m(&self) -> f32 {
-        self.gap_m
     }
 
     /// Carries the places of the stops over a step in which the robot itself moved.
@@ -117,7 +109,6 @@ impl Departure {
             };
             let null = step(&mut self.offset_m, off_m);
             self.variance *= 1.0 - gain;
-            self.gap_m = one.at.length() - scan.sensors.contact_m() + self.offset_m;
             for stop in &mut self.stops {
                 let Some((off_m, _)) = mean.off_m(stop.at) else { continue };
                 let gain = (null - step(&mut stop.offset_m, off_m)) / (2.0 * sum);

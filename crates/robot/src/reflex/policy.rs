@@ -10,8 +10,6 @@ use crate::config::SafetyPolicy;
 
 /// Halvings in the search for the highest speed: 0.27 m/s to within 1 mm/s.
 const HALVINGS: usize = 8;
-/// A neighbour that is nearer than the clearance by more sigma than the first is believed less, by the second not at all.
-const TRUSTED: [f32; 2] = [2.5, 4.5];
 /// A neighbour less than this ahead of abeam (cosine) is not neared by driving on.
 const ABEAM: f32 = 0.05;
 
@@ -50,8 +48,7 @@ pub(crate) fn allowed_mps(
     }
     // A neighbour that the plan does not know may stop at any moment: that it drives off is not counted on.
     let away = track.at.times(track.velocity.dot(track.at).max(0.0) / track.at.dot(track.at).max(1e-6));
-    let trust = clearance_m.map_or(0.0, |clearance_m| trust(track, clearance_m, sensors));
-    let velocity = track.velocity.minus(away.times(1.0 - trust));
+    let velocity = if clearance_m.is_some() { track.velocity } else { track.velocity.minus(away) };
     let velocity = if track.is_flat { Point::ZERO } else { velocity };
     let stop = Stop { at: track.at, velocity, is_flat: track.is_flat, wish, sense };
     let wanted_mps = wish.speed_mps * sense;
@@ -60,8 +57,7 @@ pub(crate) fn allowed_mps(
     let grown_m = of.spare_m + of.sigmas * sigma_m;
     // A neighbour that the plan names is believed to keep to it unless it is nearer for sure.
     let planned_m = |clearance_m: f32| (of.planned_share * clearance_m - sigma_m).max(0.0);
-    let grown_m = clearance_m
-        .map_or(grown_m, |clearance_m| grown_m + trust * (grown_m.min(planned_m(clearance_m)) - grown_m));
+    let grown_m = clearance_m.map_or(grown_m, |clearance_m| grown_m.min(planned_m(clearance_m)));
     let least_m = sensors.contact_m() + grown_m;
     if at_wanted >= least_m {
         return None;
@@ -81,15 +77,6 @@ pub(crate) fn allowed_mps(
         if stop.nearest(middle).0 >= least_m { safe = middle } else { unsafe_ = middle }
     }
     Some(safe)
-}
-
-/// How far a neighbour is believed to keep to the plan, 0 to 1: no two come nearer than their clearance by plan.
-fn trust(track: &Track, clearance_m: f32, sensors: &Sensors) -> f32 {
-    let towards = track.at.times(1.0 / track.at.length().max(1e-3));
-    let sigma_m = libm::sqrtf(track.covariance.place_along(towards).max(1e-10));
-    let gap_m = track.departure.gap_m().min(track.gap_m(sensors));
-    let nearer = (clearance_m - gap_m) / sigma_m;
-    ((TRUSTED[1] - nearer) / (TRUSTED[1] - TRUSTED[0])).clamp(0.0, 1.0)
 }
 
 /// Driving on at some speed for a step, then stopping at the grip limit.

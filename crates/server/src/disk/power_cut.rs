@@ -3,7 +3,8 @@
 //!
 //! The model is that of POSIX: bytes are surely on the disk once their file was synced, and a name once its folder was. Of
 //! what was not synced any part may be there, in any order (Pillai and others, *All File Systems Are Not Created Equal*, OSDI
-//! 2014). A name moves within a folder as a whole or not at all.
+//! 2014). A name moves within a folder as a whole or not
+//! at all; between two folders it may be in both for a while.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,6 +52,8 @@ pub fn note(operation: impl FnOnce() -> Operation) {
 struct Renaming {
     removed: Option<PathBuf>,
     added: Option<(PathBuf, Node)>,
+    /// It happens only where this name is there.
+    after: Option<PathBuf>,
 }
 
 /// What a name stands for.
@@ -96,8 +99,12 @@ impl Disk {
             }
             Operation::SyncedFolder(folder) => self.sync_folder(folder),
             Operation::Moved(from, to) => {
-                let node = self.now[from];
-                self.rename(Some(from.clone()), Some((to.clone(), node)));
+                let added = Some((to.clone(), self.now[from]));
+                if from.parent() == to.parent() {
+                    return self.rename(Some(from.clone()), added);
+                }
+                self.rename(None, added);
+                self.change(Renaming { removed: Some(from.clone()), added: None, after: Some(to.clone()) });
             }
             Operation::Linked(from, to) => {
                 let node = self.now[from];
@@ -108,7 +115,10 @@ impl Disk {
     }
 
     fn rename(&mut self, removed: Option<PathBuf>, added: Option<(PathBuf, Node)>) {
-        let renaming = Renaming { removed, added };
+        self.change(Renaming { removed, added, after: None });
+    }
+
+    fn change(&mut self, renaming: Renaming) {
         renaming.apply(&mut self.now);
         self.pending.push(renaming);
     }
@@ -158,6 +168,9 @@ impl Disk {
 
 impl Renaming {
     fn apply(&self, names: &mut BTreeMap<PathBuf, Node>) {
+        if self.after.as_ref().is_some_and(|path| !names.contains_key(path)) {
+            return;
+        }
         if let Some(path) = &self.removed {
             names.remove(path);
         }

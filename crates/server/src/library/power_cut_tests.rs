@@ -123,7 +123,7 @@ fn cut_at_every_operation(seed: u64) {
 }
 
 /// An operation by its paths below a folder, which itself is there.
-fn within(folder: &std::path::Path, operation: Operation) -> Operation {
+fn within(folder: &Path, operation: Operation) -> Operation {
     let below = |path: PathBuf| path.strip_prefix(folder).map_or(path.clone(), PathBuf::from);
     match operation {
         Operation::MadeFolder(path) => Operation::MadeFolder(below(path)),
