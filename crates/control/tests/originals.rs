@@ -75,6 +75,17 @@ fn who_says_it_arrived_far_from_its_goal_is_told_again() {
 }
 
 #[test]
+fn who_is_lifted_while_all_stand_is_planned_from_where_it_was_put_down() {
+    let mut world = World::ready(6, 6, show(2, 6, 5.0));
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.robots[2].at += Vec2::new(0.3, 0.4);
+    world.run_until(4.0, |kind| matches!(kind, EventKind::Misaligned { .. }));
+    world.run_until(10.0, |kind| matches!(kind, EventKind::Replanning { .. }));
+    assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
+}
+
+#[test]
 fn who_was_not_heard_when_it_was_switched_on_is_found_soon() {
     // Asked for each two seconds, one of thirty could stay unknown until the show began where links lose every fifth
     // message, and was driven into.

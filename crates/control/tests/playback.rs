@@ -301,6 +301,22 @@ fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
     assert!(world.robots[3].kept.is_none(), "{}", world.story());
 }
 
+/// Its link is back long after the run is over, when nothing is being stopped any more.
+#[test]
+fn a_robot_that_is_back_after_the_run_is_told_that_it_keeps_no_route() {
+    let mut world = World::ready(10, 0, show(3, 10, 3.0));
+    world.play();
+    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.run_for(1.0);
+    assert!(world.robots[3].kept.is_some());
+    world.robots[3].dead = true;
+    world.operate(Operation::Abort).unwrap();
+    world.run_for(20.0);
+    world.robots[3].dead = false;
+    world.run_for(3.0);
+    assert!(world.robots[3].kept.is_none(), "{}", world.story());
+}
+
 #[test]
 fn all_robots_drive_home_and_the_show_stays_open() {
     let show = show(3, 9, 0.2);

@@ -78,6 +78,23 @@ fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
 }
 
 #[test]
+fn a_route_that_nobody_comes_near_tells_so() {
+    let tells = |room_mm, named: bool| {
+        let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+        let mut one = Route { room_mm, ..route(1) };
+        if named {
+            one.neighbours.push(30, &[Knot { at_ms: 0, place_tenths: [700, 0], velocity_mmps: [0; 2] }]);
+        }
+        routes.keep(&one, &mut storage);
+        routes.start(1, Instant(0), Some(Instant(0)));
+        routes.begin_due(Instant(0), &storage);
+        routes.tells_neighbours(0.03, &storage)
+    };
+    assert!(tells(Some(40), false) && tells(Some(3), true));
+    assert!(!tells(Some(3), false) && !tells(Some(30), false) && !tells(None, false));
+}
+
+#[test]
 fn neighbours_that_rested_by_the_way_do_not_crowd_out_who_is_near() {
     let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
     let mut named = route(1);
