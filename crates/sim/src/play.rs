@@ -1,13 +1,16 @@
 //! The loop of a rehearsal: one queue of messages, one clock, one step after the other.
 
 mod breaking;
-mod messages;
+mod uplink;
 
 use std::collections::VecDeque;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
-use lightbots_control::{Config, Controller, MissingPolicy, Operation, RecordedController, RobotView};
+use lightbots_control::{
+    Config, Controller, EventKind, MissingPolicy, Operation, RecordedController, RobotView,
+};
 use lightbots_show::{Issue, Show};
 use lightbots_wire::Topic;
 
@@ -27,6 +30,7 @@ use crate::report::RehearsalReport;
 use crate::robot_set::RobotSet;
 use crate::timetable::Timetable;
 use crate::world::STEP;
+use uplink::send;
 
 /// Time that robots have to find the controller and its clock. The show then begins without the others.
 const GATHERING: Span = Span::from_millis(8_000);
@@ -34,6 +38,9 @@ const GATHERING: Span = Span::from_millis(8_000);
 const PLACES_EVERY: u64 = 6;
 /// Steps between two times that the world's state enters the hash: about a second.
 const HASH_EVERY: u64 = 64;
+/// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
+const ROUNDS_PER_STEP: usize = 1_000_000;
+
 /// A show being rehearsed.
 pub(crate) struct Play {
     show: Arc<Show>,
@@ -204,7 +211,7 @@ impl Play {
         self.befall();
         let Self { robots, network, record, breakdowns, broker, forgeries, .. } = self;
         robots.step(next, &mut |robot, topic, text| {
-            messages::send(network, record, (breakdowns, broker, forgeries), next, (robot, topic, text))
+            send(network, record, (breakdowns, broker, forgeries), next, (robot, topic, text))
         });
         for (robot, text) in self.forgeries.floods() {
             self.network.send(next, Way::ToController(robot), Topic::Status, text.into());
@@ -219,6 +226,100 @@ impl Play {
         }
     }
 
+    /// Handles messages and wake-ups until `until`, in order.
+    fn pass_time(&mut self, until: Instant) {
+        for _ in 0..ROUNDS_PER_STEP {
+            let wake = self.controller.wake_at().map(|at| self.clock.when(at).max(self.now));
+            let wake = wake.filter(|_| !self.is_controller_away());
+            let message = self.network.next_at();
+            let wakes_first = wake.is_some_and(|wake| message.is_none_or(|message| wake < message));
+            if wakes_first {
+                let at = wake.unwrap_or(until);
+                if at > until {
+                    return;
+                }
+                self.now = at;
+                self.controller.wake(self.shown());
+                self.drain_controller();
+            } else {
+                let Some((at, message)) = self.network.next_until(until) else { return };
+                self.now = at.max(self.now);
+                if let Some(robot) = self.network.next_receiver() {
+                    self.robots.prefetch_receiver(robot);
+                }
+                match message.way {
+                    Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) || self.broker.is_cut(robot) => {}
+                    Way::ToRobot(robot) => {
+                        if let Some(invariants) = &mut self.invariants {
+                            invariants.received(robot, self.now);
+                        }
+                        self.robots.receive(self.now, robot, message.topic, &message.payload);
+                        let Self { robots, network, record, breakdowns, broker, forgeries, now, .. } = self;
+                        robots.drain_messages(robot, &mut |robot, topic, text| {
+                            send(
+                                network,
+                                record,
+                                (breakdowns, broker, forgeries),
+                                *now,
+                                (robot, topic, text),
+                            );
+                        });
+                    }
+                    Way::ToController(_) if self.crashes.is_gone() => {}
+                    Way::ToController(robot) => {
+                        self.hash.word(at.0 ^ (robot as u64) << 48);
+                        self.hash.bytes(&message.payload);
+                        self.controller.message(self.shown(), &message.topic.write(), &message.payload);
+                        self.drain_controller();
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether there is no controller, or its computer sleeps.
+    pub(super) fn is_controller_away(&self) -> bool {
+        self.crashes.is_gone() || self.clock.is_asleep(self.now)
+    }
+
+    pub(super) fn drain_controller(&mut self) {
+        while let Some(send) = self.controller.next_send() {
+            let payload: Rc<[u8]> = send.payload.into();
+            match send.topic {
+                Topic::Robot(id) => {
+                    let place = self.by_id.binary_search_by_key(&id, |entry| entry.0);
+                    let first = place.ok().map(|place| self.by_id[place]);
+                    let named = first.iter().chain(&self.namesakes).filter(|(name, _)| *name == id);
+                    // A robot that has another name by now has subscribed to that one.
+                    for &(_, robot) in named.filter(|(_, robot)| self.robots.id(*robot) == id) {
+                        self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
+                    }
+                }
+                topic => {
+                    for robot in 0..self.robots.len() {
+                        self.network.send(self.now, Way::ToRobot(robot), topic, payload.clone());
+                    }
+                }
+            }
+        }
+        while let Some(event) = self.controller.next_event() {
+            let event = self.clock.in_virtual_time(event);
+            if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
+                self.operator.asked(self.now);
+            }
+            if matches!(event.kind, EventKind::FrameReached { .. })
+                && let Some(frame) = self.visits.pop_front()
+            {
+                self.operator.does(self.now, Operation::GoTo(frame));
+            }
+            if let Some(invariants) = &mut self.invariants {
+                invariants.event(&event, &self.by_id);
+            }
+            self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
+        }
+        self.write_journal();
+    }
+
     /// Begins the show once all robots are present and know the show clock, or after [`GATHERING`].
     fn begin(&mut self) {
         if !(self.now.0 / STEP.0 as u64).is_multiple_of(8) {
@@ -227,8 +328,8 @@ impl Play {
         let robots = self.controller.snapshot(self.shown()).robots;
         // An original robot reports neither its state nor its clock.
         let is_ready = |robot: &&RobotView| {
-            robot.reported.at.is_some()
-                && (robot.reported.clock_us.is_some() || robot.reported.state.is_none())
+            let reported = &robot.reported;
+            reported.at.is_some() && (reported.clock_us.is_some() || reported.state.is_none())
         };
         let ready = robots.iter().filter(is_ready).count();
         let late = self.now > Instant::ZERO + GATHERING;

@@ -81,11 +81,6 @@ impl Departure {
         departure
     }
 
-    /// Where a neighbour is that the plan has at `planned`, but for the offset of the readings.
-    pub fn place_by_readings(&self, planned: Point) -> Point {
-        planned.times(1.0 + self.offset_m / planned.length().max(1e-3))
-    }
-
     /// Carries the places of the stops over a step in which the robot itself moved.
     pub fn predict(&mut self, own: &OwnMotion) {
         for stop in &mut self.stops {

@@ -187,9 +187,8 @@ impl Tracks {
             }
             track.planned = kept.map(|one| one.index);
             if let Some(one) = kept {
-                let at = track.departure.place_by_readings(one.at);
                 for axis in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)] {
-                    track.learn_place(axis, at, scan.planned_sigma_m);
+                    track.learn_place(axis, one.at, scan.planned_sigma_m);
                     track.learn_velocity(axis, one.velocity, scan.of.planned_sigma_mps);
                 }
             }

@@ -1,10 +1,10 @@
-//! What a power cut leaves of files, for tests: the operations of this thread are noted as they happen, and a model says what
-//! may be on the disk after any of them.
+//! What a power cut leaves of files, for tests: the operations of this thread are noted as they happen, and a model says
+//! what may be on the disk after any of them.
 //!
-//! The model is that of POSIX: bytes are surely on the disk once their file was synced, and a name once its folder was. Of
-//! what was not synced any part may be there, in any order (Pillai and others, *All File Systems Are Not Created Equal*, OSDI
-//! 2014). A name moves within a folder as a whole or not
-//! at all; between two folders it may be in both for a while.
+//! The model is that of POSIX: bytes are surely on the disk once their file was synced, and a name once its folder was.
+//! Of what was not synced any part may be there, in any order (Pillai and others, *All File Systems Are Not Created
+//! Equal*, OSDI 2014). A name moves within a folder as a whole or not at all; between two folders it may be in both for
+//! a while.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};

@@ -73,8 +73,8 @@ impl Clock {
     }
 }
 
-/// Time since a moment that stays the same while the program runs. `std::time::Instant` stands while a computer with Linux or
-/// macOS sleeps.
+/// Time since a moment that stays the same while the program runs. `std::time::Instant` stands while a computer with Linux
+/// or macOS sleeps.
 #[cfg(unix)]
 fn uptime() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
