@@ -184,12 +184,12 @@ fn a_driver_sees_who_stands_in_its_way() {
     let details = report.details.expect("a robot of ours");
     assert!(details.simulated, "a robot of Webots is no real one");
     let blocked = details.blocked.expect("it says so");
-    // The route leaves 40 mm, of which it may use up half; then it backs away by 8 mm at most.
-    let furthest_m = 0.5 * lead::ROOM_M;
-    assert!(blocked.gap_m < furthest_m, "{blocked:?}");
+    // It says so as soon as it brakes, within the range of its sensors.
+    assert!(blocked.gap_m < 0.03, "{blocked:?}");
     assert!((blocked.towards - std::f64::consts::FRAC_PI_2).abs() < 0.4, "{blocked:?}");
     assert_eq!(account.contacts, 0);
-    assert!(account.places[0].distance(dead) < 0.054 + furthest_m + 0.008, "{:?}", account.places);
+    // It stands half of the room before it that the route leaves, at most; then it backs away by 8 mm at most.
+    assert!(account.places[0].distance(dead) < 0.054 + 0.5 * lead::ROOM_M + 0.008, "{:?}", account.places);
 }
 
 /// Webots' motors keep on doing what they were told last when their controller is gone.

@@ -49,7 +49,7 @@ impl Driving {
     /// All robots pick up again together, once all stand. RESUME is stated as late as it can be: stated earlier, one hold
     /// after the other would be postponed until long after its reason.
     pub fn release(&mut self, cx: &mut RunContext) {
-        let (now, lead) = (cx.now, cx.link.hold_lead());
+        let (now, lead) = (cx.now, cx.link.resume_lead());
         let Some(hold) = self.clock.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
         let statable = hold.at + Route::EASE - lead;
         if now < statable {
