@@ -285,9 +285,9 @@ fn a_show_that_validation_rejects_is_not_begun() {
     }
 }
 
-/// Its link is back only after all copies of STOP: it is told by name, so that it keeps no route.
-#[test]
-fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
+/// A run is aborted while a robot that keeps a route hears nothing, for a second or longer. It is told by name, so that it
+/// keeps none within a time after it is back, seconds.
+fn is_stopped_after(unheard_s: f64, within_s: f64) {
     let mut world = World::ready(10, 0, show(3, 10, 3.0));
     world.play();
     world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
@@ -295,26 +295,21 @@ fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
     assert!(world.robots[3].kept.is_some());
     world.robots[3].dead = true;
     world.operate(Operation::Abort).unwrap();
-    world.run_for(1.0);
+    world.run_for(unheard_s);
     world.robots[3].dead = false;
-    world.run_for(0.5);
+    world.run_for(within_s);
     assert!(world.robots[3].kept.is_none(), "{}", world.story());
 }
 
-/// Its link is back long after the run is over, when nothing is being stopped any more.
 #[test]
-fn a_robot_that_is_back_after_the_run_is_told_that_it_keeps_no_route() {
-    let mut world = World::ready(10, 0, show(3, 10, 3.0));
-    world.play();
-    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
-    world.run_for(1.0);
-    assert!(world.robots[3].kept.is_some());
-    world.robots[3].dead = true;
-    world.operate(Operation::Abort).unwrap();
-    world.run_for(20.0);
-    world.robots[3].dead = false;
-    world.run_for(3.0);
-    assert!(world.robots[3].kept.is_none(), "{}", world.story());
+fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
+    is_stopped_after(1.0, 0.5);
+}
+
+/// Nothing is being stopped any more.
+#[test]
+fn a_robot_that_is_back_long_after_a_run_is_told_that_it_keeps_no_route() {
+    is_stopped_after(20.0, 3.0);
 }
 
 #[test]
