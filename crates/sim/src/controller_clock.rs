@@ -44,7 +44,7 @@ impl ControllerClock {
         (Instant(BEGINS_US + now.0) + self.day_ahead).0
     }
 
-    /// Somebody sets the time of day. A program that runs does not heed it.
+    /// The time of day is set. A program that runs does not heed it.
     pub fn set(&mut self, by: Span) {
         self.day_ahead += by;
     }

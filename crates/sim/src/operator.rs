@@ -66,8 +66,8 @@ impl Operator {
         self.presses_at.take_if(|at| now >= *at).is_some()
     }
 
-    /// Whether the operator resumes now: the show is paused though nobody wants that, because a controller that was started
-    /// again has an old journal.
+    /// Whether the operator resumes now: a controller that was started again with an old journal pauses a show that the
+    /// operator has resumed.
     pub fn resumes(&mut self, now: Instant, is_paused: bool) -> bool {
         if !is_paused || self.wants_pause {
             self.paused_since = None;

@@ -249,22 +249,7 @@ impl Play {
                 }
                 match message.way {
                     Way::ToRobot(robot) if self.breakdowns.is_deaf(robot) || self.broker.is_cut(robot) => {}
-                    Way::ToRobot(robot) => {
-                        if let Some(invariants) = &mut self.invariants {
-                            invariants.received(robot, self.now);
-                        }
-                        self.robots.receive(self.now, robot, message.topic, &message.payload);
-                        let Self { robots, network, record, breakdowns, broker, forgeries, now, .. } = self;
-                        robots.drain_messages(robot, &mut |robot, topic, text| {
-                            send(
-                                network,
-                                record,
-                                (breakdowns, broker, forgeries),
-                                *now,
-                                (robot, topic, text),
-                            );
-                        });
-                    }
+                    Way::ToRobot(robot) => self.hand_over(robot, message.topic, &message.payload),
                     Way::ToController(_) if self.crashes.is_gone() => {}
                     Way::ToController(robot) => {
                         self.hash.word(at.0 ^ (robot as u64) << 48);
@@ -275,6 +260,18 @@ impl Play {
                 }
             }
         }
+    }
+
+    /// A robot receives a message, and answers.
+    fn hand_over(&mut self, robot: usize, topic: Topic, payload: &[u8]) {
+        if let Some(invariants) = &mut self.invariants {
+            invariants.received(robot, self.now);
+        }
+        self.robots.receive(self.now, robot, topic, payload);
+        let Self { robots, network, record, breakdowns, broker, forgeries, now, .. } = self;
+        robots.drain_messages(robot, &mut |robot, topic, text| {
+            send(network, record, (breakdowns, broker, forgeries), *now, (robot, topic, text));
+        });
     }
 
     /// Whether there is no controller, or its computer sleeps.

@@ -63,7 +63,7 @@ impl StraightDrive {
 
     /// How far a place is from the drive's line, metres.
     pub fn distance_m(&self, place: Vec2) -> f64 {
-        place.distance(self.at(self.share_at(place).clamp(0.0, 1.0)))
+        point_to_segment(place, self.from, self.to)
     }
 
     /// Share of this drive, 0 to 1, that keeps `gap_m` to the remaining part of another drive, of which the share

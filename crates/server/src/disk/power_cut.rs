@@ -125,12 +125,12 @@ impl Disk {
 
     fn sync_folder(&mut self, folder: &Path) {
         let is_in = |path: &PathBuf| path.parent() == Some(folder);
-        let (done, pending) = std::mem::take(&mut self.pending).into_iter().partition(|renaming| {
+        let all = std::mem::take(&mut self.pending).into_iter();
+        let (done, pending): (Vec<_>, Vec<_>) = all.partition(|renaming| {
             let removed = renaming.removed.iter();
             removed.chain(renaming.added.iter().map(|(path, _)| path)).all(is_in)
         });
         self.pending = pending;
-        let done: Vec<Renaming> = done;
         done.iter().for_each(|renaming| renaming.apply(&mut self.synced));
     }
 
@@ -180,7 +180,7 @@ impl Renaming {
     }
 }
 
-/// Puts what a power cut left into a folder of the real disk. `base`: the folder whose content it was.
+/// Puts what a power cut left into a folder of the real disk.
 pub fn restore(found: &BTreeMap<PathBuf, Option<Vec<u8>>>, folder: &Path) {
     fs::create_dir_all(folder).unwrap();
     for (path, bytes) in found {

@@ -174,8 +174,7 @@ impl Invariants {
             Mishap::Person(_) => self.stepped = Some(now),
             Mishap::Floods(robot, _) => self.robots[robot].may_drop_out = true,
             Mishap::DiskFull(_) | Mishap::DiskSlow(..) => self.is_journal_old = true,
-            Mishap::ClockSet(_) | Mishap::Sleeps(_) => {}
-            Mishap::Stop | Mishap::Pause | Mishap::Resume => {}
+            Mishap::Stop | Mishap::Pause | Mishap::Resume | Mishap::ClockSet(_) | Mishap::Sleeps(_) => {}
             Mishap::GoTo(_) | Mishap::Skip | Mishap::Rainbow(_) => {}
         }
     }

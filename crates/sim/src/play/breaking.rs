@@ -75,8 +75,8 @@ impl Play {
     fn start_controller(&mut self) {
         self.controller.keep_journal();
         if let Some(run) = self.crashes.unfinished_run() {
-            // A new controller has no run.
             self.clock.go_on(self.now, &run);
+            // A new controller has no run.
             let _ = self.controller.take_up(self.shown(), &run, OnReturn::GoOrAsk);
         } else if let Some(invariants) = &mut self.invariants {
             invariants.run_is_gone(self.now);
