@@ -1,34 +1,16 @@
 //! Lazy constraints addition search over configurations of all robots (LaCAM; Okumura 2023). It goes depth first from
-//! one configuration to the next that a [`Generator`] makes. Where that is known already, constraints send single
+//! one configuration to the next that [`Pibt`] makes. Where that is known already, constraints send single
 //! robots to other nodes, one constraint more each time. Without its bound on work, the search is complete on the
 //! nodes.
 
 use std::collections::BTreeMap;
 use std::collections::VecDeque;
 
-use crate::roads::lattice::NONE;
+use crate::mapf::pibt::{ConflictRule, Constraint, Pibt};
+use crate::roads::graph::NONE;
 
 /// Steps of robots before the search gives up.
 const MOST_WORK: usize = 1_500_000;
-
-/// A low-level constraint: the robot must go to the node in this step.
-pub(crate) type Constraint = (usize, u32);
-
-/// Makes the next configuration of all robots on a graph.
-pub(crate) trait Generator {
-    /// Nodes that a robot may go to from a node, without the node itself.
-    fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
-
-    /// Cost of a robot from a node to its goal; infinite where there is no path, 0 without a goal.
-    fn far(&self, robot: usize, node: u32) -> f64;
-
-    /// The configuration after one step from `now`, in which robots earlier in `ranks` choose first and `constraints`
-    /// are kept; `None` where they cannot be kept.
-    fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>>;
-
-    /// Whether the granted work is used up, or the planner is cancelled.
-    fn is_spent(&self) -> bool;
-}
 
 /// A configuration that has been reached.
 struct SearchNode {
@@ -43,9 +25,13 @@ struct SearchNode {
 }
 
 /// `[step][robot]`: nodes from `starts` until all robots with a goal are there; `None` where none were found.
-pub(crate) fn search(generator: &mut impl Generator, starts: &[u32], goals: &[u32]) -> Option<Vec<Vec<u32>>> {
+pub(crate) fn search(
+    pibt: &mut Pibt<'_, impl ConflictRule>,
+    starts: &[u32],
+    goals: &[u32],
+) -> Option<Vec<Vec<u32>>> {
     assert_eq!(starts.len(), goals.len(), "each robot has a goal or NONE");
-    let far: Vec<f64> = (0..starts.len()).map(|robot| generator.far(robot, starts[robot])).collect();
+    let far: Vec<f64> = (0..starts.len()).map(|robot| pibt.rule.far(robot, starts[robot])).collect();
     if far.contains(&f64::INFINITY) {
         return None;
     }
@@ -55,7 +41,7 @@ pub(crate) fn search(generator: &mut impl Generator, starts: &[u32], goals: &[u3
     let mut known = BTreeMap::from([(starts.to_vec(), 0)]);
     let mut open = vec![0];
     let mut work = MOST_WORK / starts.len().max(1);
-    while let Some(&top) = open.last().filter(|_| !generator.is_spent()) {
+    while let Some(&top) = open.last().filter(|_| !pibt.is_spent()) {
         work = work.checked_sub(1)?;
         let expanded = &mut search_nodes[top];
         if expanded.nodes.iter().zip(goals).all(|(node, goal)| *goal == NONE || node == goal) {
@@ -65,9 +51,9 @@ pub(crate) fn search(generator: &mut impl Generator, starts: &[u32], goals: &[u3
             open.pop();
             continue;
         };
-        expanded.branch(generator, &constraints);
+        expanded.branch(&pibt.rule, &constraints);
         let expanded = &search_nodes[top];
-        let Some(next) = generator.step(&expanded.nodes, &expanded.ranks, &constraints) else { continue };
+        let Some(next) = pibt.step(&expanded.nodes, &expanded.ranks, &constraints) else { continue };
         if let Some(&seen) = known.get(&next) {
             open.push(seen);
             continue;
@@ -92,10 +78,10 @@ impl SearchNode {
     }
 
     /// Adds each constraint on the next robot by priority to the constraints given.
-    fn branch(&mut self, generator: &impl Generator, constraints: &[Constraint]) {
+    fn branch(&mut self, rule: &impl ConflictRule, constraints: &[Constraint]) {
         let Some(&robot) = self.ranks.get(constraints.len()) else { return };
         let here = self.nodes[robot];
-        for node in generator.around(robot, here).chain([here]) {
+        for node in rule.around(robot, here).chain([here]) {
             self.constraints.push_back(constraints.iter().copied().chain([(robot, node)]).collect());
         }
     }
@@ -117,7 +103,7 @@ mod tests {
     use crate::TransitionProblem;
     use crate::cancel::Cancel;
     use crate::instance::Instance;
-    use crate::mapf::lattice_pibt::LatticePibt;
+    use crate::mapf::lattice_rule::lattice_pibt;
     use crate::roads::lattice::Lattice;
     use lightbots_base::{Limits, Vec2};
     use lightbots_show::Easing;
@@ -161,7 +147,7 @@ mod tests {
         let starts: Vec<u32> = (0..count as u32).filter(|node| node % 2 == 0).collect();
         let goals: Vec<u32> = starts.iter().rev().copied().collect();
         let steps =
-            search(&mut LatticePibt::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
+            search(&mut lattice_pibt(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
         assert_eq!(steps.first(), Some(&starts));
         assert_eq!(steps.last(), Some(&goals));
         assert_legal(&lattice, &steps);
@@ -175,7 +161,7 @@ mod tests {
         goals[0] = lattice.places.len() as u32 / 2;
         goals[1] = 0;
         let steps =
-            search(&mut LatticePibt::new(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
+            search(&mut lattice_pibt(&lattice, &goals, Cancel::NEVER).unwrap(), &starts, &goals).unwrap();
         assert_legal(&lattice, &steps);
         assert_eq!(steps.last().unwrap()[1], 0);
     }

@@ -1,8 +1,9 @@
 //! Shortens a solution of the depth-first search. One robot after the other searches its cheapest path through space
 //! and time while all others keep theirs; steps without a move are removed. The solution never gets worse.
 
-use crate::mapf::lacam::Generator;
-use crate::mapf::roadmap_pibt::RoadmapPibt;
+use crate::mapf::pibt::ConflictRule;
+use crate::mapf::roadmap_rule::RoadmapRule;
+use crate::roads::graph::Graph;
 use crate::roads::roadmap::Roadmap;
 
 /// Rounds over all robots.
@@ -19,12 +20,12 @@ const METRE: f64 = 4.0;
 const NOWHERE: u32 = u32::MAX;
 
 /// A solution with the same first and last configuration, in at most as many steps.
-pub(crate) fn shorten(pibt: &RoadmapPibt, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+pub(crate) fn shorten(rule: &RoadmapRule, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut looks = MOST_LOOKS;
     for _ in 0..ROUNDS {
         let mut is_better = false;
-        for robot in (0..roads.starts.len()).take_while(|_| !pibt.is_given_up()) {
-            let mut search = SingleRobotSearch { pibt, roads, steps: &steps, robot, looks };
+        for robot in (0..roads.starts.len()).take_while(|_| !rule.is_given_up()) {
+            let mut search = SingleRobotSearch { rule, roads, steps: &steps, robot, looks };
             let path = search.best();
             looks = search.looks;
             let Some(path) = path else { continue };
@@ -41,7 +42,7 @@ pub(crate) fn shorten(pibt: &RoadmapPibt, roads: &Roadmap, mut steps: Vec<Vec<u3
 
 /// The search of one robot among the paths of all others.
 struct SingleRobotSearch<'a> {
-    pibt: &'a RoadmapPibt<'a>,
+    rule: &'a RoadmapRule<'a>,
     roads: &'a Roadmap,
     steps: &'a [Vec<u32>],
     robot: usize,
@@ -77,13 +78,12 @@ impl SingleRobotSearch<'_> {
     fn spread(&mut self, step: usize, costs: &[f64]) -> Option<(Vec<f64>, Vec<u32>)> {
         let mut after = vec![f64::INFINITY; costs.len()];
         let mut from = vec![NOWHERE; costs.len()];
-        let place = |node: u32| self.roads.places[node as usize];
         let end = self.roads.ends[self.robot];
         for here in (0..costs.len() as u32).filter(|&node| costs[node as usize] < f64::INFINITY) {
             let wait = if end.is_none_or(|end| end == here) { 0.0 } else { WAIT };
             let stays = [(here, wait)];
-            let moves = self.pibt.around(self.robot, here);
-            let moves = moves.map(|to| (to, MOVE + METRE * place(here).distance(place(to))));
+            let moves = self.rule.around(self.robot, here);
+            let moves = moves.map(|to| (to, MOVE + METRE * self.roads.length_m(here, to)));
             for (to, cost) in stays.into_iter().chain(moves) {
                 let whole = costs[here as usize] + cost;
                 if whole >= after[to as usize] {
@@ -101,7 +101,7 @@ impl SingleRobotSearch<'_> {
     fn is_clear(&self, step: usize, here: u32, to: u32) -> bool {
         let (now, next) = (&self.steps[step], &self.steps[step + 1]);
         let mut others = (0..now.len()).filter(|&other| other != self.robot);
-        others.all(|other| self.pibt.are_apart((self.robot, here, to), (other, now[other], next[other])))
+        others.all(|other| self.rule.are_apart((self.robot, here, to), (other, now[other], next[other])))
     }
 }
 
@@ -110,6 +110,7 @@ mod tests {
     use super::*;
     use crate::TransitionProblem;
     use crate::instance::Instance;
+    use crate::mapf::roadmap_rule::roadmap_pibt;
     use crate::roads::visibility::VisibilityGraph;
     use lightbots_base::{Limits, Vec2};
 
@@ -122,10 +123,10 @@ mod tests {
         let instance =
             Instance::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
         let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
-        let pibt = RoadmapPibt::new(&instance, &roads, usize::MAX);
+        let pibt = roadmap_pibt(&instance, &roads, usize::MAX);
         // The first robot drives far around the second, there and back and there again.
         let mut path = vec![roads.starts[0]];
-        let far_m = pibt.far_m(0, path[0]);
+        let far_m = pibt.rule.far(0, path[0]);
         let node = |x: f64, y: f64| {
             let far = |node: &u32| roads.places[*node as usize].distance(at(x, y));
             (0..roads.places.len() as u32).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap()
@@ -136,11 +137,11 @@ mod tests {
         path.extend(around.map(|(x, y)| node(x, y)));
         path.extend(roads.ends[0]);
         let steps: Vec<Vec<u32>> = path.iter().map(|&node| vec![node, roads.starts[1]]).collect();
-        let short = shorten(&pibt, &roads, steps.clone());
+        let short = shorten(&pibt.rule, &roads, steps.clone());
         assert!(short.len() < 9 && short.first() == steps.first() && short.last() == steps.last());
         for pair in short.windows(2) {
-            assert!(pibt.are_apart((0, pair[0][0], pair[1][0]), (1, pair[0][1], pair[1][1])));
-            assert!(pair[0] != pair[1] && pibt.far_m(0, pair[0][0]) <= far_m + 0.2);
+            assert!(pibt.rule.are_apart((0, pair[0][0], pair[1][0]), (1, pair[0][1], pair[1][1])));
+            assert!(pair[0] != pair[1] && pibt.rule.far(0, pair[0][0]) <= far_m + 0.2);
         }
     }
 }

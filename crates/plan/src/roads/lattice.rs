@@ -1,14 +1,11 @@
 //! A hexagonal lattice over the floor: six directions, and the densest packing of discs.
 
-use std::collections::VecDeque;
-
 use lightbots_base::Vec2;
 
 use crate::instance::Instance;
 use crate::margins::MARGIN_M;
+use crate::roads::graph::{Graph, NONE};
 
-/// No node there.
-pub(crate) const NONE: u32 = u32::MAX;
 /// Neighbours to which an added node may be connected.
 const MOST_BESIDE: usize = 24;
 /// Larger lattices are not made.
@@ -154,22 +151,15 @@ impl Lattice {
         found.truncate(most);
         found.into_iter().map(|(_, node)| node).collect()
     }
+}
 
-    /// Steps from every node to `goal`; `u16::MAX` where there is no path.
-    pub fn steps_to(&self, goal: u32) -> Vec<u16> {
-        let mut steps = vec![u16::MAX; self.places.len()];
-        let mut queue = VecDeque::from([goal]);
-        steps[goal as usize] = 0;
-        while let Some(node) = queue.pop_front() {
-            let next = steps[node as usize].saturating_add(1);
-            for &other in &self.neighbours[node as usize] {
-                if other != NONE && steps[other as usize] == u16::MAX && next < u16::MAX {
-                    steps[other as usize] = next;
-                    queue.push_back(other);
-                }
-            }
-        }
-        steps
+impl Graph for Lattice {
+    fn places(&self) -> &[Vec2] {
+        &self.places
+    }
+
+    fn neighbours(&self, node: u32) -> impl Iterator<Item = u32> {
+        self.neighbours[node as usize].into_iter().filter(|&node| node != NONE)
     }
 }
 
@@ -177,6 +167,7 @@ impl Lattice {
 mod tests {
     use super::*;
     use crate::TransitionProblem;
+    use crate::roads::graph::steps_to;
     use lightbots_base::Limits;
     use lightbots_show::{Easing, Obstacle};
 
@@ -217,7 +208,7 @@ mod tests {
         let wall = Obstacle::Rect { min: Vec2::new(-0.02, -0.5), max: Vec2::new(0.02, 0.3) };
         let lattice = Lattice::new(&instance(vec![wall]), 0.072).unwrap();
         let near = |x: f64, y: f64| lattice.around(Vec2::new(x, y), 0.1, 1)[0];
-        let steps = lattice.steps_to(near(0.3, -0.4));
+        let steps = steps_to(&lattice, near(0.3, -0.4));
         assert!(steps[near(0.3, 0.0) as usize] <= 6);
         assert!(steps[near(-0.3, -0.4) as usize] > 18);
     }

@@ -1,5 +1,6 @@
 //! Graphs of free places on the floor, and shortest paths over them.
 
+pub(crate) mod graph;
 pub(crate) mod lattice;
 pub(crate) mod regions;
 pub(crate) mod roadmap;

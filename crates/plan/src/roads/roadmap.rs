@@ -1,15 +1,13 @@
 //! The graph for stop-and-go: all ends, places beside corners and in gaps, and a lattice. Edges are all short lines
 //! that are free.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
 use lightbots_base::Vec2;
 use lightbots_base::shape::nearest_in_rect;
 use lightbots_show::Obstacle;
 
 use crate::instance::Instance;
 use crate::margins::ROADMAP_M;
+use crate::roads::graph::{Graph, cheapest_paths};
 use crate::roads::visibility::VisibilityGraph;
 
 /// Length of the longest edge, in pitches.
@@ -155,45 +153,22 @@ impl Roadmap {
 
     /// `[node]`: cost of a robot to its end, with the cost of stops; infinite where there is no path.
     pub fn far_m(&self, robot: usize) -> Vec<f64> {
-        let mut far = vec![f64::INFINITY; self.places.len()];
         let Some(end) = self.ends[robot] else { return vec![0.0; self.places.len()] };
-        let mut open = BinaryHeap::from([Reached { far_m: 0.0, node: end }]);
-        far[end as usize] = 0.0;
-        while let Some(Reached { far_m, node }) = open.pop() {
-            if far_m > far[node as usize] {
-                continue;
-            }
-            for &next in self.edges[node as usize].iter().filter(|&&next| self.may_be(robot, next)) {
-                let length_m = self.places[node as usize].distance(self.places[next as usize]);
-                let whole = far_m + length_m + STOP_M;
-                if whole < far[next as usize] {
-                    far[next as usize] = whole;
-                    open.push(Reached { far_m: whole, node: next });
-                }
-            }
-        }
-        far
+        let cost = |from: u32, to: u32| match self.may_be(robot, to) {
+            true => self.length_m(from, to) + STOP_M,
+            false => f64::INFINITY,
+        };
+        cheapest_paths(self, [(end, 0.0)], cost).costs
     }
 }
 
-/// A reached node; the nearest is the greatest, for a heap.
-#[derive(PartialEq)]
-struct Reached {
-    far_m: f64,
-    node: u32,
-}
-
-impl Eq for Reached {}
-
-impl PartialOrd for Reached {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+impl Graph for Roadmap {
+    fn places(&self) -> &[Vec2] {
+        &self.places
     }
-}
 
-impl Ord for Reached {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.far_m.total_cmp(&self.far_m).then(other.node.cmp(&self.node))
+    fn neighbours(&self, node: u32) -> impl Iterator<Item = u32> {
+        self.edges[node as usize].iter().copied()
     }
 }
 

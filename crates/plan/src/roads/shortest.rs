@@ -7,7 +7,8 @@ use lightbots_base::Vec2;
 
 use crate::instance::Instance;
 use crate::margins::COMFORT_M;
-use crate::roads::lattice::{Lattice, NONE};
+use crate::roads::graph::{Graph, steps_to};
+use crate::roads::lattice::Lattice;
 use crate::roads::visibility::VisibilityGraph;
 
 /// Radius in which a path enters the lattice, in pitches.
@@ -39,19 +40,19 @@ pub(crate) fn shortest_paths(
 fn shortest_path(instance: &Instance, lattice: &Lattice, start: Vec2, end: Vec2) -> Option<Vec<Vec2>> {
     let door = |place: Vec2| {
         let near = lattice.around(place, REACH * lattice.pitch_m, 40);
-        near.into_iter().find(|&node| instance.is_way_free(place, lattice.places[node as usize], 0.0))
+        near.into_iter().find(|&node| instance.is_way_free(place, lattice.place(node), 0.0))
     };
     let (mut node, goal) = (door(start)?, door(end)?);
-    let steps = lattice.steps_to(goal);
-    let mut path = vec![start, lattice.places[node as usize]];
+    let steps = steps_to(lattice, goal);
+    let mut path = vec![start, lattice.place(node)];
     if steps[node as usize] == u16::MAX {
         return None;
     }
     while node != goal {
-        let near = lattice.neighbours[node as usize].into_iter().filter(|&next| next != NONE);
-        let key = |next: u32| (steps[next as usize], lattice.places[next as usize].distance(end));
+        let key = |next: u32| (steps[next as usize], lattice.place(next).distance(end));
+        let near = lattice.neighbours(node);
         node = near.min_by(|&a, &b| key(a).0.cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)))?;
-        path.push(lattice.places[node as usize]);
+        path.push(lattice.place(node));
     }
     path.push(end);
     Some(without_detours(instance, &path))

@@ -6,6 +6,7 @@ use lightbots_show::Obstacle;
 
 use crate::instance::Instance;
 use crate::margins::VISIBILITY_M;
+use crate::roads::graph::{Graph, NONE, cheapest_paths};
 use crate::roads::lattice::Lattice;
 
 /// With more walls there is no graph, because too many pairs of corners see each other.
@@ -27,7 +28,7 @@ const DISC_CORNERS: u32 = 8;
 pub(crate) struct VisibilityGraph {
     places: Vec<Vec2>,
     /// `[place]`: places with a free line to it.
-    sees: Vec<Vec<usize>>,
+    sees: Vec<Vec<u32>>,
 }
 
 impl VisibilityGraph {
@@ -40,11 +41,6 @@ impl VisibilityGraph {
         let sees = |&from: &Vec2| seen(instance, &places, from);
         let sees = places.iter().map(sees).collect();
         Self { places, sees }
-    }
-
-    /// All places, stage metres.
-    pub fn places(&self) -> &[Vec2] {
-        &self.places
     }
 
     /// A lattice that reaches through gaps: first nodes in narrow gaps, then rows, then more nodes wherever one fits.
@@ -80,8 +76,10 @@ impl VisibilityGraph {
         let mut gaps: Vec<Vec2> = Vec::new();
         for step_m in [apart_m * EVEN, FILL_STEP_M] {
             for (from, seen) in self.sees.iter().enumerate() {
-                for (a, b) in
-                    seen.iter().filter(|&&to| to > from).map(|&to| (self.places[from], self.places[to]))
+                for (a, b) in seen
+                    .iter()
+                    .filter(|&&to| to as usize > from)
+                    .map(|&to| (self.places[from], self.place(to)))
                 {
                     if instance.cancel.is_wanted() {
                         return gaps;
@@ -104,39 +102,30 @@ impl VisibilityGraph {
 
     /// Corners of the shortest path from one place to another; `None` where there is none.
     pub fn path(&self, instance: &Instance, start: Vec2, end: Vec2) -> Option<Vec<Vec2>> {
-        let from_end = seen(instance, &self.places, end);
-        let mut far_m = vec![f64::INFINITY; self.places.len()];
-        let mut before = vec![None; self.places.len()];
-        for at in seen(instance, &self.places, start) {
-            far_m[at] = start.distance(self.places[at]);
-        }
-        let mut is_settled = vec![false; self.places.len()];
-        // Dijkstra; the nearest of the few places is found by looking at all.
-        while let Some(at) = (0..self.places.len())
-            .filter(|&at| !is_settled[at] && far_m[at] < f64::INFINITY)
-            .min_by(|&a, &b| far_m[a].total_cmp(&far_m[b]))
-        {
-            is_settled[at] = true;
-            for &next in &self.sees[at] {
-                let far = far_m[at] + self.places[at].distance(self.places[next]);
-                if far < far_m[next] {
-                    (far_m[next], before[next]) = (far, Some(at));
-                }
-            }
-        }
-        let whole = |at: usize| far_m[at] + self.places[at].distance(end);
-        let mut last = from_end.into_iter().min_by(|&a, &b| whole(a).total_cmp(&whole(b)));
-        if last.is_none_or(|at| far_m[at] == f64::INFINITY) {
-            return None;
-        }
+        let sources = seen(instance, &self.places, start);
+        let sources = sources.into_iter().map(|at| (at, start.distance(self.place(at))));
+        let from_start = cheapest_paths(self, sources, |from, to| self.length_m(from, to));
+        let whole = |at: u32| from_start.costs[at as usize] + self.place(at).distance(end);
+        let reached = seen(instance, &self.places, end).into_iter().filter(|&at| whole(at) < f64::INFINITY);
+        let mut at = reached.min_by(|&a, &b| whole(a).total_cmp(&whole(b)))?;
         let mut path = vec![end];
-        while let Some(at) = last {
-            path.push(self.places[at]);
-            last = before[at];
+        while at != NONE {
+            path.push(self.place(at));
+            at = from_start.before[at as usize];
         }
         path.push(start);
         path.reverse();
         Some(path)
+    }
+}
+
+impl Graph for VisibilityGraph {
+    fn places(&self) -> &[Vec2] {
+        &self.places
+    }
+
+    fn neighbours(&self, node: u32) -> impl Iterator<Item = u32> {
+        self.sees[node as usize].iter().copied()
     }
 }
 
@@ -150,8 +139,9 @@ fn is_narrow(instance: &Instance, place: Vec2) -> bool {
     two.0 + two.1 < NARROW_M
 }
 
-fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<usize> {
-    (0..places.len()).filter(|&at| instance.is_way_free(from, places[at], VISIBILITY_M - 1e-5)).collect()
+fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<u32> {
+    let is_seen = |&at: &u32| instance.is_way_free(from, places[at as usize], VISIBILITY_M - 1e-5);
+    (0..places.len() as u32).filter(is_seen).collect()
 }
 
 /// Corners of a line that keeps `off_m` from a wall.
@@ -173,7 +163,7 @@ fn around(wall: &Obstacle, off_m: f64) -> Vec<Vec2> {
 mod tests {
     use super::*;
     use crate::TransitionProblem;
-    use crate::roads::lattice::NONE;
+    use crate::roads::graph::steps_to;
     use lightbots_base::Limits;
 
     fn instance(gap_m: f64) -> Instance<'static> {
@@ -204,10 +194,10 @@ mod tests {
         let instance = instance(0.064);
         let lattice = VisibilityGraph::new(&instance).lattice(&instance, 0.072).unwrap();
         let node = |x: f64| lattice.around(Vec2::new(x, -0.3), 0.2, 1)[0];
-        assert!(lattice.steps_to(node(-0.35))[node(0.35) as usize] < u16::MAX);
+        assert!(steps_to(&lattice, node(-0.35))[node(0.35) as usize] < u16::MAX);
         let plain = Lattice::new(&instance, 0.072).unwrap();
         let node = |x: f64| plain.around(Vec2::new(x, -0.3), 0.2, 1)[0];
-        assert_eq!(plain.steps_to(node(-0.35))[node(0.35) as usize], u16::MAX);
+        assert_eq!(steps_to(&plain, node(-0.35))[node(0.35) as usize], u16::MAX);
         for (node, around) in lattice.neighbours.iter().enumerate() {
             for (direction, &other) in around.iter().enumerate().filter(|(_, other)| **other != NONE) {
                 assert_eq!(lattice.neighbours[other as usize][(direction + 3) % 6] as usize, node);

@@ -4,9 +4,10 @@ use lightbots_base::Vec2;
 
 use crate::instance::Instance;
 use crate::mapf::lacam::search;
-use crate::mapf::lattice_pibt::LatticePibt;
+use crate::mapf::lattice_rule::lattice_pibt;
 use crate::mapf::node_assignment::assign_nodes;
-use crate::roads::lattice::{Lattice, NONE};
+use crate::roads::graph::NONE;
+use crate::roads::lattice::Lattice;
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
 /// Splines of the steps over the lattice, at a speed at which corners are about legal; `None` where the search found
@@ -20,7 +21,7 @@ pub(crate) fn from_lattice(instance: &Instance, lattice: &Lattice) -> Option<Spl
     for (&robot, &node) in bound.iter().zip(&assigned) {
         goals[robot] = node;
     }
-    let steps = search(&mut LatticePibt::new(lattice, &goals, instance.cancel)?, &starts, &goals)?;
+    let steps = search(&mut lattice_pibt(lattice, &goals, instance.cancel)?, &starts, &goals)?;
     let pitch = lattice.pitch_m;
     let legs = |robot: usize, node: u32, place: Vec2| (robot, lattice.places[node as usize].distance(place));
     let farthest =

@@ -303,6 +303,7 @@ pub(super) const SCHEDULE: [Group; 8] = [
             through_gaps(PITCH_M, in_gap(0.005, 0.000_5)),
             through_gaps(PITCH_M, in_gap(0.004, 0.000_5)),
             through_gaps(PITCH_M, in_gap(0.003_3, 0.000_2)),
+            through_gaps(LOOSE_PITCH_M, in_gap(0.003_3, 0.000_2)),
         ],
     },
     Group {

@@ -6,10 +6,10 @@ use lightbots_base::{Span, Vec2};
 use crate::Repaired;
 use crate::instance::Instance;
 use crate::mapf::lacam::search;
-use crate::mapf::roadmap_pibt::RoadmapPibt;
+use crate::mapf::roadmap_rule::roadmap_pibt;
 use crate::mapf::shortening::shorten;
 use crate::motion::stop_and_go::timed_paths;
-use crate::roads::lattice::NONE;
+use crate::roads::graph::NONE;
 use crate::roads::roadmap::Roadmap;
 use crate::roads::visibility::VisibilityGraph;
 
@@ -27,10 +27,10 @@ pub(super) fn stop_and_go(
 ) -> Option<Repaired> {
     let roads = Roadmap::new(instance, visibility, pitch_m, off_edge_m.min(instance.off_edge_m))?;
     let goals: Vec<u32> = roads.ends.iter().map(|end| end.unwrap_or(NONE)).collect();
-    let mut pibt = RoadmapPibt::new(instance, &roads, *looks);
+    let mut pibt = roadmap_pibt(instance, &roads, *looks);
     let steps = search(&mut pibt, &roads.starts, &goals);
     *looks = pibt.looks_left();
-    let steps = shorten(&pibt, &roads, steps?);
+    let steps = shorten(&pibt.rule, &roads, steps?);
     let place = |node: &u32| roads.places[*node as usize];
     let waypoints: Vec<Vec<Vec2>> = steps.iter().map(|step| step.iter().map(place).collect()).collect();
     timed_paths(instance, &waypoints, asked)

@@ -108,15 +108,15 @@ fn a_crowd_keeps_off_the_edge_where_its_ends_do() {
 #[test]
 fn who_waits_in_front_of_a_narrow_gap_keeps_apart_from_the_others() {
     let wall = |from: f64, to: f64| Obstacle::Rect { min: Vec2::new(from, -0.05), max: Vec2::new(to, 0.05) };
-    for wide_m in [0.061, 0.064] {
+    for (robots, wide_m) in [(6, 0.061), (7, 0.061), (8, 0.061), (9, 0.061), (8, 0.064)] {
         let problem = TransitionProblem {
             obstacles: vec![wall(-0.6, wide_m / -2.0), wall(wide_m / 2.0, 0.6)],
-            ..problem(row(8, 0.3), row(8, -0.3), 0.6)
+            ..problem(row(robots, 0.3), row(robots, -0.3), 0.6)
         };
-        let goal_of: Vec<Option<usize>> = (0..8).map(Some).collect();
+        let goal_of: Vec<Option<usize>> = (0..robots).map(Some).collect();
         let proof = prove(&problem.to_prove(&repair(&problem, &goal_of).expect("a way").paths));
         let apart_m = proof.closest.expect("a closest pair").distance_m;
-        assert!(proof.holds() && apart_m > 0.0615, "{wide_m}: {apart_m}");
+        assert!(proof.holds() && apart_m > 0.0615, "{robots}, {wide_m}: {apart_m}");
     }
 }
 

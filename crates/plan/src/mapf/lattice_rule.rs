@@ -1,0 +1,147 @@
+//! The conflict rule of the hexagonal lattice. A robot may follow another into its node only where the two directions
+//! differ by at most 60°. Then centres stay 0.86 pitches apart on the way, otherwise half a pitch.
+
+use crate::cancel::Cancel;
+use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};
+use crate::roads::graph::{Graph, NONE, steps_to};
+use crate::roads::lattice::Lattice;
+
+/// Marks a node without a robot.
+const NO_ROBOT: u32 = u32::MAX;
+/// Direction of a robot that stays.
+const STAYS: u8 = 6;
+/// Most robots × nodes whose steps to goals are kept, two bytes each: a gigabyte.
+const MOST_STEPS: usize = 1 << 29;
+/// Bounds on the work. There are no pairs of robots to look at: nodes say which robot is there.
+const BOUNDS: PibtBounds = PibtBounds { tries: 600, pushed: 500, looks: usize::MAX };
+/// Cost of a node with a robot, in steps: it decides between nodes with as many steps left.
+const TAKEN: f64 = 0.5;
+/// Cost of each metre to the goal, in steps: it decides between nodes that are alike in all else.
+const METRE: f64 = 1e-3;
+
+/// Where robots are on the lattice, and how far from their goals.
+pub(crate) struct LatticeRule<'a> {
+    lattice: &'a Lattice,
+    /// `[robot]`: its goal; [`NONE`]: it only makes way.
+    goals: &'a [u32],
+    /// `[robot][node]`: steps to its goal; empty without a goal.
+    steps: Vec<Vec<u16>>,
+    /// Nodes of all robots before the step.
+    now: Vec<u32>,
+    /// `[robot]`: where it goes, if that is decided.
+    direction: Vec<u8>,
+    /// `[node]`: the robot that is there before the step, and after it.
+    holder_now: Vec<u32>,
+    holder_next: Vec<u32>,
+}
+
+/// A step generator for robots with these goals. `None`: robots × nodes exceed `MOST_STEPS`.
+pub(crate) fn lattice_pibt<'a>(
+    lattice: &'a Lattice,
+    goals: &'a [u32],
+    cancel: Cancel<'a>,
+) -> Option<Pibt<'a, LatticeRule<'a>>> {
+    let nodes = lattice.places.len();
+    if nodes.saturating_mul(goals.len()) > MOST_STEPS {
+        return None;
+    }
+    // The steps of a cancelled search are not used.
+    let to = |&goal: &u32| {
+        if goal == NONE || cancel.is_wanted() { Vec::new() } else { steps_to(lattice, goal) }
+    };
+    let rule = LatticeRule {
+        lattice,
+        goals,
+        steps: goals.iter().map(to).collect(),
+        now: Vec::new(),
+        direction: vec![STAYS; goals.len()],
+        holder_now: vec![NO_ROBOT; nodes],
+        holder_next: vec![NO_ROBOT; nodes],
+    };
+    Some(Pibt::new(rule, goals.len(), BOUNDS, cancel))
+}
+
+impl LatticeRule<'_> {
+    fn direction_to(&self, from: u32, to: u32) -> Option<u8> {
+        if from == to {
+            return Some(STAYS);
+        }
+        self.lattice.neighbours[from as usize].iter().position(|&node| node == to).map(|k| k as u8)
+    }
+}
+
+impl ConflictRule for LatticeRule<'_> {
+    fn around(&self, _robot: usize, node: u32) -> impl Iterator<Item = u32> {
+        self.lattice.neighbours(node)
+    }
+
+    fn far(&self, robot: usize, node: u32) -> f64 {
+        let steps = self.steps[robot].get(node as usize).copied().unwrap_or(0);
+        if steps == u16::MAX { f64::INFINITY } else { f64::from(steps) }
+    }
+
+    /// Steps left, then whether a robot stands there, then the straight distance to the goal.
+    fn reluctance(&self, moves: &Moves, robot: usize, node: u32) -> f64 {
+        let moves_away = node != moves.now[robot];
+        let is_taken = moves_away && self.holder_now[node as usize] != NO_ROBOT;
+        let taken = if is_taken { TAKEN } else { 0.0 };
+        match self.goals[robot] {
+            NONE => f64::from(u8::from(moves_away)) + taken,
+            goal => self.far(robot, node) + taken + self.lattice.length_m(node, goal) * METRE,
+        }
+    }
+
+    fn begin(&mut self, now: &[u32]) -> usize {
+        for &node in &self.now {
+            self.holder_now[node as usize] = NO_ROBOT;
+        }
+        self.now.clear();
+        self.now.extend_from_slice(now);
+        for (robot, &node) in now.iter().enumerate() {
+            self.holder_now[node as usize] = robot as u32;
+        }
+        0
+    }
+
+    fn may_go(&self, moves: &Moves, robot: usize, node: u32, must_make_way: &mut Vec<usize>) -> bool {
+        let here = moves.now[robot];
+        let Some(direction) = self.direction_to(here, node) else { return false };
+        if self.holder_next[node as usize] != NO_ROBOT {
+            return false;
+        }
+        let behind = self.holder_next[here as usize];
+        if behind != NO_ROBOT && !may_follow(self.direction[behind as usize], direction) {
+            return false;
+        }
+        let ahead = self.holder_now[node as usize];
+        if direction == STAYS || ahead == NO_ROBOT {
+            return true;
+        }
+        if moves.is_decided(ahead as usize) {
+            return may_follow(direction, self.direction[ahead as usize]);
+        }
+        must_make_way.push(ahead as usize);
+        true
+    }
+
+    fn decide(&mut self, robot: usize, node: u32) {
+        self.direction[robot] = self.direction_to(self.now[robot], node).unwrap_or(STAYS);
+        self.holder_next[node as usize] = robot as u32;
+    }
+
+    fn undo(&mut self, _robot: usize, node: u32) {
+        self.holder_next[node as usize] = NO_ROBOT;
+    }
+
+    fn looks(&self, _robot: usize) -> usize {
+        0
+    }
+}
+
+/// Whether a robot may enter a node in direction `mine` while another leaves it in direction `theirs`.
+fn may_follow(mine: u8, theirs: u8) -> bool {
+    if theirs >= STAYS || mine >= STAYS {
+        return false;
+    }
+    matches!((theirs + 6 - mine) % 6, 0 | 1 | 5)
+}

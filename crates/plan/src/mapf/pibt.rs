@@ -1,0 +1,191 @@
+//! One step of all robots on a graph: priority inheritance with backtracking (PIBT; Okumura et al. 2022). What counts as a
+//! conflict is a rule of its own for each graph.
+
+use crate::cancel::Cancel;
+use crate::roads::graph::NONE;
+
+/// A low-level constraint: the robot must go to the node in this step.
+pub(crate) type Constraint = (usize, u32);
+
+/// Says which moves conflict, and which are better.
+pub(crate) trait ConflictRule {
+    /// Nodes that a robot may go to from a node, without the node itself.
+    fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
+
+    /// Cost of a robot from a node to its goal; infinite where there is no path, 0 without a goal.
+    fn far(&self, robot: usize, node: u32) -> f64;
+
+    /// Cost of a move: the least is tried first.
+    fn reluctance(&self, moves: &Moves, robot: usize, node: u32) -> f64;
+
+    /// Begins a step from a configuration. Returns the looks at pairs of robots that it took.
+    fn begin(&mut self, now: &[u32]) -> usize;
+
+    /// Adds the robots that must make way for a move; `false` where it conflicts with a decided move.
+    fn may_go(&self, moves: &Moves, robot: usize, node: u32, must_make_way: &mut Vec<usize>) -> bool;
+
+    /// A move is decided.
+    fn decide(&mut self, _robot: usize, _node: u32) {}
+
+    /// A decided move is taken back.
+    fn undo(&mut self, _robot: usize, _node: u32) {}
+
+    /// Looks at pairs of robots that a look at a move of a robot costs.
+    fn looks(&self, robot: usize) -> usize;
+}
+
+/// The moves of a step.
+pub(crate) struct Moves {
+    /// `[robot]`: its node before the step.
+    pub now: Vec<u32>,
+    /// `[robot]`: its node after the step; [`NONE`]: not decided yet.
+    pub next: Vec<u32>,
+}
+
+impl Moves {
+    pub fn is_decided(&self, robot: usize) -> bool {
+        self.next[robot] != NONE
+    }
+}
+
+/// Bounds on the work of a search.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PibtBounds {
+    /// Most moves tried for one robot and all that it pushes.
+    pub tries: usize,
+    /// Longest row of robots that one may push.
+    pub pushed: usize,
+    /// Looks at pairs of robots.
+    pub looks: usize,
+}
+
+/// Memory of a step; kept between steps.
+pub(crate) struct Pibt<'a, Rule> {
+    pub rule: Rule,
+    bounds: PibtBounds,
+    cancel: Cancel<'a>,
+    moves: Moves,
+    /// Decided robots, in order.
+    decided: Vec<usize>,
+    /// Robots that must make way, of all robots that wait for the decisions of others.
+    must_make_way: Vec<usize>,
+    /// Moves that a robot may choose, of all robots that wait for the decisions of others.
+    choices: Vec<(f64, u32)>,
+    /// Moves that may still be tried for this robot.
+    tries: usize,
+}
+
+impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
+    pub fn new(rule: Rule, robots: usize, bounds: PibtBounds, cancel: Cancel<'a>) -> Self {
+        Self {
+            rule,
+            bounds,
+            cancel,
+            moves: Moves { now: vec![NONE; robots], next: vec![NONE; robots] },
+            decided: Vec::with_capacity(robots),
+            must_make_way: Vec::new(),
+            choices: Vec::new(),
+            tries: 0,
+        }
+    }
+
+    /// Whether the granted work is used up, or the planner is cancelled.
+    pub fn is_spent(&self) -> bool {
+        self.bounds.looks == 0 || self.cancel.is_wanted()
+    }
+
+    /// The configuration after one step from `now`, in which robots earlier in `ranks` choose first and `constraints`
+    /// are kept; `None` where they cannot be kept.
+    pub fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>> {
+        self.moves.now.copy_from_slice(now);
+        let looks = self.rule.begin(now);
+        self.bounds.looks = self.bounds.looks.saturating_sub(looks);
+        let all = self.decide_all(now, ranks, constraints);
+        let next = all.map(|()| self.moves.next.clone());
+        self.undo(0);
+        next
+    }
+
+    /// Looks that are left.
+    pub fn looks_left(&self) -> usize {
+        self.bounds.looks
+    }
+
+    fn decide(&mut self, robot: usize, node: u32) {
+        self.moves.next[robot] = node;
+        self.rule.decide(robot, node);
+        self.decided.push(robot);
+    }
+
+    /// Takes back all decisions but the first ones.
+    fn undo(&mut self, kept: usize) {
+        while self.decided.len() > kept {
+            let Some(robot) = self.decided.pop() else { return };
+            self.rule.undo(robot, self.moves.next[robot]);
+            self.moves.next[robot] = NONE;
+        }
+    }
+
+    /// Decides a move and those of all robots that must make way for it, or nothing.
+    fn go(&mut self, robot: usize, node: u32, depth: usize) -> bool {
+        self.bounds.looks = self.bounds.looks.saturating_sub(self.rule.looks(robot));
+        let first = self.must_make_way.len();
+        let may_go = self.rule.may_go(&self.moves, robot, node, &mut self.must_make_way);
+        let pushes = self.must_make_way.len() > first;
+        let is_spent = self.tries == 0 || self.bounds.looks == 0 || (depth >= self.bounds.pushed && pushes);
+        let done = may_go && !is_spent && {
+            self.tries -= 1;
+            let kept = self.decided.len();
+            self.decide(robot, node);
+            let last = self.must_make_way.len();
+            let all = (first..last).all(|place| {
+                let other = self.must_make_way[place];
+                self.moves.is_decided(other) || self.choose(other, depth + 1)
+            });
+            if !all {
+                self.undo(kept);
+            }
+            all
+        };
+        self.must_make_way.truncate(first);
+        done
+    }
+
+    /// Lets a robot choose, and then the robots in its way. Returns whether there was a choice.
+    fn choose(&mut self, robot: usize, depth: usize) -> bool {
+        let (here, first) = (self.moves.now[robot], self.choices.len());
+        let (rule, moves) = (&self.rule, &self.moves);
+        let cost = |node: u32| (rule.reluctance(moves, robot, node), node);
+        self.choices.extend(rule.around(robot, here).chain([here]).map(cost));
+        self.choices[first..].sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let last = self.choices.len();
+        let done = (first..last).any(|place| self.go(robot, self.choices[place].1, depth));
+        self.choices.truncate(first);
+        done
+    }
+
+    /// Decides the moves of a step; `None` where constraints cannot be kept.
+    fn decide_all(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<()> {
+        // Constraints first, and then the robots in their way: with a constraint for each robot, every legal step is
+        // made.
+        let mut must_make_way = Vec::new();
+        for &(robot, node) in constraints {
+            let may_go = self.rule.may_go(&self.moves, robot, node, &mut must_make_way);
+            may_go.then(|| self.decide(robot, node))?;
+        }
+        for robot in must_make_way {
+            self.tries = self.bounds.tries;
+            if !self.moves.is_decided(robot) && !self.choose(robot, 0) {
+                return None;
+            }
+        }
+        for &robot in ranks {
+            self.tries = self.bounds.tries;
+            if !self.moves.is_decided(robot) && !self.choose(robot, 0) {
+                // No decided robot comes near one that stays.
+                self.decide(robot, now[robot]);
+            }
+        }
+        Some(())
+    }
+}
