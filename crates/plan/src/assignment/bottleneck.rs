@@ -6,8 +6,8 @@
 //! failed search
 //! and a found matching sharpen to distances that really occur.
 
-use super::NONE;
 use super::kdtree::{KdTree, Remaining};
+use super::partner::NONE;
 use super::within::Within;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;

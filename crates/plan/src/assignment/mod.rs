@@ -5,8 +5,10 @@
 //! looked at. The same places give the same assignment, bit for bit; of equal ones the first in the k-d tree wins.
 
 mod bottleneck;
+mod costs;
 mod kdtree;
 mod least_squares;
+mod partner;
 mod scales;
 mod search;
 mod space;
@@ -16,12 +18,13 @@ mod within;
 
 use crate::cancel::Cancel;
 use bottleneck::bottleneck;
-use least_squares::{Costs, LeastSquares};
+use costs::Costs;
+use least_squares::LeastSquares;
 use lightbots_base::Vec2;
+use partner::NONE;
+use scales::costs_with_duals;
 use search::Search;
 
-/// No partner yet.
-const NONE: u32 = u32::MAX;
 /// Squared lengths up to this factor above the reach count as equal: places on a grid differ by rounding.
 const ROUNDING: f64 = 1.0 + 1e-11;
 
@@ -109,7 +112,7 @@ impl<'a> Choice<'a> {
         let open_starts: Vec<usize> = (0..starts.len()).filter(|&start| !taken[start]).collect();
         let goal_places: Vec<Vec2> = open_goals.iter().map(|&goal| goals[goal]).collect();
         let start_places: Vec<Vec2> = open_starts.iter().map(|&start| starts[start]).collect();
-        let costs = Costs::new(&goal_places, &start_places, cancel);
+        let costs = costs_with_duals(&goal_places, &start_places, cancel);
         let shortest = costs.solve();
         // A cancelled search has rows without a column.
         if cancel.is_wanted() {

@@ -6,8 +6,9 @@
 //! smaller problem, solved in the same way, tell how dear every place is but for what its neighbours make of it
 //! (multiscale transport: Mérigot 2011; the duals spread to single places by the c-transform).
 
+use super::costs::Costs;
 use super::kdtree::{KdTree, Most, Weights};
-use super::least_squares::Costs;
+use super::space;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
@@ -18,8 +19,19 @@ const SMALL: usize = 60;
 /// augmenting paths grow long.
 const DRAWN_TOGETHER: usize = 3;
 
+/// Squared ways between places on the floor, or costs for which the same assignments are best, with first column duals.
+pub(super) fn costs_with_duals<'a>(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'a>) -> Costs<'a> {
+    let (rows, columns) = space::common(rows, columns);
+    let costs = Costs::plain(&rows, &columns, vec![0.0; columns.len()], cancel);
+    // A column left free must cost nothing: only where all are used may there be better duals than none.
+    if rows.len() != columns.len() {
+        return costs;
+    }
+    costs.with_better_duals(duals(&rows, &columns, cancel))
+}
+
 /// Duals for the columns of a problem with as many rows as columns.
-pub(super) fn duals(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'_>) -> Vec<f64> {
+fn duals(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'_>) -> Vec<f64> {
     if rows.len() <= SMALL {
         return vec![0.0; columns.len()];
     }

@@ -1,6 +1,6 @@
 //! Shortest augmenting paths over listed edges, with duals (Jonker & Volgenant 1987, sparse).
 
-use super::NONE;
+use super::partner::NONE;
 use crate::cancel::Cancel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,7 +1,7 @@
 //! Columns within reach of a row that a search for a matching has not used yet.
 
-use super::NONE;
 use super::kdtree::{KdTree, Remaining};
+use super::partner::NONE;
 use lightbots_base::Vec2;
 
 /// Where rows have more columns than this within reach, on average, they are not listed: the k-d tree hands them out.
