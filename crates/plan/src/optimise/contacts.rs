@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 use crate::instance::Instance;
 use crate::optimise::cells::Disc;
 use crate::optimise::displacement::Displacement;
-use crate::optimise::neighbours::{MovedNeighbours, Places, STRETCHES, come_near, reach};
+use crate::optimise::neighbours::{MOVED_M, MovedNeighbours, Places, STRETCHES, come_near, reach};
 use crate::spline::set::{SplineSet, basis, blend};
 
 /// Pairs this much farther apart than wanted are not looked at until the next detection, metres.
@@ -38,6 +38,16 @@ impl Contact {
     /// A contact of two robots.
     fn of_robots(span: usize, a: usize, b: usize, wanted: f64) -> Self {
         Self { span, a, b: Other::Robot(b), wanted, least: wanted, clear_until: 0.0, is_close: false }
+    }
+
+    /// The same contact at the next detection; `None` where one of its robots has moved.
+    fn still(&self, near: &MovedNeighbours) -> Option<Self> {
+        let moved_m = match self.b {
+            Other::Robot(b) => near.moved_m(self.a).max(near.moved_m(b)),
+            Other::Wall(_) => near.moved_m(self.a),
+        };
+        let clear_until = if moved_m > 0.0 { 0.0 } else { self.clear_until };
+        (moved_m <= MOVED_M).then_some(Self { clear_until, ..*self })
     }
 }
 
@@ -100,7 +110,7 @@ impl ContactDetector {
         for span in (0..splines.spans).take_while(|_| !instance.cancel.is_wanted()) {
             near.find_moved(splines.robots(), span, displacement);
             let (of_span, later) = known.split_at(known.partition_point(|contact| contact.span <= span));
-            found.extend(of_span.iter().filter_map(|contact| near.still(contact)));
+            found.extend(of_span.iter().filter_map(|contact| contact.still(&near)));
             known = later;
             if near.moved.is_empty() {
                 continue;

@@ -3,7 +3,6 @@
 use lightbots_base::Vec2;
 
 use crate::optimise::cells::{Cells, Disc};
-use crate::optimise::contacts::{Contact, Other};
 use crate::optimise::displacement::Displacement;
 
 /// Straight stretches of a span.
@@ -40,14 +39,9 @@ impl MovedNeighbours {
         self.moved.extend((0..robots).filter(|&robot| self.moved_m[robot] > MOVED_M));
     }
 
-    /// A known contact; `None` where one of its robots has moved.
-    pub fn still(&self, contact: &Contact) -> Option<Contact> {
-        let moved_m = match contact.b {
-            Other::Robot(b) => self.moved_m[contact.a].max(self.moved_m[b]),
-            Other::Wall(_) => self.moved_m[contact.a],
-        };
-        let clear_until = if moved_m > 0.0 { 0.0 } else { contact.clear_until };
-        (moved_m <= MOVED_M).then_some(Contact { clear_until, ..*contact })
+    /// Displacement of a robot on the span since it was last compared with all, metres.
+    pub fn moved_m(&self, robot: usize) -> f64 {
+        self.moved_m[robot]
     }
 
     /// Calls `near` for every two robots whose discs are less than `apart` from each other and of which one has moved.
