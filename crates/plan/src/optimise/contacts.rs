@@ -6,7 +6,8 @@ use crate::instance::Instance;
 use crate::optimise::cells::Disc;
 use crate::optimise::displacement::Displacement;
 use crate::optimise::neighbours::{MOVED_M, MovedNeighbours, Places, STRETCHES, come_near, reach};
-use crate::spline::set::{SplineSet, basis, blend};
+use crate::spline::set::SplineSet;
+use crate::spline::weights::{basis, blend};
 
 /// Pairs this much farther apart than wanted are not looked at until the next detection, metres.
 const SKIN_M: f64 = 0.012;

@@ -90,7 +90,8 @@ mod tests {
     use crate::TransitionProblem;
     use crate::instance::Instance;
     use crate::seeded::Seeded;
-    use crate::spline::set::{SplineSet, basis, blend};
+    use crate::spline::set::SplineSet;
+    use crate::spline::weights::{basis, blend};
     use lightbots_base::Limits;
 
     const SPANS: usize = 9;

@@ -11,7 +11,7 @@ use crate::optimise::neighbours::MOVED_M;
 use crate::optimise::stagnation::{Stagnation, growth};
 use crate::spline::limits::LimitProjector;
 use crate::spline::retime::{moments, smoothed, time_scaled};
-use crate::spline::set::{MOST_SPANS, SplineSet, blend};
+use crate::spline::set::{MOST_SPANS, SplineSet};
 use crate::spline::turn_rate::DirtySpans;
 
 /// With fewer contacts than one in this many robots, the last pairs are perturbed.
@@ -348,7 +348,7 @@ impl<'a> State<'a> {
         let of_robots = close.filter_map(|(_, contact)| {
             let Other::Robot(b) = contact.b else { return None };
             let weights = self.detector.closest(self.instance, &self.splines, contact).weights;
-            let place = |robot: usize| blend(self.splines.span(robot, contact.span), &weights);
+            let place = |robot: usize| self.splines.place(robot, contact.span, &weights);
             Some(Meeting { pair: (contact.a, b), place: place(contact.a).lerp(place(b), 0.5) })
         });
         let mut meetings: Vec<Meeting> = of_robots.collect();

@@ -5,3 +5,4 @@ pub(crate) mod limits;
 pub(crate) mod retime;
 pub(crate) mod set;
 pub(crate) mod turn_rate;
+pub(crate) mod weights;

@@ -10,6 +10,7 @@ use lightbots_base::{Limits, Piece, Span, Vec2};
 use crate::Path;
 use crate::instance::Instance;
 use crate::spline::turn_rate::{DirtySpans, TurnRate};
+use crate::spline::weights::{basis, blend, fold};
 
 /// Most spans of a spline: a path holds 128 pieces, and the rests at both ends need some.
 pub(crate) const MOST_SPANS: usize = 124;
@@ -28,45 +29,6 @@ pub(crate) struct SplineSet {
     ends: Vec<(Vec2, Option<Vec2>)>,
     /// Control points, `[robot][spans + 3]`.
     points: Vec<Vec2>,
-}
-
-/// Weights of a span's four control points at its share `u`.
-pub(crate) fn basis(u: f64) -> [f64; 4] {
-    let w = 1.0 - u;
-    let (u2, u3) = (u * u, u * u * u);
-    [
-        w * w * w / 6.0,
-        (3.0 * u3 - 6.0 * u2 + 4.0) / 6.0,
-        (-3.0 * u3 + 3.0 * u2 + 3.0 * u + 1.0) / 6.0,
-        u3 / 6.0,
-    ]
-}
-
-/// Weighted sum of a span's control points.
-#[inline]
-pub(crate) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
-    points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
-}
-
-/// Weights of a span's control points in which points that follow others are added to those: only points 2 to `last`
-/// are free.
-pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
-    if span >= 2 && span + 3 <= last {
-        return *weights;
-    }
-    let mut folded = [0.0; 4];
-    for (i, &weight) in weights.iter().enumerate() {
-        let point = span + i;
-        let (to, share) = match point {
-            0 => (2, 1.0),
-            1 => (2, -0.5),
-            _ if point == last + 1 => (last, if spare { 1.0 } else { -0.5 }),
-            _ if point == last + 2 => (last, 1.0),
-            _ => (point, 1.0),
-        };
-        folded[to - span] += weight * share;
-    }
-    folded
 }
 
 /// The free control points of a spline through these places between its spans. Each place is a sixth of one point, two
@@ -156,6 +118,11 @@ impl SplineSet {
     /// The four control points of a robot's span.
     pub fn span(&self, robot: usize, span: usize) -> &[Vec2] {
         &self.spline(robot)[span..span + 4]
+    }
+
+    /// The place on a robot's span at the moment of these weights, stage metres.
+    pub fn place(&self, robot: usize, span: usize, weights: &[f64; 4]) -> Vec2 {
+        blend(self.span(robot, span), weights)
     }
 
     /// Start and end of a robot's spline; no end for a spare robot.

@@ -4,7 +4,7 @@
 use lightbots_base::{Limits, Vec2};
 
 use crate::spline::hull::{crosses, halves, squares};
-use crate::spline::set::{blend, fold};
+use crate::spline::weights::{blend, fold};
 
 /// Below this speed the direction does not matter, m/s. The proof has the same rule.
 const CREEP_MPS: f64 = 0.008;
