@@ -1,12 +1,13 @@
 //! Straight lines and paths for one robot while all others stand. Because nothing else moves, they are collision-free at
 //! any speed.
 
-use super::MARGIN_M;
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 use std::collections::VecDeque;
 
+/// Clearance of an original robot, metres: its line is not quite straight, and its stop is known to some millimetres.
+const MARGIN_M: f64 = 0.02;
 /// Side of a grid cell in the first search for a path, metres.
 pub(super) const CELL_M: f64 = 0.04;
 /// Longest straight line from the start to the grid, metres.

@@ -6,44 +6,20 @@
 
 mod free_space;
 mod order;
+mod problem;
 mod rearrange;
 mod straight;
 
 pub use free_space::FreeSpace;
+pub use problem::{DriveStage, UnsynchronisedProblem};
 pub use straight::{StraightDrive, Yield, expected_s};
 
 use crate::Path;
 use lightbots_base::Vec2;
 use order::Order;
 
-/// Clearance of an original robot, metres: its line is not quite straight, and its stop is known to some millimetres.
-const MARGIN_M: f64 = 0.02;
 /// Average number of times that each robot may step aside before the search gives up.
 const ASIDES_EACH: usize = 1;
-
-/// The drives between two moments at which all robots stand.
-#[derive(Clone, Debug, PartialEq)]
-pub enum DriveStage {
-    /// Straight drives of robots without a clock, in order. Drives that would meet have yields.
-    Targets(Vec<StraightDrive>),
-    /// Timed paths of the synchronised robots, `(robot, path)`.
-    Routes(Vec<(usize, Path)>),
-}
-
-/// Starts and goals of robots of which some have no common clock.
-#[derive(Clone, Copy, Debug)]
-pub struct UnsynchronisedProblem<'a> {
-    /// The floor.
-    pub space: FreeSpace<'a>,
-    /// `[robot]`: its start, stage metres.
-    pub starts: &'a [Vec2],
-    /// `[robot]`: its goal, stage metres. Spare robots have one too.
-    pub goals: &'a [Vec2],
-    /// `[robot]`: whether it has no common clock.
-    pub unsynchronised: &'a [bool],
-    /// Discs that do not move, stage metres.
-    pub standing: &'a [Vec2],
-}
 
 /// Stages that bring all robots to their goals; `None`: no order was found. `drive` plans the synchronised robots among
 /// the discs that stand meanwhile; it returns `None` where they cannot go yet.

@@ -1,8 +1,9 @@
 //! The search for an order of straight drives.
 
+use super::free_space::FreeSpace;
+use super::problem::{DriveStage, UnsynchronisedProblem};
 use super::rearrange::Rearrangement;
-use super::straight::add_yields;
-use super::{DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
+use super::straight::{StraightDrive, add_yields};
 use crate::Path;
 use lightbots_base::Vec2;
 
