@@ -1,11 +1,11 @@
 //! One transition: problem and solution.
 
-use lightbots_base::{Limits, PathRef, Piece, Span, Vec2};
+use lightbots_base::{Limits, Span, Vec2};
 use lightbots_show::{Easing, Frame, Obstacle, Show, Stage};
 
 use crate::margins::MARGIN_M;
-use crate::proof::ProofInput;
-use crate::{BoundFrame, Prescribed};
+use crate::proof::{Closest, ProofInput};
+use crate::{BoundFrame, Path, Prescribed};
 
 /// A drive may take this much longer than it was asked to, seconds: times are whole milliseconds.
 pub(crate) const ASKED_SLACK_S: f64 = 5e-3;
@@ -111,19 +111,6 @@ pub struct Transition {
     pub closest: Option<Closest>,
 }
 
-/// The closest two centres of a transition.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closest {
-    /// Their distance, metres.
-    pub distance_m: f64,
-    /// When, after the start of the transition.
-    pub at: Span,
-    /// Indices into `starts`, or into `standing` counted on from there.
-    pub pair: (usize, usize),
-    /// Half way between the two, stage metres.
-    pub place: Vec2,
-}
-
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Infeasible {
@@ -152,28 +139,4 @@ pub struct Meeting {
     pub pair: (usize, usize),
     /// Half way between the two, stage metres.
     pub place: Vec2,
-}
-
-/// A path that owns its pieces.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Path {
-    /// Its start, stage metres.
-    pub start: Vec2,
-    /// Its pieces in order.
-    pub pieces: Vec<Piece>,
-}
-
-impl Path {
-    /// Most pieces of a path: the storage of a robot.
-    pub(crate) const MOST_PIECES: usize = 128;
-
-    /// Duration of the longest of these paths; 0 where there are none.
-    pub(crate) fn longest(paths: &[Self]) -> Span {
-        paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
-    }
-
-    /// The path as a borrowed value.
-    pub fn as_ref(&self) -> PathRef<'_> {
-        PathRef::new(self.start, &self.pieces)
-    }
 }

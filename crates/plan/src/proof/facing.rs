@@ -1,6 +1,6 @@
 //! Whether a robot has the time to turn where its path does: as long as it is too slow for its direction to matter.
 
-use super::drive::{CREEP_MPS, Course};
+use super::course::{CREEP_MPS, Course};
 use lightbots_base::{Limits, Vec2};
 
 /// Time that a robot may lack for a turn while it is slow, seconds: it catches up while it drives off.

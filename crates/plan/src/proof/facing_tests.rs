@@ -3,7 +3,7 @@
 use super::tests::{LIMITS, REST, kinds};
 use super::*;
 use crate::seeded::Seeded;
-use lightbots_base::Piece;
+use lightbots_base::{Piece, Vec2};
 
 /// A step of the simulated robot, microseconds.
 const STEP_US: i64 = 500;

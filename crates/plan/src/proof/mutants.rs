@@ -4,7 +4,8 @@ use super::tests::{LIMITS, input};
 use super::*;
 use crate::seeded::Seeded;
 use crate::{TransitionProblem, transition};
-use lightbots_base::Piece;
+use lightbots_base::{Piece, Vec2};
+use lightbots_show::Obstacle;
 
 const NO_GO: [Obstacle; 1] = [Obstacle::Disc { at: Vec2::new(0.0, 0.0), radius_m: 0.12 }];
 const ROBOTS: usize = 16;

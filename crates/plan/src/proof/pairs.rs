@@ -1,9 +1,9 @@
 //! Least distance of every pair of discs.
 
 use super::grid::{Bounds, near_pairs};
+use super::input::{ProofInput, SLACK_M};
 use super::timeline::{self, Stretch};
-use super::{ProofInput, SLACK_M};
-use crate::Closest;
+use super::verdict::Closest;
 use crate::cancel::Cancel;
 use lightbots_base::{Span, Vec2};
 use std::collections::BTreeMap;

@@ -2,7 +2,8 @@
 
 use super::curve::{Cubic, nearest, split};
 use super::grid::Bounds;
-use super::{FaultKind, ProofInput, SLACK_M};
+use super::input::{ProofInput, SLACK_M};
+use super::verdict::FaultKind;
 use crate::Path;
 use lightbots_base::{Span, Vec2};
 use lightbots_show::Obstacle;

@@ -1,6 +1,7 @@
 use super::*;
 use crate::seeded::Seeded;
-use lightbots_base::Piece;
+use lightbots_base::{Limits, Piece, Vec2};
+use lightbots_show::Obstacle;
 
 pub(super) const LIMITS: Limits = Limits::ELISA_3;
 pub(super) const REST: Span = Span(350_000);

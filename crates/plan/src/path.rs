@@ -1,0 +1,27 @@
+//! A timed path, the only type that the proof shares with the planner.
+
+use lightbots_base::{PathRef, Piece, Span, Vec2};
+
+/// A path that owns its pieces.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    /// Its start, stage metres.
+    pub start: Vec2,
+    /// Its pieces in order.
+    pub pieces: Vec<Piece>,
+}
+
+impl Path {
+    /// Most pieces of a path: the storage of a robot.
+    pub(crate) const MOST_PIECES: usize = 128;
+
+    /// Duration of the longest of these paths; 0 where there are none.
+    pub(crate) fn longest(paths: &[Self]) -> Span {
+        paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
+    }
+
+    /// The path as a borrowed value.
+    pub fn as_ref(&self) -> PathRef<'_> {
+        PathRef::new(self.start, &self.pieces)
+    }
+}
