@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use lightbots_base::{Piece, Span, Vec2};
 
 use super::timing::{TimedDrive, timed};
-use super::{Prescribed, PrescribedWay, Stagger};
+use super::way::PrescribedWay;
+use super::{Prescribed, Stagger};
 use crate::cancel::Cancel;
 use crate::margins::COMFORT_M;
 use crate::motion::delayed;

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use lightbots_base::Vec2;
 use lightbots_show::{Frame, PictureMotion};
 
+use super::picture::{PlacesById, picture};
 use super::shape::{Shape, ShapeCurve};
 use super::smooth_line::SmoothLine;
-use super::{PlacesById, PrescribedWay, WayPart, picture};
+use super::way::{PrescribedWay, WayPart};
 
 /// Length over which the corners of a curve that people give are rounded, metres: a robot turns there without a stop.
 const ROUNDING_M: f64 = 0.06;

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use lightbots_base::{Piece, Span, Vec2};
 use lightbots_show::{Show, Trajectory};
 
-use super::{Prescribed, PrescribedWay};
+use super::way::PrescribedWay;
 use crate::{BoundFrame, Path};
 
 /// The trajectories to a frame. `None` where it has none. A pixel without one has its robot rest at its place.
-pub(super) fn trajectories(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Prescribed> {
+pub(super) fn ways(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Vec<PrescribedWay>> {
     let id = show.frames[index].id.as_deref()?;
     let mut given: BTreeMap<u32, &Trajectory> = BTreeMap::new();
     for trajectory in show.trajectories.iter().filter(|trajectory| trajectory.frame.as_deref() == Some(id)) {
@@ -22,7 +22,7 @@ pub(super) fn trajectories(show: &Show, index: usize, bound: &BoundFrame<'_>) ->
         let rest = Path { start: pixel.at, pieces: Vec::new() };
         PrescribedWay::Timed(given.get(&pixel.id).map_or(rest, |trajectory| path_of(trajectory)))
     });
-    Some(Prescribed { name: "trajectories", ways: ways.collect(), stagger: None })
+    Some(ways.collect())
 }
 
 fn path_of(trajectory: &Trajectory) -> Path {

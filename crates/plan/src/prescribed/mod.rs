@@ -1,28 +1,32 @@
 //! Drives that a show prescribes: pictures that move as one, and paths of its own.
 //!
-//! In reading order: [`shape`] is the way of a robot without times; [`formation`] makes shapes of a [`PictureMotion`] and a
-//! picture; [`timing`] finds the least legal duration and makes timed paths; [`given`] takes the trajectories of a show as
-//! they are; [`drive`] gives each robot its way and asks the proof. A prescribed drive applies where robots stand on the
-//! picture before. From anywhere else the ordinary planner leads to the frame.
+//! In reading order: [`shape`] is the way of a robot without times; [`way`] joins such shapes, or is a timed path;
+//! [`formation`] makes ways of a [`PictureMotion`] and a picture; [`timing`] finds the least legal duration and makes timed
+//! paths; [`given`] takes the trajectories of a show as they are; [`drive`] gives each robot its way and asks the proof.
+//! A prescribed drive applies where robots stand on the picture before. From anywhere else the ordinary planner leads to
+//! the frame.
 
 mod drive;
 mod formation;
 mod given;
 mod morph;
+mod picture;
 mod shape;
 mod smooth_line;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod way;
 
 pub(crate) use drive::{attempt, staggered};
 pub use formation::moved;
+pub use picture::PlacesById;
 
-use crate::{BoundFrame, Path};
+use crate::BoundFrame;
 use lightbots_base::Vec2;
-use lightbots_show::{Frame, PictureMotion, Show};
-use shape::Shape;
-use std::collections::BTreeMap;
+use lightbots_show::{PictureMotion, Show};
+use picture::picture;
+use way::PrescribedWay;
 
 /// The drive that a show prescribes from the picture before a frame to the frame.
 #[derive(Clone, Debug)]
@@ -35,23 +39,6 @@ pub struct Prescribed {
     pub(crate) stagger: Option<Stagger>,
 }
 
-/// The way of one robot.
-#[derive(Clone, Debug)]
-pub(crate) enum PrescribedWay {
-    /// Parts in order, timed by the planner. They share one drive.
-    Parts(Vec<WayPart>),
-    /// A timed path of the show.
-    Timed(Path),
-}
-
-/// A part of a way with a rest at both ends.
-#[derive(Clone, Debug)]
-pub(crate) struct WayPart {
-    /// Begin and end, shares of the duration of the whole drive.
-    pub during: (f64, f64),
-    pub shape: Shape,
-}
-
 /// Starts one after the other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stagger {
@@ -59,24 +46,6 @@ pub(crate) struct Stagger {
     pub direction: Vec2,
     /// From the first start to the last, seconds.
     pub delay_s: f64,
-}
-
-impl PrescribedWay {
-    /// Where the way begins.
-    pub(crate) fn start(&self) -> Option<Vec2> {
-        match self {
-            Self::Parts(parts) => parts.first().map(|part| part.shape.at(0.0)),
-            Self::Timed(path) => Some(path.start),
-        }
-    }
-
-    /// Where the way ends.
-    pub(crate) fn end(&self) -> Option<Vec2> {
-        match self {
-            Self::Parts(parts) => parts.last().map(|part| part.shape.at(1.0)),
-            Self::Timed(path) => Some(path.as_ref().end()),
-        }
-    }
 }
 
 impl Prescribed {
@@ -87,7 +56,8 @@ impl Prescribed {
             let before = index.checked_sub(1).and_then(|before| show.frames.get(before))?;
             return Self::of_motion(motion, &picture(before), &picture(frame), bound);
         }
-        given::trajectories(show, index, bound)
+        let ways = given::ways(show, index, bound)?;
+        Some(Self { name: "trajectories", ways, stagger: None })
     }
 
     fn of_motion(
@@ -121,11 +91,4 @@ fn noun(motion: &PictureMotion) -> &'static str {
         PictureMotion::Stagger { .. } => "start one after the other",
         PictureMotion::Morph { .. } => "drive through pictures",
     }
-}
-
-/// Places of a frame's pixels by their ids, stage metres.
-pub type PlacesById = BTreeMap<u32, Vec2>;
-
-fn picture(frame: &Frame) -> PlacesById {
-    frame.pixels.iter().map(|pixel| (pixel.id, pixel.at)).collect()
 }

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use lightbots_base::Vec2;
 
+use super::picture::PlacesById;
 use super::shape::{Shape, ShapeCurve};
-use super::{PlacesById, PrescribedWay, WayPart};
+use super::way::{PrescribedWay, WayPart};
 use crate::assignment::Choice;
 
 /// The way to each pixel of the picture after. `None` where two pictures have different numbers of places.

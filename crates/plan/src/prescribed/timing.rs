@@ -3,7 +3,7 @@
 use lightbots_base::{Limits, Piece, Span, Vec2};
 use lightbots_show::Easing;
 
-use super::{PrescribedWay, WayPart};
+use super::way::{PrescribedWay, WayPart};
 use crate::Path;
 use crate::motion::progress::ProgressLaw;
 use crate::motion::{quarter_turn, whole_millis};
