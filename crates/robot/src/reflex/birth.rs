@@ -4,8 +4,8 @@ use super::covariance::Covariance;
 use super::departure::Departure;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
+use super::sensors::BESIDE_M;
 use super::track::Track;
-use super::tracks::BESIDE_M;
 use crate::config::SENSORS;
 
 /// Uncertainty across of a place known from one sensor alone, as a share of its distance: ±19°, evenly spread. That

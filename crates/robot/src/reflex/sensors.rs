@@ -3,6 +3,10 @@
 use super::point::Point;
 use crate::config::{ProximitySensors, SENSORS};
 
+/// A neighbour this far outside a sensor's cone, metres, may still be what the sensor sees: its place is not that
+/// sure.
+pub(super) const BESIDE_M: f32 = 0.012;
+
 /// The sensors of one robot, prepared for the formulas.
 #[derive(Clone, Debug)]
 pub(crate) struct Sensors {

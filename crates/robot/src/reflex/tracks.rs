@@ -1,13 +1,13 @@
 //! All neighbours in sight: which of them a step corrects, which have come and which have gone.
 
-use super::birth::{expected_there, explained_off_m, unknown};
+use super::birth::{BEARING_SIGMA, expected_there, explained_off_m, unknown};
 use super::departure::{Departure, Left};
 use super::likelihood::log_density;
 use super::obstacle::Readings;
 use super::obstacles::StandingObjects;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
-use super::sensors::Sensors;
+use super::sensors::{BESIDE_M, Sensors};
 use super::track::Track;
 use crate::config::SENSORS;
 
@@ -19,9 +19,6 @@ pub(super) const TRACKS: usize = 6;
 const ASSIGN_M: f32 = 0.014;
 /// The same in sigma of the innovation, where that is more.
 pub(super) const ASSIGN_SIGMAS: f32 = 4.0;
-/// A neighbour this far outside a sensor's cone, metres, may still be what the sensor sees: its place is not that
-/// sure.
-pub(super) const BESIDE_M: f32 = 0.012;
 /// A neighbour this far inside a sensor's cone, metres, is seen for sure, …
 const SURELY_INSIDE_M: f32 = 0.008;
 /// … if it is nearer than this share of the sensor's range.
@@ -304,5 +301,5 @@ fn bound_bearing(track: &mut Track, sensors: &Sensors) {
         return;
     }
     let (axis, far_m) = (sum.times(1.0 / size), track.at.length());
-    track.bound_place(axis.left(), axis.times(far_m), super::birth::BEARING_SIGMA * far_m);
+    track.bound_place(axis.left(), axis.times(far_m), BEARING_SIGMA * far_m);
 }
