@@ -11,69 +11,19 @@ use core::borrow::BorrowMut;
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::{Topic, commands};
 
-use crate::clock::ClockFilter;
-use crate::config::{Config, Inputs, Outputs};
-use crate::hot::Hot;
-use crate::light::Light;
+use crate::config::{Inputs, Outputs};
 use crate::light_piece::LightPiece;
-use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 use crate::supervise::Drives;
+pub use reports::Message;
+use sense::LONGEST_STEP;
+pub use state::Robot;
 
-/// A message to send. The longest report has 343 bytes.
-pub type Message = heapless::String<376>;
-
-/// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
-/// its wheels. Below, a board that skips a few steps would lose way.
-const LONGEST_STEP: Span = Span::from_millis(100);
 /// A robot farther than this from its route abandons it, metres: it is stuck, or was never where the route starts. Below,
 /// robots that were led astray abandon routes they can still follow. Above, they drive far outside what the plan proved.
 const GIVE_UP_M: f64 = 0.3;
 
-/// A whole robot: no allocation, no clock, no IO. Feed it messages and steps, then drain its messages.
-///
-/// `S` is where its routes lie: in the robot itself, or elsewhere if it was given a place.
-#[derive(Debug)]
-pub struct Robot<S = RouteStorage> {
-    hot: Hot,
-    config: Config,
-    battery: Option<u8>,
-    /// Commands that made no sense, since power-on.
-    unknown: u32,
-    clock_filter: ClockFilter,
-    light: Light,
-    reflex: Reflex,
-    storage: S,
-}
-
-impl Robot {
-    /// A robot that has just been switched on: it stands, its light is dark and its place is unknown.
-    pub fn new(config: Config) -> Self {
-        Self::with_storage(config, RouteStorage::new())
-    }
-}
-
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// [`Robot::new`] with its routes in a storage that may lie elsewhere.
-    pub fn with_storage(config: Config, storage: S) -> Self {
-        Self {
-            hot: Hot::new(&config),
-            battery: None,
-            unknown: 0,
-            clock_filter: ClockFilter::new(),
-            light: Light::default(),
-            reflex: Reflex::new(&config),
-            storage,
-            config,
-        }
-    }
-
-    /// What every step reads and writes. A simulator of thousands of robots may prefetch it by its address and size.
-    #[inline]
-    pub fn hot(&self) -> &Hot {
-        &self.hot
-    }
-
     /// Receives a message at `now` of the own clock. Messages on other topics than `Broadcast` and the robot's own are
     /// ignored.
     pub fn receive(&mut self, now: Instant, topic: Topic, payload: &[u8]) {

@@ -4,7 +4,7 @@ use core::borrow::BorrowMut;
 
 use lightbots_base::{Instant, Span, Vec2};
 
-use super::Robot;
+use super::state::Robot;
 use crate::drive::{BodyPose, Setpoint};
 use crate::reflex::Wish;
 use crate::storage::RouteStorage;

@@ -5,7 +5,7 @@ use core::borrow::BorrowMut;
 use lightbots_base::{Instant, Vec2};
 use lightbots_wire::Command;
 
-use super::Robot;
+use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
 

@@ -5,10 +5,13 @@ use core::borrow::BorrowMut;
 use lightbots_base::{Instant, wrap};
 use lightbots_wire::{Blocked, Details, Report, RobotState, TimeQuestion, Topic};
 
-use super::{Message, Robot};
+use super::state::Robot;
 use crate::outbox::MessageKind;
 use crate::reflex::Block;
 use crate::storage::RouteStorage;
+
+/// A message to send. The longest report has 343 bytes.
+pub type Message = heapless::String<376>;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Writes the next message to send; `None`, and an empty message, when there is none.

@@ -2,14 +2,17 @@
 
 use core::borrow::BorrowMut;
 
-use lightbots_base::Instant;
+use lightbots_base::{Instant, Span};
 
-use super::{LONGEST_STEP, Robot};
+use super::state::Robot;
 use crate::config::{Inputs, SENSORS};
 use crate::drive::BodyPose;
 use crate::routes::InSight;
 use crate::storage::RouteStorage;
 
+/// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
+/// its wheels. Below, a board that skips a few steps would lose way.
+pub(super) const LONGEST_STEP: Span = Span::from_millis(100);
 /// Neighbours this much beyond the range of the sensors may be in sight all the same, metres, because both are off
 /// their places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more neighbours
 /// than it need.

@@ -1,17 +1,65 @@
-//! What a robot reports of itself: place, certainty, activity and faults.
+//! A robot's parts, and what it reports of itself: place, certainty, activity and faults.
 
-use super::Robot;
-use crate::config::Config;
-use crate::storage::RouteStorage;
 use core::borrow::BorrowMut;
+
 use lightbots_base::{Instant, Pose, RobotId, Span, Vec2};
 use lightbots_wire::RobotState;
+
+use crate::clock::ClockFilter;
+use crate::config::Config;
+use crate::hot::Hot;
+use crate::light::Light;
+use crate::reflex::Reflex;
+use crate::storage::RouteStorage;
 
 /// A robot whose fixes stay away reports how sure it will be of its place this much later. It is the time that a HOLD takes
 /// to reach all robots. Below, the others cannot stop before it is lost. Above, all robots wait for short outages.
 const FORESIGHT: Span = Span::from_millis(500);
 
+/// A whole robot: no allocation, no clock, no IO. Feed it messages and steps, then drain its messages.
+///
+/// `S` is where its routes lie: in the robot itself, or elsewhere if it was given a place.
+#[derive(Debug)]
+pub struct Robot<S = RouteStorage> {
+    pub(super) hot: Hot,
+    pub(super) config: Config,
+    pub(super) battery: Option<u8>,
+    /// Commands that made no sense, since power-on.
+    pub(super) unknown: u32,
+    pub(super) clock_filter: ClockFilter,
+    pub(super) light: Light,
+    pub(super) reflex: Reflex,
+    pub(super) storage: S,
+}
+
+impl Robot {
+    /// A robot that has just been switched on: it stands, its light is dark and its place is unknown.
+    pub fn new(config: Config) -> Self {
+        Self::with_storage(config, RouteStorage::new())
+    }
+}
+
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
+    /// [`Robot::new`] with its routes in a storage that may lie elsewhere.
+    pub fn with_storage(config: Config, storage: S) -> Self {
+        Self {
+            hot: Hot::new(&config),
+            battery: None,
+            unknown: 0,
+            clock_filter: ClockFilter::new(),
+            light: Light::default(),
+            reflex: Reflex::new(&config),
+            storage,
+            config,
+        }
+    }
+
+    /// What every step reads and writes. A simulator of thousands of robots may prefetch it by its address and size.
+    #[inline]
+    pub fn hot(&self) -> &Hot {
+        &self.hot
+    }
+
     /// The settings it was made with.
     pub fn config(&self) -> &Config {
         &self.config
