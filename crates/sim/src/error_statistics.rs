@@ -2,7 +2,7 @@
 
 use lightbots_base::Instant;
 
-use crate::robot_set::Ours;
+use crate::firmware::Ours;
 use crate::statistics::Spread;
 use crate::world::World;
 

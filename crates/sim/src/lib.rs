@@ -31,6 +31,7 @@ mod disk;
 mod drive_train;
 mod error_statistics;
 mod faults;
+mod firmware;
 mod fix_sensors;
 mod fleet;
 mod floor;

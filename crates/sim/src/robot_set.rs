@@ -3,7 +3,7 @@
 mod mishaps;
 
 use lightbots_base::{Instant, Pose, Rgb, RobotId, Span, Vec2};
-use lightbots_robot::{Config, Fix, Inputs, Message, Robot, RouteStorage};
+use lightbots_robot::{Config, Fix, Inputs, Message};
 use lightbots_show::Stage;
 use lightbots_wire::{RobotState, Topic};
 
@@ -11,6 +11,7 @@ use crate::brakes::{BrakeCounts, Brakes};
 use crate::conditions::Conditions;
 use crate::dice::{Dice, Purpose};
 use crate::error_statistics::ErrorStatistics;
+use crate::firmware::{Ours, RobotFirmware};
 use crate::fix_sensors::FixSensors;
 use crate::message_log::MessageLog;
 use crate::original::{Original, OriginalOutputs};
@@ -59,20 +60,6 @@ struct SimulatedRobot {
     battery: u8,
     clock: LocalClock,
     firmware: RobotFirmware,
-}
-
-/// Our firmware with its routes in a box. A step reads next to nothing of them, and the rest of all robots then lies close
-/// together.
-pub(crate) type Ours = Robot<Box<RouteStorage>>;
-
-/// The firmware of a robot.
-#[expect(clippy::large_enum_variant, reason = "nearly all robots are ours, and looked at in order")]
-#[repr(u8)]
-enum RobotFirmware {
-    /// Our firmware.
-    Ours(Ours),
-    /// A robot that knows only TARGET and COLOR.
-    Original(Original),
 }
 
 /// The own clock of a robot.
@@ -378,16 +365,6 @@ impl SimulatedRobot {
     ) {
         while let Some(topic) = self.firmware.outgoing(payload) {
             receive(index, topic, payload.as_bytes());
-        }
-    }
-}
-
-impl RobotFirmware {
-    #[inline]
-    fn outgoing(&mut self, payload: &mut Message) -> Option<Topic> {
-        match self {
-            Self::Ours(robot) => robot.outgoing(payload),
-            Self::Original(robot) => robot.outgoing(payload),
         }
     }
 }

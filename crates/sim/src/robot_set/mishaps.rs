@@ -5,7 +5,8 @@ use lightbots_robot::Config;
 use lightbots_show::Stage;
 use lightbots_wire::RobotState;
 
-use super::{Ours, RobotFirmware, RobotSet};
+use super::RobotSet;
+use crate::firmware::{Ours, RobotFirmware};
 use crate::original::Original;
 
 /// Gap from rim to rim that a person leaves to robots near the place where one is put down, metres.
