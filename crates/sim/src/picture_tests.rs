@@ -2,9 +2,14 @@
 
 use super::*;
 use crate::conditions::Conditions;
-use lightbots_base::Rgb;
+use crate::options::RehearsalOptions;
+use lightbots_base::{Rgb, Vec2};
+use lightbots_control::{Config, Controller, RecordedController};
 use lightbots_lighting::LampSettings;
-use lightbots_show::{Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, front_rows};
+use lightbots_show::{
+    Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show, front_rows,
+};
+use std::sync::Arc;
 
 /// Eight robots that cross a picture of 12 m by 3 m with a colour on the left and another one on the right.
 fn crossing(halves: [[u8; 3]; 2]) -> Show {

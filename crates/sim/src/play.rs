@@ -1,35 +1,21 @@
 //! The loop of a rehearsal: one queue of messages, one clock, one step after the other.
 
 mod breaking;
+mod downlink;
+mod state;
 mod uplink;
 
-use std::collections::VecDeque;
-use std::rc::Rc;
-use std::sync::Arc;
-
-use lightbots_base::{Instant, RobotId, Span, StateHash, Vec2};
-use lightbots_control::{
-    Config, Controller, EventKind, MissingPolicy, Operation, RecordedController, RobotView,
-};
-use lightbots_show::{Issue, Show};
+use lightbots_base::{Instant, RobotId, Span};
+use lightbots_control::{MissingPolicy, Operation, RobotView};
+use lightbots_show::Issue;
 use lightbots_wire::Topic;
 
-use crate::breakdowns::Breakdowns;
-use crate::broker_outages::BrokerOutages;
-use crate::campaign::Invariants;
-use crate::controller_clock::ControllerClock;
-use crate::controller_crashes::ControllerCrashes;
-use crate::forgeries::Forgeries;
-use crate::light_watch::{self, LightWatch};
-use crate::mishap::Mishap;
-use crate::network::{Network, Way};
-use crate::operator::Operator;
-use crate::options::{Progress, RehearsalOptions, time_limit};
-use crate::record::RehearsalRecord;
+use crate::light_watch;
+use crate::network::Way;
+use crate::options::{Progress, time_limit};
 use crate::report::RehearsalReport;
-use crate::robot_set::RobotSet;
-use crate::timetable::Timetable;
 use crate::world::STEP;
+pub(crate) use state::Play;
 use uplink::send;
 
 /// Time that robots have to find the controller and its clock. The show then begins without the others.
@@ -41,86 +27,7 @@ const HASH_EVERY: u64 = 64;
 /// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
 const ROUNDS_PER_STEP: usize = 1_000_000;
 
-/// A show being rehearsed.
-pub(crate) struct Play {
-    show: Arc<Show>,
-    seed: u64,
-    planned_s: f64,
-    controller: RecordedController,
-    /// What each controller is told at its start.
-    config: Config,
-    robots: RobotSet,
-    network: Network,
-    breakdowns: Breakdowns,
-    broker: BrokerOutages,
-    crashes: ControllerCrashes,
-    /// The clocks of the controller's computer.
-    clock: ControllerClock,
-    forgeries: Forgeries,
-    /// `(name, robot)` of robots that have the name of another.
-    namesakes: Vec<(RobotId, usize)>,
-    /// Number of controllers until now.
-    controllers: u32,
-    operator: Operator,
-    mishaps: Timetable<Mishap>,
-    /// Frames that the operator has yet to send robots to.
-    visits: VecDeque<usize>,
-    /// How often frames that repeat until GO are played.
-    loop_rounds: u32,
-    /// What must hold after each step of a campaign.
-    pub invariants: Option<Box<Invariants>>,
-    record: RehearsalRecord,
-    lights: LightWatch,
-    hash: StateHash,
-    /// `(name, robot)`, sorted by name.
-    by_id: Vec<(RobotId, usize)>,
-    now: Instant,
-    began: bool,
-}
-
 impl Play {
-    /// Robots at `starts`, switched on, some with given names, and a controller that has just found its broker.
-    pub fn new(
-        show: Arc<Show>,
-        starts: &[Vec2],
-        names: &[Option<RobotId>],
-        options: &RehearsalOptions,
-        planned_s: f64,
-    ) -> Self {
-        let RehearsalOptions { seed, conditions, .. } = options;
-        let config = Config { light_tolerance: conditions.light_tolerance, ..Config::default() };
-        let robots = RobotSet::new(&show.stage, starts, names, conditions, *seed, false);
-        let mut by_id: Vec<_> = (0..robots.len()).map(|robot| (robots.id(robot), robot)).collect();
-        by_id.sort_unstable();
-        Self {
-            seed: *seed,
-            planned_s,
-            controller: RecordedController::new(Controller::new(config.clone())),
-            config,
-            network: Network::new(&conditions.link, starts.len(), *seed),
-            forgeries: Forgeries::default(),
-            namesakes: Vec::new(),
-            breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
-            broker: BrokerOutages::new(conditions, starts.len(), *seed),
-            crashes: ControllerCrashes::new(&conditions.crashed),
-            clock: ControllerClock::default(),
-            controllers: 0,
-            operator: Operator::new(conditions.go_after),
-            mishaps: Timetable::new(conditions.mishaps.clone()),
-            visits: conditions.visits.iter().copied().collect(),
-            loop_rounds: conditions.loop_rounds,
-            invariants: None,
-            record: RehearsalRecord::new(starts.len()),
-            lights: LightWatch::new(conditions.light_tolerance),
-            hash: StateHash::new(),
-            robots,
-            by_id,
-            show,
-            now: Instant::ZERO,
-            began: false,
-        }
-    }
-
     /// Plays to the end, or to the time limit.
     pub fn run(
         mut self,
@@ -175,11 +82,6 @@ impl Play {
             self.robots.link(self.now, robot, true);
         }
         self.drain_controller();
-    }
-
-    /// What the controller's clock shows.
-    fn shown(&self) -> Instant {
-        self.clock.shows(self.now)
     }
 
     fn compare_lights(&mut self) {
@@ -272,49 +174,6 @@ impl Play {
         robots.drain_messages(robot, &mut |robot, topic, text| {
             send(network, record, (breakdowns, broker, forgeries), *now, (robot, topic, text));
         });
-    }
-
-    /// Whether there is no controller, or its computer sleeps.
-    pub(super) fn is_controller_away(&self) -> bool {
-        self.crashes.is_gone() || self.clock.is_asleep(self.now)
-    }
-
-    pub(super) fn drain_controller(&mut self) {
-        while let Some(send) = self.controller.next_send() {
-            let payload: Rc<[u8]> = send.payload.into();
-            match send.topic {
-                Topic::Robot(id) => {
-                    let place = self.by_id.binary_search_by_key(&id, |entry| entry.0);
-                    let first = place.ok().map(|place| self.by_id[place]);
-                    let named = first.iter().chain(&self.namesakes).filter(|(name, _)| *name == id);
-                    // A robot that has another name by now has subscribed to that one.
-                    for &(_, robot) in named.filter(|(_, robot)| self.robots.id(*robot) == id) {
-                        self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
-                    }
-                }
-                topic => {
-                    for robot in 0..self.robots.len() {
-                        self.network.send(self.now, Way::ToRobot(robot), topic, payload.clone());
-                    }
-                }
-            }
-        }
-        while let Some(event) = self.controller.next_event() {
-            let event = self.clock.in_virtual_time(event);
-            if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
-                self.operator.asked(self.now);
-            }
-            if matches!(event.kind, EventKind::FrameReached { .. })
-                && let Some(frame) = self.visits.pop_front()
-            {
-                self.operator.does(self.now, Operation::GoTo(frame));
-            }
-            if let Some(invariants) = &mut self.invariants {
-                invariants.event(&event, &self.by_id);
-            }
-            self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
-        }
-        self.write_journal();
     }
 
     /// Begins the show once all robots are present and know the show clock, or after [`GATHERING`].

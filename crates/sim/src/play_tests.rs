@@ -3,8 +3,10 @@
 use super::*;
 use crate::conditions::Conditions;
 use crate::faults::Faults;
+use crate::options::RehearsalOptions;
 use lightbots_base::Rgb;
 use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, front_rows};
+use std::sync::Arc;
 
 #[test]
 fn robots_that_take_turns_there_and_back_play_the_same_to_the_bit() {

@@ -6,7 +6,7 @@ use lightbots_control::{
 };
 use lightbots_show::{Layer, LayerSpan, Setting};
 
-use super::Play;
+use super::state::Play;
 use crate::breakdowns::Fate;
 use crate::broker_outages::BrokerEvent;
 use crate::controller_crashes::CrashEvent;
@@ -123,18 +123,6 @@ impl Play {
         let id = self.robots.id(other);
         self.namesakes.push((id, robot));
         self.robots.restart_as(self.now, robot, id);
-    }
-
-    /// Writes what is new in the journal.
-    pub(super) fn write_journal(&mut self) {
-        if self.crashes.disk.begins_again(self.now) {
-            self.controller.begin_journal_again();
-        }
-        if self.crashes.disk.is_ready()
-            && let Some(piece) = self.controller.take_journal(self.clock.time_of_day_us(self.now))
-        {
-            self.crashes.disk.write(self.now, piece);
-        }
     }
 
     /// Applies the mishaps that are due.

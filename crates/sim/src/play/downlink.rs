@@ -1,0 +1,62 @@
+//! What the controller sends on its way to the network, what it reports, and its journal.
+
+use std::rc::Rc;
+
+use lightbots_control::{EventKind, Operation};
+use lightbots_wire::Topic;
+
+use super::state::Play;
+use crate::network::Way;
+
+impl Play {
+    /// Takes all that the controller has sent, reported and written until now.
+    pub(super) fn drain_controller(&mut self) {
+        while let Some(send) = self.controller.next_send() {
+            let payload: Rc<[u8]> = send.payload.into();
+            match send.topic {
+                Topic::Robot(id) => {
+                    let place = self.by_id.binary_search_by_key(&id, |entry| entry.0);
+                    let first = place.ok().map(|place| self.by_id[place]);
+                    let named = first.iter().chain(&self.namesakes).filter(|(name, _)| *name == id);
+                    // A robot that has another name by now has subscribed to that one.
+                    for &(_, robot) in named.filter(|(_, robot)| self.robots.id(*robot) == id) {
+                        self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
+                    }
+                }
+                topic => {
+                    for robot in 0..self.robots.len() {
+                        self.network.send(self.now, Way::ToRobot(robot), topic, payload.clone());
+                    }
+                }
+            }
+        }
+        while let Some(event) = self.controller.next_event() {
+            let event = self.clock.in_virtual_time(event);
+            if matches!(event.kind, EventKind::LinkBack { asks_operator: true, .. }) {
+                self.operator.asked(self.now);
+            }
+            if matches!(event.kind, EventKind::FrameReached { .. })
+                && let Some(frame) = self.visits.pop_front()
+            {
+                self.operator.does(self.now, Operation::GoTo(frame));
+            }
+            if let Some(invariants) = &mut self.invariants {
+                invariants.event(&event, &self.by_id);
+            }
+            self.record.event(&event, &self.controller, &self.robots, &self.by_id, &self.show);
+        }
+        self.write_journal();
+    }
+
+    /// Writes what is new in the journal.
+    fn write_journal(&mut self) {
+        if self.crashes.disk.begins_again(self.now) {
+            self.controller.begin_journal_again();
+        }
+        if self.crashes.disk.is_ready()
+            && let Some(piece) = self.controller.take_journal(self.clock.time_of_day_us(self.now))
+        {
+            self.crashes.disk.write(self.now, piece);
+        }
+    }
+}
