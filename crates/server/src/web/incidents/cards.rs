@@ -4,7 +4,7 @@ use lightbots_api::IncidentTone::{self, Failed, Information, Look};
 use lightbots_base::RobotId;
 use lightbots_control::{EventKind, RunOutcome};
 
-use super::Subject;
+use super::subject::Subject;
 use super::words::{self, Card};
 
 /// A card, and the robots that it is about.

@@ -1,6 +1,7 @@
 //! What went wrong, as cards: one cause is one card, which grows while more robots have the same trouble.
 
 mod cards;
+mod subject;
 mod words;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,6 +16,7 @@ use super::message::text;
 use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
 use cards::card_of;
+use subject::Subject;
 use words::Card;
 
 /// Incidents that are kept. A screen shows the unread ones; older ones are dropped, read ones first.
@@ -23,28 +25,6 @@ const KEPT: usize = 40;
 const NAMED: usize = 50;
 /// Robots that drop out for one reason within this time of each other, milliseconds, are one incident.
 const TOGETHER_MS: u64 = 4_000;
-
-/// What an incident is about. Events with the same subject change the same incident.
-#[derive(Clone, Debug, PartialEq)]
-enum Subject {
-    Dropouts {
-        why: Trouble,
-        frame: Option<usize>,
-    },
-    Joining,
-    Link,
-    Broker,
-    Names(RobotId),
-    Flood(RobotId),
-    Fleet,
-    Plan(usize),
-    Controller,
-    Run,
-    Place(RobotId),
-    Music,
-    /// By the number of the entry.
-    Playlist(u32),
-}
 
 #[derive(Debug)]
 struct Entry {

@@ -1,0 +1,26 @@
+//! What incidents are about.
+
+use lightbots_base::RobotId;
+use lightbots_control::Trouble;
+
+/// What an incident is about. Events with the same subject change the same incident.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Subject {
+    Dropouts {
+        why: Trouble,
+        frame: Option<usize>,
+    },
+    Joining,
+    Link,
+    Broker,
+    Names(RobotId),
+    Flood(RobotId),
+    Fleet,
+    Plan(usize),
+    Controller,
+    Run,
+    Place(RobotId),
+    Music,
+    /// By the number of the entry.
+    Playlist(u32),
+}
