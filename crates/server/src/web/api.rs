@@ -13,10 +13,10 @@ use lightbots_exchange::{FORMATS, Format, Loaded, Written, named, read};
 use lightbots_lighting::validate;
 use lightbots_plan::Cancelled;
 
-use super::Shared;
 use super::connection::Ends;
 use super::planner::CutOff;
 use super::refused::{Refused, refuse};
+use super::state::Shared;
 use crate::library::{Condition, Kept, LibraryError};
 use crate::show_plan;
 

@@ -5,6 +5,7 @@ mod address;
 mod admission;
 mod api;
 mod broker;
+mod broker_desk;
 mod certificate;
 mod connection;
 mod desk;
@@ -27,12 +28,12 @@ mod scheme;
 mod sign_in;
 mod sign_in_page;
 mod socket;
+mod state;
 mod stream;
 mod sums;
 mod uploads;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, AtomicUsize};
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -42,93 +43,20 @@ use tokio_rustls::TlsAcceptor;
 
 pub use address::url;
 pub use admission::Admission;
-pub use broker::BrokerDesk;
+pub use broker_desk::BrokerDesk;
 pub use certificate::WebCertificate;
 pub use desk::{Desk, Shown};
-pub use incidents::IncidentBoard;
 pub use log::ScreenLog;
 pub use names::{Exposure, Names};
 pub use operate::operate;
 pub use planner::Planner;
 pub use scheme::Scheme;
+pub use state::Shared;
 
 use crate::failure::Failure;
-use crate::fleet_book::FleetBook;
-use crate::library::Library;
-use crate::live::conductor::Handle;
-use crate::played_shows::PlayedShows;
 use crate::playlist::PlaylistStore;
 use connection::{Connections, Ends};
-use picture::Pictures;
 use runs::Runs;
-
-/// State that requests share.
-#[derive(Debug)]
-pub struct Shared {
-    pub handle: Handle,
-    pub library: Library,
-    /// What people say of robots.
-    pub book: FleetBook,
-    pub desk: Desk,
-    pub log: ScreenLog,
-    pub incidents: IncidentBoard,
-    pub pictures: Pictures,
-    pub broker: BrokerDesk,
-    pub runs: Runs,
-    pub playlist: PlaylistStore,
-    /// The planner for requests of clients.
-    pub planner: Planner,
-    /// People and programs that may use this server.
-    pub admission: Arc<Admission>,
-    /// Names of this server.
-    pub names: Names,
-    /// Number of simulated robots.
-    pub simulated: Arc<AtomicUsize>,
-    pub screens: AtomicU32,
-}
-
-impl Shared {
-    /// The state, and the tasks that follow the conductor.
-    pub fn new(
-        handle: Handle,
-        library: Library,
-        (book, played): (FleetBook, PlayedShows),
-        broker: BrokerDesk,
-        names: Names,
-        admission: Admission,
-        planner: Planner,
-    ) -> Arc<Self> {
-        let log = ScreenLog::new();
-        tokio::spawn(log.clone().follow(handle.news()));
-        let incidents = IncidentBoard::new();
-        tokio::spawn(incidents.clone().follow(handle.news()));
-        let desk = Desk::new(handle.clone());
-        tokio::spawn(desk.clone().follow(handle.news()));
-        let pictures = Pictures::new();
-        tokio::spawn(played.clone().follow(handle.clone(), desk.clone()));
-        tokio::spawn(pictures.clone().follow(handle.clone(), desk.clone(), book.clone(), played));
-        let runs = Runs::of(library.folder(), handle.clone());
-        let playlist = PlaylistStore::load(library.folder());
-        let (screens, simulated) = (AtomicU32::new(0), Arc::default());
-        Arc::new(Self {
-            handle,
-            library,
-            book,
-            desk,
-            log,
-            incidents,
-            pictures,
-            broker,
-            runs,
-            playlist,
-            admission: Arc::new(admission),
-            names,
-            planner,
-            simulated,
-            screens,
-        })
-    }
-}
 
 /// Binds the address. The failure is one line with a remedy.
 pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure> {

@@ -11,9 +11,10 @@ use lightbots_base::RobotId;
 use lightbots_control::{MissingPolicy, Operation, Refusal};
 use lightbots_exchange::read_layer;
 
+use super::access;
 use super::admission::{Caller, not_allowed};
 use super::refused::refuse;
-use super::{Shared, access};
+use super::state::Shared;
 use crate::broker_settings::Settings;
 use crate::sentences::capitalised;
 

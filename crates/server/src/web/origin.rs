@@ -9,12 +9,12 @@ use axum::http::{HeaderMap, HeaderName, Method, StatusCode, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::Shared;
 use super::api::{BODY_MAX, too_long};
 use super::connection::Ends;
 use super::names::Names;
 use super::refused::{Refused, refuse};
 use super::scheme::Scheme;
+use super::state::Shared;
 
 /// Longest time for a request from its first byte to the end of its answer. The longest upload (94 s) and
 /// a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.

@@ -14,9 +14,10 @@ use tokio::sync::broadcast::error::RecvError;
 use super::access;
 use super::admission::{Caller, Ticket, not_allowed};
 use super::message::text;
+use super::operate::{self, operate};
 use super::picture::Picture;
 use super::scheme::Scheme;
-use super::{Shared, operate};
+use super::state::Shared;
 
 /// Longest time to send one message. A screen that takes longer is disconnected, and connects again by itself.
 const PATIENCE: Duration = Duration::from_secs(20);
