@@ -17,10 +17,9 @@ use crate::cancel::{Cancel, Cancelled, unless};
 use lightbots_base::braking::{GRIP_MPS2, REACTION_S};
 use lightbots_base::{Limits, Span, Vec2};
 use rows::Rows;
+pub(crate) use rows::STEP;
 use std::collections::VecDeque;
 
-/// Time between two sampled moments.
-pub(crate) const STEP: Span = Span::from_millis(50);
 /// Most sampled moments; longer drives are sampled more coarsely.
 const MOST_MOMENTS: usize = 10_000;
 

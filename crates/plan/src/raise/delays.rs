@@ -11,11 +11,9 @@ use crate::cancel::Cancel;
 use crate::motion::ends;
 use crate::proof::stop_safe::{STEP, StopSafety};
 use lightbots_base::{Limits, Span, Vec2};
-use pair::PairLaw;
+use pair::{LEVEL, PairLaw};
 use std::collections::BTreeMap;
 
-/// Delays are whole multiples of this.
-pub(super) const LEVEL: Span = Span(STEP.0 / 2);
 /// Longest delay of a robot: pairs that come near only after longer delays are not looked at.
 const MOST: Span = Span::from_millis(400);
 /// Moments of pairs that are looked at, for each robot of the transition.

@@ -1,10 +1,12 @@
 //! Places of all robots at consecutive moments.
 
-use super::STEP;
 use crate::Path;
 use crate::proof::grid::Bounds;
 use lightbots_base::{Span, Vec2};
 use std::collections::VecDeque;
+
+/// Time between two sampled moments.
+pub(crate) const STEP: Span = Span::from_millis(50);
 
 /// The places of all robots at a moment and at some after it, which go back in time together.
 pub(super) struct Rows<'a> {

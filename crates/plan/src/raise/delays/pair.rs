@@ -1,10 +1,11 @@
 //! Effect of two delayed robots on each other.
 
-use super::LEVEL;
 use crate::margins::COMFORT_M;
 use crate::proof::stop_safe::{Law, STEP, StopAssumptions, distance_m};
 use lightbots_base::{Limits, Span, Vec2};
 
+/// Delays are whole multiples of this.
+pub(super) const LEVEL: Span = Span(STEP.0 / 2);
 /// Cost of a contact: above any number of moments.
 const CONTACT: u32 = 1 << 20;
 
