@@ -13,6 +13,8 @@ use std::collections::BTreeMap;
 const POLLED: usize = 1024;
 /// Most rounds of deformation and proof.
 const ROUNDS: usize = 6;
+/// Rounds without a better deformation, after which there are no more.
+const MOST_IN_VAIN: usize = 2;
 /// Most robots × rounds for the following distance.
 const ROOM_WORK: usize = 2_000;
 /// Largest time scale that a deformation may need.
@@ -70,8 +72,9 @@ fn deformed(
     for aim in [Aim::Comfort, Aim::Room] {
         let mut conflicts = best.worth_deforming(aim);
         let most = if aim == Aim::Room { ROOM_WORK / lines.len().max(1) } else { ROUNDS };
+        let mut in_vain = 0;
         for _ in 0..rounds.min(ROUNDS).min(most) {
-            if conflicts.is_empty() || cancel.is_wanted() {
+            if conflicts.is_empty() || in_vain == MOST_IN_VAIN || cancel.is_wanted() {
                 break;
             }
             let mut paths = lines.clone();
@@ -92,7 +95,9 @@ fn deformed(
                 deformed = time_scaled(problem, deformed, aim, cancel);
             }
             if deformed.improves_on(&best) {
-                best = deformed;
+                (best, in_vain) = (deformed, 0);
+            } else {
+                in_vain += 1;
             }
         }
     }
