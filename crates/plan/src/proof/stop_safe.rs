@@ -6,20 +6,24 @@
 //! first at which it may see the dead one and the last at which it must brake: robots behind it must be able to stop in
 //! turn at each of these moments. Moments are sampled.
 
+mod corridor;
 mod rows;
 #[cfg(test)]
 mod tests;
 
-use super::curve::share_of_foot;
 use super::grid::{Bounds, near_pairs};
 use crate::Path;
 use crate::cancel::{Cancel, Cancelled, unless};
+use corridor::Corridor;
+pub(crate) use corridor::distance_m;
 use lightbots_base::braking::{GRIP_MPS2, REACTION_S};
 use lightbots_base::{Limits, Span, Vec2};
 use rows::Rows;
 pub(crate) use rows::STEP;
 use std::collections::VecDeque;
 
+/// Steps in which pairs are looked for once.
+const BLOCK: usize = 8;
 /// Most sampled moments; longer drives are sampled more coarsely.
 const MOST_MOMENTS: usize = 10_000;
 
@@ -135,11 +139,17 @@ pub(crate) fn measured(
     let stride = steps.div_ceil(MOST_MOMENTS);
     let count = steps.div_ceil(stride);
     let law = Law::new(limits, *assumptions);
-    let mut rows = Rows::new(paths, law.ahead(), STEP * ((count - 1) * stride) as i64);
+    let block = (BLOCK / stride).max(1);
+    // After the last moment of the last block, all robots rest.
+    let blocks = count.div_ceil(block);
+    let behind = STEP * (blocks * block * stride) as i64;
+    let mut rows = Rows::new(paths, law.ahead() + (block - 1) * stride, behind);
     let mut sweep = Sweep { law, stride, cannot_brake: VecDeque::new(), found: Vec::new() };
-    for _ in (0..count).take_while(|_| !cancel.is_wanted()) {
-        sweep.look(&rows, &drives);
-        rows.go_back(stride);
+    for number in (0..blocks).rev().take_while(|_| !cancel.is_wanted()) {
+        rows.go_back(block * stride);
+        let near = sweep.near(&rows, block, &drives);
+        let moments = block.min(count - number * block);
+        (0..moments).rev().for_each(|moment| sweep.look(&rows, moment * stride, &near));
     }
     // The latest moment was looked at first, and of each moment the first robots too.
     sweep.found.reverse();
@@ -170,14 +180,16 @@ struct Meeting {
 impl Sweep {
     /// Which robots must not stop dead at the first of the rows: those that another robot touches, and those for which
     /// another must brake that must not stop in turn at one of the moments at which it may come to stand.
-    fn look(&mut self, rows: &Rows<'_>, drives: &[bool]) {
-        let mut meetings = self.meetings(rows, drives);
+    ///
+    /// `row`: where the moment stands in the rows.
+    fn look(&mut self, rows: &Rows<'_>, row: usize, near: &Near) {
+        let mut meetings = self.meetings(rows, row, near);
         meetings.sort_by(|a, b| b.robot.cmp(&a.robot).then(a.braking.last.cmp(&b.braking.last)));
         let kept = self.law.ahead().div_ceil(self.stride);
         let oldest = if self.cannot_brake.len() < kept { None } else { self.cannot_brake.pop_back() };
         let mut cannot_brake = oldest.unwrap_or_default();
         cannot_brake.clear();
-        cannot_brake.resize(drives.len(), false);
+        cannot_brake.resize(near.corridors.len(), false);
         let alarm = self.law.steps(self.law.of.alarm_s);
         for group in meetings.chunk_by(|a, b| a.robot == b.robot) {
             // The first robot that brakes reports it, and the fleet rests soon after.
@@ -193,8 +205,8 @@ impl Sweep {
             }
             self.found.extend(worst.map(|one| UnsafeMoment {
                 robot,
-                at: rows.first(),
-                place: rows.at(0, robot),
+                at: rows.first() + STEP * row as i64,
+                place: rows.of(robot)[row],
                 by: one.by,
                 missing_m: f64::from(one.braking.missing_m),
             }));
@@ -202,28 +214,52 @@ impl Sweep {
         self.cannot_brake.push_front(cannot_brake);
     }
 
-    /// Every pair of which one comes near the place of the other.
-    fn meetings(&self, rows: &Rows<'_>, drives: &[bool]) -> Vec<Meeting> {
-        let boxes: Vec<Bounds> = (0..drives.len()).map(|robot| rows.bounds(robot)).collect();
-        let reach_m = self.law.wary_m;
-        let mut meetings = Vec::new();
-        near_pairs(&boxes, reach_m, |i, j| {
+    /// Robots that may come near the place of another at a moment of a block.
+    fn near(&self, rows: &Rows<'_>, block: usize, drives: &[bool]) -> Near {
+        let robots = 0..drives.len();
+        let boxes: Vec<Bounds> = robots.clone().map(|robot| rows.bounds(robot)).collect();
+        let corridors: Vec<Corridor> = robots.clone().map(|robot| Corridor::around(rows.of(robot))).collect();
+        let now = 0..(block - 1) * self.stride + 1;
+        let places: Vec<Corridor> =
+            robots.map(|robot| Corridor::around(&rows.of(robot)[now.clone()])).collect();
+        let mut pairs = Vec::new();
+        near_pairs(&boxes, self.law.wary_m, |i, j| {
             for (robot, by) in [(i, j), (j, i)] {
-                let place = rows.at(0, robot);
-                let point = Bounds { min: place, max: place };
-                if !drives[robot] || !drives[by] || point.distance_squared(&boxes[by]) >= reach_m * reach_m {
-                    continue;
+                let is_near = || corridors[by].is_near(&places[robot], self.law.wary_m);
+                if drives[robot] && drives[by] && is_near() {
+                    pairs.push((robot, by));
                 }
-                let Some(braking) = self.law.judge(place, &|step| rows.at(step, by)) else { continue };
-                let moments = usize::from(braking.first).div_ceil(self.stride).max(1)
-                    ..=usize::from(braking.last).div_ceil(self.stride);
-                let ahead = |moment: usize| self.cannot_brake.get(moment - 1);
-                let chained = moments.filter_map(ahead).any(|cannot_brake| cannot_brake[by]);
-                meetings.push(Meeting { robot, by, braking, chained });
             }
         });
+        Near { corridors, pairs }
+    }
+
+    /// Every pair of which one comes near the place of the other.
+    fn meetings(&self, rows: &Rows<'_>, row: usize, near: &Near) -> Vec<Meeting> {
+        let mut meetings = Vec::new();
+        for &(robot, by) in &near.pairs {
+            let place = rows.of(robot)[row];
+            if near.corridors[by].distance_m(place) >= self.law.wary_m {
+                continue;
+            }
+            let track = &rows.of(by)[row..];
+            let Some(braking) = self.law.judge(place, &|step| track[step]) else { continue };
+            let moments = usize::from(braking.first).div_ceil(self.stride).max(1)
+                ..=usize::from(braking.last).div_ceil(self.stride);
+            let ahead = |moment: usize| self.cannot_brake.get(moment - 1);
+            let chained = moments.filter_map(ahead).any(|cannot_brake| cannot_brake[by]);
+            meetings.push(Meeting { robot, by, braking, chained });
+        }
         meetings
     }
+}
+
+/// Robots that may come near others in a block of moments.
+struct Near {
+    /// `[robot]`: around its path from the first moment of the block on.
+    corridors: Vec<Corridor>,
+    /// A robot, and another that may come near its place.
+    pairs: Vec<(usize, usize)>,
 }
 
 /// How a robot brakes for another that stands in its way.
@@ -330,10 +366,4 @@ impl Law {
     fn step_of(&self, delay_s: f64) -> usize {
         ((delay_s / STEP.as_secs() + 1e-9) as usize).min(self.ahead() - 1)
     }
-}
-
-/// Distance of a place from the line segment between two others, metres.
-pub(crate) fn distance_m(place: Vec2, from: Vec2, to: Vec2) -> f64 {
-    let (start, chord) = (from - place, to - from);
-    (start + chord * share_of_foot(start, chord)).length()
 }

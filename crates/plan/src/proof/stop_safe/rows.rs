@@ -3,7 +3,6 @@
 use crate::Path;
 use crate::proof::grid::Bounds;
 use lightbots_base::{Span, Vec2};
-use std::collections::VecDeque;
 
 /// Time between two sampled moments.
 pub(crate) const STEP: Span = Span::from_millis(50);
@@ -11,8 +10,13 @@ pub(crate) const STEP: Span = Span::from_millis(50);
 /// The places of all robots at a moment and at some after it, which go back in time together.
 pub(super) struct Rows<'a> {
     cursors: Vec<Cursor<'a>>,
-    /// `rows[steps ahead][robot]`, stage metres.
-    rows: VecDeque<Vec<Vec2>>,
+    /// Number of moments.
+    count: usize,
+    /// `[robot × 2 count + first_row + steps ahead]`, stage metres. Those of a robot follow each other, because the robots
+    /// are looked at one by one; each stands twice, `count` apart, so that none of them is behind the end.
+    places: Vec<Vec2>,
+    /// Where the first moment stands, below `count`.
+    first_row: usize,
     first: Span,
 }
 
@@ -29,13 +33,16 @@ impl<'a> Rows<'a> {
     pub fn new(paths: &'a [Path], ahead: usize, first: Span) -> Self {
         let cursor =
             |path: &'a Path| Cursor { path, piece: path.pieces.len(), begin: path.as_ref().duration() };
-        let mut cursors: Vec<_> = paths.iter().map(cursor).collect();
-        let mut rows = VecDeque::new();
-        for step in (0..=ahead).rev() {
-            let at = first + STEP * step as i64;
-            rows.push_front(cursors.iter_mut().map(|cursor| cursor.at(at)).collect());
-        }
-        Self { cursors, rows, first }
+        let count = ahead + 1;
+        let mut rows = Self {
+            cursors: paths.iter().map(cursor).collect(),
+            count,
+            places: vec![Vec2::ZERO; paths.len() * 2 * count],
+            first_row: 0,
+            first: first + STEP * count as i64,
+        };
+        rows.go_back(count);
+        rows
     }
 
     /// The first row's moment.
@@ -43,28 +50,31 @@ impl<'a> Rows<'a> {
         self.first
     }
 
-    /// Place of a robot `ahead` steps after the first moment, stage metres.
-    pub fn at(&self, ahead: usize, robot: usize) -> Vec2 {
-        self.rows[ahead][robot]
+    /// `[steps ahead]`: places of a robot from the first moment on, stage metres.
+    pub fn of(&self, robot: usize) -> &[Vec2] {
+        let first = robot * 2 * self.count + self.first_row;
+        &self.places[first..first + self.count]
     }
 
     /// A box around all places of a robot.
     pub fn bounds(&self, robot: usize) -> Bounds {
         let mut bounds = Bounds::EMPTY;
-        self.rows.iter().for_each(|row| bounds.include(row[robot]));
+        self.of(robot).iter().for_each(|&place| bounds.include(place));
         bounds
     }
 
     /// Goes back by `by` steps.
     pub fn go_back(&mut self, by: usize) {
-        let read = self.rows.len();
         self.first -= STEP * by as i64;
-        for step in (0..by.min(read)).rev() {
-            let at = self.first + STEP * step as i64;
-            let mut row = self.rows.pop_back().unwrap_or_default();
-            row.clear();
-            row.extend(self.cursors.iter_mut().map(|cursor| cursor.at(at)));
-            self.rows.push_front(row);
+        let read = by.min(self.count);
+        self.first_row = (self.first_row + self.count - read) % self.count;
+        for (robot, cursor) in self.cursors.iter_mut().enumerate() {
+            let places = &mut self.places[robot * 2 * self.count..][..2 * self.count];
+            for step in (0..read).rev() {
+                let place = cursor.at(self.first + STEP * step as i64);
+                let row = (self.first_row + step) % self.count;
+                (places[row], places[row + self.count]) = (place, place);
+            }
         }
     }
 }

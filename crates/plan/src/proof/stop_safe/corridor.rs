@@ -1,0 +1,70 @@
+//! Corridors around paths: what is not near a corridor is not near the path.
+
+use crate::proof::curve::share_of_foot;
+use lightbots_base::Vec2;
+use lightbots_base::shape::segment_to_segment;
+
+/// A corridor around some places: all are within `bulge_m` of the line from the first to the last.
+pub(super) struct Corridor {
+    from: Vec2,
+    to: Vec2,
+    bulge_m: f64,
+}
+
+impl Corridor {
+    /// Around at least one place.
+    pub fn around(places: &[Vec2]) -> Self {
+        let (from, to) = (places[0], places[places.len() - 1]);
+        let bulge_m = places.iter().map(|&place| distance_m(place, from, to)).fold(0.0, f64::max);
+        Self { from, to, bulge_m }
+    }
+
+    /// Least distance that a place may have from the path through the corridor's places, metres.
+    pub fn distance_m(&self, place: Vec2) -> f64 {
+        distance_m(place, self.from, self.to) - self.bulge_m
+    }
+
+    /// Whether a place of the one may be nearer to a place of the other than this.
+    pub fn is_near(&self, other: &Self, reach_m: f64) -> bool {
+        let lines_m = segment_to_segment((self.from, self.to), (other.from, other.to));
+        lines_m < reach_m + self.bulge_m + other.bulge_m
+    }
+}
+
+/// Distance of a place from the line segment between two others, metres.
+pub(crate) fn distance_m(place: Vec2, from: Vec2, to: Vec2) -> f64 {
+    let (start, chord) = (from - place, to - from);
+    (start + chord * share_of_foot(start, chord)).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seeded::Seeded;
+
+    #[test]
+    fn what_is_far_from_a_corridor_is_far_from_its_path() {
+        let mut dice = Seeded::new(3);
+        let mut between =
+            |reach_m: f64| Vec2::new(dice.between(-reach_m, reach_m), dice.between(-reach_m, reach_m));
+        let (mut far, mut near) = (0, 0);
+        for _ in 0..2_000 {
+            let [path, other] = [0, 1].map(|_| {
+                let (from, step) = (between(0.3), between(0.02));
+                (0..20).map(|at| from + step * f64::from(at) + between(0.004)).collect::<Vec<_>>()
+            });
+            let of = |place: Vec2, path: &[Vec2]| {
+                path.windows(2).map(|line| distance_m(place, line[0], line[1])).fold(f64::INFINITY, f64::min)
+            };
+            let (corridor, places) = (Corridor::around(&path), Corridor::around(&other));
+            let apart_m = other.iter().map(|&place| of(place, &path)).fold(f64::INFINITY, f64::min);
+            for &place in &other {
+                assert!(corridor.distance_m(place) <= of(place, &path) + 1e-12);
+            }
+            assert!(corridor.is_near(&places, 0.065) || apart_m >= 0.065);
+            far += usize::from(!corridor.is_near(&places, 0.065));
+            near += usize::from(corridor.is_near(&places, 0.065) && apart_m < 0.065);
+        }
+        assert!(far > 500 && near > 300, "{far} far, {near} near");
+    }
+}
