@@ -5,6 +5,7 @@ use core::fmt;
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_control::{Event, EventKind, Trouble};
 
+use super::route_watch::RouteWatch;
 use crate::breakdowns::Fate;
 use crate::bumps::Bump;
 use crate::floor::FloorObject;
@@ -54,6 +55,8 @@ struct Watched {
     is_broken: bool,
     /// When it dropped out.
     out: Option<Instant>,
+    /// There was no plan around all places where it may stand, and the controller gave them up.
+    is_place_given_up: bool,
     /// Something happened to it alone, or it knows TARGET only: it may drop out.
     may_drop_out: bool,
     /// It says that it is elsewhere, or shares its name.
@@ -85,6 +88,7 @@ pub(crate) struct Invariants {
     is_over: bool,
     /// Pairs whose contact was excused, and that have not parted.
     together: Vec<(u32, u32)>,
+    routes: RouteWatch,
     violations: Vec<Violation>,
 }
 
@@ -95,6 +99,7 @@ impl Invariants {
             received: Instant::ZERO,
             is_broken: false,
             out: None,
+            is_place_given_up: false,
             may_drop_out: robot + originals >= robots,
             is_false: false,
             moved: None,
@@ -111,6 +116,7 @@ impl Invariants {
             stopped: None,
             is_over: false,
             together: Vec::new(),
+            routes: RouteWatch::default(),
             violations: Vec::new(),
         }
     }
@@ -189,9 +195,13 @@ impl Invariants {
                 }
             }
             EventKind::FrameReached { frame, .. } => self.frame_stands(event.at, *frame),
-            EventKind::PlanFailed { frame, .. }
-            | EventKind::Skipped { frame }
-            | EventKind::LeftOutForMusic { frame, .. } => self.given_up.push(*frame),
+            EventKind::PlanFailed { frame, .. } => {
+                self.given_up.push(*frame);
+                self.robots.iter_mut().for_each(|robot| robot.is_place_given_up = robot.out.is_some());
+            }
+            EventKind::Skipped { frame } | EventKind::LeftOutForMusic { frame, .. } => {
+                self.given_up.push(*frame)
+            }
             EventKind::LoopBegun { first, last } => self.repeats = Some((*first, *last)),
             EventKind::GoesTo { frame } => self.reached = frame.checked_sub(1),
             EventKind::Rejoined(id) => {
@@ -247,8 +257,24 @@ impl Invariants {
         for robot in 0..self.robots.len() {
             self.check_rest(now, robot, robots);
         }
+        self.check_routes(now, robots);
         if now > self.limit && !self.is_over {
             self.violate(now, "end", "the show has not ended".into());
+        }
+    }
+
+    /// No route leads through a robot that dropped out and has no route, if the controller can know where it is: robots that
+    /// know TARGET only do not say where they are on the way.
+    fn check_routes(&mut self, now: Instant, robots: &RobotSet) {
+        let is_out = |robot: &usize| {
+            let watched = &self.robots[*robot];
+            let stands = robots.is_ours(*robot) && robots.route_place(*robot).is_none();
+            watched.out.is_some() && stands && !watched.is_place_given_up && !self.is_unexpected(now, *robot)
+        };
+        let out: Vec<usize> = (0..self.robots.len()).filter(is_out).collect();
+        for (robot, standing) in self.routes.look(now, robots, &out) {
+            let what = format!("the route of robot {robot} leads through robot {standing}, which is out");
+            self.violate(now, "routes", what);
         }
     }
 

@@ -2,6 +2,7 @@
 //! it.
 
 mod invariants;
+mod route_watch;
 mod scene;
 mod story;
 

@@ -68,6 +68,19 @@ impl RobotSet {
         self.alive[robot]
     }
 
+    /// Whether a robot runs our firmware, which says where it is on the way.
+    pub fn is_ours(&self, robot: usize) -> bool {
+        matches!(self.robots[robot].firmware, RobotFirmware::Ours(_))
+    }
+
+    /// Where the route leads that a robot follows at this moment, stage metres.
+    pub fn route_place(&self, robot: usize) -> Option<Vec2> {
+        match &self.robots[robot].firmware {
+            RobotFirmware::Ours(robot) => robot.route_place(),
+            RobotFirmware::Original(_) => None,
+        }
+    }
+
     /// Whether a robot may drive although it receives nothing: it is on its way to a target (R44 of docs/protocol.md).
     pub fn is_on_target(&self, robot: usize) -> bool {
         match &self.robots[robot].firmware {
