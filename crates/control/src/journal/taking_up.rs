@@ -110,8 +110,11 @@ impl Run {
             });
         }
         let roster = Roster { participants, begun: begun.at, ..Roster::default() };
-        let stops =
-            StopTimes { began: Instant(at.0.saturating_sub(UNHEARD.0 as u64)), stood: *at + STANDS_AFTER };
+        // A robot that died before a hold may be what the others were held for, however long ago that was.
+        let held = progress.position.drive.and_then(|clock| clock.open_hold().map(|hold| hold.at));
+        let known = held.map_or(*at, |held| held.min(*at));
+        let began = Instant(known.0.saturating_sub(UNHEARD.0 as u64));
+        let stops = StopTimes { began, stood: *at + STANDS_AFTER };
         let mut run =
             Self::interrupted(now, playback, roster, leg, (progress.position, by_itself, stops, *at));
         run.tally.frames_played = progress.frames_played as usize;

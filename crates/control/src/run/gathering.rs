@@ -46,9 +46,9 @@ const BOUNDS: Bounds = Bounds {
 /// All are asked where they stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gathering {
-    /// Robots that drove begin to stop then …
-    stopping: Instant,
-    /// … and stand then.
+    /// When robots that drove stopped, or stop.
+    stops: StopTimes,
+    /// Robots that receive messages stand then.
     since: Instant,
     /// Reports count from then on.
     fresh_from: Instant,
@@ -66,7 +66,7 @@ impl Gathering {
     /// All robots are known and nothing has to stop.
     pub fn at_begin(now: Instant) -> Self {
         Self {
-            stopping: now,
+            stops: StopTimes { began: now, stood: now },
             since: now,
             fresh_from: Instant::ZERO,
             ask_at: now,
@@ -87,7 +87,7 @@ impl Gathering {
         let since = stop_at.unwrap_or(cx.now);
         let fresh_from = since + SETTLE + cx.link.round_trip;
         Self {
-            stopping: held_from.unwrap_or(cx.now),
+            stops: StopTimes { began: held_from.unwrap_or(cx.now), stood: since },
             since,
             fresh_from,
             ask_at: fresh_from,
@@ -95,6 +95,11 @@ impl Gathering {
             is_first: cx.pipeline.driven.is_none() && cx.tally.frames_played == 0,
             left,
         }
+    }
+
+    /// Robots had stopped before, when they were out of reach.
+    pub fn stopped(self, stops: StopTimes) -> Self {
+        Self { stops, ..self }
     }
 
     /// The frame that stood is left as soon as robots are ready.
@@ -188,9 +193,8 @@ impl Gathering {
         let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
             return Whereabouts::default();
         };
-        let stop = StopTimes { began: self.stopping, stood: self.since };
         let placed = cx.robot(participant).standstill.placed;
-        silence::whereabouts((leg, targets), clock, stop, participant, placed)
+        silence::whereabouts((leg, targets), clock, self.stops, participant, placed)
     }
 }
 

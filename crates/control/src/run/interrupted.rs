@@ -34,7 +34,7 @@ pub(crate) struct Interrupted {
     /// What was going on.
     pub left: Position,
     /// When robots that drove stopped.
-    stops: StopTimes,
+    pub stops: StopTimes,
     /// Robots that are back until then go on by themselves.
     by_itself_until: Instant,
     /// When enough robots had reported for the run to go on.

@@ -316,11 +316,12 @@ impl Run {
     /// Robots report again: all say where they stand, and all is planned again from there.
     fn go_on_from_where_robots_stand(&mut self, io: &mut Context, now: Instant) {
         let RunPhase::Interrupted(interrupted) = &self.phase else { return };
-        let left = interrupted.left;
+        let Interrupted { left, stops, .. } = *interrupted;
         self.tally.recovery.put_off(now - interrupted.since);
         self.link.reconnected = Some(now);
         self.report_replanning(io, now);
-        self.gather(io, now, left);
+        let gathering = Gathering::begin(&mut self.split(io, now).1, left).stopped(stops);
+        self.enter(RunPhase::Gathering(gathering));
     }
 
     /// Plans and requests are dropped: robots will not be where they begin.

@@ -116,8 +116,8 @@ pub fn stop_safety(paths: &[Path], limits: &Limits) -> StopSafety {
     measured(paths, limits, &StopAssumptions::default(), Cancel::NEVER)
 }
 
-/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` says so; it is asked once for each
-/// moment.
+/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` says so; it is asked once for
+/// eight moments.
 pub fn stop_safety_unless(
     paths: &[Path],
     limits: &Limits,

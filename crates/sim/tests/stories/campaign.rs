@@ -6,7 +6,7 @@ use lightbots_sim::Campaign;
 const ROBOTS: usize = 30;
 
 /// Seeds that failed once, with the number of robots they had then.
-const FAILED: [(u64, Option<usize>); 27] = [
+const FAILED: [(u64, Option<usize>); 29] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed was resumed by no one.
@@ -52,6 +52,9 @@ const FAILED: [(u64, Option<usize>); 27] = [
     (3_440, Some(30)),
     // A robot followed what a person's foot seemed to do.
     (3_604, Some(30)),
+    // A robot that was silent after an interruption was looked for ahead of where all had stopped.
+    (411, None),
+    (948, None),
     // A robot that knows TARGET only was a stranger that was believed to keep to the plan.
     (1_065, None),
 ];
