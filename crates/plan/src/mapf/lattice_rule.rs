@@ -26,8 +26,6 @@ pub(crate) struct LatticeRule<'a> {
     goals: &'a [u32],
     /// `[robot][node]`: steps to its goal; empty without a goal.
     steps: Vec<Vec<u16>>,
-    /// Nodes of all robots before the step.
-    now: Vec<u32>,
     /// `[robot]`: where it goes, if that is decided.
     direction: Vec<u8>,
     /// `[node]`: the robot that is there before the step, and after it.
@@ -53,7 +51,6 @@ pub(crate) fn lattice_pibt<'a>(
         lattice,
         goals,
         steps: goals.iter().map(to).collect(),
-        now: Vec::new(),
         direction: vec![STAYS; goals.len()],
         holder_now: vec![NO_ROBOT; nodes],
         holder_next: vec![NO_ROBOT; nodes],
@@ -92,11 +89,7 @@ impl ConflictRule for LatticeRule<'_> {
     }
 
     fn begin(&mut self, now: &[u32]) -> usize {
-        for &node in &self.now {
-            self.holder_now[node as usize] = NO_ROBOT;
-        }
-        self.now.clear();
-        self.now.extend_from_slice(now);
+        self.holder_now.fill(NO_ROBOT);
         for (robot, &node) in now.iter().enumerate() {
             self.holder_now[node as usize] = robot as u32;
         }
@@ -124,8 +117,8 @@ impl ConflictRule for LatticeRule<'_> {
         true
     }
 
-    fn decide(&mut self, robot: usize, node: u32) {
-        self.direction[robot] = self.direction_to(self.now[robot], node).unwrap_or(STAYS);
+    fn decide(&mut self, moves: &Moves, robot: usize, node: u32) {
+        self.direction[robot] = self.direction_to(moves.now[robot], node).unwrap_or(STAYS);
         self.holder_next[node as usize] = robot as u32;
     }
 

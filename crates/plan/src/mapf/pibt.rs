@@ -25,7 +25,7 @@ pub(crate) trait ConflictRule {
     fn may_go(&self, moves: &Moves, robot: usize, node: u32, must_make_way: &mut Vec<usize>) -> bool;
 
     /// A move is decided.
-    fn decide(&mut self, _robot: usize, _node: u32) {}
+    fn decide(&mut self, _moves: &Moves, _robot: usize, _node: u32) {}
 
     /// A decided move is taken back.
     fn undo(&mut self, _robot: usize, _node: u32) {}
@@ -113,7 +113,7 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
 
     fn decide(&mut self, robot: usize, node: u32) {
         self.moves.next[robot] = node;
-        self.rule.decide(robot, node);
+        self.rule.decide(&self.moves, robot, node);
         self.decided.push(robot);
     }
 
