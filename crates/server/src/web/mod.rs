@@ -95,6 +95,7 @@ pub async fn serve(listener: TcpListener, acceptor: Option<TlsAcceptor>, shared:
         .fallback(pages::page)
         .layer(axum::middleware::from_fn_with_state(uploads::Uploads::new(), uploads::bound))
         .layer(DefaultBodyLimit::max(api::BODY_MAX))
+        .layer(axum::middleware::from_fn(refused::uniform))
         .layer(axum::middleware::from_fn_with_state(shared.admission.clone(), admission::guard))
         .layer(axum::middleware::from_fn_with_state(shared.clone(), origin::guard))
         .with_state(shared);

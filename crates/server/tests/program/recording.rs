@@ -58,13 +58,15 @@ fn a_recorded_rehearsal_is_replayed_to_the_bit() {
 #[test]
 fn what_is_no_recorded_run_is_refused_in_one_line() {
     let show = shows::row_file(6, &[0.5]);
+    let lines = shows::file("lines-of-another-run", "kept");
     for (file, why) in
         [(show.as_str(), "it is no recorded run"), ("/", "not a regular file"), ("77", "cannot be read")]
     {
         let data = shows::folder();
-        let (code, out, err) = run(&["replay", file, "--data", data.to_str().unwrap()]);
+        let (code, out, err) = run(&["replay", file, "--data", data.to_str().unwrap(), "--lines", &lines]);
         assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{err}");
         assert!(err.contains(why), "{err}");
+        assert_eq!(std::fs::read_to_string(&lines).unwrap(), "kept");
     }
 }
 

@@ -188,11 +188,18 @@ fn junk_from_the_web_is_turned_away() {
         ("POST", "/api/convert?to=pdf", "[]", 400),
         ("POST", "/api/convert?to=original", "x", 422),
         ("POST", "/api/convert?to=skyc", r#"{"lightbots":1,"frames":[]}"#, 422),
+        ("GET", "/api/shows/a/states/x", "", 400),
+        ("DELETE", "/api/plan", "", 405),
+        ("POST", "/api/operate", "{", 400),
+        ("POST", "/api/operate", r#"{"do":"dance"}"#, 422),
     ] {
-        let answer = http::request(&address, method, path, &[], body);
+        let json = [("Content-Type", "application/json")];
+        let answer = http::request(&address, method, path, &json, body);
         assert_eq!(answer.status, status, "{method} {path}: {}", answer.body);
         assert!(!answer.json()["error"].as_str().unwrap().contains('\n'));
     }
+    let untyped = http::request(&address, "POST", "/api/operate", &[], "{}");
+    assert!(untyped.status == 415 && untyped.json()["error"].as_str().unwrap().contains("Content-Type"));
     let long = http::request(&address, "POST", "/api/check", &[("Content-Length", "100000000")], "");
     assert_eq!(long.status, 413);
     let checked = http::request(&address, "POST", "/api/check", &[], "not a show").json();
