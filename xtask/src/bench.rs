@@ -123,7 +123,7 @@ const PARTS: [Part; 16] = [
     Part {
         name: "make",
         title: "Frames from words, drawings, pictures and shapes",
-        source: Source::Example("lightbots-make", "speed"),
+        source: Source::Example("lightbots-make", "source_speed"),
         about: "One frame, decoding included, one thread. `full`: what is saved. `preview`: fewer samples and rounds, while a \
                 setting changes.",
     },

@@ -130,7 +130,7 @@ impl KdTree {
         core::iter::successors(Some(node), |&node| (node > 1).then_some(node / 2))
     }
 
-    /// The greatest weight in every node, for [`Self::cheaper`]; `weights[id]`.
+    /// The greatest weight in every node, for [`Self::cheapest`]; `weights[id]`.
     pub fn greatest(&self, weights: &[f64]) -> Vec<f64> {
         let mut greatest = vec![f64::NEG_INFINITY; self.nodes.len()];
         for (id, &weight) in weights.iter().enumerate() {
