@@ -180,7 +180,7 @@ impl Journal {
 
     /// Whether the run has another leg than before.
     fn note_leg(&mut self, now: Instant, run: &Run) -> bool {
-        let Some(leg) = run.positioned_leg() else { return false };
+        let Some(leg) = run.phase.left_leg(&run.pipeline) else { return false };
         let known = self.state.as_ref().and_then(|state| state.leg.as_ref());
         if known.is_some_and(|known| known.seq == leg.seq) {
             return false;
@@ -238,7 +238,7 @@ impl Run {
             frames_played: tally.frames_played as u32,
             dropouts: tally.dropouts as u32,
             taken_up: tally.taken_up,
-            position: self.position(),
+            position: self.phase.left(&self.pipeline),
         }
     }
 }

@@ -193,8 +193,7 @@ impl Gathering {
         let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
             return Whereabouts::default();
         };
-        let placed = cx.robot(participant).standstill.placed;
-        silence::whereabouts((leg, targets), clock, self.stops, participant, placed)
+        silence::whereabouts((leg, targets), clock, self.stops, participant, cx.robot(participant))
     }
 }
 

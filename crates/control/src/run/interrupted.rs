@@ -148,13 +148,7 @@ impl Interrupted {
         let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
             return Whereabouts::default();
         };
-        silence::whereabouts(
-            (leg, targets),
-            clock,
-            self.stops,
-            participant,
-            cx.robot(participant).standstill.placed,
-        )
+        silence::whereabouts((leg, targets), clock, self.stops, participant, cx.robot(participant))
     }
 
     /// Participants that have not reported since.

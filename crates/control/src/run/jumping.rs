@@ -4,7 +4,8 @@ use crate::context::Context;
 use crate::event::EventKind;
 use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
-use crate::run::machine::{Run, RunPhase};
+use crate::run::machine::Run;
+use crate::run::phase::RunPhase;
 use lightbots_base::Instant;
 
 impl Run {

@@ -1,7 +1,7 @@
 //! The changes of phase of a run; nothing else changes a phase.
 
 use crate::context::Context;
-use crate::event::{EventKind, RunOutcome, Trouble};
+use crate::event::{EventKind, Trouble};
 use crate::journal::Position;
 use crate::leg::LegKind;
 use crate::mutant::Mutant;
@@ -13,6 +13,7 @@ use crate::run::link::LinkEstimate;
 use crate::run::link_loss::{self, Verdict};
 use crate::run::membership::Probation;
 use crate::run::next::{AirTime, Dropout, Next};
+use crate::run::phase::RunPhase;
 use crate::run::pipeline::Pipeline;
 use crate::run::playback::{PlayedShow, RunPurpose};
 use crate::run::preflight_check::PreflightCheck;
@@ -23,23 +24,6 @@ use crate::run::starting::Starting;
 use crate::run::tally::Tally;
 use lightbots_base::{Instant, RobotId, Span};
 use lightbots_plan::Claims;
-
-/// Where a run is.
-#[derive(Clone, Debug)]
-pub(crate) enum RunPhase {
-    /// All are asked where they stand.
-    Gathering(Gathering),
-    /// All stand, in a frame or before the first; the next leg is planned and uploaded meanwhile.
-    Standing(Standing),
-    /// The START of the next leg is stated.
-    Starting(Starting),
-    /// Robots drive.
-    Driving(Driving),
-    /// Robots are out of reach.
-    Interrupted(Interrupted),
-    /// The run is over: how it ended, and at which frame. There is no way out of this phase.
-    Over(RunOutcome, usize),
-}
 
 /// Everything about one run.
 #[derive(Clone, Debug)]
@@ -255,12 +239,7 @@ impl Run {
 
     fn whereabouts_on_path(&mut self, io: &mut Context, now: Instant, participant: usize) -> Whereabouts {
         let (phase, cx) = self.split(io, now);
-        match phase {
-            RunPhase::Driving(drive) => drive.whereabouts(&cx, participant),
-            RunPhase::Gathering(gathering) => gathering.whereabouts(&cx, participant),
-            RunPhase::Interrupted(interrupted) => interrupted.whereabouts(&cx, participant),
-            _ => Whereabouts::default(),
-        }
+        phase.whereabouts(&cx, participant)
     }
 
     fn reached_by(&self, now: Instant) -> Instant {
@@ -286,7 +265,7 @@ impl Run {
     pub fn gather_what_moves(&mut self, io: &mut Context, now: Instant) {
         // What robots that know TARGET only said last may be old: they report only when they are asked.
         if !matches!(self.phase, RunPhase::Standing(_)) || self.roster.has_target_robots(io) {
-            let left = self.left();
+            let left = self.phase.left(&self.pipeline);
             self.gather(io, now, left);
         }
     }
@@ -301,6 +280,11 @@ impl Run {
         if matches!(self.phase, RunPhase::Interrupted(_) | RunPhase::Over(..)) {
             return;
         }
+        let left = self.phase.left(&self.pipeline);
+        if matches!(self.phase, RunPhase::Starting(_)) {
+            // Robots may have begun it, and nothing is heard of that.
+            self.pipeline.drive_next();
+        }
         self.drop_plans(io);
         io.outbox.stop_repeating();
         if let Some(silent) = silent {
@@ -309,7 +293,7 @@ impl Run {
         }
         let by_itself = io.config.goes_on_within;
         let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard).min();
-        let interrupted = Interrupted::begin(now, self.left(), by_itself).heard(heard.unwrap_or(now));
+        let interrupted = Interrupted::begin(now, left, by_itself).heard(heard.unwrap_or(now));
         self.enter(RunPhase::Interrupted(interrupted));
     }
 
@@ -331,17 +315,6 @@ impl Run {
         io.plan_request = None;
         io.mapping.shown = self.shown(io);
         self.tally.arrivals = None;
-    }
-
-    /// What is broken off if robots stop now.
-    pub fn left(&self) -> Position {
-        match &self.phase {
-            RunPhase::Gathering(gathering) => gathering.left,
-            RunPhase::Interrupted(interrupted) => interrupted.left,
-            RunPhase::Standing(standing) => Position { drive: None, stood: Some(standing.air) },
-            RunPhase::Driving(drive) => Position { drive: Some(drive.clock), stood: None },
-            RunPhase::Starting(_) | RunPhase::Over(..) => Position::default(),
-        }
     }
 
     pub fn enter(&mut self, phase: RunPhase) {

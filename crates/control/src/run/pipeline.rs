@@ -125,6 +125,13 @@ impl Pipeline {
         self.planning.from.clear();
     }
 
+    /// The next leg becomes the one that is driven; `None`: there is none.
+    pub fn drive_next(&mut self) -> Option<&Leg> {
+        let leg = self.queue.pop_front()?;
+        let targets = TargetProgress::new(&leg);
+        Some(&self.driven.insert(DrivenLeg { leg, targets }).leg)
+    }
+
     /// The leg that is driven, or has brought all where they stand.
     pub fn leg(&self) -> Option<&Leg> {
         self.driven.as_ref().map(|driven| &driven.leg)

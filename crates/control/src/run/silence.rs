@@ -4,10 +4,12 @@
 //! along its path until it stops by itself.
 
 use crate::leg::Leg;
+use crate::robot::KnownRobot;
 use crate::run::path_clock::PathClock;
 use crate::run::roster::Whereabouts;
 use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::RobotState;
 
 /// A robot that fell silent died at most this long after its last report: driving robots report every 500 ms (R41).
 const UNREPORTED: Span = Span::from_millis(600);
@@ -50,26 +52,33 @@ pub(crate) struct StopTimes {
     pub stood: Instant,
 }
 
-/// Where a robot may stand that said last at `placed` where it is. Likely are places along its path from there, if it died,
-/// and where its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by
-/// itself, if it receives nothing either.
+/// Where a silent robot may stand. Likely are places along its path from where it last said to be, if it died, and where
+/// its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by itself, if
+/// it receives nothing either. A robot that has said since the drive began that it stands is where it said.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
     clock: &PathClock,
     stop: StopTimes,
     participant: usize,
-    placed: Instant,
+    robot: &KnownRobot,
 ) -> Whereabouts {
+    let (placed, state) = (robot.standstill.placed, robot.reported.state);
+    let stands = matches!(state, Some(RobotState::Idle | RobotState::Cut | RobotState::Faulty));
+    if stands && placed > clock.began && robot.reported.at.is_some() {
+        return Whereabouts::default();
+    }
     let Some(path) = leg.path(participant) else {
         let places = targets.whereabouts(leg, participant, STRAIGHT_STEP_M);
         return Whereabouts { possible: places.clone(), likely: places };
     };
-    let since = clock.path_time(placed);
+    let since = clock.path_time(placed).max(Span::ZERO);
+    // A robot that reported before the drive began drives for less long until it stops by itself.
+    let drives_on = LINK_LOSS.drives_on - (clock.began - placed).max(Span::ZERO);
     let died = (0..=UNREPORTED.0 / PATH_STEP.0).map(|step| since + PATH_STEP * step);
     let until = (stop.stood - stop.began).0 / PATH_STEP.0 + STEPS_UNTIL_STOP;
     let stopped = (0..=until).map(|step| clock.path_time(stop.began + PATH_STEP * step));
     let cut = (0..=LINK_LOSS.at_most_longer.0 / PATH_STEP.0)
-        .map(|step| since + LINK_LOSS.drives_on + PATH_STEP * step);
+        .map(|step| since + (drives_on + PATH_STEP * step).max(Span::ZERO));
     let place = |time: Span| path.as_ref().at(time).position;
     let likely = thinned(died.chain(stopped).map(place));
     let possible = thinned(cut.map(place)).into_iter().chain(likely.iter().copied()).collect();

@@ -3,9 +3,12 @@
 use crate::event::Trouble;
 use crate::run::link::{ASK_AGAIN, REPEAT};
 use crate::run::next::Next;
+use crate::run::path_clock::PathClock;
+use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
-use crate::run::silence::LINK_LOSS;
+use crate::run::silence::{self, LINK_LOSS, StopTimes};
 use crate::run::standing::drop_if_unfit;
+use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
@@ -39,6 +42,8 @@ pub(crate) struct Starting {
     ask_at: Instant,
     /// When its first moment was stated, and the estimate of the round trip then.
     first: (Instant, Span),
+    /// The moment that was stated first.
+    first_at: Instant,
     postponed: u32,
     /// All had confirmed when it was looked at.
     is_confirmed: bool,
@@ -61,6 +66,7 @@ impl Starting {
             repeat_at: cx.now + REPEAT,
             ask_at: cx.now + lead * ASK_FIRST_PERCENT / 100,
             first: (cx.now, cx.link.round_trip),
+            first_at: at,
             postponed: 0,
             is_confirmed: false,
             confirmed: vec![None; cx.roster.len()],
@@ -115,6 +121,22 @@ impl Starting {
         };
         let path = cx.pipeline.queue.front().and_then(|leg| leg.path(participant));
         elsewhen && details.route == self.seq && path.is_some_and(|path| !path.as_ref().rests())
+    }
+
+    /// Where a participant may stand that is silent: if it ever confirmed, it may have begun at the moment that was stated
+    /// first.
+    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
+        let leg = cx.pipeline.queue.front().filter(|_| self.confirmed[participant].is_some());
+        let Some(leg) = leg else { return Whereabouts::default() };
+        let clock = PathClock::new(self.first_at, leg.duration);
+        let stops = StopTimes { began: self.first_at, stood: self.first_at };
+        silence::whereabouts(
+            (leg, &TargetProgress::new(leg)),
+            &clock,
+            stops,
+            participant,
+            cx.robot(participant),
+        )
     }
 
     /// Time passes.

@@ -175,7 +175,9 @@ impl Screen {
 
     /// Waits until the controller is connected to a broker: the server listens before that.
     pub fn wait_for_broker(&mut self) {
-        self.until("a broker", |screen| (screen.get("state")["broker"]["phase"] == "connected").then_some(()));
+        self.until("a broker", |screen| {
+            (screen.get("state")["broker"]["phase"] == "connected").then_some(())
+        });
     }
 
     /// Waits until so many robots are ready, and the plan of the open show is made.

@@ -6,7 +6,7 @@ use lightbots_sim::Campaign;
 const ROBOTS: usize = 30;
 
 /// Seeds that failed once, with the number of robots they had then.
-const FAILED: [(u64, Option<usize>); 29] = [
+const FAILED: [(u64, Option<usize>); 31] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed was resumed by no one.
@@ -55,6 +55,10 @@ const FAILED: [(u64, Option<usize>); 29] = [
     // A robot that was silent after an interruption was looked for ahead of where all had stopped.
     (411, None),
     (948, None),
+    // A robot that died while START was on its way was looked for where it had stood, though it had left.
+    (392, None),
+    // A robot that died after all had stopped was looked for along its path, though it had said where it stood.
+    (855, None),
     // A robot that knows TARGET only was a stranger that was believed to keep to the plan.
     (1_065, None),
 ];

@@ -23,7 +23,6 @@ use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
 use crate::run::silence::{self, StopTimes};
 use crate::run::target_commands;
-use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 
@@ -40,7 +39,7 @@ const EARLY: Span = Span::from_millis(100);
 impl Driving {
     /// The first leg of the queue is under way since `began`.
     pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
-        let leg = cx.pipeline.queue.pop_front().expect("a drive begins with a planned leg");
+        let leg = cx.pipeline.drive_next().expect("a drive begins with a planned leg");
         let clock = PathClock::new(began, leg.duration);
         let heartbeat_at = if leg.kind == LegKind::Routes { cx.now + HEARTBEAT } else { Instant::FAR };
         let mut drive = Self::new(clock, cx.now, heartbeat_at, cx.roster.len());
@@ -48,8 +47,6 @@ impl Driving {
         if cx.playback.purpose.is_of_show() {
             cx.io.log.record(cx.now, EventKind::TransitionStarted { frame, starts: began, duration });
         }
-        let targets = TargetProgress::new(&leg);
-        cx.pipeline.driven = Some(DrivenLeg { leg, targets });
         cx.pipeline.upload = None;
         cx.pipeline.upload_from = began + BEGUN;
         drive.begin_leg(cx);
@@ -173,8 +170,8 @@ impl Driving {
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
         let stop = StopTimes { began: cx.now, stood: cx.now };
-        let placed = cx.robot(participant).standstill.placed;
-        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, placed);
+        let robot = cx.robot(participant);
+        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, robot);
         let seen = self.sightings(cx);
         narrow(&mut places.possible, &seen);
         narrow(&mut places.likely, &seen);

@@ -1,0 +1,68 @@
+//! The phases of a run: what its robots do.
+
+use crate::event::RunOutcome;
+use crate::journal::Position;
+use crate::leg::Leg;
+use crate::run::driving::Driving;
+use crate::run::gathering::Gathering;
+use crate::run::interrupted::Interrupted;
+use crate::run::path_clock::PathClock;
+use crate::run::pipeline::Pipeline;
+use crate::run::roster::Whereabouts;
+use crate::run::run_context::RunContext;
+use crate::run::standing::Standing;
+use crate::run::starting::Starting;
+
+/// Where a run is.
+#[derive(Clone, Debug)]
+pub(crate) enum RunPhase {
+    /// All are asked where they stand.
+    Gathering(Gathering),
+    /// All stand, in a frame or before the first; the next leg is planned and uploaded meanwhile.
+    Standing(Standing),
+    /// The START of the next leg is stated.
+    Starting(Starting),
+    /// Robots drive.
+    Driving(Driving),
+    /// Robots are out of reach.
+    Interrupted(Interrupted),
+    /// The run is over: how it ended, and at which frame. There is no way out of this phase.
+    Over(RunOutcome, usize),
+}
+
+impl RunPhase {
+    /// What is broken off if robots stop now. A stated START counts as a drive while its leg is in the queue, because
+    /// robots may have begun it.
+    pub fn left(&self, pipeline: &Pipeline) -> Position {
+        match self {
+            Self::Gathering(gathering) => gathering.left,
+            Self::Interrupted(interrupted) => interrupted.left,
+            Self::Standing(standing) => Position { drive: None, stood: Some(standing.air) },
+            Self::Driving(drive) => Position { drive: Some(drive.clock), stood: None },
+            Self::Starting(starting) => {
+                let leg = pipeline.queue.front();
+                Position { drive: leg.map(|leg| PathClock::new(starting.at, leg.duration)), stood: None }
+            }
+            Self::Over(..) => Position::default(),
+        }
+    }
+
+    /// The leg that [`left`](Self::left) is about.
+    pub fn left_leg<'a>(&self, pipeline: &'a Pipeline) -> Option<&'a Leg> {
+        match self {
+            Self::Starting(_) => pipeline.queue.front(),
+            _ => pipeline.leg(),
+        }
+    }
+
+    /// Where a participant may stand that fell silent; nowhere else than it reported: none.
+    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
+        match self {
+            Self::Driving(drive) => drive.whereabouts(cx, participant),
+            Self::Gathering(gathering) => gathering.whereabouts(cx, participant),
+            Self::Interrupted(interrupted) => interrupted.whereabouts(cx, participant),
+            Self::Starting(starting) => starting.whereabouts(cx, participant),
+            Self::Standing(_) | Self::Over(..) => Whereabouts::default(),
+        }
+    }
+}
