@@ -7,7 +7,6 @@ use crate::mutant::Mutant;
 use crate::operation::MissingPolicy;
 use crate::run::next::{AirTime, Next};
 use crate::run::path_clock::{Hold, PathClock};
-use crate::run::pipeline::DrivenLeg;
 use crate::run::readiness::missing;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
@@ -190,10 +189,7 @@ impl Gathering {
 
     /// Where a participant may stand that fell silent on the drive that was broken off.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
-            return Whereabouts::default();
-        };
-        silence::whereabouts((leg, targets), clock, self.stops, participant, cx.robot(participant))
+        silence::whereabouts_after(cx, self.left.drive.as_ref(), self.stops, participant)
     }
 }
 

@@ -7,7 +7,6 @@ use crate::event::{EventKind, Trouble};
 use crate::journal::Position;
 use crate::run::link_loss::many_of;
 use crate::run::next::Next;
-use crate::run::pipeline::DrivenLeg;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
 use crate::run::silence::{self, LINK_LOSS, StopTimes};
@@ -145,10 +144,7 @@ impl Interrupted {
 
     /// Where a participant may stand that did not report since.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        let (Some(clock), Some(DrivenLeg { leg, targets })) = (&self.left.drive, &cx.pipeline.driven) else {
-            return Whereabouts::default();
-        };
-        silence::whereabouts((leg, targets), clock, self.stops, participant, cx.robot(participant))
+        silence::whereabouts_after(cx, self.left.drive.as_ref(), self.stops, participant)
     }
 
     /// Participants that have not reported since.

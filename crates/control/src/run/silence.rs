@@ -6,7 +6,9 @@
 use crate::leg::Leg;
 use crate::robot::KnownRobot;
 use crate::run::path_clock::PathClock;
+use crate::run::pipeline::DrivenLeg;
 use crate::run::roster::Whereabouts;
+use crate::run::run_context::RunContext;
 use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::RobotState;
@@ -83,6 +85,19 @@ pub(crate) fn whereabouts(
     let likely = thinned(died.chain(stopped).map(place));
     let possible = thinned(cut.map(place)).into_iter().chain(likely.iter().copied()).collect();
     Whereabouts { possible, likely }
+}
+
+/// [`whereabouts`] of a participant once the drive of this clock was broken off; nowhere else than it reported: none was.
+pub(crate) fn whereabouts_after(
+    cx: &RunContext,
+    drive: Option<&PathClock>,
+    stops: StopTimes,
+    participant: usize,
+) -> Whereabouts {
+    let (Some(clock), Some(DrivenLeg { leg, targets })) = (drive, &cx.pipeline.driven) else {
+        return Whereabouts::default();
+    };
+    whereabouts((leg, targets), clock, stops, participant, cx.robot(participant))
 }
 
 /// Places without those that are as good as the one before.

@@ -1,6 +1,6 @@
 //! The broker chosen on the screen.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::alone;
 use crate::certificates::Certificates;
@@ -8,12 +8,6 @@ use crate::mosquitto::Mosquitto;
 use crate::run::start;
 use crate::screen::Screen;
 use crate::{http, shows};
-
-fn state(screen: &mut Screen, phase: &str) -> Value {
-    screen.until(phase, |screen| {
-        Some(screen.get("state")["broker"].clone()).filter(|broker| broker["phase"] == phase)
-    })
-}
 
 /// Waits until the controller has connected so often: the first time to the embedded broker.
 fn connected_times(screen: &mut Screen, times: usize) {
@@ -31,7 +25,7 @@ fn a_broker_is_chosen_lost_left_and_remembered() {
     let arguments = ["--robots", "0", "--data", &data];
     let (mut server, address, _) = start(&arguments);
     let mut screen = Screen::open(&address);
-    state(&mut screen, "connected");
+    screen.wait_for_broker("connected");
     let settings = || http::request(&address, "GET", "/api/broker", &[], "").json();
     assert_eq!(settings()["address"], "embedded");
     assert!(settings()["embedded"].as_str().unwrap().starts_with("mqtt://127.0.0.1"));
@@ -44,9 +38,9 @@ fn a_broker_is_chosen_lost_left_and_remembered() {
     assert_eq!(settings()["has_password"], true);
     broker.restart();
     screen.wait_for_log("closed the connection");
-    state(&mut screen, "connected");
+    screen.wait_for_broker("connected");
     drop(broker);
-    let lost = state(&mut screen, "retrying");
+    let lost = screen.wait_for_broker("retrying");
     assert!(!lost["reason"].as_str().unwrap().is_empty() && lost["node"].is_null(), "{lost}");
 
     // At the next start it is the broker again, until somebody leaves it.
@@ -54,12 +48,12 @@ fn a_broker_is_chosen_lost_left_and_remembered() {
     server.end();
     let (mut server, address, _) = start(&arguments);
     let mut screen = Screen::open(&address);
-    let again = state(&mut screen, "retrying");
+    let again = screen.wait_for_broker("retrying");
     assert!(again["address"].as_str().unwrap().starts_with("mqtt://127.0.0.1"), "{again}");
     screen.must(json!({"do": "disconnect"}));
-    assert_eq!(state(&mut screen, "off")["address"], "");
+    assert_eq!(screen.wait_for_broker("off")["address"], "");
     screen.must(json!({"do": "connect", "address": "embedded"}));
-    state(&mut screen, "connected");
+    screen.wait_for_broker("connected");
     server.terminate();
     server.end();
 }
@@ -84,7 +78,7 @@ fn what_a_form_may_hold_and_what_is_refused() {
     screen.must(connect(Some(&made.file("ca.pem")), None));
     connected_times(&mut screen, 3);
     screen.must(connect(Some(&pasted), Some("wrong")));
-    let refused = state(&mut screen, "retrying");
+    let refused = screen.wait_for_broker("retrying");
     assert!(refused["reason"].as_str().unwrap().contains("user and password"), "{refused}");
     for (wish, part) in [
         (json!({"do": "connect", "address": "http://x"}), "no broker address"),

@@ -173,11 +173,11 @@ impl Screen {
         }
     }
 
-    /// Waits until the controller is connected to a broker: the server listens before that.
-    pub fn wait_for_broker(&mut self) {
-        self.until("a broker", |screen| {
-            (screen.get("state")["broker"]["phase"] == "connected").then_some(())
-        });
+    /// Waits until the link to the broker is in this phase; its state. The server listens before it is connected.
+    pub fn wait_for_broker(&mut self, phase: &str) -> Value {
+        self.until(phase, |screen| {
+            Some(screen.get("state")["broker"].clone()).filter(|broker| broker["phase"] == phase)
+        })
     }
 
     /// Waits until so many robots are ready, and the plan of the open show is made.

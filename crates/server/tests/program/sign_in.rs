@@ -175,7 +175,7 @@ fn each_cell_of_the_access_table_holds() {
     assert!(Screen::try_open(&site, &site.address).is_err());
     for column in 1..COLUMNS.len() {
         let mut screen = Screen::try_open_with(&site, &site.address, &lines(column)).unwrap();
-        screen.wait_for_broker();
+        screen.wait_for_broker("connected");
         for (name, may) in table.iter().filter(|(request, _)| !request.contains(' ')) {
             let answer = screen.operate(operation(name));
             let is_refused = answer["error"].as_str().is_some_and(|error| error.contains("needs the role"));

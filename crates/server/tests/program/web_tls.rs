@@ -47,7 +47,7 @@ fn the_network_is_served_over_tls_with_a_certificate_of_the_first_start() {
     let origin = site.address.clone();
     let mut screen = Screen::try_open_with(&site, &origin, &[("Cookie", &cookie)]).unwrap();
     screen.until("the greeting", |screen| (screen.get("hello")["plain_http"] == false).then_some(()));
-    screen.wait_for_broker();
+    screen.wait_for_broker("connected");
     screen.must(serde_json::json!({"do": "stop_all"}));
     // A certificate that the client does not trust.
     let other = Certificates::make();
