@@ -63,13 +63,19 @@ impl Stop {
         (Self { wanted, phase: self.phase.clone() }, end)
     }
 
+    /// A wish to stop that comes true only by its [`End`], which must be kept until then.
+    pub fn apart(&self) -> (Self, End) {
+        let (sender, wanted) = watch::channel(false);
+        (Self { wanted, phase: self.phase.clone() }, End(sender))
+    }
+
     /// Whether the user wants to stop.
     pub fn is_wanted(&self) -> bool {
         *self.wanted.borrow()
     }
 }
 
-/// Ends what a child of a [`Stop`] runs.
+/// Ends what runs by a [`Stop::child`] or [`Stop::apart`].
 #[derive(Debug)]
 pub struct End(watch::Sender<bool>);
 

@@ -9,6 +9,7 @@ use lightbots_show::{Issue, Show, most_pixels};
 use lightbots_wire::RobotState;
 use tokio::sync::broadcast;
 
+use super::run::GOODBYE;
 use crate::cli::PlayArguments;
 use crate::commands::enter_key::{EnterFor, EnterKey};
 use crate::failure::{Failure, Outcome};
@@ -30,8 +31,6 @@ const NOTHING: Duration = Duration::from_secs(900);
 /// How often a frame that waits for GO is looked at where GO is given by itself.
 const LOOK_AT_CUE: Duration = Duration::from_millis(250);
 
-/// Longest time for stopping the robots and disconnecting after a signal.
-const GOODBYE: Duration = Duration::from_secs(2);
 /// Longest time for disconnecting and for the disk after a run.
 const SAVED: Duration = Duration::from_secs(10);
 

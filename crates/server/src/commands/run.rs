@@ -31,7 +31,7 @@ use crate::live::loudspeaker::Loudspeaker;
 use crate::live::osc::OscLink;
 use crate::live::recorder::RecordingTarget;
 use crate::played_shows::PlayedShows;
-use crate::stop::Stop;
+use crate::stop::{End, Stop};
 use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, Scheme, ScreenLog, Shared, WebCertificate};
 use crate::{open_files, playlist_player, say, show_file};
 
@@ -41,20 +41,43 @@ const FIRST: &str = "countdown";
 const USUAL_SEED: u64 = 1;
 /// Issues of the show that are printed at the start. The screen lists all of them.
 const ISSUES_SHOWN: usize = 5;
-/// Longest time for robots and conductor to disconnect at the end. After it their connections are cut off.
-const GOODBYE: Duration = Duration::from_secs(2);
+/// Longest time for stopping the robots and disconnecting at the end. After it connections are cut off.
+pub const GOODBYE: Duration = Duration::from_secs(5);
 
 /// Lighting and sound desks.
 type Desks = (Option<DeskLight>, Option<OscLink>);
 
-/// Tasks and broker that were started, in the order of their stop.
+/// What was started, in the order of its stop: robots say to the conductor that they stand, and the broker brings that.
 #[derive(Default)]
 struct Started {
+    conductor: Option<JoinHandle<()>>,
+    robots: Option<End>,
     tasks: Vec<JoinHandle<()>>,
     broker: Option<EmbeddedBroker>,
+    folder: Option<DataFolder>,
 }
 
 impl Started {
+    /// Waits for all that ends by itself once a stop is wanted, and ends the robots.
+    async fn end(&mut self) {
+        if let Some(conductor) = self.conductor.take() {
+            let _ = conductor.await;
+        }
+        if let Some(robots) = self.robots.take() {
+            robots.now();
+        }
+        for task in self.tasks.drain(..) {
+            let _ = task.await;
+        }
+    }
+
+    /// Starts the simulated robots.
+    fn simulate(&mut self, cast: Cast, shared: &Arc<Shared>, stop: &Stop) {
+        let (until, end) = stop.apart();
+        self.robots = Some(end);
+        self.tasks.push(tokio::spawn(cast.run(shared.handle.clone(), shared.desk.watch(), until)));
+    }
+
     /// Starts what follows desks and the broker's warnings.
     fn follow(
         &mut self,
@@ -115,16 +138,11 @@ pub async fn run(arguments: RunArguments, stop: Stop) -> Outcome {
         () = stop.wait() => Ok(true),
         outcome = serve(&arguments, &stop, &mut started) => outcome,
     };
-    // Conductor and robots end by themselves if a stop is wanted. After a failure nothing is waited for.
+    // After a failure nothing is waited for.
     if stop.is_wanted() {
-        let ends = async {
-            for task in started.tasks {
-                let _ = task.await;
-            }
-        };
-        let _ = tokio::time::timeout(GOODBYE, ends).await;
+        let _ = tokio::time::timeout(GOODBYE, started.end()).await;
     }
-    drop(started.broker);
+    drop(started);
     outcome
 }
 
@@ -133,7 +151,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let mut options = broker::options(&arguments.mqtt, 0)?;
     let other = other_broker(&arguments.broker, &arguments.login)?;
     let data = arguments.data.clone().unwrap_or_else(DataFolder::usual);
-    let folder = DataFolder::take(&data)?;
+    let folder = started.folder.insert(DataFolder::take(&data)?);
     let library = Library::new(data.clone());
     library.tidy_up();
     let cut_off = CutOffRun::find(&data, arguments.on_return);
@@ -166,7 +184,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     let clock = cut_off.as_ref().map_or_else(Clock::start, CutOffRun::clock);
     let (handle, conductor) =
         Handle::start(RecordingTarget::Runs(data.clone()), (clock, arguments.lamps.settings()), stop.clone());
-    started.tasks.push(conductor);
+    started.conductor = Some(conductor);
     let (admission, first) = Admission::new(&data, names.is_open()).map_err(Failure::problem)?;
     let planner = Planner::new(Duration::from_secs(arguments.plan_budget.into()));
     let (book, played) = (FleetBook::load(&data), PlayedShows::load(&data));
@@ -188,7 +206,7 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
         conditions: robots::conditions(arguments.ideal),
         simulated: shared.simulated.clone(),
     };
-    started.tasks.push(tokio::spawn(cast.run(handle, shared.desk.watch(), stop.clone())));
+    started.simulate(cast, &shared, stop);
     started.follow(arguments, desks, &shared, stop)?;
     started.tasks.push(tokio::spawn(playlist_player::play(shared.clone(), stop.clone())));
     let scheme = shared.names.scheme().name();

@@ -92,27 +92,52 @@ struct Conductor {
     done_sender: mpsc::Sender<Option<PlanResult>>,
 }
 
+/// What a conductor waits for.
+enum Input {
+    Link(LinkEvent),
+    Order(ConductorOrder),
+    Planned(Option<PlanResult>),
+    Alarm,
+}
+
 impl Conductor {
     async fn run(mut self, stop: Stop) {
         loop {
-            let speaks = self.state.is_connected().then(|| self.rivals.speak_at());
-            let wakes = [self.controller.wake_at(), speaks].into_iter().flatten().min();
-            let alarm = wakes.map(|at| self.clock.deadline(at));
-            tokio::select! {
+            let input = tokio::select! {
                 () = stop.wait() => break,
-                Some(event) = next_of(&mut self.link) => self.take(event),
-                Some(order) = self.inbox.recv() => self.obey(order).await,
-                Some(done) = self.done.recv() => {
-                    self.planning = None;
-                    if let Some(done) = done {
-                        self.controller.planned(self.clock.now(), done);
-                    }
-                }
-                () = sleep_until(alarm) => self.controller.wake(self.clock.now()),
-            }
-            self.drain();
+                input = self.input() => input,
+            };
+            self.turn(input).await;
         }
         self.end().await;
+    }
+
+    /// The next input. Cancel-safe.
+    async fn input(&mut self) -> Input {
+        let speaks = self.state.is_connected().then(|| self.rivals.speak_at());
+        let wakes = [self.controller.wake_at(), speaks].into_iter().flatten().min();
+        let alarm = wakes.map(|at| self.clock.deadline(at));
+        tokio::select! {
+            Some(event) = next_of(&mut self.link) => Input::Link(event),
+            Some(order) = self.inbox.recv() => Input::Order(order),
+            Some(done) = self.done.recv() => Input::Planned(done),
+            () = sleep_until(alarm) => Input::Alarm,
+        }
+    }
+
+    async fn turn(&mut self, input: Input) {
+        match input {
+            Input::Link(event) => self.take(event),
+            Input::Order(order) => self.obey(order).await,
+            Input::Planned(done) => {
+                self.planning = None;
+                if let Some(done) = done {
+                    self.controller.planned(self.clock.now(), done);
+                }
+            }
+            Input::Alarm => self.controller.wake(self.clock.now()),
+        }
+        self.drain();
     }
 
     /// Takes in one event and those right behind it.
@@ -303,9 +328,10 @@ impl Conductor {
         link.close().await;
     }
 
-    /// No robot is left driving by a controller that goes.
+    /// No robot is left driving by a controller that goes: it leaves once the robots have said that they stand, or the
+    /// controller waits for none any more.
     async fn end(mut self) {
-        let state = self.controller.snapshot(self.clock.now()).state;
+        let state = self.controller.state();
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
             let now = self.clock.now();
             // Without a broker, the run is over all the same: the next start is not to go on with it.
@@ -315,6 +341,14 @@ impl Conductor {
                 tracing::warn!("the robots could not be stopped: {refusal}");
             }
             self.drain();
+        }
+        // Orders of others come too late.
+        self.inbox.close();
+        while self.controller.state() == ControllerState::Aborting {
+            match self.input().await {
+                Input::Order(_) => {}
+                input => self.turn(input).await,
+            }
         }
         self.leave().await;
         let Self { recorder, mut controller, .. } = self;
