@@ -20,6 +20,7 @@ use super::orders::ConductorOrder;
 use super::pace::Pace;
 use super::recorder::{Recorder, RecordingTarget};
 use super::rivals::{self, Rivals};
+use crate::say;
 use crate::stop::Stop;
 
 pub use super::handle::Handle;
@@ -339,6 +340,9 @@ impl Conductor {
             let stopped = stopped.or_else(|_| self.controller.operate(now, Operation::Abort));
             if let Err(refusal) = stopped {
                 tracing::warn!("the robots could not be stopped: {refusal}");
+            }
+            if self.controller.state() == ControllerState::Aborting {
+                say::note("Stopping the robots (Ctrl-C again leaves at once)");
             }
             self.drain();
         }

@@ -286,6 +286,7 @@ fn a_closed_terminal_stops_the_robots_as_ctrl_c_does() {
         (copies >= 3).then_some(())
     });
     assert_eq!(server.end(), 0);
+    assert!(server.err().contains("Stopping the robots"));
 }
 
 #[cfg(target_os = "linux")]
