@@ -50,8 +50,8 @@ impl Stop {
 
     /// A wish to stop that comes true with this one, or earlier.
     pub fn child(&self) -> (Self, End) {
-        let (sender, wanted) = watch::channel(false);
-        let (end, parent) = (End(sender.clone()), self.clone());
+        let (child, end) = self.apart();
+        let (sender, parent) = (end.0.clone(), self.clone());
         tokio::spawn(async move {
             tokio::select! {
                 () = parent.wait() => {
@@ -60,7 +60,7 @@ impl Stop {
                 () = sender.closed() => {}
             }
         });
-        (Self { wanted, phase: self.phase.clone() }, end)
+        (child, end)
     }
 
     /// A wish to stop that comes true only by its [`End`], which must be kept until then.

@@ -56,8 +56,8 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
         () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
     };
     report.add_issues(&opened.issues);
+    // Not the link first: the robots of a run that failed are still being stopped.
     if !stop.is_wanted() {
-        handle.disconnect().await;
         end.now();
     }
     finish(&stop, task).await;
