@@ -263,6 +263,8 @@ pub enum Trouble {
     Blocked,
     /// Another robot has its name.
     Shared,
+    /// Its show clock is not precise yet.
+    Clock,
 }
 
 /// How a run ended.

@@ -16,6 +16,7 @@ impl fmt::Display for Trouble {
             Self::Missed => "did not reach its goal",
             Self::Blocked => "is blocked",
             Self::Shared => "shares its name with another robot",
+            Self::Clock => "is still setting its clock, as the link is slow",
         })
     }
 }

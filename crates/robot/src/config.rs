@@ -20,8 +20,8 @@ pub struct Config {
     pub heading_sigma_rad: f64,
     /// Share of their turning that the wheels lose, 1 sigma. The filter estimates the actual share.
     pub slip: f64,
-    /// Patience with the link. The robot stops and is cut off when the controller is silent for longer during a route.
-    /// The same happens when the link is down for longer during any drive.
+    /// Patience with the link. The robot brakes and is cut off when the controller is silent for longer during a route.
+    /// The same happens when the link is down for longer during any drive. It stands 0.3 s later at the latest.
     pub silence: Span,
     /// Time between position fixes.
     pub fix_pace: Span,
@@ -217,7 +217,7 @@ impl Config {
                 .unwrap_or_default(),
             fix_delay: Span::ZERO,
             fix_pace: Span::from_millis(16),
-            silence: Span::from_millis(2000),
+            silence: Span::from_millis(1900),
             seed: 0,
             fix_sigma_m: 0.002,
             heading_sigma_rad: 0.0175,

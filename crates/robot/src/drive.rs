@@ -90,6 +90,22 @@ impl DriveBase {
         self.wheels(slip, limits)
     }
 
+    /// The setpoint of a robot that has nothing to do: to stand by the ramp, on the curve that it drives. Robots close
+    /// behind see that in time, which they do not where a robot stops dead.
+    pub(crate) fn rolling_out(&self, dt: f64, limits: &Limits) -> Setpoint {
+        if !self.rolls() {
+            return Setpoint::default();
+        }
+        let Setpoint { speed_mps, turn_radps } = self.commanded;
+        let next_mps = speed_mps - within(speed_mps, limits.accel_mps2 * ACCEL_RESERVE * dt);
+        Setpoint { speed_mps: next_mps, turn_radps: turn_radps * next_mps / speed_mps }
+    }
+
+    /// Whether it is commanded to drive, and not only to turn.
+    pub(crate) fn rolls(&self) -> bool {
+        self.commanded.speed_mps.abs() >= STANDING_MPS
+    }
+
     /// Distance to a stop by the ramp, metres.
     pub(crate) fn braking_m(&self, limits: &Limits) -> f64 {
         let speed_mps = self.commanded.speed_mps.abs();
@@ -109,7 +125,7 @@ impl DriveBase {
 
     /// Whether the command is to stand, or nearly so.
     pub(crate) fn stands(&self) -> bool {
-        self.commanded.speed_mps.abs() < STANDING_MPS && self.commanded.turn_radps.abs() < STANDING_RADPS
+        !self.rolls() && self.commanded.turn_radps.abs() < STANDING_RADPS
     }
 
     /// Wheel rates of the command. Where one exceeds the motor's limit, both are scaled, so that the curve stays.
@@ -182,6 +198,26 @@ mod tests {
             way_m += drive.step(Setpoint::default(), [0.0; 2], 0.016, &Limits::ELISA_3)[0] * 0.0045 * 0.016;
         }
         assert!((expected_m - way_m).abs() < 0.002, "{expected_m} {way_m}");
+    }
+
+    #[test]
+    fn rolling_out_it_keeps_its_curve_and_brakes_by_the_ramp() {
+        let mut drive = DriveBase::default();
+        for _ in 0..40 {
+            drive.step(Setpoint { speed_mps: 0.27, turn_radps: 1.35 }, [0.0; 2], 0.016, &Limits::ELISA_3);
+        }
+        let mut steps = 0;
+        while drive.rolls() {
+            let Setpoint { speed_mps, turn_radps } = drive.commanded;
+            assert!((turn_radps / speed_mps - 5.0).abs() < 0.01, "{turn_radps} {speed_mps}");
+            let wanted = drive.rolling_out(0.016, &Limits::ELISA_3);
+            drive.step(wanted, [0.0; 2], 0.016, &Limits::ELISA_3);
+            let lost_mps = speed_mps - drive.speed_mps();
+            assert!(lost_mps > 0.0 && lost_mps < 0.0201, "{lost_mps}");
+            steps += 1;
+        }
+        assert_eq!(steps, 14);
+        assert_eq!(drive.rolling_out(0.016, &Limits::ELISA_3), Setpoint::default());
     }
 
     #[test]

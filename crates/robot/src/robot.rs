@@ -38,7 +38,6 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if hot.supervisor.check_link(now, drives) {
             hot.seek = None;
             hot.routes.abandon();
-            hot.drive.halt();
         }
         hot.supervisor.receive(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.

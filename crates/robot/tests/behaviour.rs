@@ -66,9 +66,10 @@ fn after_a_pause_longer_than_its_patience_a_message_does_not_set_a_robot_going_a
     plant.now += Span::from_millis(2_500);
     plant.lag += Span::from_millis(2_500);
     plant.tell(&Command::Status);
-    plant.run(0.1);
+    let from = plant.at;
+    plant.run(0.3);
     assert_eq!(plant.robot.state(), RobotState::Idle);
-    assert!(plant.stands());
+    assert!(plant.stands() && plant.at.distance(from) < 0.04, "{:?}", plant.at);
 }
 
 #[test]
@@ -241,7 +242,9 @@ fn a_controller_that_says_nothing_on_the_way_to_a_target_is_an_original_one() {
     plant.tell(&Command::Target(Vec2::ZERO));
     plant.run(0.5);
     plant.robot.link(plant.now, false);
-    plant.run(2.1);
+    plant.run(2.0);
+    assert_eq!(plant.robot.state(), RobotState::Driving);
+    plant.run(0.2);
     assert!(plant.stands());
     assert_eq!(plant.robot.state(), RobotState::Cut);
 }

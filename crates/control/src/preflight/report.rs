@@ -90,7 +90,7 @@ impl PreflightFinding {
             Self::OffHeading { .. } => "Look whether one wheel is bent, worn or blocked.",
             Self::DrivesAskew { .. } => "Turn its marker straight, and look whether one wheel is bent.",
             Self::DidNotStop => "Keep it off the floor until its firmware is updated or replaced.",
-            Self::Failed(Trouble::Silent | Trouble::Deaf | Trouble::Cut) => {
+            Self::Failed(Trouble::Silent | Trouble::Deaf | Trouble::Cut | Trouble::Clock) => {
                 "Charge it, switch it off and on, and look at the network."
             }
             Self::Failed(Trouble::Lost | Trouble::Unsure) => "Bring it into sight of the positioning.",

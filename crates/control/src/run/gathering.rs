@@ -5,6 +5,7 @@ use crate::journal::Position;
 use crate::leg::LegKind;
 use crate::mutant::Mutant;
 use crate::operation::MissingPolicy;
+use crate::run::clock_wait::PRECISE_US;
 use crate::run::next::{AirTime, Next};
 use crate::run::path_clock::{Hold, PathClock};
 use crate::run::readiness::missing;
@@ -136,7 +137,7 @@ impl Gathering {
             return Next::Drop(overdue);
         }
         if unready.is_empty() {
-            return self.end(cx);
+            return if waits_for_clocks(cx) { Next::Stay } else { self.end(cx) };
         }
         if cx.now >= self.ask_at {
             self.ask_at = cx.now + ASK;
@@ -207,6 +208,25 @@ fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
         None => soonest,
     };
     (cx.now < at + Route::EASE && at < clock.ends).then_some(at)
+}
+
+/// Whether all wait on for robots whose clocks are not precise yet. It is said once, of the least precise one.
+fn waits_for_clocks(cx: &mut RunContext) -> bool {
+    let clock_us = |robot: usize| cx.io.fleet.robot(robot).reported.clock_us.unwrap_or(0);
+    let clocks = cx.roster.active().map(|(one, known)| (clock_us(known.robot), one));
+    let worst = clocks.max().filter(|&(us, _)| us > PRECISE_US);
+    let begins = !cx.tally.clock_wait.is_on();
+    let passed = worst.and_then(|_| cx.tally.clock_wait.look(cx.now));
+    let (Some((_, worst)), Some(passed)) = (worst, passed) else {
+        cx.tally.clock_wait.end();
+        return false;
+    };
+    // It is the link that costs this time, and not a robot that dropped out.
+    cx.tally.recovery.put_off(passed);
+    if begins {
+        cx.report_waiting(worst, Trouble::Clock);
+    }
+    true
 }
 
 /// Asks robots for what they lack.

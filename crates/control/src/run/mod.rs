@@ -4,6 +4,7 @@
 //! phase. A phase sees the rest of the run as a [`RunContext`]; it never sees [`Run`].
 
 mod candidates;
+mod clock_wait;
 mod driving;
 mod gathering;
 mod interrupted;

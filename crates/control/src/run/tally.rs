@@ -1,5 +1,6 @@
 //! What a run counts: frames, dropouts, arrivals, and what recovery has cost.
 
+use crate::run::clock_wait::ClockWait;
 use crate::run::recovery_bound::RecoveryBound;
 use lightbots_base::Instant;
 
@@ -14,6 +15,8 @@ pub(crate) struct Tally {
     pub taken_up: u32,
     /// Bound on the replans and the time of recovery.
     pub recovery: RecoveryBound,
+    /// How long it has waited for clocks.
+    pub clock_wait: ClockWait,
     /// The first and the last arrival at a place in the next frame, whichever legs lead there.
     pub arrivals: Option<(Instant, Instant)>,
 }

@@ -22,12 +22,15 @@ const CREEP_MPS: f64 = 0.08;
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Wheel rates until the next step, left and right, rad/s.
     pub(super) fn act(&mut self, now: Instant, route_time: Option<Instant>, took: Span) -> [f64; 2] {
-        if self.hot.supervisor.faulty(now) || self.hot.supervisor.is_cut() {
+        if self.hot.supervisor.faulty(now) {
             return self.hot.drive.halt();
         }
-        let wanted = if self.is_lost_now() { None } else { self.want(route_time, took) };
-        let wanted = if self.pauses() { Setpoint::default() } else { wanted.unwrap_or_default() };
         let dt = took.as_secs();
+        let may_drive = !self.hot.supervisor.is_cut() && !self.is_lost_now();
+        let wanted = if may_drive { self.want(route_time, took) } else { None };
+        let pauses = self.pauses();
+        let wanted =
+            wanted.filter(|_| !pauses).unwrap_or_else(|| self.hot.drive.rolling_out(dt, &self.hot.limits));
         let wheels = if self.hot.is_wary {
             self.drive_warily(wanted, dt)
         } else {
@@ -43,7 +46,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     #[inline(never)]
     fn drive_warily(&mut self, wanted: Setpoint, dt: f64) -> [f64; 2] {
         let hot = &mut self.hot;
-        let most_mps = if hot.routes.under_way() {
+        let rolls_out = !hot.routes.under_way() && hot.seek.is_none() && hot.drive.rolls();
+        let most_mps = if hot.routes.under_way() || rolls_out {
             let [speed_mps, told_mps] = [wanted.speed_mps, hot.drive.speed_mps()].map(|mps| mps as f32);
             let wish = Wish { speed_mps, told_mps, dt: dt as f32 };
             let are_told = hot.routes.tells_neighbours(hot.range_m, self.storage.borrow());
@@ -57,6 +61,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         hot.drive.gently = self.reflex.sees_strays();
         let slip = hot.estimate.slip();
         match (self.reflex.blocked_mps(), most_mps) {
+            // It was to stand anyway.
+            (Some(_), _) if rolls_out => hot.drive.halt(),
             // Held, it may turn on the spot for what comes.
             (Some(0.0), _) if !hot.routes.rests_held() => hot.drive.halt(),
             (Some(speed_mps), _) if !hot.routes.rests_held() => {

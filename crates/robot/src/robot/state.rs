@@ -150,13 +150,13 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     pub(super) fn current_state(&self, route_time: Option<Instant>) -> RobotState {
         if self.hot.supervisor.is_faulty() {
             RobotState::Faulty
-        } else if self.hot.supervisor.is_cut() {
+        } else if self.hot.supervisor.is_cut() && !self.hot.drive.rolls() {
             RobotState::Cut
         } else if self.is_lost_now() {
             RobotState::Lost
         } else if self.hot.routes.held(route_time) {
             RobotState::Held
-        } else if self.hot.routes.under_way() || self.hot.seek.is_some() {
+        } else if self.hot.routes.under_way() || self.hot.seek.is_some() || self.hot.drive.rolls() {
             RobotState::Driving
         } else if self.hot.routes.keeps_one() {
             RobotState::Ready

@@ -5,6 +5,10 @@ use lightbots_sim::Campaign;
 /// Robots of each fixed seed.
 const ROBOTS: usize = 30;
 
+/// Seeds in which robots set off with clocks that were up to 0.1 s apart, or stopped dead in silence before others that had
+/// heard something later, and touched.
+const SLOW: [u64; 5] = [233, 703, 710, 1_091, 1_337];
+
 /// Seeds that failed once, with the number of robots they had then.
 const FAILED: [(u64, Option<usize>); 31] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
@@ -96,6 +100,11 @@ fn seeds_in_which_clocks_jump_are_fine() {
 #[test]
 fn seeds_that_failed_once_are_fine() {
     FAILED.iter().for_each(|&(seed, robots)| is_fine(seed, robots));
+}
+
+#[test]
+fn seeds_that_failed_on_slow_links_are_fine() {
+    SLOW.iter().for_each(|&seed| is_fine(seed, None));
 }
 
 #[test]

@@ -112,6 +112,17 @@ fn lost_late_doubled_and_overtaken_messages_cost_time_and_nothing_else() {
 }
 
 #[test]
+fn a_show_on_a_slow_link_waits_for_precise_clocks_and_no_robot_brakes() {
+    // Robots set off with clocks that were 0.1 s apart, and braked for others where nothing was wrong.
+    for seed in 1..=3 {
+        let report = play(&show(28), "delay=5..250ms", seed);
+        assert_fine(&report);
+        assert!(report.clock_spread_s.max < 0.06, "seed {seed}: {:?}", report.clock_spread_s);
+        assert_eq!(report.brakes.unfounded, 0, "seed {seed}: {:?}", report.issues);
+    }
+}
+
+#[test]
 fn an_ideal_world_is_met_to_the_millimetre() {
     // Seed 1 failed: with no delay at all, a route came at the very moment its predecessor began, and replaced it.
     let options = RehearsalOptions { conditions: Conditions::ideal(), ..RehearsalOptions::default() };

@@ -74,6 +74,8 @@ fn happened(why: Trouble, count: usize) -> &'static str {
         Trouble::Blocked => "are blocked",
         Trouble::Shared if one => "shares its name with another robot",
         Trouble::Shared => "share their names with other robots",
+        Trouble::Clock if one => "is still setting its clock",
+        Trouble::Clock => "are still setting their clocks",
     }
 }
 
@@ -99,6 +101,9 @@ fn advice(why: Trouble) -> &'static str {
         }
         Trouble::Blocked => "Take away what stands in its way. It takes part again from the next frame on.",
         Trouble::Shared => "Switch one of the two off, or give it another name.",
+        Trouble::Clock => {
+            "The show goes on within half a minute. If this comes back, look at the radio link: its messages are late."
+        }
     }
 }
 
@@ -106,7 +111,7 @@ fn advice(why: Trouble) -> &'static str {
 mod tests {
     use super::*;
 
-    const ALL: [Trouble; 10] = [
+    const ALL: [Trouble; 11] = [
         Trouble::Late,
         Trouble::Silent,
         Trouble::Deaf,
@@ -117,6 +122,7 @@ mod tests {
         Trouble::Missed,
         Trouble::Blocked,
         Trouble::Shared,
+        Trouble::Clock,
     ];
 
     fn names(count: usize) -> Vec<String> {
