@@ -77,7 +77,7 @@ fn cut_off_on_a_route_it_stands_after_two_seconds() {
     plant.answers = false;
     plant.robot.link(plant.now, false);
     let after_s = stands_after(&mut plant);
-    assert!((1.0..=2.2).contains(&after_s), "{after_s} s");
+    assert!((1.0..=2.15).contains(&after_s), "{after_s} s");
     plant.step();
     assert_eq!(plant.robot.state(), RobotState::Cut);
     plant.run(0.5);
@@ -98,7 +98,7 @@ fn a_controller_that_falls_silent_is_as_good_as_a_broken_link() {
     let mut plant = driving();
     plant.answers = false;
     let after_s = stands_after(&mut plant);
-    assert!((1.0..=2.2).contains(&after_s), "{after_s} s");
+    assert!((1.0..=2.15).contains(&after_s), "{after_s} s");
     plant.step();
     assert_eq!(states(&plant.heard(Topic::Status)).last(), Some(&RobotState::Cut));
     plant.run(0.5);

@@ -16,7 +16,8 @@ use lightbots_wire::RobotState;
 /// A robot that fell silent died at most this long after its last report: driving robots report every 500 ms (R41).
 const UNREPORTED: Span = Span::from_millis(600);
 
-/// How long a robot drives on whose link broke, by R43 of docs/protocol.md: until 2 s after the last message to it.
+/// How long a robot drives on whose link broke, by R43 of docs/protocol.md. It rolls out from 1.9 s after the last message
+/// to it on, and comes to rest where it would have been after 2 s.
 pub(crate) struct LinkLoss {
     /// Least time that it drives on after its last report.
     pub drives_on: Span,

@@ -5,8 +5,8 @@ use lightbots_sim::Campaign;
 /// Robots of each fixed seed.
 const ROBOTS: usize = 30;
 
-/// Seeds in which robots set off with clocks that were up to 0.1 s apart, or stopped dead in silence before others that had
-/// heard something later, and touched.
+/// Seeds with slow links that failed once, with as many robots as they say. Robots set off with clocks that were up to 0.1 s
+/// apart, or stopped dead in silence before others that had heard something later.
 const SLOW: [u64; 5] = [233, 703, 710, 1_091, 1_337];
 
 /// Seeds that failed once, with the number of robots they had then.
