@@ -37,7 +37,7 @@ pub struct Account {
 }
 
 /// Steps between two places of a track.
-const STEPS_A_PLACE: u32 = 6;
+pub const STEPS_A_PLACE: u32 = 6;
 
 /// A floor with a thread that steps it.
 pub struct Floor {

@@ -17,10 +17,11 @@ use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use floor::{Account, Floor};
+use floor::{Account, Floor, STEPS_A_PLACE};
 use lightbots_base::{RobotId, Span, Vec2};
 use lightbots_exchange::{Format, LIGHTBOTS, ORIGINAL, for_file};
 use lightbots_show::{Show, Stage};
+use lightbots_sim::STEP;
 use pace::Pace;
 use processes::{Running, built, mosquitto, stand_in};
 use tape::{Score, Tape};
@@ -212,9 +213,13 @@ fn a_robot_whose_driver_is_killed_stops_by_itself() {
     let account = floor.close();
     let _ = std::fs::remove_dir_all(&folder);
     let track = &account.tracks[0];
-    let driven_m = |pair: &[(Instant, Vec2)]| pair[0].1.distance(pair[1].1);
-    let fastest_mps = track.windows(2).map(driven_m).fold(0.0, f64::max) / 0.096;
-    assert!((0.24..0.27).contains(&fastest_mps), "it drove: {fastest_mps} m/s");
+    // The usual speed at cruise: after a pause of the machine a robot catches up with its route for a moment.
+    let cruising = track.iter().filter(|(moment, at)| *moment <= killed && at.distance(start) > 0.1);
+    let cruising: Vec<Vec2> = cruising.map(|(_, at)| *at).collect();
+    let mut driven_m: Vec<f64> = cruising.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
+    driven_m.sort_by(f64::total_cmp);
+    let usual_mps = driven_m[driven_m.len() / 2] / (f64::from(STEPS_A_PLACE) * STEP.as_secs());
+    assert!((0.24..0.27).contains(&usual_mps), "it drove: {usual_mps} m/s");
     let last_driven = track.iter().rfind(|(moment, _)| *moment <= killed).expect("it drove before");
     let rolled_m = account.places[0].distance(last_driven.1);
     // Up to 25 mm are from the last place of the track to when it was killed.
