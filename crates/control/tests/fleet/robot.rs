@@ -35,6 +35,7 @@ pub struct Robot {
     pub running: Option<(Route, Instant)>,
     pub held: Span,
     pub hold_since: Option<Instant>,
+    resumed_at: Option<Instant>,
     finished: u32,
     synchronised: bool,
     pub fade: Option<(Instant, Rgb)>,
@@ -67,6 +68,7 @@ impl Robot {
             running: None,
             held: Span::ZERO,
             hold_since: None,
+            resumed_at: None,
             finished: 0,
             synchronised: false,
             fade: None,
@@ -182,6 +184,7 @@ impl Robot {
             Command::Resume { at } => {
                 if let Some(since) = self.hold_since.take() {
                     self.held += at - since;
+                    self.resumed_at = Some(at);
                 }
             }
             Command::Stop => {
@@ -213,7 +216,7 @@ impl Robot {
         if let Some((route, Some(at))) = self.kept.take_if(|(_, starts)| starts.is_some_and(|at| at <= show))
         {
             self.running = Some((route, at));
-            (self.held, self.hold_since) = (Span::ZERO, None);
+            (self.held, self.hold_since, self.resumed_at) = (Span::ZERO, None, None);
         }
         self.turn();
         self.drive(now, show, dt);
@@ -238,15 +241,34 @@ impl Robot {
         }
     }
 
+    /// Path time by R38: in a hold its rate falls evenly to zero, and rises evenly after it.
+    fn path_time(&self, show: Instant, began: Instant) -> Span {
+        let eased = |elapsed: Span| {
+            let eased = elapsed.clamp(Span::ZERO, Route::EASE).as_secs();
+            Span::from_secs(eased * eased / (2.0 * Route::EASE.as_secs()))
+        };
+        let free = |show: Instant| show - began - self.held;
+        match (self.hold_since, self.resumed_at) {
+            (Some(since), _) if show > since => {
+                let slowing = (show - since).min(Route::EASE);
+                free(since) + slowing - eased(slowing)
+            }
+            (None, Some(at)) => {
+                let picking_up = (show - at).clamp(Span::ZERO, Route::EASE);
+                free(show.max(at)) + Route::EASE / 2 - picking_up + eased(picking_up)
+            }
+            _ => free(show),
+        }
+    }
+
     fn drive(&mut self, now: Instant, show: Instant, dt: Span) {
         if let Some((route, began)) = self.running.clone() {
             if now - self.heard > Span::from_millis(2_000) {
                 self.stop();
                 return;
             }
-            let until = self.hold_since.map_or(show, |since| since.min(show));
             let path = PathRef::new(route.start, &route.pieces);
-            let time = Span::from_secs((until - began - self.held).as_secs() * self.pace);
+            let time = Span::from_secs(self.path_time(show, began).as_secs() * self.pace);
             if !self.stuck {
                 self.at = path.at(time).position;
             }
