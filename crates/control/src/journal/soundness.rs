@@ -2,7 +2,7 @@
 //! not by which program.
 
 use super::{JournalState, ParticipantEntry, Position};
-use crate::run::{AirTime, PathClock, Probation, Whereabouts};
+use crate::run::{AirTime, PathClock, Probation, StopTimes, Whereabouts};
 use lightbots_base::{Instant, Span, Vec2};
 use std::collections::BTreeSet;
 
@@ -41,7 +41,8 @@ impl Position {
     fn is_sound(&self) -> bool {
         let is_air =
             |air: AirTime| is_moment(air.since) && is_moment(air.until) && air.left.is_none_or(is_span);
-        self.drive.is_none_or(is_clock) && self.stood.is_none_or(is_air)
+        let are_moments = |stops: StopTimes| is_moment(stops.began) && is_moment(stops.stood);
+        self.drive.is_none_or(is_clock) && self.stops.is_none_or(are_moments) && self.stood.is_none_or(is_air)
     }
 }
 

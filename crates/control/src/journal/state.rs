@@ -3,7 +3,7 @@
 use super::LegEntry;
 use crate::frame_cursor::FrameCursor;
 use crate::operation::MissingPolicy;
-use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, Whereabouts};
+use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, StopTimes, Whereabouts};
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_show::Show;
 use lightbots_wire::Abilities;
@@ -88,6 +88,9 @@ pub(crate) struct RunProgress {
 pub(crate) struct Position {
     /// They drive the leg, or are about to: a silent robot may stand anywhere along it.
     pub drive: Option<PathClock>,
+    /// When those on the drive stopped, once it is broken off. It holds until they drive again, through any number of
+    /// outages.
+    pub stops: Option<StopTimes>,
     /// They stand in a frame: its air time goes on.
     pub stood: Option<AirTime>,
 }

@@ -110,13 +110,16 @@ impl Run {
             });
         }
         let roster = Roster { participants, begun: begun.at, ..Roster::default() };
-        // A robot that died before a hold may be what the others were held for, however long ago that was.
-        let held = progress.position.drive.and_then(|clock| clock.open_hold().map(|hold| hold.at));
-        let known = held.map_or(*at, |held| held.min(*at));
+        // A robot that died before a hold or stop may be the reason for it, however long ago that was. The journal does
+        // not say when each was heard last.
+        let mut left = progress.position;
+        let held = left.drive.and_then(|clock| clock.open_hold().map(|hold| hold.at));
+        let stopped = left.stops.map(|stops| stops.began);
+        let known = [held, stopped].into_iter().flatten().fold(*at, Instant::min);
         let began = Instant(known.0.saturating_sub(UNHEARD.0 as u64));
-        let stops = StopTimes { began, stood: *at + STANDS_AFTER };
-        let mut run =
-            Self::interrupted(now, playback, roster, leg, (progress.position, by_itself, stops, *at));
+        let stood = left.stops.map_or(*at + STANDS_AFTER, |stops| stops.stood);
+        left.stops = Some(StopTimes { began, stood });
+        let mut run = Self::interrupted(now, playback, roster, leg, (left, by_itself, *at));
         run.tally.frames_played = progress.frames_played as usize;
         run.tally.dropouts = progress.dropouts as usize;
         run.tally.taken_up = progress.taken_up + 1;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::frame_cursor::FrameCursor;
-use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, Whereabouts};
+use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, StopTimes, Whereabouts};
 use lightbots_base::{Instant, Rgb, RobotId, Span, StateHash, Vec2};
 use lightbots_show::{
     Asset, AssetHash, Cue, CuePlace, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show,
@@ -52,6 +52,7 @@ fn state() -> JournalState {
             taken_up: 1,
             position: Position {
                 drive: None,
+                stops: Some(StopTimes { began: Instant(5), stood: Instant(6) }),
                 stood: Some(AirTime { since: Instant(1), until: Instant(2), left: Some(Span(3)) }),
             },
         },
@@ -102,7 +103,8 @@ fn entry(changes: Vec<Change>) -> Entry {
 #[test]
 fn the_format_is_that_of_its_version() {
     let clock = PathClock::new(Instant(1), Span(2));
-    let progress = RunProgress { position: Position { drive: Some(clock), stood: None }, ..state().progress };
+    let progress =
+        RunProgress { position: Position { drive: Some(clock), ..Position::default() }, ..state().progress };
     let entry = entry(vec![
         Change::State(Box::new(state())),
         Change::Participant { number: 1, entry: state().participants[0].clone() },
@@ -121,7 +123,7 @@ fn the_format_is_that_of_its_version() {
         "a layer keeps its settings, a picture its codes"
     );
     hash.bytes(&bytes);
-    assert_eq!((VERSION, hash.finish()), (9, 4_269_216_062_360_278_075));
+    assert_eq!((VERSION, hash.finish()), (10, 1_145_183_479_020_222_906));
 }
 
 #[test]
@@ -137,7 +139,7 @@ fn entries_that_no_controller_writes_are_refused() {
     let first = entry(vec![Change::State(Box::new(state()))]);
     assert!(run(std::slice::from_ref(&first)).unwrap().is_some());
     let participant = |number| Change::Participant { number, entry: state().participants[0].clone() };
-    let drive = Position { drive: Some(PathClock::new(Instant(1), Span(2))), stood: None };
+    let drive = Position { drive: Some(PathClock::new(Instant(1), Span(2))), ..Position::default() };
     let drives = |leg: Vec<Change>| {
         let progress = Change::Progress(RunProgress { position: drive, ..state().progress });
         entry([leg, vec![progress]].concat())

@@ -11,7 +11,8 @@ use crate::run::path_clock::{Hold, PathClock};
 use crate::run::readiness::missing;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
-use crate::run::silence::{self, StopTimes};
+use crate::run::silence;
+use crate::run::stop_times::StopTimes;
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Route};
@@ -46,8 +47,6 @@ const BOUNDS: Bounds = Bounds {
 /// All are asked where they stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gathering {
-    /// When robots that drove stopped, or stop.
-    stops: StopTimes,
     /// Robots that receive messages stand then.
     since: Instant,
     /// Reports count from then on.
@@ -66,7 +65,6 @@ impl Gathering {
     /// All robots are known and nothing has to stop.
     pub fn at_begin(now: Instant) -> Self {
         Self {
-            stops: StopTimes { began: now, stood: now },
             since: now,
             fresh_from: Instant::ZERO,
             ask_at: now,
@@ -77,7 +75,7 @@ impl Gathering {
     }
 
     /// All stop; a drive is broken off, or a frame stood before.
-    pub fn begin(cx: &mut RunContext, left: Position) -> Self {
+    pub fn begin(cx: &mut RunContext, mut left: Position) -> Self {
         cx.io.outbox.stop_repeating();
         let held_from = left.drive.and_then(|clock| hold_before_stop(cx, &clock));
         let first_command = held_from.map_or(Command::Stop, |at| Command::Hold { at });
@@ -86,8 +84,8 @@ impl Gathering {
         let stop_at = held_from.map(|at| at + Route::EASE);
         let since = stop_at.unwrap_or(cx.now);
         let fresh_from = since + SETTLE + cx.link.round_trip;
+        left.stops.get_or_insert(StopTimes { began: held_from.unwrap_or(cx.now), stood: since });
         Self {
-            stops: StopTimes { began: held_from.unwrap_or(cx.now), stood: since },
             since,
             fresh_from,
             ask_at: fresh_from,
@@ -97,9 +95,9 @@ impl Gathering {
         }
     }
 
-    /// Robots had stopped before, when they were out of reach.
-    pub fn stopped(self, stops: StopTimes) -> Self {
-        Self { stops, ..self }
+    /// When robots are held, if STOP is still to come.
+    pub fn held_from(&self) -> Option<Instant> {
+        self.stop_at.map(|at| at - Route::EASE)
     }
 
     /// The frame that stood is left as soon as robots are ready.
@@ -190,13 +188,13 @@ impl Gathering {
 
     /// Where a participant may stand that fell silent on the drive that was broken off.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        silence::whereabouts_after(cx, self.left.drive.as_ref(), self.stops, participant)
+        silence::whereabouts_after(cx, &self.left, participant)
     }
 }
 
 /// When a drive is held before STOP. A lost STOP reaches its robot 40 ms later than the others, which is 11 mm at full
 /// speed and more than plans leave. `None` where robots stand, or stand before that.
-fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
+pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
     if cx.pipeline.leg().is_none_or(|leg| leg.kind == LegKind::Targets) {
         return None;
     }

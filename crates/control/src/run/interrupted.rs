@@ -9,7 +9,8 @@ use crate::run::link_loss::many_of;
 use crate::run::next::Next;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
-use crate::run::silence::{self, LINK_LOSS, StopTimes};
+use crate::run::silence::{self, LINK_LOSS};
+use crate::run::stop_times::StopTimes;
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Topic};
@@ -32,8 +33,6 @@ pub(crate) struct Interrupted {
     heard: Instant,
     /// What was going on.
     pub left: Position,
-    /// When robots that drove stopped.
-    pub stops: StopTimes,
     /// Robots that are back until then go on by themselves.
     by_itself_until: Instant,
     /// When enough robots had reported for the run to go on.
@@ -49,13 +48,12 @@ pub(crate) struct Interrupted {
 
 impl Interrupted {
     /// Nothing is known of robots since `now`. The run goes on by itself if they are back within `by_itself`.
-    pub fn begin(now: Instant, left: Position, by_itself: Span) -> Self {
-        let stops = StopTimes { began: now, stood: now };
+    pub fn begin(now: Instant, mut left: Position, by_itself: Span) -> Self {
+        left.stops.get_or_insert(StopTimes { began: now, stood: now });
         Self {
             since: now,
             heard: now,
             left,
-            stops,
             by_itself_until: now + by_itself,
             back_at: None,
             reported: (0, now),
@@ -63,11 +61,6 @@ impl Interrupted {
             is_halted: false,
             is_agreed: false,
         }
-    }
-
-    /// Robots that drove stopped then.
-    pub fn stopped(self, stops: StopTimes) -> Self {
-        Self { stops, ..self }
     }
 
     /// Every robot has reported since `heard`.
@@ -144,7 +137,7 @@ impl Interrupted {
 
     /// Where a participant may stand that did not report since.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        silence::whereabouts_after(cx, self.left.drive.as_ref(), self.stops, participant)
+        silence::whereabouts_after(cx, &self.left, participant)
     }
 
     /// Participants that have not reported since.

@@ -300,11 +300,11 @@ impl Run {
     /// Robots report again: all say where they stand, and all is planned again from there.
     fn go_on_from_where_robots_stand(&mut self, io: &mut Context, now: Instant) {
         let RunPhase::Interrupted(interrupted) = &self.phase else { return };
-        let Interrupted { left, stops, .. } = *interrupted;
+        let left = interrupted.left;
         self.tally.recovery.put_off(now - interrupted.since);
         self.link.reconnected = Some(now);
         self.report_replanning(io, now);
-        let gathering = Gathering::begin(&mut self.split(io, now).1, left).stopped(stops);
+        let gathering = Gathering::begin(&mut self.split(io, now).1, left);
         self.enter(RunPhase::Gathering(gathering));
     }
 

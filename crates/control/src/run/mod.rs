@@ -37,6 +37,7 @@ mod show_times;
 mod silence;
 mod standing;
 mod starting;
+mod stop_times;
 mod tally;
 mod target_commands;
 mod target_progress;
@@ -52,7 +53,7 @@ pub(crate) use phase::RunPhase;
 pub(crate) use playback::{PlayedShow, RunPurpose};
 pub(crate) use preflight_check::PreflightCheck;
 pub(crate) use roster::{Participant, Roster, Whereabouts};
-pub(crate) use silence::StopTimes;
+pub(crate) use stop_times::StopTimes;
 
 use crate::context::Context;
 use crate::event::{EventKind, RunOutcome, Trouble};
@@ -117,7 +118,7 @@ impl Run {
         playback: PlayedShow,
         roster: Roster,
         leg: Option<Leg>,
-        (left, by_itself, stops, heard): (Position, Span, StopTimes, Instant),
+        (left, by_itself, heard): (Position, Span, Instant),
     ) -> Self {
         let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::new(&leg), leg });
         Self {
@@ -125,9 +126,7 @@ impl Run {
             playback,
             roster,
             link: LinkEstimate::default(),
-            phase: RunPhase::Interrupted(
-                Interrupted::begin(now, left, by_itself).stopped(stops).heard(heard),
-            ),
+            phase: RunPhase::Interrupted(Interrupted::begin(now, left, by_itself).heard(heard)),
             tally: Tally::default(),
             preflight: None,
         }

@@ -37,11 +37,12 @@ impl RunPhase {
         match self {
             Self::Gathering(gathering) => gathering.left,
             Self::Interrupted(interrupted) => interrupted.left,
-            Self::Standing(standing) => Position { drive: None, stood: Some(standing.air) },
-            Self::Driving(drive) => Position { drive: Some(drive.clock), stood: None },
+            Self::Standing(standing) => Position { stood: Some(standing.air), ..Position::default() },
+            Self::Driving(drive) => Position { drive: Some(drive.clock), ..Position::default() },
             Self::Starting(starting) => {
                 let leg = pipeline.queue.front();
-                Position { drive: leg.map(|leg| PathClock::new(starting.at, leg.duration)), stood: None }
+                let drive = leg.map(|leg| PathClock::new(starting.at, leg.duration));
+                Position { drive, ..Position::default() }
             }
             Self::Over(..) => Position::default(),
         }

@@ -3,14 +3,16 @@
 //! The robot may have died. Or its reports are lost, and it holds with the others. Or its link broke, and it drives on
 //! along its path until it stops by itself.
 
+use crate::journal::Position;
 use crate::leg::Leg;
 use crate::robot::KnownRobot;
 use crate::run::path_clock::PathClock;
 use crate::run::pipeline::DrivenLeg;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
+use crate::run::stop_times::StopTimes;
 use crate::run::target_progress::TargetProgress;
-use lightbots_base::{Instant, Span, Vec2};
+use lightbots_base::{Span, Vec2};
 use lightbots_wire::RobotState;
 
 /// A robot that fell silent died at most this long after its last report: driving robots report every 500 ms (R41).
@@ -46,15 +48,6 @@ const STRAIGHT_STEP_M: f64 = 0.03;
 /// kept, because other robots pass these as near as the planner allows.
 const SAME_PLACE_M: f64 = 0.002;
 
-/// A drive that was stopped.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct StopTimes {
-    /// Robots began to stop then …
-    pub began: Instant,
-    /// … and stood then.
-    pub stood: Instant,
-}
-
 /// Where a silent robot may stand. Likely are places along its path from where it last said to be, if it died, and where
 /// its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by itself, if
 /// it receives nothing either. A robot that has said since the drive began that it stands is where it said.
@@ -88,17 +81,14 @@ pub(crate) fn whereabouts(
     Whereabouts { possible, likely }
 }
 
-/// [`whereabouts`] of a participant once the drive of this clock was broken off; nowhere else than it reported: none was.
-pub(crate) fn whereabouts_after(
-    cx: &RunContext,
-    drive: Option<&PathClock>,
-    stops: StopTimes,
-    participant: usize,
-) -> Whereabouts {
-    let (Some(clock), Some(DrivenLeg { leg, targets })) = (drive, &cx.pipeline.driven) else {
+/// [`whereabouts`] of a participant once a drive was broken off; nowhere else than it reported: none was.
+pub(crate) fn whereabouts_after(cx: &RunContext, left: &Position, participant: usize) -> Whereabouts {
+    let (Position { drive: Some(clock), stops: Some(stops), .. }, Some(DrivenLeg { leg, targets })) =
+        (left, &cx.pipeline.driven)
+    else {
         return Whereabouts::default();
     };
-    whereabouts((leg, targets), clock, stops, participant, cx.robot(participant))
+    whereabouts((leg, targets), clock, *stops, participant, cx.robot(participant))
 }
 
 /// Places without those that are as good as the one before.

@@ -273,7 +273,11 @@ impl Invariants {
         };
         let out: Vec<usize> = (0..self.robots.len()).filter(is_out).collect();
         for (robot, standing) in self.routes.look(now, robots, &out) {
-            let what = format!("the route of robot {robot} leads through robot {standing}, which is out");
+            let at = robots.world.places()[standing];
+            let what = format!(
+                "the route of robot {robot} leads through robot {standing}, which is out, at ({:.3}, {:.3}) m",
+                at.x, at.y
+            );
             self.violate(now, "routes", what);
         }
     }
