@@ -26,12 +26,13 @@ struct Sigma {
 /// 1 sigma each.
 const SIGMA: Sigma = Sigma { range_m: 0.002, bearing_m: 0.018, path_m: 0.002, pushed_m: 0.008 };
 
-/// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200.
-const PUSHED_M: f64 = 0.1;
+/// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200. What is
+/// seen farther off is something else.
+const PUSHED_M: f64 = 0.05;
 /// Largest difference in range at which a robot that reported its place explains a sighting, metres: 4 sigma.
 const KNOWN_RANGE_M: f64 = 0.008;
-/// Largest difference in bearing at which it does, radians: half the angle between two sensors.
-const KNOWN_BEARING: f64 = 0.4;
+/// Largest error in bearing of a sighting, radians: half the angle between two sensors.
+const BEARING: f64 = 0.4;
 /// Places are tried this far apart, metres.
 const SEARCH_STEP_M: f64 = 0.001;
 /// Number of steps to each side of the mean of all sightings: farther than a sensor's bearing is off.
@@ -61,11 +62,18 @@ impl Sighting {
         direction.map_or(self.there, |unit| self.from + unit * self.from.distance(self.there))
     }
 
+    /// How far the robot is from a place at least, metres: as far away as what was seen, in about its direction.
+    fn off_m(&self, place: Vec2) -> f64 {
+        let (seen, there) = (self.there - self.from, place - self.from);
+        let aside = wrap(there.angle() - seen.angle()).clamp(-BEARING, BEARING);
+        (self.from + Vec2::unit(seen.angle() + aside) * seen.length()).distance(place)
+    }
+
     /// Whether a robot that stands at a place explains it.
     pub fn is_of(&self, at: Vec2) -> bool {
         let (seen, known) = (self.there - self.from, at - self.from);
         let aside = wrap(seen.angle() - known.angle()).abs();
-        (seen.length() - known.length()).abs() < KNOWN_RANGE_M && aside < KNOWN_BEARING
+        (seen.length() - known.length()).abs() < KNOWN_RANGE_M && aside < BEARING
     }
 }
 
@@ -75,7 +83,7 @@ impl Sighting {
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     let mut path: Vec<Vec2> = places.to_vec();
     path.extend(between(places));
-    let near_path = |seen: &&Sighting| path.iter().any(|place| place.distance(seen.there) < PUSHED_M);
+    let near_path = |seen: &&Sighting| path.iter().any(|place| seen.off_m(*place) < PUSHED_M);
     let mut left: Vec<Sighting> = sightings.iter().filter(near_path).copied().collect();
     let mut found = Vec::new();
     // Two groups are two robots, or one robot that is seen from two sides with wrong bearings: both places count.
@@ -163,6 +171,20 @@ mod tests {
         let found = located(&path(), &[behind, beside]);
         assert_eq!(found.len(), 1);
         assert!(found[0].distance(stands) < 0.004, "{found:?}");
+    }
+
+    #[test]
+    fn what_no_push_explains_leaves_a_silent_robot_where_it_is() {
+        let stands = Vec2::new(0.0, 0.1);
+        for (from, there, moves) in [
+            (Vec2::new(0.075, 0.0), Vec2::new(0.005, 0.0), false),
+            (Vec2::new(0.075, 0.08), Vec2::new(0.005, 0.08), true),
+            (Vec2::new(0.0, 0.03), Vec2::new(0.05, 0.08), true),
+        ] {
+            let mut places = vec![stands];
+            narrow(&mut places, &[Sighting { from, there }]);
+            assert_eq!(places != [stands], moves, "{there:?}: {places:?}");
+        }
     }
 
     #[test]
