@@ -24,6 +24,9 @@ const TRYING: Span = Span::from_millis(1500);
 const STRAYED_M: f64 = 0.0055;
 /// Distance at which it is back, metres. The gap to [`STRAYED_M`] is hysteresis.
 const BACK_M: f64 = 0.004;
+/// Distance to the begin of a kept route at which a robot turns towards it, metres, as in the arrival test (R17). Farther
+/// off, where a route was aborted, it does not drive that route.
+const BEGINS_HERE_M: f64 = 0.02;
 /// A route whose number is at most this much below the newest is an old message that came late. Beyond, the controller
 /// began anew.
 const OLD_NUMBERS: u32 = 64;
@@ -41,6 +44,7 @@ struct Kept {
     slot: Slot,
     seq: u32,
     follow: Follow,
+    begin: Vec2,
     ahead: Option<Vec2>,
     starts: Option<Instant>,
 }
@@ -97,7 +101,14 @@ impl Routes {
         }
         let ahead = LookAhead::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
         let slot = self.running.as_ref().map_or(Slot::First, |running| running.slot.other());
-        self.kept = Some(Kept { slot, seq: route.seq, starts: None, follow: Follow::new(), ahead });
+        self.kept = Some(Kept {
+            slot,
+            seq: route.seq,
+            starts: None,
+            follow: Follow::new(),
+            begin: route.start,
+            ahead,
+        });
         storage.put(slot, route);
     }
 
@@ -256,7 +267,7 @@ impl Routes {
 
     /// Turns towards the first direction of the kept route while no other motion is due.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
-        let kept = self.kept.as_mut()?;
+        let kept = self.kept.as_mut().filter(|kept| kept.begin.distance(body.at) < BEGINS_HERE_M)?;
         Some(kept.follow.prepare(kept.ahead?, body))
     }
 

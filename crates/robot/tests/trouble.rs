@@ -148,6 +148,19 @@ fn a_robot_that_waits_for_its_start_does_not_turn_in_silence() {
 }
 
 #[test]
+fn a_robot_that_aborted_its_route_does_not_turn_towards_the_one_after_it() {
+    let mut plant = driving();
+    plant.tell(&Command::Route(straight(10, FAR, FAR + Vec2::new(0.0, -0.5))));
+    plant.answers = false;
+    assert!(stands_after(&mut plant) < 2.2 && plant.at.distance(FAR) > 0.1);
+    plant.tell_text(b"|STATUS|");
+    for _ in 0..60 {
+        plant.step();
+        assert_eq!(plant.last.wheels_radps, [0.0; 2]);
+    }
+}
+
+#[test]
 fn a_short_break_in_air_time_is_nobodys_business() {
     let mut plant = ready(Flaws::STANDARD);
     send(&mut plant, 9, FAR, 4_000);
