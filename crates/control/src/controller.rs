@@ -98,10 +98,11 @@ impl Controller {
         }
         self.context.outbox.link(true);
         self.context.log.record(now, EventKind::Connected);
-        self.refresh(now);
+        // STOP first: a robot that hears anything else again turns towards the route it holds.
         if std::mem::take(&mut self.stops_when_connected) {
-            self.stopping = Some(Stopping::begin(&mut self.context, now));
+            self.stopping = Some(Stopping::begin(&mut self.context, now, None));
         }
+        self.refresh(now);
         self.conclude(now);
     }
 
@@ -274,7 +275,7 @@ impl Controller {
         }
         self.context.log.record(now, EventKind::RunEnded { outcome, frames_played, dropouts });
         if stops {
-            self.stopping = Some(Stopping::begin(&mut self.context, now));
+            self.stopping = Some(Stopping::begin(&mut self.context, now, None));
         }
     }
 

@@ -327,24 +327,28 @@ impl Controller {
         if self.state() == ControllerState::Aborting {
             return Ok(());
         }
-        self.run.as_mut().ok_or(Refusal::NoRun)?.abort(&mut self.context, now);
-        self.halt(now);
+        let run = self.run.as_mut().ok_or(Refusal::NoRun)?;
+        let held_from = run.holds_before_stop(&mut self.context, now);
+        run.abort(&mut self.context, now);
+        self.halt(now, held_from);
         Ok(())
     }
 
     fn stop_all(&mut self, now: Instant) -> Result<(), Refusal> {
         self.linked()?;
+        let mut held_from = None;
         if let Some(run) = &mut self.run {
+            held_from = run.holds_before_stop(&mut self.context, now);
             run.abort(&mut self.context, now);
         }
-        self.halt(now);
+        self.halt(now, held_from);
         self.context.log.record(now, EventKind::StoppedAll);
         Ok(())
     }
 
-    fn halt(&mut self, now: Instant) {
+    fn halt(&mut self, now: Instant, held_from: Option<Instant>) {
         if self.context.outbox.linked() {
-            self.stopping = Some(Stopping::begin(&mut self.context, now));
+            self.stopping = Some(Stopping::begin(&mut self.context, now, held_from));
         }
     }
 

@@ -32,9 +32,9 @@ pub enum Operation {
     Resume,
     /// From a pause to the next frame, and pause there.
     Step,
-    /// The run ends and all wheels stop at once.
+    /// The run ends. Robots on a drive come to rest together, then all wheels stop.
     Abort,
-    /// Every robot stops at once, also one that this controller did not start. Possible whenever there is a broker.
+    /// Every robot stops, at once if it is asked for again, also one that this controller did not start. Possible whenever there is a broker.
     StopAll,
     /// The operator has read why the last run failed, or that it was stopped.
     DismissFailure,

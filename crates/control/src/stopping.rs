@@ -1,11 +1,12 @@
-//! All stop at once: robots that know STOP by STOP, those that know TARGET only by a target where they are.
+//! All stop: robots that know STOP by STOP, those that know TARGET only by a target where they are. Robots on a drive are
+//! held first, because robots that halt where they are may touch: a STOP reaches some of them later than others.
 
 use crate::context::Context;
 use crate::mutant::Mutant;
 use crate::robot::KnownRobot;
 use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
-use lightbots_wire::{Command, RobotState};
+use lightbots_wire::{Command, RobotState, Route};
 use std::collections::BTreeMap;
 
 /// How often STOP is sent, and how far apart.
@@ -39,6 +40,9 @@ fn keeps_route(state: RobotState) -> bool {
 /// All are being stopped.
 #[derive(Clone, Debug)]
 pub(crate) struct Stopping {
+    /// When robots that drive rest by a HOLD, and STOP is sent, if that is still to come.
+    stop_at: Option<Instant>,
+    /// When STOP was sent.
     since: Instant,
     check_at: Instant,
     /// Where robots that know TARGET only were told to stop, by index into the fleet.
@@ -46,12 +50,16 @@ pub(crate) struct Stopping {
 }
 
 impl Stopping {
-    /// Tells all robots.
-    pub fn begin(context: &mut Context, now: Instant) -> Self {
+    /// Tells all robots. `held_from`: when those on a drive are held first.
+    pub fn begin(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
         context.outbox.stop_repeating();
-        let copies = if Mutant::StopOnce.is_planted() { 1 } else { COPIES.0 };
-        context.outbox.broadcast(now, Command::Stop, copies, COPIES.1);
-        let mut stopping = Self { since: now, check_at: now + CHECK, halted: BTreeMap::new() };
+        let stop_at = held_from.map(|at| at + Route::EASE);
+        let mut stopping =
+            Self { stop_at, since: now, check_at: stop_at.unwrap_or(now + CHECK), halted: BTreeMap::new() };
+        match held_from {
+            Some(at) => context.outbox.broadcast(now, Command::Hold { at }, COPIES.0, COPIES.1),
+            None => send_stop(context, now),
+        }
         for index in 0..context.fleet.robots().len() {
             stopping.halt(context, index);
         }
@@ -97,6 +105,11 @@ impl Stopping {
             return false;
         }
         self.check_at = now + CHECK;
+        if self.stop_at.take().is_some() {
+            self.since = now;
+            send_stop(context, now);
+            return false;
+        }
         let waited = now - self.since;
         let unstopped: Vec<usize> = (0..context.fleet.robots().len())
             .filter(|&index| self.may_go_on(context.fleet.robot(index)))
@@ -109,4 +122,9 @@ impl Stopping {
         }
         false
     }
+}
+
+fn send_stop(context: &mut Context, now: Instant) {
+    let copies = if Mutant::StopOnce.is_planted() { 1 } else { COPIES.0 };
+    context.outbox.broadcast(now, Command::Stop, copies, COPIES.1);
 }

@@ -86,7 +86,8 @@ fn robots_that_are_held_on_their_way_go_to_each_frame() {
             world.run_until(30.0, reached(number - 1));
             world.run_until(30.0, started);
             world.loss = loss;
-            world.run_for(0.4 + 0.2 * to as f64);
+            // A pause in the last 0.3 s of a drive comes too late: it ends.
+            world.run_for(0.3 + 0.15 * to as f64);
             world.operate(Operation::Pause).unwrap();
             world.run_for(if to % 2 == 0 { 0.0 } else { 3.0 });
             world.operate(Operation::GoTo(to)).unwrap();

@@ -137,6 +137,41 @@ fn a_show_that_is_stopped_says_in_which_frame_until_it_begins_again() {
 }
 
 #[test]
+fn stop_lets_a_drive_come_to_rest_first_and_pressed_again_halts_at_once() {
+    let stops = |world: &World| world.robots.iter().map(|robot| robot.stops).sum::<u32>();
+    let held = |world: &World| world.robots.iter().filter(|robot| robot.hold_since.is_some()).count();
+    for operation in [Operation::StopAll, Operation::Abort] {
+        for again in [false, true] {
+            let mut world = World::under_way(6);
+            world.operate(operation.clone()).unwrap();
+            world.run_for(0.1);
+            assert_eq!((held(&world), stops(&world)), (6, 0), "{operation:?}");
+            if again {
+                world.operate(Operation::StopAll).unwrap();
+                world.run_for(0.05);
+                assert!(stops(&world) >= 6, "{operation:?}");
+            }
+            world.run_for(0.4);
+            assert!(world.robots.iter().all(|robot| robot.stops > 0 && robot.running.is_none()));
+            world.run_for(2.0);
+            assert_eq!(world.controller.state(), ControllerState::Ready);
+        }
+    }
+}
+
+#[test]
+fn robots_are_stopped_before_they_are_asked_anything_where_the_broker_was_gone() {
+    let mut world = World::under_way(6);
+    world.operate(Operation::StopAll).unwrap();
+    world.link(false);
+    world.run_for(0.5);
+    world.link(true);
+    assert_eq!(world.to_robots().first().map(String::as_str), Some("|STOP|"), "{:?}", world.to_robots());
+    world.run_for(0.5);
+    assert!(world.robots.iter().all(|robot| robot.stops > 0));
+}
+
+#[test]
 fn half_the_speed_takes_twice_the_time_and_holds_until_it_is_changed() {
     let durations = |world: &World| -> Vec<f64> {
         let drive = |kind: &EventKind| match kind {

@@ -338,6 +338,16 @@ impl Run {
         self.apply(io, now, Next::Over(RunOutcome::Aborted));
     }
 
+    /// When robots on a drive are held, if all are to be stopped now; `None`: they stand, or are to halt at once.
+    pub fn holds_before_stop(&mut self, io: &mut Context, now: Instant) -> Option<Instant> {
+        let (phase, cx) = self.split(io, now);
+        match phase {
+            RunPhase::Driving(drive) => gathering::hold_before_stop(&cx, &drive.clock),
+            RunPhase::Gathering(gathering) => gathering.held_from(),
+            _ => None,
+        }
+    }
+
     /// The broker is lost: robots stop by themselves.
     pub fn on_disconnect(&mut self, io: &mut Context, now: Instant) {
         self.apply(io, now, Next::Interrupt(None));

@@ -219,6 +219,12 @@ impl World {
         self.letters.push(Letter { due, topic, payload, to_controller });
     }
 
+    /// Messages to robots that are under way, in the order in which they left.
+    pub fn to_robots(&self) -> Vec<String> {
+        let to_robots = self.letters.iter().filter(|letter| !letter.to_controller);
+        to_robots.map(|letter| String::from_utf8_lossy(&letter.payload).into_owned()).collect()
+    }
+
     pub fn step(&mut self) {
         self.now += STEP;
         let (due, later) =
