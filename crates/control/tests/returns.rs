@@ -140,6 +140,27 @@ fn robots_that_died_meanwhile_drop_out_and_are_driven_around() {
 }
 
 #[test]
+fn a_drive_that_did_not_begin_has_brought_none_to_its_goal() {
+    let mut world = World::ready(6, 0, show(3, 6, 0.5));
+    world.controller.keep_journal();
+    world.play();
+    while !world.robots.iter().all(|robot| robot.kept.is_some()) {
+        world.step();
+    }
+    // It never confirms START, which is given up when it drops out.
+    world.deaf = vec![2];
+    world.run_until(60.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    assert_eq!(world.count(started), 0, "{}", world.story());
+    world.kill_controller();
+    assert!(world.return_controller(OnReturn::Go));
+    for row in world.controller.snapshot(world.now).robots {
+        let stands = world.robots.iter().find(|robot| robot.id == row.id).unwrap().at;
+        let at = row.reported.at.unwrap();
+        assert!(at.distance(stands) < 1e-3, "{} stands at {stands:?}, not {at:?}", row.id);
+    }
+}
+
+#[test]
 fn originals_stand_before_the_run_goes_on() {
     let mut world = World::ready(6, 2, show(3, 6, 0.5));
     world.controller.keep_journal();

@@ -95,6 +95,13 @@ pub(crate) struct Position {
     pub stood: Option<AirTime>,
 }
 
+impl Position {
+    /// Whether the leg says where robots are: on their way, or at its goals.
+    pub fn is_in_leg(&self) -> bool {
+        self.drive.is_some() || self.stood.is_some()
+    }
+}
+
 /// A participant of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ParticipantEntry {

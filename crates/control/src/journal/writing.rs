@@ -1,6 +1,8 @@
 //! A journal being written.
 
-use super::{Change, Entry, JournalState, LegEntry, MAGIC, ParticipantEntry, RunBegun, RunProgress, VERSION};
+use super::{
+    Change, Entry, JournalState, LegEntry, MAGIC, ParticipantEntry, Position, RunBegun, RunProgress, VERSION,
+};
 use crate::block::append_block;
 use crate::context::Context;
 use crate::mutant::Mutant;
@@ -80,6 +82,7 @@ impl Journal {
             self.note_mapping(now, run, context);
         }
         let progress = run.journal_progress();
+        self.note_places(now, run, context, progress.position);
         if self.state.as_ref().is_some_and(|state| state.progress != progress) || now >= self.alive_at {
             self.push(now, Change::Progress(progress));
         }
@@ -175,6 +178,21 @@ impl Journal {
             if known.is_none_or(|known| known.membership != entry.membership) {
                 self.push(now, Change::Participant { number: number as u32, entry });
             }
+        }
+    }
+
+    /// Writes down where participants stand once that is neither in a frame nor on a drive: no leg says so.
+    fn note_places(&mut self, now: Instant, run: &Run, context: &Context, position: Position) {
+        let Some(state) = &self.state else { return };
+        if position.is_in_leg() || !state.progress.position.is_in_leg() {
+            return;
+        }
+        let entries = participants(run, context).into_iter().enumerate();
+        let is_news =
+            |(number, entry): &(usize, ParticipantEntry)| state.participants.get(*number) != Some(entry);
+        let news: Vec<_> = entries.filter(is_news).collect();
+        for (number, entry) in news {
+            self.push(now, Change::Participant { number: number as u32, entry });
         }
     }
 
