@@ -87,7 +87,7 @@ pub enum Operation {
     Preflight,
     /// End the run. Robots stop at their places.
     Abort,
-    /// Stop every robot, in any phase. Robots on a drive come to rest together first, within 0.4 s on a quick link; sent
+    /// Stop every robot, in any phase. Robots on a drive come to rest together first, within 0.5 s on a quick link; sent
     /// again meanwhile, all wheels stop at once.
     StopAll,
     /// Let a show go on whose robots were out of reach, without robots that do not report.

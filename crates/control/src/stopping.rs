@@ -1,5 +1,5 @@
-//! All stop: robots that know STOP by STOP, those that know TARGET only by a target where they are. Robots on a drive are
-//! held first, because robots that halt where they are may touch: a STOP reaches some of them later than others.
+//! All stop: robots that know STOP by STOP, those that know TARGET only by a target where they are. Robots on a drive come
+//! to rest first, because robots that halt where they are may touch: a STOP reaches some of them later than others.
 
 use crate::context::Context;
 use crate::mutant::Mutant;
@@ -40,7 +40,7 @@ fn keeps_route(state: RobotState) -> bool {
 /// All are being stopped.
 #[derive(Clone, Debug)]
 pub(crate) struct Stopping {
-    /// When robots that drive rest by a HOLD, and STOP is sent, if that is still to come.
+    /// When robots that drive rest, and STOP is sent for those that did not hear from when on, if that is still to come.
     stop_at: Option<Instant>,
     /// When STOP was sent.
     since: Instant,
@@ -50,14 +50,14 @@ pub(crate) struct Stopping {
 }
 
 impl Stopping {
-    /// Tells all robots. `held_from`: when those on a drive are held first.
+    /// Tells all robots. `held_from`: from when on those on a drive come to rest.
     pub fn begin(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
         context.outbox.stop_repeating();
         let stop_at = held_from.map(|at| at + Route::EASE);
         let mut stopping =
             Self { stop_at, since: now, check_at: stop_at.unwrap_or(now + CHECK), halted: BTreeMap::new() };
         match held_from {
-            Some(at) => context.outbox.broadcast(now, Command::Hold { at }, COPIES.0, COPIES.1),
+            Some(at) => context.outbox.broadcast(now, Command::StopFrom { at }, COPIES.0, COPIES.1),
             None => send_stop(context, now),
         }
         for index in 0..context.fleet.robots().len() {

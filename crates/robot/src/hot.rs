@@ -51,6 +51,8 @@ pub struct Hot {
     /// Moment of the show clock whose colour of the piece was shown last.
     pub(crate) piece_shown_at: Instant,
     pub(crate) state: RobotState,
+    /// When it stops, by its own clock: its route comes to rest until then.
+    pub(crate) stops_at: Option<Instant>,
     /// It stands until fixes come again.
     pub(crate) pauses: bool,
     /// The safety layer follows a neighbour or acts on one. Otherwise a step does not run the safety layer.
@@ -84,6 +86,7 @@ impl Hot {
             light_piece: LightPiece::NONE,
             piece_shown_at: Instant::ZERO,
             state: RobotState::Lost,
+            stops_at: None,
             pauses: false,
             is_wary: false,
             quality: PoseQuality { lost: true, lost_for_good: true, blind: true },

@@ -178,6 +178,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Ends what must not go on. A target survives being lost or blocked, as with an original robot. A route does not,
     /// because the others have driven on.
     fn supervise(&mut self, now: Instant) {
+        self.stop_in_time(now);
         let drives = self.drives();
         let is_lost = self.is_lost_now();
         let hot = &mut self.hot;

@@ -177,6 +177,14 @@ impl Routes {
         self.timeline.note(at, hold);
     }
 
+    /// Brings the route under way to rest from this moment on, or from its begin if that is later, and discards the kept one.
+    pub(crate) fn rest(&mut self, at: Instant) {
+        self.kept = None;
+        if let Some(running) = &self.running {
+            self.timeline.rest(at.max(running.starts));
+        }
+    }
+
     /// Begins the kept route when its moment has come, or discards a moment that was missed because the clock was unknown.
     /// Whether the route began.
     #[inline]

@@ -73,6 +73,12 @@ impl Timeline {
         let _ = self.events.insert(place, Event { at, hold });
     }
 
+    /// Progress comes to rest from `at` on, whatever was noted for later.
+    pub(crate) fn rest(&mut self, at: Instant) {
+        self.events.retain(|event| event.at <= at);
+        self.note(at, true);
+    }
+
     /// Whether no resume after this moment is known.
     pub(crate) fn stays_held(&self, show: Instant) -> bool {
         self.events.iter().all(|event| event.hold || event.at <= show)
@@ -145,6 +151,18 @@ mod tests {
         let mut timeline = Timeline::new();
         timeline.begin(ms(1000));
         timeline
+    }
+
+    #[test]
+    fn it_comes_to_rest_though_a_resume_was_noted_for_later() {
+        let mut timeline = running();
+        timeline.note(ms(2000), true);
+        timeline.note(ms(2500), false);
+        timeline.rest(ms(2400));
+        assert_eq!(timeline.at(ms(9000)).time, Span::from_millis(1150));
+        let mut timeline = running();
+        timeline.rest(ms(2400));
+        assert_eq!(timeline.at(ms(9000)).time, Span::from_millis(1550));
     }
 
     #[test]

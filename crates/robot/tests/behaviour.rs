@@ -198,20 +198,6 @@ fn held_in_a_curve_it_keeps_its_heading() {
 }
 
 #[test]
-fn stop_is_at_once_and_forgets() {
-    let mut plant = Plant::ready(START, 0.0, Flaws::STANDARD, 2);
-    send(&mut plant, &straight(9, START, END));
-    plant.run(2.0);
-    assert_eq!(plant.robot.state(), RobotState::Driving);
-    plant.robot.receive(plant.now, Topic::Broadcast, b"|STOP|");
-    plant.step();
-    assert!(plant.stands());
-    plant.run(1.0);
-    assert!(plant.stands());
-    assert_eq!((plant.robot.state(), plant.heard(Topic::Arrival).len()), (RobotState::Idle, 0));
-}
-
-#[test]
 fn a_silent_link_cuts_it_off_and_it_takes_part_again() {
     let mut plant = Plant::ready(START, 0.0, Flaws::STANDARD, 2);
     let far = START + Vec2::new(1.5, 0.0);

@@ -43,6 +43,11 @@ pub enum Command {
     },
     /// `STOP`: wheels stop at once; target and routes are deleted.
     Stop,
+    /// `STOP at`: as `HOLD at`, and as `STOP` when the route rests.
+    StopFrom {
+        /// Moment on the show clock.
+        at: Instant,
+    },
     /// `TIME asked received sent`: the answer to a [`crate::TimeQuestion`].
     Time(TimeAnswer),
     /// `FADE n at over`: the light changes evenly to this colour.

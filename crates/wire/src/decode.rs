@@ -76,7 +76,8 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
         "START" => made(start(fields), |(seq, at)| Command::Start { seq, at }),
         "HOLD" => made(moment(fields), |at| Command::Hold { at }),
         "RESUME" => made(moment(fields), |at| Command::Resume { at }),
-        "STOP" => Some(Ok(Command::Stop)),
+        // Whatever follows it, a robot stops.
+        "STOP" => Some(Ok(moment(fields).map_or(Command::Stop, |at| Command::StopFrom { at }))),
         "TIME" => made(time(fields), Command::Time),
         "FADE" => made(fade(fields), Command::Fade),
         "BLINK" => made(duration(fields), |over| Command::Blink(Blink { over: over.min(LONGEST_BLINK) })),

@@ -33,6 +33,7 @@ fn write(command: &Command, out: &mut TextBuffer<'_>) -> fmt::Result {
         Command::Hold { at } => words(out, "HOLD", &[at.0])?,
         Command::Resume { at } => words(out, "RESUME", &[at.0])?,
         Command::Stop => out.write_str("STOP")?,
+        Command::StopFrom { at } => words(out, "STOP", &[at.0])?,
         Command::Time(answer) => words(out, "TIME", &[answer.asked.0, answer.received.0, answer.sent.0])?,
         Command::Fade(fade) => {
             words(out, "FADE", &[u64::from(fade.to.number()), fade.at.0, not_negative(fade.over.0)])?

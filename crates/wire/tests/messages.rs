@@ -54,6 +54,7 @@ fn every_command() -> Vec<Command> {
         Command::Hold { at: Instant(1) },
         Command::Resume { at: Instant(i64::MAX as u64) },
         Command::Stop,
+        Command::StopFrom { at: Instant(1_540_450_000) },
         Command::Time(TimeAnswer { asked: Instant(5), received: Instant(900), sent: Instant(950) }),
         Command::Fade(Fade { to: Rgb::new(0, 0, 255), at: Instant(77), over: Span(500_000) }),
         Command::Blink(Blink { over: Span(2_000_000) }),
@@ -165,6 +166,13 @@ fn every_command_comes_back() {
     let payload: String = all.iter().map(text).collect();
     let back: Vec<_> = commands(payload.as_bytes()).map(Result::unwrap).collect();
     assert_eq!(back, all);
+}
+
+#[test]
+fn whatever_follows_stop_is_a_stop() {
+    for text in ["|STOP|", "|STOP now|", "|STOP -5|", "|STOP 1e9|", "|STOP 99999999999999999999|"] {
+        assert_eq!(commands(text.as_bytes()).collect::<Vec<_>>(), [Ok(Command::Stop)], "{text}");
+    }
 }
 
 #[test]

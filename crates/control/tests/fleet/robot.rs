@@ -36,6 +36,7 @@ pub struct Robot {
     pub held: Span,
     pub hold_since: Option<Instant>,
     resumed_at: Option<Instant>,
+    stops_at: Option<Instant>,
     finished: u32,
     synchronised: bool,
     pub fade: Option<(Instant, Rgb)>,
@@ -69,6 +70,7 @@ impl Robot {
             held: Span::ZERO,
             hold_since: None,
             resumed_at: None,
+            stops_at: None,
             finished: 0,
             synchronised: false,
             fade: None,
@@ -187,11 +189,11 @@ impl Robot {
                     self.resumed_at = Some(at);
                 }
             }
-            Command::Stop => {
-                self.stops += 1;
-                self.stop();
-                self.say_report(Topic::Status, 0);
+            Command::StopFrom { at } if self.running.is_some() => {
+                self.hold_since = self.hold_since.or(Some(at));
+                self.stops_at = Some(at + Route::EASE);
             }
+            Command::Stop | Command::StopFrom { .. } => self.halt(),
             Command::Time(_) => self.synchronised = true,
             Command::Fade(fade) => self.fade = Some((fade.at + fade.over, fade.to)),
             Command::Status => self.say_report(Topic::Status, self.named()),
@@ -199,7 +201,14 @@ impl Robot {
         }
     }
 
+    fn halt(&mut self) {
+        self.stops += 1;
+        self.stop();
+        self.say_report(Topic::Status, 0);
+    }
+
     fn stop(&mut self) {
+        self.stops_at = None;
         (self.kept, self.running, self.target, self.finished) = (None, None, None, 0);
     }
 
@@ -217,6 +226,9 @@ impl Robot {
         {
             self.running = Some((route, at));
             (self.held, self.hold_since, self.resumed_at) = (Span::ZERO, None, None);
+        }
+        if self.stops_at.is_some_and(|at| at <= show) {
+            self.halt();
         }
         self.turn();
         self.drive(now, show, dt);

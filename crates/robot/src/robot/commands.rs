@@ -2,13 +2,16 @@
 
 use core::borrow::BorrowMut;
 
-use lightbots_base::{Instant, Vec2};
-use lightbots_wire::Command;
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::{Command, Route};
 
 use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
 
+/// A `STOP` for a moment is obeyed at once if the robot would rest by it this much later or more. Below, moments on slow
+/// links are refused. Above, a wrong moment lets robots drive on.
+const LATEST_STOP: Span = Span::from_millis(2000);
 /// Largest valid coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
 const FAR_M: f64 = 1000.0;
 
@@ -46,11 +49,13 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 }
             }
             Command::Hold { at } => self.note(at, true),
-            Command::Resume { at } => self.note(at, false),
-            Command::Stop => {
-                self.stop();
-                self.light.stop();
+            Command::Resume { at } => {
+                if self.hot.stops_at.is_none() {
+                    self.note(at, false);
+                }
             }
+            Command::Stop => self.stop(),
+            Command::StopFrom { at } => self.stop_from(now, at),
             Command::Time(answer) => {
                 self.clock_filter.answer(&mut self.hot.clock, now, &answer);
                 if self.clock_filter.take_reset() {
@@ -94,6 +99,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
 
     /// A target replaces the route and the target before. One beyond [`FAR_M`] is invalid: the robot stands.
     fn take_target(&mut self, goal: Vec2) {
+        self.hot.stops_at = None;
         self.hot.routes.clear();
         let makes_sense = goal.x.abs() <= FAR_M && goal.y.abs() <= FAR_M;
         self.hot.seek = makes_sense.then(|| Seek::new(goal));
@@ -103,7 +109,29 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
+    /// Lets a route under way come to rest first, and stops at once where there is none, or where it is too late.
+    fn stop_from(&mut self, now: Instant, at: Instant) {
+        let ends_in = self.hot.clock.show_time(now).map(|show| at + Route::EASE - show);
+        match ends_in {
+            Some(ends_in) if (Span::ZERO..LATEST_STOP).contains(&ends_in) && self.hot.routes.under_way() => {
+                self.hot.routes.rest(at);
+                self.light.tracks.note(at, true);
+                self.hot.stops_at = Some(now + ends_in);
+            }
+            _ => self.stop(),
+        }
+    }
+
+    /// Stops if that is due.
+    pub(super) fn stop_in_time(&mut self, now: Instant) {
+        if self.hot.stops_at.is_some_and(|at| now >= at) {
+            self.stop();
+        }
+    }
+
     fn stop(&mut self) {
+        self.hot.stops_at = None;
+        self.light.stop();
         self.hot.routes.clear();
         self.hot.seek = None;
         self.hot.drive.halt();

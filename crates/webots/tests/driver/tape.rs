@@ -110,7 +110,7 @@ impl Score {
                 (to, Command::Stop) => {
                     self.stops.extend(self.show_at(std::time::Instant::now()).map(|at| (at, to)))
                 }
-                (_, Command::Hold { at }) => self.ease(at, true),
+                (_, Command::Hold { at } | Command::StopFrom { at }) => self.ease(at, true),
                 (_, Command::Resume { at }) => self.ease(at, false),
                 (Some(_), Command::Time(answer)) => self.compare(&answer),
                 _ => {}
