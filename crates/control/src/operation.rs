@@ -34,7 +34,8 @@ pub enum Operation {
     Step,
     /// The run ends. Robots on a drive come to rest together, then all wheels stop.
     Abort,
-    /// Every robot stops, at once if it is asked for again, also one that this controller did not start. Possible whenever there is a broker.
+    /// Every robot stops, also one that this controller did not start; at once if it is asked for again. Possible whenever
+    /// there is a broker.
     StopAll,
     /// The operator has read why the last run failed, or that it was stopped.
     DismissFailure,

@@ -177,7 +177,7 @@ impl Routes {
         self.timeline.note(at, hold);
     }
 
-    /// Brings the route under way to rest from this moment on, or from its begin if that is later, and discards the kept one.
+    /// Brings the route under way to rest from this moment on, or from its begin if that is later. Discards the kept one.
     pub(crate) fn rest(&mut self, at: Instant) {
         self.kept = None;
         if let Some(running) = &self.running {
