@@ -36,6 +36,7 @@ struct Attempt {
 #[derive(Debug)]
 struct Player {
     shared: Arc<Shared>,
+    stop: Stop,
     attempt: Option<Attempt>,
     /// Speed and loop as the operator set them, while a show of the playlist plays.
     settings: Option<(u32, bool)>,
@@ -49,14 +50,14 @@ pub async fn play(shared: Arc<Shared>, stop: Stop) {
     let mut news = shared.handle.news();
     let mut looks = tokio::time::interval(LOOK_EVERY);
     looks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let ends = stop.clone();
     let mut player =
-        Player { shared, attempt: None, settings: None, is_playing: false, looks_without_run: 0 };
+        Player { shared, stop, attempt: None, settings: None, is_playing: false, looks_without_run: 0 };
     player.find_run().await;
     loop {
         tokio::select! {
             biased;
-            // The program's end stops robots: no person wanted the playlist to be held.
-            () = stop.wait() => return,
+            () = ends.wait() => return,
             _ = looks.tick() => player.look(&mut news).await,
             heard = news.recv() => match heard {
                 Ok(news) => player.hear(&news),
@@ -82,6 +83,10 @@ impl Player {
     /// Notes how the run of a turn ends, and that a person stopped robots.
     fn hear(&mut self, news: &News) {
         let News::Event(event) = news else { return };
+        // The program's end stops robots: no person wanted the playlist to be held.
+        if self.stop.is_wanted() {
+            return;
+        }
         match &event.kind {
             EventKind::StoppedAll => self.hold("Stop all was pressed"),
             EventKind::RunEnded { outcome, .. } if self.is_playing => {
