@@ -113,7 +113,7 @@ export function Header({ view }: { view: View }) {
       >
         <IconKeyboard size={18} />
       </IconButton>
-      <Tooltip label="Every robot comes to rest; press again to halt at once (Shift Esc)">
+      <Tooltip label="Every robot stops; press again to halt at once (Shift Esc)">
         <Button
           className={styles.stopAll}
           data-testid="stop-all"
