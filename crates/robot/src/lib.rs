@@ -40,6 +40,7 @@ mod filter;
 mod follow;
 mod history;
 mod hot;
+mod kept_route;
 mod light;
 mod light_ahead;
 mod light_piece;

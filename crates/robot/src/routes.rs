@@ -6,14 +6,13 @@ use lightbots_wire::Route;
 use crate::cursor::RouteCursor;
 use crate::drive::{BodyPose, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
+use crate::kept_route::{KeptRoute, TOO_LATE};
 use crate::look_ahead::{Ahead, LookAhead, SLOW_MPS};
 use crate::reflex::{Expectation, Point};
 use crate::seek::{Seek, within_arrival};
 use crate::storage::{RouteStorage, Slot};
 use crate::timeline::Timeline;
 
-/// A START that comes this much after its moment is refused. Above, a robot would jump onto a route far under way.
-const TOO_LATE: Span = Span::from_millis(500);
 /// Distance to the end at which a robot has arrived, metres. Below, robots with noisy fixes arrive late. Above, pictures
 /// blur.
 const NEAR_M: f64 = 0.0125;
@@ -24,9 +23,6 @@ const TRYING: Span = Span::from_millis(1500);
 const STRAYED_M: f64 = 0.0055;
 /// Distance at which it is back, metres. The gap to [`STRAYED_M`] is hysteresis.
 const BACK_M: f64 = 0.004;
-/// Distance to the begin of a kept route at which a robot turns towards it, metres, as in the arrival test (R17). Farther
-/// off, where a route was aborted, it does not drive that route.
-const BEGINS_HERE_M: f64 = 0.02;
 /// A route whose number is at most this much below the newest is an old message that came late. Beyond, the controller
 /// began anew.
 const OLD_NUMBERS: u32 = 64;
@@ -37,17 +33,6 @@ const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
 pub(crate) const MAX_IN_SIGHT: usize = 12;
 /// The neighbours expected in sight.
 pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
-
-/// A route that waits for its START.
-#[derive(Debug)]
-struct Kept {
-    slot: Slot,
-    seq: u32,
-    follow: Follow,
-    begin: Vec2,
-    ahead: Option<Vec2>,
-    starts: Option<Instant>,
-}
 
 /// The route under way.
 #[derive(Debug)]
@@ -82,7 +67,7 @@ struct Running {
 pub(crate) struct Routes {
     running: Option<Running>,
     timeline: Timeline,
-    kept: Option<Kept>,
+    kept: Option<KeptRoute>,
     /// Number of the route that ended last.
     finished: u32,
 }
@@ -99,30 +84,16 @@ impl Routes {
         if newest != 0 && age < OLD_NUMBERS {
             return;
         }
-        let ahead = LookAhead::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
         let slot = self.running.as_ref().map_or(Slot::First, |running| running.slot.other());
-        self.kept = Some(Kept {
-            slot,
-            seq: route.seq,
-            starts: None,
-            follow: Follow::new(),
-            begin: route.start,
-            ahead,
-        });
+        self.kept = Some(KeptRoute::new(slot, route));
         storage.put(slot, route);
     }
 
     /// Sets when the kept route begins. A second START counts if it is later, because an earlier one is an old message
     /// that was overtaken. Whether that changed anything.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
-        let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq) else {
-            return false;
-        };
-        if kept.starts.is_some_and(|known| known >= at) || show.is_some_and(|show| show - at > TOO_LATE) {
-            return false;
-        }
-        kept.starts = Some(at);
-        true
+        let kept = self.kept.as_mut().filter(|kept| kept.seq == seq);
+        kept.is_some_and(|kept| kept.start(at, show))
     }
 
     /// Planned clearance of the route under way, millimetres.
@@ -196,8 +167,8 @@ impl Routes {
         if let Some(kept) = self.kept.as_mut() {
             kept.starts = kept.starts.filter(|&at| show - at <= TOO_LATE);
         }
-        let due = |kept: &mut Kept| kept.starts.is_some_and(|at| at <= show);
-        let Some(Kept { slot, seq, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
+        let due = |kept: &mut KeptRoute| kept.starts.is_some_and(|at| at <= show);
+        let Some(KeptRoute { slot, seq, starts: Some(starts), follow, .. }) = self.kept.take_if(due) else {
             return false;
         };
         self.timeline.begin(starts);
@@ -273,10 +244,16 @@ impl Routes {
         Some(running.follow.step(&motion, ahead, body))
     }
 
+    /// Does not turn towards the kept route until its START comes: what else a robot hears after a silence may be old.
+    pub(crate) fn await_start(&mut self) {
+        if let Some(kept) = &mut self.kept {
+            kept.await_start();
+        }
+    }
+
     /// Turns towards the first direction of the kept route while no other motion is due.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
-        let kept = self.kept.as_mut().filter(|kept| kept.begin.distance(body.at) < BEGINS_HERE_M)?;
-        Some(kept.follow.prepare(kept.ahead?, body))
+        self.kept.as_mut()?.prepare(body)
     }
 
     /// Ends the route under way where it is over and the robot stands at its end. Returns its number.

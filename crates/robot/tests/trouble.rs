@@ -145,6 +145,15 @@ fn a_robot_that_waits_for_its_start_does_not_turn_in_silence() {
         plant.step();
         assert_eq!(plant.last.wheels_radps, [0.0; 2], "it was turned by hand");
     }
+    plant.answers = true;
+    plant.tell_text(b"|UUID|");
+    for _ in 0..60 {
+        plant.step();
+        assert_eq!(plant.last.wheels_radps, [0.0; 2], "that may be an old message");
+    }
+    plant.tell(&Command::Start { seq: 9, at: plant.show() + Span::from_millis(60_000) });
+    plant.run(1.0);
+    assert!((plant.heading + core::f64::consts::FRAC_PI_2).abs() < 0.05, "{}", plant.heading);
 }
 
 #[test]

@@ -105,7 +105,10 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         match hot.seek.as_mut() {
             Some(seek) => Some(seek.step(soon, &hot.limits)),
             // A controller that is silent may be gone for good, and people come to look.
-            None if hot.supervisor.is_silent(hot.now) => None,
+            None if hot.supervisor.is_silent(hot.now) => {
+                hot.routes.await_start();
+                None
+            }
             None => hot.routes.prepare(soon),
         }
     }

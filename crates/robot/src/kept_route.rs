@@ -1,0 +1,61 @@
+//! The route that waits for its START.
+
+use lightbots_base::{Instant, Span, Vec2};
+use lightbots_wire::Route;
+
+use crate::drive::{BodyPose, Setpoint};
+use crate::follow::Follow;
+use crate::look_ahead::LookAhead;
+use crate::storage::Slot;
+
+/// A START that comes this much after its moment is refused. Above, a robot would jump onto a route far under way.
+pub(crate) const TOO_LATE: Span = Span::from_millis(500);
+/// Distance to the begin of a kept route at which a robot turns towards it, metres, as in the arrival test (R17). Farther
+/// off, where a route was aborted, it does not drive that route.
+const BEGINS_HERE_M: f64 = 0.02;
+
+/// A route that waits for its START.
+#[derive(Debug)]
+pub(crate) struct KeptRoute {
+    pub(crate) slot: Slot,
+    pub(crate) seq: u32,
+    pub(crate) follow: Follow,
+    pub(crate) starts: Option<Instant>,
+    begin: Vec2,
+    ahead: Option<Vec2>,
+    /// The robot turns towards it; after a silence only once its START has come.
+    is_turned_to: bool,
+}
+
+impl KeptRoute {
+    pub(crate) fn new(slot: Slot, route: &Route) -> Self {
+        let ahead = LookAhead::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
+        let (seq, begin) = (route.seq, route.start);
+        Self { slot, seq, starts: None, follow: Follow::new(), begin, ahead, is_turned_to: true }
+    }
+
+    /// Sets when it begins. A second START counts if it is later, because an earlier one is an old message that was
+    /// overtaken. Whether that changed anything.
+    pub(crate) fn start(&mut self, at: Instant, show: Option<Instant>) -> bool {
+        if show.is_some_and(|show| show - at > TOO_LATE) {
+            return false;
+        }
+        self.is_turned_to = true;
+        let is_news = self.starts.is_none_or(|known| known < at);
+        if is_news {
+            self.starts = Some(at);
+        }
+        is_news
+    }
+
+    /// Does not turn towards it until its START comes: what else a robot hears after a silence may be old.
+    pub(crate) fn await_start(&mut self) {
+        self.is_turned_to = false;
+    }
+
+    /// Turns towards its first direction, where it begins near the robot.
+    pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
+        let is_here = self.begin.distance(body.at) < BEGINS_HERE_M;
+        self.ahead.filter(|_| self.is_turned_to && is_here).map(|ahead| self.follow.prepare(ahead, body))
+    }
+}
