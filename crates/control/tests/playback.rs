@@ -160,6 +160,23 @@ fn stop_lets_a_drive_come_to_rest_first_and_pressed_again_halts_at_once() {
 }
 
 #[test]
+fn stop_does_not_wait_for_robots_that_are_about_to_go_on() {
+    let mut world = World::under_way(6);
+    world.operate(Operation::Pause).unwrap();
+    world.run_for(1.0);
+    world.operate(Operation::Resume).unwrap();
+    world.operate(Operation::StopAll).unwrap();
+    let stop = world.to_robots().into_iter().find_map(|text| {
+        let moment = text.strip_prefix("|STOP ")?.strip_suffix('|')?.parse().ok()?;
+        Some(Instant(moment))
+    });
+    assert!(stop.unwrap() <= world.now + Span::from_millis(200), "{stop:?}, now {:?}", world.now);
+    let stood: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
+    world.run_for(2.0);
+    assert!(world.robots.iter().zip(stood).all(|(robot, stood)| robot.at.distance(stood) < 1e-3));
+}
+
+#[test]
 fn robots_are_stopped_before_they_are_asked_anything_where_the_broker_was_gone() {
     let mut world = World::under_way(6);
     world.operate(Operation::StopAll).unwrap();

@@ -342,7 +342,11 @@ impl Run {
     pub fn holds_before_stop(&mut self, io: &mut Context, now: Instant) -> Option<Instant> {
         let (phase, cx) = self.split(io, now);
         match phase {
-            RunPhase::Driving(drive) => gathering::hold_before_stop(&cx, &drive.clock),
+            // STOP voids a RESUME that was stated for later.
+            RunPhase::Driving(drive) => {
+                let soonest = cx.now + cx.link.hold_lead();
+                gathering::hold_before_stop(&cx, &drive.clock).map(|at| at.min(soonest))
+            }
             RunPhase::Gathering(gathering) => gathering.held_from(),
             _ => None,
         }
