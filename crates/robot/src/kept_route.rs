@@ -10,8 +10,8 @@ use crate::storage::Slot;
 
 /// A START that comes this much after its moment is refused. Above, a robot would jump onto a route far under way.
 pub(crate) const TOO_LATE: Span = Span::from_millis(500);
-/// Distance to the begin of a kept route at which a robot turns towards it, metres, as in the arrival test (R17). Farther
-/// off, where a route was aborted, it does not drive that route.
+/// Distance to the begin of a kept route within which a robot turns towards it, metres. Below, robots that have just arrived
+/// (R36) may not turn in time. Above, they turn for a route that they cannot drive, as theirs was aborted.
 const BEGINS_HERE_M: f64 = 0.02;
 
 /// A route that waits for its START.

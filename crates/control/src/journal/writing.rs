@@ -172,27 +172,31 @@ impl Journal {
         if std::mem::replace(&mut self.roster_changes, run.roster.changes) == run.roster.changes {
             return;
         }
-        for (number, entry) in participants(run, context).into_iter().enumerate() {
-            let known = self.state.as_ref().and_then(|state| state.participants.get(number));
-            // The place of a participant that takes part is not written again: the leg says more.
-            if known.is_none_or(|known| known.membership != entry.membership) {
-                self.push(now, Change::Participant { number: number as u32, entry });
-            }
-        }
+        // The place of a participant that takes part is not written again: the leg says more.
+        self.note_participants(now, run, context, |known, entry| known.membership != entry.membership);
     }
 
     /// Writes down where participants stand once that is neither in a frame nor on a drive: no leg says so.
     fn note_places(&mut self, now: Instant, run: &Run, context: &Context, position: Position) {
-        let Some(state) = &self.state else { return };
-        if position.is_in_leg() || !state.progress.position.is_in_leg() {
-            return;
+        let was_in_leg = self.state.as_ref().is_some_and(|state| state.progress.position.is_in_leg());
+        if was_in_leg && !position.is_in_leg() {
+            self.note_participants(now, run, context, |known, entry| known != entry);
         }
-        let entries = participants(run, context).into_iter().enumerate();
-        let is_news =
-            |(number, entry): &(usize, ParticipantEntry)| state.participants.get(*number) != Some(entry);
-        let news: Vec<_> = entries.filter(is_news).collect();
-        for (number, entry) in news {
-            self.push(now, Change::Participant { number: number as u32, entry });
+    }
+
+    /// Writes down those who are new or differ from what is written, by this test.
+    fn note_participants(
+        &mut self,
+        now: Instant,
+        run: &Run,
+        context: &Context,
+        differs: fn(&ParticipantEntry, &ParticipantEntry) -> bool,
+    ) {
+        for (number, entry) in participants(run, context).into_iter().enumerate() {
+            let known = self.state.as_ref().and_then(|state| state.participants.get(number));
+            if known.is_none_or(|known| differs(known, &entry)) {
+                self.push(now, Change::Participant { number: number as u32, entry });
+            }
         }
     }
 

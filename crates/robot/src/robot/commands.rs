@@ -9,8 +9,8 @@ use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
 
-/// A `STOP` for a moment is obeyed at once if the robot would rest by it this much later or more. Below, moments on slow
-/// links are refused. Above, a wrong moment lets robots drive on.
+/// A `STOP at` by which the robot would rest this much later or more is obeyed at once. Below, that happens on slow links
+/// too. Above, a wrong moment lets robots drive on for longer.
 const LATEST_STOP: Span = Span::from_millis(2000);
 /// Largest valid coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
 const FAR_M: f64 = 1000.0;
