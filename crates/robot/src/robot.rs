@@ -39,6 +39,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             hot.seek = None;
             hot.routes.abandon();
         }
+        if hot.supervisor.is_silent(now) {
+            hot.routes.note_silence();
+        }
         hot.supervisor.receive(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
         self.begin_due(self.route_time(now));

@@ -70,11 +70,14 @@ pub(crate) struct Routes {
     kept: Option<KeptRoute>,
     /// Number of the route that ended last.
     finished: u32,
+    /// It does not turn towards a kept route until the START of one comes: what else a robot hears after a silence may be
+    /// old.
+    awaits_start: bool,
 }
 
 impl Routes {
     pub(crate) fn new() -> Self {
-        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0 }
+        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0, awaits_start: false }
     }
 
     /// Keeps a route for its START. Copies of the one under way or just finished, and old messages, change nothing.
@@ -92,8 +95,11 @@ impl Routes {
     /// Sets when the kept route begins. A second START counts if it is later, because an earlier one is an old message
     /// that was overtaken. Whether that changed anything.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
-        let kept = self.kept.as_mut().filter(|kept| kept.seq == seq);
-        kept.is_some_and(|kept| kept.start(at, show))
+        let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq && !kept.is_late(at, show)) else {
+            return false;
+        };
+        self.awaits_start = false;
+        kept.start(at)
     }
 
     /// Planned clearance of the route under way, millimetres.
@@ -244,16 +250,14 @@ impl Routes {
         Some(running.follow.step(&motion, ahead, body))
     }
 
-    /// Does not turn towards the kept route until its START comes: what else a robot hears after a silence may be old.
-    pub(crate) fn await_start(&mut self) {
-        if let Some(kept) = &mut self.kept {
-            kept.await_start();
-        }
+    /// The robot heard nothing for a while. In a run, it turns to no route until the START of one comes.
+    pub(crate) fn note_silence(&mut self) {
+        self.awaits_start |= self.named() != 0;
     }
 
     /// Turns towards the first direction of the kept route while no other motion is due.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
-        self.kept.as_mut()?.prepare(body)
+        self.kept.as_mut().filter(|_| !self.awaits_start)?.prepare(body)
     }
 
     /// Ends the route under way where it is over and the robot stands at its end. Returns its number.

@@ -157,6 +157,27 @@ fn a_robot_that_waits_for_its_start_does_not_turn_in_silence() {
 }
 
 #[test]
+fn a_robot_between_two_drives_does_not_turn_to_a_route_that_comes_after_silence() {
+    let mut plant = ready(Flaws::STANDARD);
+    let goal = START + Vec2::new(0.1, 0.0);
+    send(&mut plant, 9, goal, 300);
+    plant.run(2.0);
+    assert_eq!(plant.heard(Topic::Arrival).len(), 1);
+    let next = Command::Route(straight(10, goal, goal + Vec2::new(0.0, -0.5)));
+    plant.answers = false;
+    plant.run(2.2);
+    plant.answers = true;
+    plant.tell(&next);
+    for _ in 0..60 {
+        plant.step();
+        assert_eq!(plant.last.wheels_radps, [0.0; 2], "that may be an old message");
+    }
+    plant.tell(&Command::Start { seq: 10, at: plant.show() + Span::from_millis(60_000) });
+    plant.run(1.0);
+    assert!((plant.heading + core::f64::consts::FRAC_PI_2).abs() < 0.05, "{}", plant.heading);
+}
+
+#[test]
 fn a_robot_that_aborted_its_route_does_not_turn_towards_the_one_after_it() {
     let mut plant = driving();
     plant.tell(&Command::Route(straight(10, FAR, FAR + Vec2::new(0.0, -0.5))));
