@@ -153,10 +153,35 @@ fn a_drive_that_did_not_begin_has_brought_none_to_its_goal() {
     assert_eq!(world.count(started), 0, "{}", world.story());
     world.kill_controller();
     assert!(world.return_controller(OnReturn::Go));
+    are_where_they_stand(&world);
+}
+
+#[test]
+fn a_drive_that_was_broken_off_has_brought_none_to_its_goal() {
+    let mut world = World::ready(7, 0, show(3, 6, 0.5));
+    world.controller.keep_journal();
+    world.play();
+    world.run_until(20.0, started);
+    world.run_for(0.8);
+    world.robots[2].dead = true;
+    world.run_until(20.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    // STOP discards the routes that were kept; then come those of the new plan.
+    for keeps in [false, true] {
+        while world.robots.iter().any(|robot| !robot.dead && robot.kept.is_some()) != keeps {
+            world.step();
+        }
+    }
+    world.kill_controller();
+    assert!(world.return_controller(OnReturn::Go));
+    are_where_they_stand(&world);
+}
+
+/// The controller, which is just back, expects all robots where they stand.
+fn are_where_they_stand(world: &World) {
     for row in world.controller.snapshot(world.now).robots {
-        let stands = world.robots.iter().find(|robot| robot.id == row.id).unwrap().at;
-        let at = row.reported.at.unwrap();
-        assert!(at.distance(stands) < 1e-3, "{} stands at {stands:?}, not {at:?}", row.id);
+        let robot = world.robots.iter().find(|robot| robot.id == row.id).unwrap();
+        let (stands, at) = (robot.at, row.reported.at.unwrap());
+        assert!(robot.dead || at.distance(stands) < 1e-3, "{} stands at {stands:?}, not {at:?}", row.id);
     }
 }
 

@@ -28,4 +28,4 @@ pub(crate) use writing::Journal;
 /// The first bytes of every journal.
 const MAGIC: &[u8; 8] = b"LBotsJrn";
 /// The format of journals. Raise it with every change of a type that is written: `Entry`, `JournalState`, `Show`.
-pub(crate) const VERSION: u16 = 10;
+pub(crate) const VERSION: u16 = 11;

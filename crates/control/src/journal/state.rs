@@ -96,9 +96,14 @@ pub(crate) struct Position {
 }
 
 impl Position {
+    /// Whether robots stand at the goals of the leg.
+    pub fn is_at_goals(&self) -> bool {
+        self.stood.is_some_and(|air| air.is_at_goals)
+    }
+
     /// Whether the leg says where robots are: on their way, or at its goals.
     pub fn is_in_leg(&self) -> bool {
-        self.drive.is_some() || self.stood.is_some()
+        self.drive.is_some() || self.is_at_goals()
     }
 }
 

@@ -98,7 +98,7 @@ impl Run {
         let mut participants = Vec::new();
         for (number, entry) in state.participants.iter().enumerate() {
             let goal =
-                leg.as_ref().and_then(|leg| leg.goal(number)).filter(|_| progress.position.stood.is_some());
+                leg.as_ref().and_then(|leg| leg.goal(number)).filter(|_| progress.position.is_at_goals());
             let robot = context.fleet.expect(entry.id, *at, &context.config);
             expect(context, robot, entry, goal);
             context.fleet.robot_mut(robot).participant = Some(number as u32);

@@ -169,7 +169,7 @@ impl Gathering {
             return Next::failed(self.shortage(cx, active, pixels));
         }
         let (until, left) = self.left.stood.map_or((cx.now, None), |stood| (stood.until, stood.left));
-        Next::Stand(AirTime { since: cx.now, until: until.max(cx.now), left })
+        Next::Stand(AirTime { since: cx.now, until: until.max(cx.now), left, is_at_goals: false })
     }
 
     /// Why `active` robots are too few for the `pixels` of the next frame, for people.

@@ -13,6 +13,8 @@ pub(crate) struct AirTime {
     pub until: Instant,
     /// Air time that is left while the run is paused.
     pub left: Option<Span>,
+    /// Robots stand at the goals of the last drive, and not where it was broken off.
+    pub is_at_goals: bool,
 }
 
 /// A participant that can go on no longer, and why.

@@ -92,7 +92,7 @@ impl Driving {
             reach_frame(cx, frame, clock.ends);
         }
         let left = cx.playback.paused.then_some(air);
-        Next::Stand(AirTime { since: now, until: stands_since + air, left })
+        Next::Stand(AirTime { since: now, until: stands_since + air, left, is_at_goals: true })
     }
 }
 
