@@ -87,7 +87,33 @@ async fn stopped(pilot: &Pilot) -> Step {
     };
     let expected = "it stands at once; a report on T/LightBot/Status with state=idle";
     pilot.session.record(40, stands && said, "|STOP| on a route", expected, came);
+    stopped_at_a_moment(pilot).await?;
     stop_target(pilot).await
+}
+
+/// Tests `STOP at`, which no `RESUME` revokes. A robot that does not know `at` stops at once.
+async fn stopped_at_a_moment(pilot: &Pilot) -> Step {
+    pilot.drive_to(pilot.home).await?;
+    let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
+    if !keep(pilot, &route).await {
+        return Ok(());
+    }
+    let starts = pilot.session.show() + LEAD;
+    start(pilot, Addressee::AllRobots, route.seq, starts).await;
+    pilot.session.pause(starts - pilot.session.show() + REST + Span::from_millis(200)).await;
+    let stop = pilot.session.show() + Span::from_millis(500);
+    let resume = stop + Span::from_millis(100);
+    let sent = format!("|STOP {}|, |RESUME {}| on a route", stop.0, resume.0);
+    for command in [format!("|STOP {}|", stop.0), format!("|RESUME {}|", resume.0)] {
+        pilot.session.send(Addressee::AllRobots, command);
+    }
+    pilot.session.pause(stop - pilot.session.show() + Route::EASE + Span::from_millis(200)).await;
+    let stands = pilot.stands(Span::from_millis(900)).await?;
+    let state = pilot.ask().await?.field("state").map(str::to_owned).unwrap_or_default();
+    let came = format!("{}, state={state}", if stands { "it stands" } else { "it drives on" });
+    let expected = "it stands from 0.3 s after that moment on, state=idle";
+    pilot.session.record(40, stands && state == "idle", &sent, expected, came);
+    Ok(())
 }
 
 /// Tests `STOP` on the way to a target.

@@ -352,6 +352,15 @@ fn ignores_stop() {
     examined(deaf_to("STOP")).assert_broken(&[23, 40, 58]);
 }
 
+#[test]
+fn takes_a_stop_for_a_moment_for_a_hold() {
+    examined(hears(|word, command| match (word, numbers(command).as_slice()) {
+        ("STOP", [_]) => command.replace("STOP", "HOLD"),
+        _ => command.to_owned(),
+    }))
+    .assert_broken(&[40]);
+}
+
 /// The slot that the exam gives last.
 const SLOT: &str = "100";
 
