@@ -100,7 +100,7 @@ pub struct Playback {
     pub first_run: bool,
     /// Whether the show begins again after the last frame.
     pub looping: bool,
-    /// Names of late robots that the fleet waits for; at most 20.
+    /// Names of the robots that the fleet waits for: late on a drive, or not ready for one; at most 20.
     pub late: Vec<String>,
 }
 

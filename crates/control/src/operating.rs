@@ -325,6 +325,7 @@ impl Controller {
 
     fn abort(&mut self, now: Instant) -> Result<(), Refusal> {
         if self.state() == ControllerState::Aborting {
+            self.halt(now, None);
             return Ok(());
         }
         let run = self.run.as_mut().ok_or(Refusal::NoRun)?;

@@ -10,7 +10,7 @@ use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_plan::Path;
 
 /// Most robots that a view names others wait for.
-const WAITING_MAX: usize = 8;
+const WAITING_MAX: usize = 20;
 
 /// The paths of the drive under way or about to begin.
 #[derive(Clone, Debug)]
@@ -86,6 +86,9 @@ impl Run {
             RunPhase::Interrupted(_) if !context.outbox.linked() => "waiting for the broker",
             RunPhase::Interrupted(interrupted) if interrupted.asks_operator() => "waiting for you to go on",
             RunPhase::Interrupted(_) => "waiting for robots to report",
+            RunPhase::Gathering(_) if self.tally.clock_wait.is_on() => {
+                "waiting for robots to set their clocks"
+            }
             RunPhase::Gathering(_) => "asking robots where they are",
             RunPhase::Starting(_) => "starting",
             RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",
@@ -121,6 +124,10 @@ impl Run {
     }
 
     fn waiting_for(&self, context: &Context, now: Instant) -> Vec<RobotId> {
+        let id = |robot: usize| context.fleet.robot(robot).id;
+        if let RunPhase::Gathering(gathering) = &self.phase {
+            return gathering.awaited(context, &self.roster).take(WAITING_MAX).map(id).collect();
+        }
         let (RunPhase::Driving(drive), Some(driven)) = (&self.phase, &self.pipeline.driven) else {
             return Vec::new();
         };
@@ -132,7 +139,7 @@ impl Run {
                 || is_overdue && !progress.arrived && driven.leg.is_driven_by(participant)
         };
         let late = self.roster.active().filter(holds_up).take(WAITING_MAX);
-        late.map(|(_, known)| context.fleet.robot(known.robot).id).collect()
+        late.map(|(_, known)| id(known.robot)).collect()
     }
 
     /// Adds to a robot's view what the run knows of it.

@@ -147,7 +147,7 @@ fn stop_lets_a_drive_come_to_rest_first_and_pressed_again_halts_at_once() {
             world.run_for(0.1);
             assert_eq!((held(&world), stops(&world)), (6, 0), "{operation:?}");
             if again {
-                world.operate(Operation::StopAll).unwrap();
+                world.operate(operation.clone()).unwrap();
                 world.run_for(0.05);
                 assert!(stops(&world) >= 6, "{operation:?}");
             }
@@ -157,6 +157,20 @@ fn stop_lets_a_drive_come_to_rest_first_and_pressed_again_halts_at_once() {
             assert_eq!(world.controller.state(), ControllerState::Ready);
         }
     }
+}
+
+#[test]
+fn a_run_says_for_which_clocks_it_waits() {
+    let mut world = World::ready(3, 0, show(1, 3, 0.2));
+    world.robots[1].clock_us = 40_000;
+    world.run_for(2.5);
+    world.play();
+    world.run_for(1.0);
+    let run = world.controller.snapshot(world.now).run.unwrap();
+    assert_eq!(run.doing, "waiting for robots to set their clocks");
+    assert_eq!(run.waiting_for, [world.robots[1].id]);
+    world.robots[1].clock_us = 500;
+    assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 1, 0), "{}", world.story());
 }
 
 #[test]

@@ -5,7 +5,7 @@ import { useSession } from '../session/session';
 import { phaseText } from './actions';
 import styles from './PlayState.module.css';
 
-/** Frame x of y, the robots that have not arrived, time left. */
+/** Frame x of y, the robots that all wait for, time left. */
 export function PlayState() {
   const { live, frame, waiting } = useSession();
   const isWaiting = useStore(waiting, (pending) => pending !== null);
@@ -16,6 +16,7 @@ export function PlayState() {
   const failed = useStore(live.playback, (p) => p.phase === 'ready' && p.failure !== null);
   const left = useStore(live.playback, (p) => (p.left_s === null ? null : clockText(p.left_s)));
   const late = useStore(live.playback, (p) => p.late.join(' '));
+  const drives = useStore(live.playback, (p) => p.doing === 'driving' || p.doing === 'holding');
   const speed = useStore(live.playback, (p) => p.speed_percent);
   const pace = useStore(live.pace, (share) => Math.round(share * 100));
   const rows = live.fleet.get().rows;
@@ -43,8 +44,10 @@ export function PlayState() {
         </span>
       ) : null}
       {names.length > 0 ? (
-        <Tooltip label={`On the way: ${names.join(', ')}`}>
-          <span className="quiet">{names.length === 20 ? '20+' : names.length} on the way</span>
+        <Tooltip label={`${drives ? 'On the way' : 'Waiting for'}: ${names.join(', ')}`}>
+          <span className="quiet">
+            {names.length === 20 ? '20+' : names.length} {drives ? 'on the way' : 'awaited'}
+          </span>
         </Tooltip>
       ) : null}
       {speed < 100 ? <span className={styles.slow}>drives at {speed} %</span> : null}

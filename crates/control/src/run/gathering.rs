@@ -1,5 +1,6 @@
 //! All stop and say where they stand; robots that do not answer drop out.
 
+use crate::context::Context;
 use crate::event::Trouble;
 use crate::journal::Position;
 use crate::leg::LegKind;
@@ -9,7 +10,7 @@ use crate::run::clock_wait::PRECISE_US;
 use crate::run::next::{AirTime, Next};
 use crate::run::path_clock::{Hold, PathClock};
 use crate::run::readiness::missing;
-use crate::run::roster::Whereabouts;
+use crate::run::roster::{Roster, Whereabouts};
 use crate::run::run_context::RunContext;
 use crate::run::silence;
 use crate::run::stop_times::StopTimes;
@@ -103,6 +104,14 @@ impl Gathering {
     /// The frame that stood is left as soon as robots are ready.
     pub fn leave_now(&mut self) {
         self.left.stood = None;
+    }
+
+    /// The robots (indices into the fleet) that all wait for.
+    pub fn awaited<'a>(&'a self, io: &'a Context, roster: &'a Roster) -> impl Iterator<Item = usize> + 'a {
+        let robots = roster.active().map(|(_, known)| known.robot);
+        robots.filter(|&robot| {
+            missing(io, robot, self.fresh_from).is_some() || clock_us(io, robot) > PRECISE_US
+        })
     }
 
     /// When something is due.
@@ -210,8 +219,7 @@ pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Ins
 
 /// Whether all wait on for robots whose clocks are not precise yet. It is said once, of the least precise one.
 fn waits_for_clocks(cx: &mut RunContext) -> bool {
-    let clock_us = |robot: usize| cx.io.fleet.robot(robot).reported.clock_us.unwrap_or(0);
-    let clocks = cx.roster.active().map(|(one, known)| (clock_us(known.robot), one));
+    let clocks = cx.roster.active().map(|(one, known)| (clock_us(cx.io, known.robot), one));
     let worst = clocks.max().filter(|&(us, _)| us > PRECISE_US);
     let begins = !cx.tally.clock_wait.is_on();
     let passed = worst.and_then(|_| cx.tally.clock_wait.look(cx.now));
@@ -225,6 +233,11 @@ fn waits_for_clocks(cx: &mut RunContext) -> bool {
         cx.report_waiting(worst, Trouble::Clock);
     }
     true
+}
+
+/// How far a robot's clock may be off, 2 sigma, microseconds; 0 where it did not say.
+fn clock_us(io: &Context, robot: usize) -> u32 {
+    io.fleet.robot(robot).reported.clock_us.unwrap_or(0)
 }
 
 /// Asks robots for what they lack.

@@ -26,6 +26,8 @@ pub struct Robot {
     pub ahead: Span,
     /// How fast its route goes on, as a share of the show clock.
     pub pace: f64,
+    /// How far its clock may be off, microseconds.
+    pub clock_us: u32,
     /// It is not sure where it is.
     pub unsure: bool,
     /// Says that something stands in its way.
@@ -62,6 +64,7 @@ impl Robot {
             stuck: false,
             ahead: Span::ZERO,
             pace: 1.0,
+            clock_us: 500,
             unsure: false,
             blocked: None,
             target: None,
@@ -128,7 +131,7 @@ impl Robot {
             light: self.stretches.last().map_or(0, |stretch| stretch.number),
             err_m: self.unsure.then_some(0.02),
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
-            clock_us: self.synchronised.then_some(500),
+            clock_us: self.synchronised.then_some(self.clock_us),
             abilities: Abilities::ALL,
             blocked: self.blocked,
             ..Details::default()
