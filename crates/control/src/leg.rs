@@ -33,6 +33,8 @@ pub(crate) struct Leg {
     pub reaches_frame: bool,
     /// Clearance of the closest two robots by plan, metres.
     pub room_m: f64,
+    /// Where its plan had robots that dropped out.
+    pub around: Arc<[Vec2]>,
 }
 
 /// How robots are told to go.

@@ -14,6 +14,7 @@ use lightbots_plan::{
 use lightbots_show::{Frame, Pixel};
 use lightbots_wire::MAX_PIECES;
 use std::cell::Cell;
+use std::sync::Arc;
 
 /// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
 const BLOCKED_MARGIN_M: f64 = 0.001;
@@ -352,6 +353,7 @@ impl<'a> PlanBuilder<'a> {
             duration,
             reaches_frame: false,
             room_m,
+            around: Arc::default(),
         }
     }
 }

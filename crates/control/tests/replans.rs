@@ -3,9 +3,10 @@
 
 mod fleet;
 
-use fleet::{World, show};
-use lightbots_base::Span;
+use fleet::{World, reached, show};
+use lightbots_base::{PathRef, Span};
 use lightbots_control::{EventKind, RunOutcome};
+use lightbots_wire::Route;
 
 /// A run of two frames in which a robot dies on the way to the second; `slow_plans` of the plans after that take too long.
 fn run_with_a_death(robots: usize, slow_plans: usize) -> (World, RunOutcome, usize) {
@@ -44,4 +45,47 @@ fn a_replan_that_takes_too_long_is_followed_by_another_or_by_a_named_end() {
     assert!(why.contains("Show stopped in frame 2"), "{why}");
     let replans = world.budgets.iter().filter(|budget| budget.is_some()).count();
     assert!((1..=4).contains(&replans), "{replans} replans: {}", world.story());
+}
+
+/// Puts a robot that dropped out on a route, and lets it say so.
+fn put_on(world: &mut World, robot: usize, route: &Route) {
+    let path = PathRef::new(route.start, &route.pieces);
+    world.robots[robot].at = path.at(path.duration() * 7 / 10).position;
+    world.robots[robot].introduce();
+}
+
+#[test]
+fn a_robot_that_is_put_on_a_path_in_a_drive_is_driven_around() {
+    let starts = |kind: &EventKind| matches!(kind, EventKind::TransitionStarted { frame: 0, .. });
+    let mut world = World::ready(8, 0, show(2, 8, 0.5));
+    world.play();
+    world.run_until(20.0, starts);
+    world.run_for(0.5);
+    world.robots[1].dead = true;
+    world.run_until(20.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    world.run_until(20.0, starts);
+    world.run_for(0.5);
+    world.robots[1].dead = false;
+    let (route, _) = world.robots[3].running.clone().unwrap();
+    put_on(&mut world, 1, &route);
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 2, 1), "{}", world.story());
+    assert!(world.closest_m >= 0.054, "{}: {}", world.closest_m, world.story());
+}
+
+#[test]
+fn a_robot_that_is_put_on_a_path_before_its_start_is_driven_around() {
+    let mut world = World::ready(8, 0, show(3, 8, 1.5));
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { frame: 1, .. }));
+    world.run_for(0.5);
+    world.robots[1].stuck = true;
+    world.run_until(20.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+    world.run_until(20.0, reached(1));
+    world.run_for(0.5);
+    let (route, _) = world.robots[2].kept.clone().unwrap();
+    // Robots without sensors drove into the one that got stuck.
+    world.closest_m = f64::INFINITY;
+    put_on(&mut world, 1, &route);
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 1), "{}", world.story());
+    assert!(world.closest_m >= 0.054, "{}: {}", world.closest_m, world.story());
 }

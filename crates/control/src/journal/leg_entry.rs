@@ -5,6 +5,7 @@ use lightbots_base::{Piece, Rgb, Span, Vec2};
 use lightbots_plan::Path;
 use lightbots_plan::unsynchronised::StraightDrive;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Longest time of a piece: a day. More would overflow the show clock.
 const PIECE_MAX: Span = Span::from_millis(86_400_000);
@@ -103,6 +104,7 @@ impl LegEntry {
             duration: self.duration,
             reaches_frame: self.reaches_frame,
             room_m: 0.0,
+            around: Arc::default(),
         })
     }
 }

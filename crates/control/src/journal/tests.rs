@@ -88,6 +88,7 @@ fn leg() -> LegEntry {
         duration: Span(900),
         reaches_frame: true,
         room_m: 0.0,
+        around: Arc::default(),
     })
 }
 

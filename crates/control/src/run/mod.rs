@@ -3,6 +3,7 @@
 //! This file has the inputs of a run. Each goes to the present phase, which returns [`Next`]; `machine` then changes the
 //! phase. A phase sees the rest of the run as a [`RunContext`]; it never sees [`Run`].
 
+mod bystanders;
 mod candidates;
 mod clock_wait;
 mod driving;
@@ -160,9 +161,7 @@ impl Run {
                 io.report_unexpected(now, report);
             }
             self.roster.locate(io.fleet.robot(received.index));
-            let is_stopping = matches!(self.phase, RunPhase::Gathering(_));
-            let (_, mut cx) = self.split(io, now);
-            return candidates::consider(&mut cx, received.index, is_stopping);
+            return self.on_bystander(io, now, received.index);
         };
         if io.fleet.robot(received.index).namesakes.are_there() {
             return self.apply(io, now, Next::drop(participant, Trouble::Shared));
@@ -172,6 +171,18 @@ impl Run {
             return self.apply(io, now, next);
         }
         self.on_status(io, now, participant, received.restarted, report);
+    }
+
+    /// A robot reports that takes no part.
+    fn on_bystander(&mut self, io: &mut Context, now: Instant, robot: usize) {
+        let (phase, mut cx) = self.split(io, now);
+        candidates::consider(&mut cx, robot, matches!(phase, RunPhase::Gathering(_)));
+        let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
+        if let (RunPhase::Driving(drive), Some(participant)) = (phase, participant)
+            && bystanders::obstructs_drive(&mut cx, participant, drive.clock.path_time(now))
+        {
+            self.apply(io, now, Next::Regather);
+        }
     }
 
     fn on_place(

@@ -15,6 +15,7 @@ use crate::run::upload::Upload;
 use lightbots_base::{Instant, Vec2};
 use lightbots_wire::{Command, Details, Pieces, Route, Topic};
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Largest clearance that a route states, millimetres: farther than proximity sensors see.
 const ROOM_MAX_MM: f64 = 40.0;
@@ -37,6 +38,8 @@ pub(crate) struct Planning {
     pub from: Vec<Vec2>,
     /// Number of the plan request that is out, and since when.
     pub pending: Option<(u64, Instant)>,
+    /// Where robots that dropped out stood when it was made.
+    pub around: Arc<[Vec2]>,
     /// Robots wait for the plan: only one frame is planned.
     pub is_urgent: bool,
     /// Robots stand too far from where the next leg begins.
@@ -95,6 +98,7 @@ impl Pipeline {
             last: first,
             from: Vec::new(),
             pending: None,
+            around: Arc::default(),
             is_urgent: false,
             is_outdated: false,
             is_dark: false,

@@ -5,6 +5,7 @@ use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
 use crate::operation::MissingPolicy;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult, PlannedRobot};
+use crate::run::bystanders;
 use crate::run::next::Next;
 use crate::run::obstacles;
 use crate::run::playback::{Jump, RunPurpose};
@@ -43,6 +44,7 @@ pub(crate) fn plan_ahead(cx: &mut RunContext) {
         lenient,
         stopped,
     };
+    cx.pipeline.planning.around = bystanders::places(cx);
     cx.io.plan_number += 1;
     cx.io.plan_request = Some(PlanRequest { number: cx.io.plan_number, problem });
     cx.pipeline.planning.pending = Some((cx.io.plan_number, cx.now));
@@ -132,6 +134,7 @@ fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>, stopped: bool) {
     let mut takes = Span::ZERO;
     for mut leg in legs {
         leg.seq = cx.io.number_route();
+        leg.around = cx.pipeline.planning.around.clone();
         takes += leg.duration;
         if leg.reaches_frame {
             if before.replace(leg.frame).is_some_and(|before| before + 1 == leg.frame) {

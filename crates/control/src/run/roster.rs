@@ -28,6 +28,8 @@ pub(crate) struct Participant {
     pub last_seen: Whereabouts,
     /// How often an obstacle in the robot's path led to a new plan.
     pub replans: u8,
+    /// How often the robot, which had dropped out, led to a new plan because a path led through it.
+    pub planned_around: u8,
 }
 
 /// All robots that take part in a run. Participants are numbered in the order in which they joined.
@@ -52,6 +54,7 @@ impl Participant {
             probation: Probation::None,
             last_seen: Whereabouts::default(),
             replans: 0,
+            planned_around: 0,
         }
     }
 

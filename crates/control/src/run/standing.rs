@@ -2,6 +2,7 @@
 
 use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::leg::LegKind;
+use crate::run::bystanders;
 use crate::run::driving::is_there;
 use crate::run::link_loss;
 use crate::run::next::{AirTime, Next};
@@ -109,7 +110,11 @@ impl Standing {
             Some(LegKind::Routes)
                 if cx.pipeline.is_uploaded() && cx.now + cx.start_lead() + EARLY >= until =>
             {
-                Next::Start(until)
+                if bystanders::obstruct_next(cx) {
+                    Next::Regather
+                } else {
+                    Next::Start(until)
+                }
             }
             None if planning.pending.is_none() && planning.next.is_none() && cx.now >= until => end(cx),
             _ => Next::Stay,
