@@ -31,7 +31,7 @@ impl Run {
         };
         let before = self.playback.music;
         let light = self.pipeline.light.current();
-        let (leg, leads) = light.map_or((before.leg, false), |light| (light.seq, light.leads_music));
+        let (leg, leads) = light.map_or((before.leg, false), |light| (light.seq, light.times.leads_music));
         // A frame that the operator chose, or that comes once more, is where the music goes too. A picture that is late, or
         // left out, is not.
         let is_led_there = leads && leg != before.leg;

@@ -24,15 +24,9 @@ pub(crate) struct PlannedStretch {
     pub free_at: Option<Instant>,
 }
 
-/// Light of a leg.
-#[derive(Clone, Debug)]
-pub(crate) struct LegLight {
-    /// Number of the leg's routes.
-    pub seq: u32,
-    /// The frame it leads to, in its run.
-    pub frame: FrameCursor,
-    /// Whether the frame is reached at its end.
-    pub reaches_frame: bool,
+/// When a leg happens on the timeline, and how show time goes on after it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LegTimes {
     /// Show time at the beginning of the drive, seconds.
     pub show_s: f64,
     /// When the frame is to stand by the timeline, seconds. Show time then is later by what robots are behind.
@@ -47,6 +41,19 @@ pub(crate) struct LegLight {
     pub waits_for_go: bool,
     /// How long show time had stood at the beginning of the drive, seconds.
     pub lead_s: f64,
+}
+
+/// Light of a leg.
+#[derive(Clone, Debug)]
+pub(crate) struct LegLight {
+    /// Number of the leg's routes.
+    pub seq: u32,
+    /// The frame it leads to, in its run.
+    pub frame: FrameCursor,
+    /// Whether the frame is reached at its end.
+    pub reaches_frame: bool,
+    /// When it happens.
+    pub times: LegTimes,
     /// `[participant]`: its number in effects.
     pub numbers: Arc<[u32]>,
     /// `[participant]`: colour before, and whether layers shone on the robot then.
@@ -66,7 +73,7 @@ pub(crate) struct LegLight {
 impl LegLight {
     /// The end of show time in this leg, as time since the drive began; `None`: show time goes on.
     pub fn end(&self) -> Option<Span> {
-        (!self.waits_for_go).then_some(self.drive + self.air)
+        (!self.times.waits_for_go).then_some(self.times.drive + self.times.air)
     }
 
     /// Time since the drive began, without holds; `None`: it has not begun.
@@ -77,10 +84,10 @@ impl LegLight {
     /// What robots show at a time since the drive began. `lost`: how long it was held.
     pub fn moment(&self, elapsed: Span, lost: Span) -> LightMoment {
         let shown = self.end().map_or(elapsed, |end| elapsed.min(end));
-        let lead_s = self.lead_s + (lost + (elapsed - shown)).as_secs();
+        let lead_s = self.times.lead_s + (lost + (elapsed - shown)).as_secs();
         let began = self.clock.map_or(Instant::ZERO, |clock| clock.began);
         let clock_s = (began - Instant::ZERO + elapsed + lost).as_secs();
-        LightMoment { elapsed, show_s: self.show_s + shown.as_secs(), lead_s, clock_s }
+        LightMoment { elapsed, show_s: self.times.show_s + shown.as_secs(), lead_s, clock_s }
     }
 
     /// What robots show at a moment of the show clock, by the holds that are stated.
@@ -91,6 +98,11 @@ impl LegLight {
     /// How long holds have taken until now.
     pub fn lost(&self, now: Instant) -> Span {
         self.clock.map_or(Span::ZERO, |clock| (now - clock.began - clock.path_time(now)).max(Span::ZERO))
+    }
+
+    /// How long show time has stood until the end of the leg, by the holds that were released, seconds.
+    pub fn lead_s_after(&self) -> f64 {
+        self.times.lead_s + self.clock.map_or(0.0, |clock| clock.lost.as_secs())
     }
 
     /// The light of a participant. `next`: the leg to the frame after.
@@ -111,7 +123,7 @@ impl LegLight {
             shines: [shone, step.pixel.is_some()],
             path: leg.path(participant).map(|path| path.as_ref()),
             goal: step.goal,
-            drive: self.drive,
+            drive: self.times.drive,
         })
     }
 
@@ -154,8 +166,8 @@ impl LegLight {
         if let Some(at) = stretch.free_at {
             return (LightAnchor::Free(at), Span::ZERO);
         }
-        let stands = clock.hold.is_none() && clock.path_time(now) >= self.drive;
-        if stands && stretch.from >= self.drive {
+        let stands = clock.hold.is_none() && clock.path_time(now) >= self.times.drive;
+        if stands && stretch.from >= self.times.drive {
             return (LightAnchor::Moment(clock.began + clock.lost + stretch.from), Span::ZERO);
         }
         (LightAnchor::Moment(clock.began), stretch.from)

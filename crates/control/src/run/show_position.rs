@@ -8,12 +8,15 @@ impl Run {
     /// Where the run is on the timeline; `None`: no show is played, or its first drive has not begun.
     pub fn show_position(&self, now: Instant) -> Option<ShowPosition> {
         let light = self.pipeline.light.current().filter(|_| self.playback.purpose == RunPurpose::Play)?;
-        let end = light.drive + light.air;
-        let until_end = |left: Span| (end - left).clamp(light.drive, end.max(light.drive));
+        let end = light.times.drive + light.times.air;
+        let until_end = |left: Span| (end - left).clamp(light.times.drive, end.max(light.times.drive));
         let (elapsed, runs) = match &self.phase {
             RunPhase::Driving(drive) => {
                 let elapsed = drive.clock.path_time(now);
-                (elapsed.clamp(Span::ZERO, light.drive), drive.clock.hold.is_none() && elapsed < light.drive)
+                (
+                    elapsed.clamp(Span::ZERO, light.times.drive),
+                    drive.clock.hold.is_none() && elapsed < light.times.drive,
+                )
             }
             RunPhase::Standing(standing) => match standing.air.left {
                 Some(left) => (until_end(left), false),
@@ -27,12 +30,12 @@ impl Run {
             RunPhase::Starting(_) if light.clock.is_none() => (light.seen, false),
             RunPhase::Starting(starting) => {
                 let left = (starting.at - now).max(Span::ZERO);
-                (until_end(left), left > Span::ZERO && left < light.air)
+                (until_end(left), left > Span::ZERO && left < light.times.air)
             }
             RunPhase::Interrupted(_) | RunPhase::Gathering(_) | RunPhase::Over(..) => {
-                (light.seen.min(end.max(light.drive)), false)
+                (light.seen.min(end.max(light.times.drive)), false)
             }
         };
-        Some(ShowPosition { show_s: light.due_s + (elapsed - light.drive).as_secs(), runs })
+        Some(ShowPosition { show_s: light.times.due_s + (elapsed - light.times.drive).as_secs(), runs })
     }
 }

@@ -11,7 +11,7 @@ pub(crate) use live::{LIVE_MAX, NAME_MAX};
 
 use crate::context::Context;
 use crate::leg::{Leg, LegKind};
-use crate::run::light_leg::{LegLight, PlannedStretch};
+use crate::run::light_leg::{LegLight, LegTimes, PlannedStretch};
 use crate::run::path_clock::PathClock;
 use crate::run::playback::{PlayedShow, RunPurpose};
 use crate::run::roster::Roster;
@@ -130,7 +130,7 @@ impl LightPlayer {
         let follows = current.is_some_and(|current| {
             current.frame.round == leg.round
                 && current.frame.frame.checked_add(1) == Some(leg.frame)
-                && !current.waits_for_go
+                && !current.times.waits_for_go
         }) && !is_chosen;
         let over = if follows && !layers.is_free() { Span::ZERO } else { BLEND };
         let number = if self.is_active() { context.number_route() } else { 0 };
@@ -138,15 +138,15 @@ impl LightPlayer {
             seq: leg.seq,
             frame: leg.cursor(),
             reaches_frame: leg.reaches_frame,
-            show_s,
-            due_s: place.due_s,
-            leads_music: place.leads_music,
-            drive,
-            air: if leg.reaches_frame { air } else { Span::ZERO },
-            waits_for_go,
-            lead_s: current.map_or(0.0, |current| {
-                current.clock.map_or(current.lead_s, |clock| current.lead_s + clock.lost.as_secs())
-            }),
+            times: LegTimes {
+                show_s,
+                due_s: place.due_s,
+                leads_music: place.leads_music,
+                drive,
+                air: if leg.reaches_frame { air } else { Span::ZERO },
+                waits_for_go,
+                lead_s: current.map_or(0.0, LegLight::lead_s_after),
+            },
             numbers: self.numbers.clone(),
             before,
             after: leg.robots.iter().map(|step| (step.color, step.pixel.is_some())).collect(),
@@ -233,7 +233,7 @@ impl LightPlayer {
         let shown = current.moment_at(now);
         let behind_s = music_s - shown.show_s - shown.lead_s;
         if behind_s.abs() > NEAR_MUSIC_S {
-            current.lead_s += behind_s;
+            current.times.lead_s += behind_s;
             self.renew_at = now;
         }
     }
@@ -241,7 +241,7 @@ impl LightPlayer {
     /// Robots stop, and all is planned again from where they stand: show time stands until the next drive, unless this one
     /// was over.
     pub fn halt(&mut self) {
-        if let Some(current) = self.current.as_mut().filter(|current| current.seen < current.drive) {
+        if let Some(current) = self.current.as_mut().filter(|current| current.seen < current.times.drive) {
             (current.clock, self.upload) = (None, None);
         }
     }

@@ -40,13 +40,13 @@ pub(super) fn place(
     }
     let (show_s, due_s) = match current {
         Some(current) if is_same_frame && !is_chosen => {
-            let elapsed = if current.reaches_frame { current.seen } else { current.drive };
-            (current.moment(elapsed.min(current.drive), Span::ZERO).show_s, current.due_s)
+            let elapsed = if current.reaches_frame { current.seen } else { current.times.drive };
+            (current.moment(elapsed.min(current.times.drive), Span::ZERO).show_s, current.times.due_s)
         }
         Some(current) if !is_new_round && !is_chosen => {
-            let air_s = current.air.as_secs();
-            let due_s = current.due_s + air_s + times.planned_s(leg.frame).unwrap_or(drive_s);
-            (current.show_s + current.drive.as_secs() + air_s, due_s)
+            let air_s = current.times.air.as_secs();
+            let due_s = current.times.due_s + air_s + times.planned_s(leg.frame).unwrap_or(drive_s);
+            (current.times.show_s + current.times.drive.as_secs() + air_s, due_s)
         }
         _ => {
             let begin_s = times.begin_s(playback, leg.frame);
