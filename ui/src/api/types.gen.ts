@@ -550,7 +550,7 @@ first_run: boolean,
  */
 looping: boolean, 
 /**
- * Names of late robots that the fleet waits for; at most 20.
+ * Names of the robots that the fleet waits for: late on a drive, or not ready for one; at most 20.
  */
 late: Array<string>, };
 

@@ -10,7 +10,7 @@ const ROBOTS: usize = 30;
 const SLOW: [u64; 5] = [233, 703, 710, 1_091, 1_337];
 
 /// Seeds that failed once, with the number of robots they had then.
-const FAILED: [(u64, Option<usize>); 34] = [
+const FAILED: [(u64, Option<usize>); 37] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed was resumed by no one.
@@ -67,6 +67,12 @@ const FAILED: [(u64, Option<usize>); 34] = [
     (353, None),
     // After an outage robots turned towards the route that they kept, by old messages before STOP.
     (3_417, None),
+    // A route came only with the old messages after an outage, and robots turned towards it.
+    (3_913, None),
+    // After a drive was broken off the journal had robots at the goals of that drive.
+    (3_343, None),
+    // A robot that had lied when all was planned stood on a path.
+    (2_908, None),
     // What a robot saw 0.1 m beside one that had died was taken for that one, which was then driven through.
     (765, None),
     // A robot that knows TARGET only was a stranger that was believed to keep to the plan.
