@@ -80,8 +80,8 @@ pub struct RunView {
     pub repeats: Option<RepeatView>,
     /// Whether the operator can let a run go on that was interrupted, without robots that do not report.
     pub may_go_on: bool,
-    /// Robots of the run that others wait for, because they make no progress, are silent, or are not ready to set off; at most
-    /// 20.
+    /// Robots of the run that others wait for, because they make no progress, are silent, or are not ready to set off; at
+    /// most 20.
     pub waiting_for: Vec<RobotId>,
     /// Number of frames reached.
     pub frames_played: usize,

@@ -1,5 +1,5 @@
-//! Robots that dropped out and still report. People put them aside, or they find their place again: where they stand then, no
-//! plan may have expected them.
+//! Robots that dropped out and still report. People put them aside, or they find their place again: no plan may expect them
+//! where they stand then.
 
 use crate::leg::Leg;
 use crate::run::run_context::RunContext;
