@@ -86,9 +86,10 @@ impl Run {
             RunPhase::Interrupted(_) if !context.outbox.linked() => "waiting for the broker",
             RunPhase::Interrupted(interrupted) if interrupted.asks_operator() => "waiting for you to go on",
             RunPhase::Interrupted(_) => "waiting for robots to report",
-            RunPhase::Gathering(_) if self.tally.clock_wait.is_on() => {
+            RunPhase::Gathering(gathering) if gathering.waits_for_clocks_only(context, &self.roster) => {
                 "waiting for robots to set their clocks"
             }
+
             RunPhase::Gathering(_) => "asking robots where they are",
             RunPhase::Starting(_) => "starting",
             RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",

@@ -3,7 +3,7 @@
 mod fleet;
 
 use fleet::{Dice, World, show, started};
-use lightbots_base::RobotId;
+use lightbots_base::{RobotId, Span};
 use lightbots_control::{ControllerState, EventKind, OnReturn, Operation, RunOutcome};
 use lightbots_show::{Identity, Show};
 
@@ -167,7 +167,11 @@ fn a_drive_that_was_broken_off_has_brought_none_to_its_goal() {
     world.run_until(20.0, |kind| matches!(kind, EventKind::Dropout { .. }));
     // STOP discards the routes that were kept; then come those of the new plan.
     for keeps in [false, true] {
-        while world.robots.iter().any(|robot| !robot.dead && robot.kept.is_some()) != keeps {
+        let is_any_kept =
+            |world: &World| world.robots.iter().any(|robot| !robot.dead && robot.kept.is_some());
+        let until = world.now + Span::from_millis(20_000);
+        while is_any_kept(&world) != keeps {
+            assert!(world.now < until, "{}", world.story());
             world.step();
         }
     }

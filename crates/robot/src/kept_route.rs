@@ -23,13 +23,15 @@ pub(crate) struct KeptRoute {
     pub(crate) starts: Option<Instant>,
     begin: Vec2,
     ahead: Option<Vec2>,
+    /// The robot turns towards it; after an outage only once its START has come.
+    is_turned_to: bool,
 }
 
 impl KeptRoute {
-    pub(crate) fn new(slot: Slot, route: &Route) -> Self {
+    pub(crate) fn new(slot: Slot, route: &Route, is_turned_to: bool) -> Self {
         let ahead = LookAhead::default().look(route, (0, Span::ZERO), Span::ZERO).map(|ahead| ahead.towards);
         let (seq, begin) = (route.seq, route.start);
-        Self { slot, seq, starts: None, follow: Follow::new(), begin, ahead }
+        Self { slot, seq, starts: None, follow: Follow::new(), begin, ahead, is_turned_to }
     }
 
     /// Whether a START for this moment is refused.
@@ -40,6 +42,7 @@ impl KeptRoute {
     /// Sets when it begins. A second START counts if it is later, because an earlier one is an old message that was
     /// overtaken. Whether that changed anything.
     pub(crate) fn start(&mut self, at: Instant) -> bool {
+        self.is_turned_to = true;
         let is_news = self.starts.is_none_or(|known| known < at);
         if is_news {
             self.starts = Some(at);
@@ -47,9 +50,14 @@ impl KeptRoute {
         is_news
     }
 
+    /// Does not turn towards it until its START comes.
+    pub(crate) fn await_start(&mut self) {
+        self.is_turned_to = false;
+    }
+
     /// Turns towards its first direction, where it begins near the robot.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         let is_here = self.begin.distance(body.at) < BEGINS_HERE_M;
-        self.ahead.filter(|_| is_here).map(|ahead| self.follow.prepare(ahead, body))
+        self.ahead.filter(|_| self.is_turned_to && is_here).map(|ahead| self.follow.prepare(ahead, body))
     }
 }

@@ -37,10 +37,11 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         // The message does not undo a silence that no step could notice because the simulation stood.
         if hot.supervisor.check_link(now, drives) {
             hot.seek = None;
+            hot.routes.note_outage();
             hot.routes.abandon();
         }
-        if hot.supervisor.is_silent(now) {
-            hot.routes.note_silence();
+        if hot.supervisor.was_out(now) {
+            hot.routes.note_outage();
         }
         hot.supervisor.receive(now);
         // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
@@ -187,6 +188,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let hot = &mut self.hot;
         if hot.supervisor.check_link(now, drives) {
             hot.seek = None;
+            hot.routes.note_outage();
             hot.routes.abandon();
         }
         if drives == Drives::Route {

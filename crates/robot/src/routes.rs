@@ -70,14 +70,14 @@ pub(crate) struct Routes {
     kept: Option<KeptRoute>,
     /// Number of the route that ended last.
     finished: u32,
-    /// It does not turn towards a kept route until the START of one comes: what else a robot hears after a silence may be
-    /// old.
-    awaits_start: bool,
+    /// The link was out between two drives or on one: what comes until the next START or STOP may be old, and the robot does
+    /// not turn towards a route by it.
+    was_out: bool,
 }
 
 impl Routes {
     pub(crate) fn new() -> Self {
-        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0, awaits_start: false }
+        Self { running: None, kept: None, timeline: Timeline::new(), finished: 0, was_out: false }
     }
 
     /// Keeps a route for its START. Copies of the one under way or just finished, and old messages, change nothing.
@@ -88,7 +88,7 @@ impl Routes {
             return;
         }
         let slot = self.running.as_ref().map_or(Slot::First, |running| running.slot.other());
-        self.kept = Some(KeptRoute::new(slot, route));
+        self.kept = Some(KeptRoute::new(slot, route, !self.was_out));
         storage.put(slot, route);
     }
 
@@ -98,7 +98,7 @@ impl Routes {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq && !kept.is_late(at, show)) else {
             return false;
         };
-        self.awaits_start = false;
+        self.was_out = false;
         kept.start(at)
     }
 
@@ -250,14 +250,22 @@ impl Routes {
         Some(running.follow.step(&motion, ahead, body))
     }
 
-    /// The robot heard nothing for a while. In a run, it turns to no route until the START of one comes.
-    pub(crate) fn note_silence(&mut self) {
-        self.awaits_start |= self.named() != 0;
+    /// Does not turn towards the kept route until its START comes: what else a robot hears after a silence may be old.
+    pub(crate) fn await_start(&mut self) {
+        if let Some(kept) = &mut self.kept {
+            kept.await_start();
+        }
+    }
+
+    /// The link was out. It matters to a robot that names a route: others have nothing that could be old.
+    pub(crate) fn note_outage(&mut self) {
+        self.was_out |= self.named() != 0;
+        self.await_start();
     }
 
     /// Turns towards the first direction of the kept route while no other motion is due.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
-        self.kept.as_mut().filter(|_| !self.awaits_start)?.prepare(body)
+        self.kept.as_mut()?.prepare(body)
     }
 
     /// Ends the route under way where it is over and the robot stands at its end. Returns its number.
@@ -281,6 +289,7 @@ impl Routes {
         self.running = None;
         self.kept = None;
         self.finished = 0;
+        self.was_out = false;
     }
 
     /// The show clock was set anew: moments stated before are void.

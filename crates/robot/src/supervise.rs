@@ -7,6 +7,9 @@ const FAULT: Span = Span::from_millis(1000);
 /// Silence of the controller during a run after which the robot asks for the time. It must be shorter than the robot's
 /// patience with the link (2 s). Above, a question that is lost cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
+/// Silence after which the link was out, whatever the robot does: its questions for the time, at most 3 s apart (R28), were
+/// not answered. Below, robots that stand for long take all routes for old. Above, they turn towards one that is.
+const OUTAGE: Span = Span::from_millis(3300);
 /// Time between two such questions.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
@@ -82,6 +85,11 @@ impl Supervisor {
     /// Whether no message came for longer than the robot's patience.
     pub(crate) fn is_silent(&self, now: Instant) -> bool {
         now - self.heard > self.silence
+    }
+
+    /// Whether a message that comes now ends an outage.
+    pub(crate) fn was_out(&self, now: Instant) -> bool {
+        now - self.heard > OUTAGE
     }
 
     /// Cuts the robot off where the link is silent for too long for what the robot does. Whether it did so just now.

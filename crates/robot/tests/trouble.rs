@@ -165,7 +165,7 @@ fn a_robot_between_two_drives_does_not_turn_to_a_route_that_comes_after_silence(
     assert_eq!(plant.heard(Topic::Arrival).len(), 1);
     let next = Command::Route(straight(10, goal, goal + Vec2::new(0.0, -0.5)));
     plant.answers = false;
-    plant.run(2.2);
+    plant.run(3.5);
     plant.answers = true;
     plant.tell(&next);
     for _ in 0..60 {
@@ -175,6 +175,39 @@ fn a_robot_between_two_drives_does_not_turn_to_a_route_that_comes_after_silence(
     plant.tell(&Command::Start { seq: 10, at: plant.show() + Span::from_millis(60_000) });
     plant.run(1.0);
     assert!((plant.heading + core::f64::consts::FRAC_PI_2).abs() < 0.05, "{}", plant.heading);
+}
+
+#[test]
+fn a_robot_that_stands_for_long_or_was_stopped_turns_towards_its_next_route() {
+    for (silent_s, stop) in [(2.0, false), (4.0, true)] {
+        let mut plant = ready(Flaws::STANDARD);
+        let goal = START + Vec2::new(0.1, 0.0);
+        send(&mut plant, 9, goal, 300);
+        plant.run(2.0);
+        // It may have asked for the time a second ago.
+        plant.answers = false;
+        plant.run(silent_s);
+        plant.answers = true;
+        if stop {
+            plant.tell(&Command::Stop);
+        }
+        plant.tell(&Command::Route(straight(10, goal, goal + Vec2::new(0.0, -0.5))));
+        plant.run(1.0);
+        let off_rad = (plant.heading + core::f64::consts::FRAC_PI_2).abs();
+        assert!(off_rad < 0.05, "silent for {silent_s} s: {off_rad}");
+    }
+}
+
+#[test]
+fn a_robot_that_was_cut_off_on_its_first_route_does_not_turn_towards_another() {
+    let mut plant = driving();
+    plant.answers = false;
+    stands_after(&mut plant);
+    plant.tell(&Command::Route(straight(10, plant.at, plant.at + Vec2::new(0.0, -0.5))));
+    for _ in 0..60 {
+        plant.step();
+        assert_eq!(plant.last.wheels_radps, [0.0; 2], "that may be an old message");
+    }
 }
 
 #[test]

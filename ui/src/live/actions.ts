@@ -70,6 +70,9 @@ export function asksToGoOn({ phase, doing }: Pick<Playback, 'phase' | 'doing'>):
   return phase === 'link_lost' && doing === 'waiting for you to go on';
 }
 
+/** What a run does while the clocks of its robots are not precise. */
+const CLOCKS = 'waiting for robots to set their clocks';
+
 /** The state of the show in a few words. */
 export function phaseText(
   playback: Pick<
@@ -86,7 +89,7 @@ export function phaseText(
     case 'ready':
       return failure !== null ? 'Show stopped' : stopped_in === null ? 'Ready' : 'Stopped';
     case 'preparing':
-      return 'Getting ready';
+      return doing === CLOCKS ? 'Waiting for robots to set their clocks' : 'Getting ready';
     case 'playing':
       if (doing === 'waiting for GO') return `Waiting for GO, ${where}`;
       return `Playing ${where}`.trim();

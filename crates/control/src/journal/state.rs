@@ -91,7 +91,7 @@ pub(crate) struct Position {
     /// When those on the drive stopped, once it is broken off. It holds until they drive again, through any number of
     /// outages.
     pub stops: Option<StopTimes>,
-    /// They stand in a frame: its air time goes on.
+    /// They stand, in a frame or where a drive was broken off.
     pub stood: Option<AirTime>,
 }
 

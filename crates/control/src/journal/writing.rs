@@ -176,7 +176,7 @@ impl Journal {
         self.note_participants(now, run, context, |known, entry| known.membership != entry.membership);
     }
 
-    /// Writes down where participants stand once that is neither in a frame nor on a drive: no leg says so.
+    /// Writes down where participants stand once that is neither on a drive nor at its goals: no leg says so.
     fn note_places(&mut self, now: Instant, run: &Run, context: &Context, position: Position) {
         let was_in_leg = self.state.as_ref().is_some_and(|state| state.progress.position.is_in_leg());
         if was_in_leg && !position.is_in_leg() {

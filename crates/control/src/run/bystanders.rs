@@ -1,5 +1,5 @@
-//! Robots that dropped out and still report. People put them aside, or they find their place again: no plan may expect them
-//! where they stand then.
+//! Robots that dropped out and still report. People put them aside, or they find their place again: then a plan may not know
+//! where they stand.
 
 use crate::leg::Leg;
 use crate::run::run_context::RunContext;
@@ -15,6 +15,9 @@ const THROUGH: f64 = 0.9;
 const STEP: Span = Span::from_millis(50);
 /// How often all is planned again because of one robot. One that is somewhere else each time must not hold up the show.
 const REPLANS_MAX: u8 = 3;
+/// The paths of a drive are compared with the reports of one robot this often at most: 10,000 paths take milliseconds, and a
+/// robot that stands reports every 2 s (R41).
+const LOOK_EVERY: Span = Span::from_millis(500);
 
 /// Where robots report to stand that dropped out: plans drive around these places.
 pub(crate) fn places(cx: &RunContext) -> Arc<[Vec2]> {
@@ -23,23 +26,35 @@ pub(crate) fn places(cx: &RunContext) -> Arc<[Vec2]> {
 
 /// Whether the first leg of the queue leads through a robot that dropped out.
 pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
-    let through = cx.pipeline.queue.front().and_then(|leg| {
-        (0..cx.roster.len()).find(|&participant| leads_through(cx, leg, Span::ZERO, participant))
+    let obstructing = cx.pipeline.queue.front().and_then(|leg| {
+        (0..cx.roster.len()).find(|&participant| {
+            unexpected(cx, leg, participant).is_some_and(|at| leads_through(cx, leg, Span::ZERO, at))
+        })
     });
-    through.is_some_and(|participant| is_planned_around(cx, participant))
+    obstructing.inspect(|&participant| plan_around(cx, participant)).is_some()
 }
 
-/// Whether the leg that is driven, from this path time on, leads through a participant that reports.
-pub(crate) fn obstructs_drive(cx: &mut RunContext, participant: usize, from: Span) -> bool {
-    let is_through = cx.pipeline.leg().is_some_and(|leg| leads_through(cx, leg, from, participant));
-    is_through && is_planned_around(cx, participant)
+/// Whether a leg leads through a participant that reports: the one that is driven, from the path time `driven` on, or the
+/// first of the queue, whose START is stated.
+pub(crate) fn obstructs(cx: &mut RunContext, participant: usize, driven: Option<Span>) -> bool {
+    let leg = if driven.is_some() { cx.pipeline.leg() } else { cx.pipeline.queue.front() };
+    let from = driven.unwrap_or(Span::ZERO);
+    let Some(leg) = leg else { return false };
+    let Some(at) = unexpected(cx, leg, participant) else { return false };
+    if cx.now < cx.participant(participant).bystander.look_at {
+        return false;
+    }
+    let is_through = leads_through(cx, leg, from, at);
+    cx.roster.participants[participant].bystander.look_at = cx.now + LOOK_EVERY;
+    if is_through {
+        plan_around(cx, participant);
+    }
+    is_through
 }
 
-/// Whether all is planned again because of this robot: it is, a few times.
-fn is_planned_around(cx: &mut RunContext, participant: usize) -> bool {
-    let times = &mut cx.roster.participants[participant].planned_around;
-    *times = times.saturating_add(1);
-    *times <= REPLANS_MAX
+/// Notes that all is planned again because of a robot.
+fn plan_around(cx: &mut RunContext, participant: usize) {
+    cx.roster.participants[participant].bystander.replans += 1;
 }
 
 /// Where a participant stands that dropped out, by its own report.
@@ -49,11 +64,14 @@ fn place(cx: &RunContext, participant: usize) -> Option<Vec2> {
     robot.reported.at.filter(|_| says_where && !robot.may_move() && !robot.namesakes.are_there())
 }
 
-fn leads_through(cx: &RunContext, leg: &Leg, from: Span, participant: usize) -> bool {
-    let Some(at) = place(cx, participant) else { return false };
-    if leg.around.iter().any(|known| known.distance(at) < SAME_M) {
-        return false;
-    }
+/// Where a participant stands that dropped out, if the plan of a leg has it elsewhere.
+fn unexpected(cx: &RunContext, leg: &Leg, participant: usize) -> Option<Vec2> {
+    let may_cost = cx.participant(participant).bystander.replans < REPLANS_MAX;
+    let is_known = |at: Vec2| leg.around.iter().any(|known| known.distance(at) < SAME_M);
+    place(cx, participant).filter(|&at| may_cost && !is_known(at))
+}
+
+fn leads_through(cx: &RunContext, leg: &Leg, from: Span, at: Vec2) -> bool {
     let near_m = cx.playback.contact_m() * THROUGH;
     let speed_mps = cx.playback.show.stage.limits.speed_mps;
     let passes = |one: usize| {

@@ -114,6 +114,12 @@ impl Gathering {
         })
     }
 
+    /// Whether all have said where they stand, and only clocks are waited for.
+    pub fn waits_for_clocks_only(&self, io: &Context, roster: &Roster) -> bool {
+        let is_ready = |robot: usize| missing(io, robot, self.fresh_from).is_none();
+        roster.active().all(|(_, known)| is_ready(known.robot)) && self.awaited(io, roster).next().is_some()
+    }
+
     /// When something is due.
     pub fn due(&self, now: Instant) -> Instant {
         now + CHECK_EVERY

@@ -267,6 +267,9 @@ impl Run {
         if !matches!(self.phase, RunPhase::Standing(_)) || self.roster.has_target_robots(io) {
             let left = self.phase.left(&self.pipeline);
             self.gather(io, now, left);
+        } else if let RunPhase::Standing(standing) = &mut self.phase {
+            // One of them may have been moved: what it reports is better known.
+            standing.air.is_at_goals = false;
         }
     }
 

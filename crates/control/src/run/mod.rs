@@ -178,9 +178,12 @@ impl Run {
         let (phase, mut cx) = self.split(io, now);
         candidates::consider(&mut cx, robot, matches!(phase, RunPhase::Gathering(_)));
         let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
-        if let (RunPhase::Driving(drive), Some(participant)) = (phase, participant)
-            && bystanders::obstructs_drive(&mut cx, participant, drive.clock.path_time(now))
-        {
+        let driven = match phase {
+            RunPhase::Driving(drive) => Some(drive.clock.path_time(now)),
+            RunPhase::Starting(_) => None,
+            _ => return,
+        };
+        if participant.is_some_and(|participant| bystanders::obstructs(&mut cx, participant, driven)) {
             self.apply(io, now, Next::Regather);
         }
     }

@@ -68,7 +68,8 @@ pub(crate) fn passes(cx: &mut RunContext, participant: usize, is_stopping: bool)
     let Ok(pieces) = Pieces::from_slice(&[piece]) else { return false };
     let seq = cx.io.number_route();
     let route = Route { seq, start: at, pieces, room_mm: None, neighbours: Default::default() };
-    cx.send(participant, &[Command::Route(route)]);
+    // After an outage a robot turns only towards a route that follows STOP (R43).
+    cx.send(participant, &[Command::Stop, Command::Route(route)]);
     cx.roster.participants[participant].probation =
         Probation::Turning { from: heading, since: cx.now, tries: tries + 1 };
     false

@@ -15,6 +15,15 @@ pub(crate) struct Whereabouts {
     pub likely: Vec<Vec2>,
 }
 
+/// What a participant has cost that dropped out and reports from places that no plan expects.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Bystander {
+    /// How often all was planned again because a path led through the robot.
+    pub replans: u8,
+    /// When paths are compared with its next report, at the earliest.
+    pub look_at: Instant,
+}
+
 /// A robot's part in a run; it outlives a drive.
 #[derive(Clone, Debug)]
 pub(crate) struct Participant {
@@ -28,8 +37,8 @@ pub(crate) struct Participant {
     pub last_seen: Whereabouts,
     /// How often an obstacle in the robot's path led to a new plan.
     pub replans: u8,
-    /// How often the robot, which had dropped out, led to a new plan because a path led through it.
-    pub planned_around: u8,
+    /// What the robot has cost since it dropped out.
+    pub bystander: Bystander,
 }
 
 /// All robots that take part in a run. Participants are numbered in the order in which they joined.
@@ -54,7 +63,7 @@ impl Participant {
             probation: Probation::None,
             last_seen: Whereabouts::default(),
             replans: 0,
-            planned_around: 0,
+            bystander: Bystander::default(),
         }
     }
 
@@ -127,6 +136,7 @@ impl Roster {
                 let known = &mut self.participants[participant as usize];
                 known.membership.excluded = false;
                 known.last_seen = Whereabouts::default();
+                known.bystander = Bystander::default();
             }
             None => {
                 context.fleet.robot_mut(robot).participant = Some(self.participants.len() as u32);

@@ -106,7 +106,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             Some(seek) => Some(seek.step(soon, &hot.limits)),
             // A controller that is silent may be gone for good, and people come to look.
             None if hot.supervisor.is_silent(hot.now) => {
-                hot.routes.note_silence();
+                hot.routes.await_start();
                 None
             }
             None => hot.routes.prepare(soon),
