@@ -89,7 +89,6 @@ impl Run {
             RunPhase::Gathering(gathering) if gathering.waits_for_clocks_only(context, &self.roster) => {
                 "waiting for robots to set their clocks"
             }
-
             RunPhase::Gathering(_) => "asking robots where they are",
             RunPhase::Starting(_) => "starting",
             RunPhase::Driving(drive) if drive.clock.hold.is_some() => "holding",

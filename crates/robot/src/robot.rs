@@ -31,15 +31,10 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if !personal && topic != Topic::Broadcast {
             return;
         }
-        let drives = self.drives();
-        let hot = &mut self.hot;
-        hot.now = hot.now.max(now);
+        self.hot.now = self.hot.now.max(now);
         // The message does not undo a silence that no step could notice because the simulation stood.
-        if hot.supervisor.check_link(now, drives) {
-            hot.seek = None;
-            hot.routes.note_outage();
-            hot.routes.abandon();
-        }
+        self.heed_link(now);
+        let hot = &mut self.hot;
         if hot.supervisor.was_out(now) {
             hot.routes.note_outage();
         }
@@ -185,12 +180,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.stop_in_time(now);
         let drives = self.drives();
         let is_lost = self.is_lost_now();
+        self.heed_link(now);
         let hot = &mut self.hot;
-        if hot.supervisor.check_link(now, drives) {
-            hot.seek = None;
-            hot.routes.note_outage();
-            hot.routes.abandon();
-        }
         if drives == Drives::Route {
             let gives_up = hot.routes.off_m().is_some_and(|off_m| off_m > GIVE_UP_M);
             // A robot that waits for fixes knows why its route runs away.
@@ -203,6 +194,17 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
         if hot.supervisor.take_question(now, drives) {
             hot.outbox.ask_time();
+        }
+    }
+
+    /// Gives up what it drives where the link is silent for too long.
+    fn heed_link(&mut self, now: Instant) {
+        let drives = self.drives();
+        let hot = &mut self.hot;
+        if hot.supervisor.check_link(now, drives) {
+            hot.seek = None;
+            hot.routes.note_outage();
+            hot.routes.abandon();
         }
     }
 
