@@ -1,6 +1,6 @@
 //! Holding, stopping and aborting: R12, R37 to R40.
 
-use lightbots_base::Span;
+use lightbots_base::{Instant, Span};
 use lightbots_wire::{Route, Topic};
 
 use super::pilot::{ANSWER, Pilot, STILL_M, shown};
@@ -19,15 +19,21 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     far_off(pilot).await
 }
 
-/// Tests a hold in the middle of a route.
-async fn held(pilot: &Pilot) -> Step {
+/// States the START of a straight route from `home` to `away`; `None`: the robot does not keep it.
+async fn begin_route(pilot: &Pilot) -> Step<Option<(Route, Instant)>> {
     pilot.drive_to(pilot.home).await?;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
     if !keep(pilot, &route).await {
-        return Ok(());
+        return Ok(None);
     }
     let starts = pilot.session.show() + LEAD;
     start(pilot, Addressee::AllRobots, route.seq, starts).await;
+    Ok(Some((route, starts)))
+}
+
+/// Tests a hold in the middle of a route.
+async fn held(pilot: &Pilot) -> Step {
+    let Some((route, starts)) = begin_route(pilot).await? else { return Ok(()) };
     let hold = starts + REST + Span::from_millis(500);
     let resume = hold + Span::from_millis(2_500);
     let timed_route = TimedRoute { route, starts, hold: Some((hold, resume)) };
@@ -93,13 +99,7 @@ async fn stopped(pilot: &Pilot) -> Step {
 
 /// Tests `STOP at`, which no `RESUME` revokes. A robot that does not know `at` stops at once.
 async fn stopped_at_a_moment(pilot: &Pilot) -> Step {
-    pilot.drive_to(pilot.home).await?;
-    let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
-    if !keep(pilot, &route).await {
-        return Ok(());
-    }
-    let starts = pilot.session.show() + LEAD;
-    start(pilot, Addressee::AllRobots, route.seq, starts).await;
+    let Some((_, starts)) = begin_route(pilot).await? else { return Ok(()) };
     pilot.session.pause(starts - pilot.session.show() + REST + Span::from_millis(200)).await;
     let stop = pilot.session.show() + Span::from_millis(500);
     let resume = stop + Span::from_millis(100);
