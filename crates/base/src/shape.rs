@@ -9,8 +9,18 @@ pub fn nearest_in_rect(point: Vec2, min: Vec2, max: Vec2) -> Vec2 {
 }
 
 /// Distance of a point from the segment `a`–`b`.
+#[inline]
 pub fn point_to_segment(point: Vec2, a: Vec2, b: Vec2) -> f64 {
-    libm::sqrt(squared_to_segment(point, a, b))
+    libm::sqrt(point_to_segment_squared(point, a, b))
+}
+
+/// Square of the distance of a point from the segment `a`–`b`.
+#[inline]
+pub fn point_to_segment_squared(point: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let along = b - a;
+    let length = along.length_squared();
+    let share = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (a + along * share - point).length_squared()
 }
 
 /// Distance of two segments; 0 where they cross.
@@ -20,18 +30,11 @@ pub fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
     if crosses {
         return 0.0;
     }
-    let nearest = squared_to_segment(b.0, a.0, a.1)
-        .min(squared_to_segment(b.1, a.0, a.1))
-        .min(squared_to_segment(a.0, b.0, b.1))
-        .min(squared_to_segment(a.1, b.0, b.1));
+    let nearest = point_to_segment_squared(b.0, a.0, a.1)
+        .min(point_to_segment_squared(b.1, a.0, a.1))
+        .min(point_to_segment_squared(a.0, b.0, b.1))
+        .min(point_to_segment_squared(a.1, b.0, b.1));
     libm::sqrt(nearest)
-}
-
-fn squared_to_segment(point: Vec2, a: Vec2, b: Vec2) -> f64 {
-    let along = b - a;
-    let length = along.length_squared();
-    let share = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (a + along * share - point).length_squared()
 }
 
 #[cfg(test)]

@@ -4,7 +4,9 @@
 use crate::instance::Instance;
 use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};
 use crate::roads::graph::Graph;
-use crate::roads::roadmap::{Roadmap, nearest};
+use crate::roads::roadmap::Roadmap;
+use lightbots_base::Vec2;
+use lightbots_base::shape::point_to_segment_squared;
 
 /// Most moves tried for one robot and all that it pushes.
 const MOST_TRIES: usize = 600;
@@ -61,7 +63,8 @@ impl RoadmapRule<'_> {
     /// Whether two moves `(robot, from, to)` keep their distance at the same time.
     pub fn are_apart(&self, a: (usize, u32, u32), b: (usize, u32, u32)) -> bool {
         let place = |node: u32| self.roads.place(node);
-        let closest = nearest(place(a.1) - place(b.1), place(a.2) - place(b.2)).length_squared();
+        let (begin, end) = (place(a.1) - place(b.1), place(a.2) - place(b.2));
+        let closest = point_to_segment_squared(Vec2::ZERO, begin, end);
         let wide_m = self.instance.widest_gap_m();
         closest >= wide_m * wide_m || {
             let gap_m = self.instance.least_gap(a.0, b.0);

@@ -73,7 +73,7 @@ pub(super) fn distance_of_hull(curve: &Cubic) -> f64 {
 }
 
 /// Where on `start + share · chord`, share in 0..=1, the origin is nearest.
-pub(super) fn share_of_foot(start: Vec2, chord: Vec2) -> f64 {
+fn share_of_foot(start: Vec2, chord: Vec2) -> f64 {
     let length_squared = chord.length_squared();
     if length_squared > 0.0 { (-start.dot(chord) / length_squared).clamp(0.0, 1.0) } else { 0.5 }
 }

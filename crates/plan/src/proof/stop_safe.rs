@@ -15,8 +15,8 @@ use super::grid::{Bounds, near_pairs};
 use crate::Path;
 use crate::cancel::{Cancel, Cancelled, unless};
 use corridor::Corridor;
-pub(crate) use corridor::distance_m;
 use lightbots_base::braking::{GRIP_MPS2, REACTION_S};
+use lightbots_base::shape::point_to_segment;
 use lightbots_base::{Limits, Span, Vec2};
 use rows::Rows;
 pub(crate) use rows::STEP;
@@ -336,7 +336,7 @@ impl Law {
     fn touched(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, need_m: f64) -> Option<usize> {
         let mut step = 0;
         while step < self.ahead() {
-            let spare_m = distance_m(place, at(step), at(step + 1)) - need_m;
+            let spare_m = point_to_segment(place, at(step), at(step + 1)) - need_m;
             if spare_m < 0.0 {
                 return Some(step);
             }
@@ -349,7 +349,7 @@ impl Law {
     /// Least distance of a robot from a place if its wheels begin to brake after `delay_s`, metres.
     fn stopped_m(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, delay_s: f64) -> f64 {
         let steps = 0..self.step_of(delay_s);
-        let before = steps.map(|step| distance_m(place, at(step), at(step + 1)));
+        let before = steps.map(|step| point_to_segment(place, at(step), at(step + 1)));
         before.fold(self.rolling_m(place, at, delay_s), f64::min)
     }
 
@@ -360,7 +360,7 @@ impl Law {
         let speed_mps = from.distance(to) / step_s;
         // Braking takes the way of half its time.
         let share = (delay_s + speed_mps / (2.0 * GRIP_MPS2)) / step_s - step as f64;
-        distance_m(place, from, from.lerp(to, share))
+        point_to_segment(place, from, from.lerp(to, share))
     }
 
     fn step_of(&self, delay_s: f64) -> usize {

@@ -2,7 +2,7 @@
 //! that are free.
 
 use lightbots_base::Vec2;
-use lightbots_base::shape::nearest_in_rect;
+use lightbots_base::shape::{nearest_in_rect, point_to_segment};
 use lightbots_show::Obstacle;
 
 use crate::instance::Instance;
@@ -187,7 +187,7 @@ fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
 
 /// Distance of a line from a shape, metres; 0 where it goes through.
 fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
-    let to_line = |place: Vec2| nearest(from - place, to - place).length();
+    let to_line = |place: Vec2| point_to_segment(place, from, to);
     match *shape {
         Obstacle::Disc { at, radius_m } => (to_line(at) - radius_m).max(0.0),
         Obstacle::Rect { min, max } => {
@@ -216,13 +216,6 @@ fn meets(min: Vec2, max: Vec2, from: Vec2, to: Vec2) -> bool {
         (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
     }
     enters <= leaves
-}
-
-/// The place of a line nearest to the origin.
-pub(crate) fn nearest(from: Vec2, to: Vec2) -> Vec2 {
-    let line = to - from;
-    let share = (-from.dot(line) / line.length_squared().max(1e-18)).clamp(0.0, 1.0);
-    from + line * share
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Corridors around paths: what is not near a corridor is not near the path.
 
-use crate::proof::curve::share_of_foot;
 use lightbots_base::Vec2;
-use lightbots_base::shape::segment_to_segment;
+use lightbots_base::shape::{point_to_segment, segment_to_segment};
 
 /// A corridor around some places: all are within `bulge_m` of the line from the first to the last.
 pub(super) struct Corridor {
@@ -15,13 +14,13 @@ impl Corridor {
     /// Around at least one place.
     pub fn around(places: &[Vec2]) -> Self {
         let (from, to) = (places[0], places[places.len() - 1]);
-        let bulge_m = places.iter().map(|&place| distance_m(place, from, to)).fold(0.0, f64::max);
+        let bulge_m = places.iter().map(|&place| point_to_segment(place, from, to)).fold(0.0, f64::max);
         Self { from, to, bulge_m }
     }
 
     /// Least distance that a place may have from the path through the corridor's places, metres.
     pub fn distance_m(&self, place: Vec2) -> f64 {
-        distance_m(place, self.from, self.to) - self.bulge_m
+        point_to_segment(place, self.from, self.to) - self.bulge_m
     }
 
     /// Whether a place of the one may be nearer to a place of the other than this.
@@ -29,12 +28,6 @@ impl Corridor {
         let lines_m = segment_to_segment((self.from, self.to), (other.from, other.to));
         lines_m < reach_m + self.bulge_m + other.bulge_m
     }
-}
-
-/// Distance of a place from the line segment between two others, metres.
-pub(crate) fn distance_m(place: Vec2, from: Vec2, to: Vec2) -> f64 {
-    let (start, chord) = (from - place, to - from);
-    (start + chord * share_of_foot(start, chord)).length()
 }
 
 #[cfg(test)]
@@ -54,7 +47,9 @@ mod tests {
                 (0..20).map(|at| from + step * f64::from(at) + between(0.004)).collect::<Vec<_>>()
             });
             let of = |place: Vec2, path: &[Vec2]| {
-                path.windows(2).map(|line| distance_m(place, line[0], line[1])).fold(f64::INFINITY, f64::min)
+                path.windows(2)
+                    .map(|line| point_to_segment(place, line[0], line[1]))
+                    .fold(f64::INFINITY, f64::min)
             };
             let (corridor, places) = (Corridor::around(&path), Corridor::around(&other));
             let apart_m = other.iter().map(|&place| of(place, &path)).fold(f64::INFINITY, f64::min);

@@ -1,7 +1,8 @@
 //! Effect of two delayed robots on each other.
 
 use crate::margins::COMFORT_M;
-use crate::proof::stop_safe::{Law, STEP, StopAssumptions, distance_m};
+use crate::proof::stop_safe::{Law, STEP, StopAssumptions};
+use lightbots_base::shape::point_to_segment;
 use lightbots_base::{Limits, Span, Vec2};
 
 /// Delays are whole multiples of this.
@@ -36,7 +37,7 @@ impl<'a> PairLaw<'a> {
             let apart = |moment: usize| one.at(moment) - other.at(moment);
             let steps = between.0..between.1;
             steps
-                .map(|moment| distance_m(Vec2::ZERO, apart(moment), apart(moment + 1)))
+                .map(|moment| point_to_segment(Vec2::ZERO, apart(moment), apart(moment + 1)))
                 .fold(most_m, f64::min)
         };
         let is_moved = levels.0 != levels.1;
