@@ -68,7 +68,7 @@ pub use outbox::Send;
 pub use plan_request::{PlanRequest, PlanResult};
 pub use preflight::{PreflightFinding, PreflightReport, PreflightRobot};
 pub use snapshot::{
-    Age, Counters, LastContact, PreflightProgress, RepeatView, Reported, RobotView, RunView, ShowPosition,
-    Snapshot,
+    Age, Counters, LastContact, LegProgress, PreflightProgress, RepeatView, Reported, RobotView, RunView,
+    RunWait, ShowPosition, Snapshot,
 };
 pub use view::PathsView;

@@ -63,30 +63,40 @@ pub struct RunView {
     pub preflight: Option<PreflightProgress>,
     /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
-    /// Share of the drive or of the air time that is over, 0 to 1. Where robots drive by TARGET it is the share of their
-    /// paths' length.
-    pub progress: f64,
-    /// How long the drive is planned to take, seconds.
-    pub drive_s: f64,
-    /// When the drive began, show clock; `None` before.
-    pub began: Option<Instant>,
+    /// How far its drive or air time is.
+    pub progress: LegProgress,
     /// Where it is on the timeline; `None`: no show is played, or its first drive has not begun.
     pub position: Option<ShowPosition>,
-    /// Name of the cue at which the run waits for GO; it may be empty. `None`: it does not wait for GO.
-    pub cue: Option<String>,
+    /// What it waits for.
+    pub wait: RunWait,
     /// Names of the layers of live light that are on.
     pub live_light: Vec<String>,
     /// The frames that repeat until GO; `None`: no loop is under way.
     pub repeats: Option<RepeatView>,
+    /// Number of dropouts.
+    pub dropouts: usize,
+}
+
+/// How far a drive or an air time is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LegProgress {
+    /// Share of the drive or of the air time that is over, 0 to 1. Where robots drive by TARGET it is the share of their
+    /// paths' length.
+    pub share: f64,
+    /// How long the drive is planned to take, seconds.
+    pub drive_s: f64,
+}
+
+/// What a run waits for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunWait {
+    /// Name of the cue at which it waits for GO; it may be empty. `None`: it does not wait for GO.
+    pub cue: Option<String>,
     /// Whether the operator can let a run go on that was interrupted, without robots that do not report.
     pub may_go_on: bool,
     /// Robots of the run that others wait for, because they make no progress, are silent, or are not ready to set off; at
     /// most 20.
-    pub waiting_for: Vec<RobotId>,
-    /// Number of frames reached.
-    pub frames_played: usize,
-    /// Number of dropouts.
-    pub dropouts: usize,
+    pub robots: Vec<RobotId>,
 }
 
 /// A preflight at one moment.

@@ -5,7 +5,7 @@ use crate::controller::Controller;
 use crate::leg::LegKind;
 use crate::operation::ControllerState;
 use crate::run::{Run, RunPhase, RunPurpose};
-use crate::snapshot::{PreflightProgress, RobotView, RunView, Snapshot};
+use crate::snapshot::{LegProgress, PreflightProgress, RobotView, RunView, RunWait, Snapshot};
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_plan::Path;
 
@@ -41,10 +41,6 @@ impl Run {
 
     /// The run at `now`.
     pub fn view(&self, context: &Context, now: Instant) -> RunView {
-        let began = match &self.phase {
-            RunPhase::Driving(drive) => Some(drive.clock.began),
-            _ => None,
-        };
         RunView {
             frame: self.frame(),
             next: self.next_frame(),
@@ -55,16 +51,18 @@ impl Run {
                 PreflightProgress { round, rounds, doing: check.doing() }
             }),
             doing: self.doing(context),
-            progress: self.progress(now),
-            drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
-            began,
+            progress: LegProgress {
+                share: self.share(now),
+                drive_s: self.pipeline.leg().map_or(0.0, |leg| leg.duration.as_secs()),
+            },
             position: self.music_position(now),
             live_light: self.pipeline.light.live().names().map(str::to_owned).collect(),
-            cue: self.cue().map(str::to_owned),
+            wait: RunWait {
+                cue: self.cue().map(str::to_owned),
+                may_go_on: self.may_go_on(context),
+                robots: self.waiting_for(context, now),
+            },
             repeats: self.repeats(),
-            may_go_on: self.may_go_on(context),
-            waiting_for: self.waiting_for(context, now),
-            frames_played: self.tally.frames_played,
             dropouts: self.tally.dropouts,
         }
     }
@@ -107,7 +105,7 @@ impl Run {
         context.outbox.linked() && interrupted.is_any_back()
     }
 
-    fn progress(&self, now: Instant) -> f64 {
+    fn share(&self, now: Instant) -> f64 {
         let share = |past: Span, whole: Span| {
             if whole.0 > 0 { (past.as_secs() / whole.as_secs()).clamp(0.0, 1.0) } else { 1.0 }
         };

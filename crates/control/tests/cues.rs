@@ -17,7 +17,7 @@ fn with_cue(frames: usize, robots: usize, air_time_s: f64) -> Show {
 }
 
 fn cue(world: &World) -> Option<String> {
-    world.controller.snapshot(world.now).run.and_then(|run| run.cue)
+    world.controller.snapshot(world.now).run.and_then(|run| run.wait.cue)
 }
 
 fn starts(world: &World) -> usize {

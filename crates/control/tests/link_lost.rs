@@ -53,7 +53,7 @@ fn after_more_than_half_a_minute_the_operator_says_that_it_goes_on() {
     world.run_for(30.0);
     let snapshot = world.controller.snapshot(world.now);
     assert_eq!(snapshot.state, ControllerState::LinkLost);
-    assert!(snapshot.run.is_some_and(|run| run.may_go_on && run.doing == "waiting for you to go on"));
+    assert!(snapshot.run.is_some_and(|run| run.wait.may_go_on && run.doing == "waiting for you to go on"));
     world.operate(Operation::GoOn).unwrap();
     assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
 }

@@ -134,8 +134,8 @@ fn who_keeps_others_waiting_is_named_before_it_is_given_up() {
     let id = world.robots[driving].id;
     world.run_until(10.0, |kind| matches!(kind, EventKind::Waiting { robot, .. } if *robot == id));
     let run = world.controller.snapshot(world.now).run.unwrap();
-    assert_eq!(run.waiting_for, [id], "{}", world.story());
-    assert!((0.1..1.0).contains(&run.progress), "{}", run.progress);
+    assert_eq!(run.wait.robots, [id], "{}", world.story());
+    assert!((0.1..1.0).contains(&run.progress.share), "{}", run.progress.share);
     world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { robot, .. } if *robot == id));
 }
 

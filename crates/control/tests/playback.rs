@@ -168,7 +168,7 @@ fn a_run_says_for_which_clocks_it_waits() {
     world.run_for(1.0);
     let run = world.controller.snapshot(world.now).run.unwrap();
     assert_eq!(run.doing, "waiting for robots to set their clocks");
-    assert_eq!(run.waiting_for, [world.robots[1].id]);
+    assert_eq!(run.wait.robots, [world.robots[1].id]);
     world.robots[1].clock_us = 500;
     assert_eq!(world.run_to_end(30.0), (RunOutcome::Finished, 1, 0), "{}", world.story());
 }

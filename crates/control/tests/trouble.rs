@@ -176,7 +176,7 @@ fn everybody_waits_for_a_blocked_robot_then_goes_on_without_it() {
     world.robots[3].stuck = true;
     world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
     world.run_for(1.0);
-    assert_eq!(world.controller.snapshot(world.now).run.unwrap().waiting_for, [world.robots[3].id]);
+    assert_eq!(world.controller.snapshot(world.now).run.unwrap().wait.robots, [world.robots[3].id]);
     world.run_until(10.0, |kind| matches!(kind, EventKind::Dropout { .. }));
     world.robots[3].stuck = false;
     let (outcome, frames, _) = world.run_to_end(90.0);
@@ -237,7 +237,7 @@ fn an_unsure_robot_is_waited_for_until_it_is_sure() {
     world.robots[3].introduce();
     world.run_until(3.0, |kind| matches!(kind, EventKind::Waiting { .. }));
     world.run_for(1.0);
-    assert_eq!(world.controller.snapshot(world.now).run.unwrap().waiting_for, [world.robots[3].id]);
+    assert_eq!(world.controller.snapshot(world.now).run.unwrap().wait.robots, [world.robots[3].id]);
     world.robots[3].unsure = false;
     world.robots[3].introduce();
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());

@@ -255,7 +255,7 @@ async fn next_event(
 
 /// Whether a frame waits for GO, or frames repeat until it.
 async fn waits_for_go(handle: &Handle) -> bool {
-    let waits = |run: RunView| run.cue.is_some() || is_repeating(&run);
+    let waits = |run: RunView| run.wait.cue.is_some() || is_repeating(&run);
     handle.look().await.and_then(|snapshot| snapshot.run).is_some_and(waits)
 }
 
@@ -267,8 +267,8 @@ fn is_repeating(run: &RunView) -> bool {
 /// Ends when a frame that waits for GO has stood for its air time, or frames repeat that were played once.
 async fn air_time_over(handle: &Handle) {
     let is_due = |run: RunView| {
-        let is_cue_due = run.cue.is_some() && run.progress >= 1.0;
-        is_cue_due || run.cue.is_none() && is_repeating(&run)
+        let is_cue_due = run.wait.cue.is_some() && run.progress.share >= 1.0;
+        is_cue_due || run.wait.cue.is_none() && is_repeating(&run)
     };
     let is_over = |snapshot: Snapshot| snapshot.run.is_some_and(is_due);
     while !handle.look().await.is_some_and(is_over) {

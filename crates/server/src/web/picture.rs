@@ -198,8 +198,8 @@ impl Painter {
     fn playback(&self, snapshot: &Snapshot) -> api::Playback {
         let run = snapshot.run.as_ref();
         let of_show = run.filter(|run| !run.home && run.preflight.is_none());
-        let is_showing = run.is_some_and(|run| run.doing == "showing" || run.cue.is_some());
-        let progress = run.map_or(0.0, |run| if is_showing { 1.0 } else { run.progress });
+        let is_showing = run.is_some_and(|run| run.doing == "showing" || run.wait.cue.is_some());
+        let progress = run.map_or(0.0, |run| if is_showing { 1.0 } else { run.progress.share });
         api::Playback {
             phase: phase(snapshot.state),
             doing: run.map(|run| run.doing.to_owned()),
@@ -213,13 +213,13 @@ impl Painter {
             failure: snapshot.failure.clone(),
             stopped_in: snapshot.stopped_in,
             preflight: preflight::state(snapshot),
-            cue: run.and_then(|run| run.cue.clone()),
+            cue: run.and_then(|run| run.wait.cue.clone()),
             repeats: run.and_then(|run| run.repeats).map(repeats),
-            may_go_on: run.is_some_and(|run| run.may_go_on),
+            may_go_on: run.is_some_and(|run| run.wait.may_go_on),
             speed_percent: snapshot.speed_percent,
             first_run: self.is_first_run(snapshot),
             looping: snapshot.looping,
-            late: run.map_or(Vec::new(), |run| run.waiting_for.iter().map(ToString::to_string).collect()),
+            late: run.map_or(Vec::new(), |run| run.wait.robots.iter().map(ToString::to_string).collect()),
         }
     }
 
@@ -232,7 +232,7 @@ impl Painter {
         let (shown, plan) = (self.desk.shown(), self.desk.plan());
         let frames = &shown.show.frames;
         let air_s = frames.get(run.frame)?.air_time_s;
-        let now_s = if is_showing { air_s } else { run.drive_s };
+        let now_s = if is_showing { air_s } else { run.progress.drive_s };
         let then_s = if is_showing { 0.0 } else { air_s };
         // A loop lasts until GO.
         if run.repeats.is_some_and(|repeats| !repeats.leaves) {
@@ -244,7 +244,7 @@ impl Painter {
         // The plan on the screen is that of the usual speed.
         let slower = 100.0 / f64::from(snapshot.speed_percent.max(1));
         let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s * slower).sum();
-        Some(rounded(now_s * (1.0 - run.progress.clamp(0.0, 1.0)) + then_s + rest_s, 2))
+        Some(rounded(now_s * (1.0 - run.progress.share.clamp(0.0, 1.0)) + then_s + rest_s, 2))
     }
 }
 
