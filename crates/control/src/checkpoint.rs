@@ -39,7 +39,7 @@ fn check(robot: &mut KnownRobot) {
     let is_finite = |at: &Vec2| at.x.is_finite() && at.y.is_finite();
     robot.participant = None;
     robot.reported.at = robot.reported.at.filter(is_finite);
-    robot.goal = robot.goal.filter(is_finite);
+    robot.last_run.goal = robot.last_run.goal.filter(is_finite);
 }
 
 #[cfg(test)]

@@ -26,22 +26,36 @@ pub struct Config {
     pub upload: UploadLimits,
     /// A robot that should report and did not for this long drops out.
     pub silence: Span,
-    /// A robot this far off its path makes all robots wait, metres; more where the plan leaves more room.
-    pub late_m: f64,
-    /// How long all robots wait for a late one before the rest is planned again around it.
-    pub late_bound: Span,
-    /// How long a plan may take before the run is given up.
-    pub plan_bound: Span,
-    /// How long a run outlives the broker, or robots that are all silent.
-    pub offline_bound: Span,
-    /// A run whose robots were out of reach for no longer than this goes on by itself. After that, people may have stepped
-    /// on the floor, and the operator says that it goes on.
-    pub goes_on_within: Span,
+    /// When a robot is late.
+    pub late: LateBounds,
+    /// How long a run waits.
+    pub waits: WaitBounds,
     /// How far robots' lights may be from the colours of layers.
     pub light_tolerance: Tolerance,
     /// The lamps of the fleet: colours leave for robots corrected by these. All others, such as those of snapshots, are as
     /// they are meant.
     pub lamp: LampSettings,
+}
+
+/// When a robot is late.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LateBounds {
+    /// A robot this far off its path makes all robots wait, metres; more where the plan leaves more room.
+    pub off_m: f64,
+    /// How long all robots wait for it before the rest is planned again around it.
+    pub wait: Span,
+}
+
+/// How long a run waits.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WaitBounds {
+    /// For a plan, before the run is given up.
+    pub plan: Span,
+    /// For the broker, or for robots that are all silent, before it ends.
+    pub outage: Span,
+    /// A run whose robots were out of reach for no longer than this goes on by itself. After that, people may have stepped
+    /// on the floor, and the operator says that it goes on.
+    pub goes_on_within: Span,
 }
 
 /// When robots that do not report age.
@@ -82,11 +96,12 @@ impl Default for Config {
             start_lead: Span::from_millis(240),
             upload: UploadLimits { resend_after: Span::from_millis(250), tries: 12, window: 1_024 },
             silence: Span::from_millis(1_500),
-            late_m: 0.012,
-            late_bound: Span::from_millis(4_000),
-            plan_bound: Span::from_millis(120_000),
-            offline_bound: Span::from_millis(300_000),
-            goes_on_within: Span::from_millis(30_000),
+            late: LateBounds { off_m: 0.012, wait: Span::from_millis(4_000) },
+            waits: WaitBounds {
+                plan: Span::from_millis(120_000),
+                outage: Span::from_millis(300_000),
+                goes_on_within: Span::from_millis(30_000),
+            },
             light_tolerance: Tolerance::SIDE_BY_SIDE,
             lamp: LampSettings::default(),
         }

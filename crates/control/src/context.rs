@@ -7,6 +7,7 @@ use crate::log::EventQueue;
 use crate::mapping::Mapping;
 use crate::outbox::SendQueue;
 use crate::plan_request::PlanRequest;
+use crate::robot::ToldLight;
 use lightbots_base::{Instant, Rgb};
 use lightbots_wire::{Command, Report, Topic};
 use serde::{Deserialize, Serialize};
@@ -70,7 +71,7 @@ impl Context {
     pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
         let robot = self.fleet.robot_mut(robot);
         let is_other = !robot.shows(color);
-        (robot.light, robot.is_light_sure) = (color, true);
+        robot.light = ToldLight { color, is_sure: true };
         is_other
     }
 

@@ -205,9 +205,9 @@ impl Controller {
         for index in slice {
             let robot = context.fleet.robot_mut(index);
             has_originals |= robot.is_original() && robot.contact.age != Age::Gone;
-            let due = now - robot.contact.heard >= patience && now - robot.asked >= patience;
+            let due = now - robot.contact.heard >= patience && now - robot.original.asked >= patience;
             if robot.is_original() && due && now - robot.contact.heard < context.config.ageing.gone_after {
-                robot.asked = now;
+                robot.original.asked = now;
                 context.send(index, &[Command::Uuid]);
             }
         }

@@ -144,7 +144,9 @@ impl KnownRobots {
         }
         let index = self.robots.len();
         let is_admitted = config.admits(id);
-        self.robots.push(KnownRobot { is_admitted, is_light_sure: false, ..KnownRobot::new(id, heard) });
+        let mut robot = KnownRobot { is_admitted, ..KnownRobot::new(id, heard) };
+        robot.light.is_sure = false;
+        self.robots.push(robot);
         self.index_of.insert(id, index as u32);
         index
     }

@@ -54,7 +54,7 @@ mod stopping;
 mod surroundings;
 mod view;
 
-pub use config::{Ageing, Config, UploadLimits};
+pub use config::{Ageing, Config, LateBounds, UploadLimits, WaitBounds};
 pub use controller::Controller;
 pub use event::{Event, EventKind, RunOutcome, Trouble};
 pub use input_log::{

@@ -45,23 +45,49 @@ pub(crate) struct KnownRobot {
     pub rate: ReportRate,
     /// Since when it reports the same place.
     pub standstill: Standstill,
-    /// When a robot that knows TARGET only was asked for a report.
-    pub asked: Instant,
-    /// How far before its target such a robot comes to rest, metres.
-    pub short_m: f64,
+    /// What is known if it knows TARGET only.
+    pub original: OriginalRobot,
     /// The light it was told to show.
-    pub light: Rgb,
-    /// Whether it surely shows that light.
-    pub is_light_sure: bool,
+    pub light: ToldLight,
     /// Whether it may take part in runs.
     pub is_admitted: bool,
     /// Whether another robot has the same name.
     pub namesakes: Namesakes,
-    /// It took part in a run that is over, and has not said since that it keeps no route.
-    pub may_keep_route: bool,
     /// Its number in the run.
     pub participant: Option<u32>,
-    /// The pixel it showed when the last run ended.
+    /// What is left of the last run.
+    pub last_run: LastRun,
+}
+
+/// What is known of a robot with the original firmware.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct OriginalRobot {
+    /// When it was asked for a report.
+    pub asked: Instant,
+    /// How far before its target it comes to rest, metres.
+    pub short_m: f64,
+}
+
+/// The light that a robot was told to show.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct ToldLight {
+    /// Its colour.
+    pub color: Rgb,
+    /// Whether the robot surely shows it.
+    pub is_sure: bool,
+}
+
+impl ToldLight {
+    /// The light of a robot that was switched on.
+    pub const OFF: Self = Self { color: Rgb::BLACK, is_sure: true };
+}
+
+/// What is left of the last run that a robot took part in.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct LastRun {
+    /// The run is over, and the robot has not said since that it keeps no route.
+    pub may_keep_route: bool,
+    /// The pixel it showed when the run ended.
     pub pixel: Option<u32>,
     /// Where it stood then, stage metres.
     pub goal: Option<Vec2>,
@@ -88,16 +114,12 @@ impl KnownRobot {
             charge: ChargeTrend::default(),
             rate: ReportRate::default(),
             standstill: Standstill { since: now, at: None, placed: now },
-            asked: now,
-            short_m: STOPS_SHORT.first_m,
-            light: Rgb::BLACK,
-            is_light_sure: true,
+            original: OriginalRobot { asked: now, short_m: STOPS_SHORT.first_m },
+            light: ToldLight::OFF,
             is_admitted: true,
             namesakes: Namesakes::default(),
-            may_keep_route: false,
             participant: None,
-            pixel: None,
-            goal: None,
+            last_run: LastRun::default(),
         }
     }
 
@@ -108,7 +130,7 @@ impl KnownRobot {
 
     /// Whether it surely shows a light.
     pub fn shows(&self, color: Rgb) -> bool {
-        self.is_light_sure && self.light == color
+        self.light.is_sure && self.light.color == color
     }
 
     /// Whether it reported lately, and neither a fault nor that it is lost.
@@ -129,9 +151,9 @@ impl KnownRobot {
             reported: self.reported.clone(),
             contact: self.contact,
             planned: None,
-            goal: self.goal,
-            pixel: self.pixel,
-            light: self.light,
+            goal: self.last_run.goal,
+            pixel: self.last_run.pixel,
+            light: self.light.color,
             battery_left: self.charge.left(self.contact.heard),
             takes_part: false,
             is_admitted: self.is_admitted,
@@ -154,7 +176,7 @@ impl KnownRobot {
         let Some(towards) = (target - from).normalized() else { return };
         let StopsShort { most_m, rolls_on_m, gain, .. } = STOPS_SHORT;
         let short_m = ((target - at).dot(towards) - rolls_on_m).clamp(0.0, most_m);
-        self.short_m += (short_m - self.short_m) * gain;
+        self.original.short_m += (short_m - self.original.short_m) * gain;
     }
 
     /// Two robots share its name.
@@ -182,7 +204,7 @@ impl KnownRobot {
             self.charge.report(now, percent);
         }
         if restarted {
-            (self.light, self.is_light_sure) = (Rgb::BLACK, true);
+            self.light = ToldLight::OFF;
         }
         restarted
     }
@@ -199,8 +221,6 @@ impl KnownRobot {
         known.clock_us = details.clock_us;
         known.route = details.route;
         known.abilities = details.abilities;
-        known.brakes = details.brakes;
-        known.near_m = details.near_m;
         if known.firmware != details.firmware {
             known.firmware = details.firmware.clone();
         }

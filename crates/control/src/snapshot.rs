@@ -18,8 +18,6 @@ pub struct Snapshot {
     pub connected: bool,
     /// Name of the open show.
     pub show: Option<String>,
-    /// Frames of the open show.
-    pub frames: usize,
     /// Whether a played show starts again.
     pub looping: bool,
     /// Speed of drives, percent of the usual one.
@@ -173,10 +171,6 @@ pub struct Reported {
     pub abilities: Abilities,
     /// Whether it is simulated. Every other robot is real.
     pub simulated: bool,
-    /// How often its safety layer began to slow it, since it was switched on.
-    pub brakes: u32,
-    /// Least gap between its rim and another robot's that it saw on its latest route, metres.
-    pub near_m: Option<f64>,
 }
 
 /// When a robot reported.

@@ -24,9 +24,9 @@ const MOVED_M: f64 = 0.01;
 /// that it keeps none.
 pub(crate) fn stop_late_comer(context: &mut Context, index: usize) {
     let robot = context.fleet.robot_mut(index);
-    let Some(state) = robot.reported.state.filter(|_| robot.may_keep_route) else { return };
-    robot.may_keep_route = keeps_route(state);
-    if robot.may_keep_route {
+    let Some(state) = robot.reported.state.filter(|_| robot.last_run.may_keep_route) else { return };
+    robot.last_run.may_keep_route = keeps_route(state);
+    if robot.last_run.may_keep_route {
         context.send(index, &[Command::Stop]);
     }
 }

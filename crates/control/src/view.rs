@@ -167,7 +167,6 @@ impl Controller {
             state: self.state(),
             connected: self.context.outbox.linked(),
             show: self.show.as_ref().map(|show| show.name.clone()),
-            frames: self.show.as_ref().map_or(0, |show| show.frames.len()),
             looping: self.looping,
             speed_percent: self.speed_percent,
             run: self.run.as_ref().map(|run| run.view(&self.context, now)),

@@ -97,7 +97,8 @@ fn the_operator_goes_on_without_robots_that_stay_silent() {
 
 #[test]
 fn robots_that_are_out_of_reach_for_good_end_the_run() {
-    let config = Config { offline_bound: Span::from_millis(20_000), ..Config::default() };
+    let mut config = Config::default();
+    config.waits.outage = Span::from_millis(20_000);
     let mut world = World::with(config, 10, 0);
     world.operate(Operation::Open(Arc::new(show(3, 10, 0.3)))).unwrap();
     world.run_for(1.0);

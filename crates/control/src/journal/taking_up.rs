@@ -21,7 +21,7 @@ const FOR_EVER: Span = Span::from_millis(86_400_000_000);
 /// What happens to a run that was cut off, once a controller is back.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OnReturn {
-    /// It goes on by itself if little time has passed (`Config::goes_on_within`), otherwise the operator is asked.
+    /// It goes on by itself if little time has passed (`WaitBounds::goes_on_within`), otherwise the operator is asked.
     #[default]
     GoOrAsk,
     /// It goes on by itself.
@@ -58,7 +58,7 @@ impl Controller {
         if goes_on {
             let by_itself = match on_return {
                 OnReturn::Go => FOR_EVER,
-                OnReturn::GoOrAsk => self.context.config.goes_on_within - away,
+                OnReturn::GoOrAsk => self.context.config.waits.goes_on_within - away,
                 OnReturn::Ask | OnReturn::Stop => Span::ZERO,
             };
             self.run = Some(Run::take_up(&mut self.context, now, unfinished, by_itself.max(Span::ZERO)));

@@ -161,7 +161,7 @@ impl Interrupted {
 
     /// Robots stay away: the run ends in bounded time.
     fn give_up(&self, cx: &RunContext) -> Next {
-        if cx.now - self.since <= cx.io.config.offline_bound {
+        if cx.now - self.since <= cx.io.config.waits.outage {
             return Next::Stay;
         }
         let is_linked = cx.io.outbox.linked();

@@ -294,7 +294,7 @@ impl Run {
             let robots = self.roster.active().count();
             io.log.record(now, EventKind::LinkLost { silent, robots });
         }
-        let by_itself = io.config.goes_on_within;
+        let by_itself = io.config.waits.goes_on_within;
         let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard).min();
         let interrupted = Interrupted::begin(now, left, by_itself).heard(heard.unwrap_or(now));
         self.enter(RunPhase::Interrupted(interrupted));

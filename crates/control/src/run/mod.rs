@@ -62,6 +62,7 @@ use crate::fleet::FleetUpdate;
 use crate::journal::Position;
 use crate::leg::{Leg, LegKind};
 use crate::plan_request::PlanResult;
+use crate::robot::LastRun;
 use gathering::Gathering;
 use interrupted::Interrupted;
 use lightbots_base::{Instant, Span};
@@ -140,9 +141,11 @@ impl Run {
             let step = step.filter(|_| !known.is_excluded());
             let robot = context.fleet.robot_mut(known.robot);
             robot.participant = None;
-            robot.may_keep_route = !robot.is_original();
-            robot.pixel = step.and_then(|step| step.pixel).filter(|_| self.playback.purpose.is_of_show());
-            robot.goal = step.map(|step| step.goal);
+            robot.last_run = LastRun {
+                may_keep_route: !robot.is_original(),
+                pixel: step.and_then(|step| step.pixel).filter(|_| self.playback.purpose.is_of_show()),
+                goal: step.map(|step| step.goal),
+            };
         }
     }
 

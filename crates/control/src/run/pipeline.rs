@@ -260,7 +260,7 @@ fn judge(
         context.log.record(now, EventKind::Undelivered);
     }
     upload.restart_clock(now, participant);
-    if now - upload.began > context.config.offline_bound {
+    if now - upload.began > context.config.waits.outage {
         return Unacknowledged::LinkFailed;
     }
     Unacknowledged::LinkFails

@@ -92,7 +92,7 @@ impl Standing {
             self.air.until = cx.now + left;
         }
         let pending = cx.pipeline.planning.pending;
-        if pending.is_some_and(|(_, since)| cx.now - since > cx.io.config.plan_bound) {
+        if pending.is_some_and(|(_, since)| cx.now - since > cx.io.config.waits.plan) {
             return Next::failed("planning took too long");
         }
         self.leave(cx)

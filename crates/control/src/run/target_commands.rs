@@ -55,7 +55,7 @@ pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
     let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return };
     let (drive, granted) = (&leg.drives[place], targets.states[place].granted);
     let (participant, color) = (drive.robot, leg.robots[drive.robot].color);
-    let beyond = || beyond(cx, drive, cx.robot(participant).short_m);
+    let beyond = || beyond(cx, drive, cx.robot(participant).original.short_m);
     let target = if granted < 1.0 { drive.at(granted) } else { beyond() };
     cx.send(participant, &[Command::Target(target), Command::Color(color)]);
 }

@@ -58,7 +58,7 @@ impl CutOffRun {
             OnReturn::Go => goes_on,
             OnReturn::Ask => asks,
             OnReturn::Stop => "the robots are told to stop, and it is over",
-            OnReturn::GoOrAsk if now - last <= Config::default().goes_on_within => goes_on,
+            OnReturn::GoOrAsk if now - last <= Config::default().waits.goes_on_within => goes_on,
             OnReturn::GoOrAsk => asks,
         };
         say::line(&format!(

@@ -56,7 +56,7 @@ impl Driving {
     /// A driving robot says how far it is off its path, and how sure it is of its place.
     pub fn on_progress(&mut self, cx: &mut RunContext, participant: usize, details: &Details) {
         let room_m = cx.pipeline.leg().map_or(0.0, |leg| leg.room_m);
-        let late_m = cx.io.config.late_m.max((room_m / 2.0).min(LATE_MAX_M));
+        let late_m = cx.io.config.late.off_m.max((room_m / 2.0).min(LATE_MAX_M));
         let off_m = details.off_m.unwrap_or(0.0);
         let is_unsure = details.err_m.is_some_and(|err_m| self.is_too_unsure(cx, participant, err_m));
         if (off_m > late_m || is_unsure) && self.progress[participant].late_since.is_none() {

@@ -101,7 +101,7 @@ impl Driving {
             .roster
             .active()
             .any(|(one, _)| !self.progress[one].arrived && may_be_cause(&self.progress[one]));
-        let bound = if is_suspected { cx.io.config.late_bound + SUSPECT } else { STAYS };
+        let bound = if is_suspected { cx.io.config.late.wait + SUSPECT } else { STAYS };
         if cx.now - since <= bound {
             return Next::Stay;
         }

@@ -89,7 +89,7 @@ impl Driving {
         let there = is_there(at, drive.to, cx.io.config.arrival_tolerance_m);
         let index = cx.participant(drive.robot).robot;
         if there && arrived {
-            let target = beyond(cx, &drive, cx.robot(drive.robot).short_m);
+            let target = beyond(cx, &drive, cx.robot(drive.robot).original.short_m);
             cx.io.fleet.robot_mut(index).learn_short(drive.from, target, at);
         }
         if there && arrived && off_m > OFF_M && state.corrections < CORRECTIONS {
@@ -150,7 +150,7 @@ impl Driving {
             return Next::drop(participant, Trouble::Silent);
         }
         if self
-            .standing_drive(cx, participant, cx.io.config.late_bound * STANDSTILL.dropped_after_bounds)
+            .standing_drive(cx, participant, cx.io.config.late.wait * STANDSTILL.dropped_after_bounds)
             .is_some()
         {
             return Next::drop(participant, Trouble::Missed);

@@ -95,7 +95,7 @@ impl Driving {
             return self.watch_obstructed(cx, participant, since);
         }
         let progressed = self.last_progress(cx, participant);
-        let bound = cx.io.config.late_bound;
+        let bound = cx.io.config.late.wait;
         let waited = |since: Instant| cx.now - since.max(progressed) > bound || cx.now - since > SLOW;
         if self.progress[participant].late_since.is_some_and(waited) && is_held {
             return Next::drop(participant, Trouble::Late);

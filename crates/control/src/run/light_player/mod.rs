@@ -284,7 +284,7 @@ impl LightPlayer {
         let shown = |participant: usize| {
             let known = self.current.as_ref().map(|current| &current.after);
             let known = known.and_then(|after| after.get(participant)).copied();
-            known.unwrap_or_else(|| (roster.robot(context, participant).light, false))
+            known.unwrap_or_else(|| (roster.robot(context, participant).light.color, false))
         };
         (0..leg.robots.len().min(roster.len())).map(shown).collect()
     }

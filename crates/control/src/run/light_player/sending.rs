@@ -200,7 +200,7 @@ impl LightPlayer {
             let Some(driven) = current.driven(leg, after, participant) else { continue };
             let moment = current.moment(elapsed, current.lost(now));
             let colour = driven.colour(&current.layers, self.show.pictures(), moment);
-            if !robot.is_light_sure || is_seen_apart(robot.light, colour) {
+            if !robot.light.is_sure || is_seen_apart(robot.light.color, colour) {
                 context.set_light(known.robot, colour);
                 context.send(known.robot, &[Command::Color(colour)]);
             }
