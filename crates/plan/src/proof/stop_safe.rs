@@ -20,6 +20,7 @@ use lightbots_base::shape::point_to_segment;
 use lightbots_base::{Limits, Span, Vec2};
 use rows::Rows;
 pub(crate) use rows::STEP;
+use std::cmp::Reverse;
 use std::collections::VecDeque;
 
 /// Steps in which pairs are looked for once.
@@ -143,7 +144,7 @@ pub(crate) fn measured(
     // After the last moment of the last block, all robots rest.
     let blocks = count.div_ceil(block);
     let behind = STEP * (blocks * block * stride) as i64;
-    let mut rows = Rows::new(paths, law.ahead() + (block - 1) * stride, behind);
+    let mut rows = Rows::new(paths, law.ahead + (block - 1) * stride, behind);
     let mut sweep = Sweep { law, stride, cannot_brake: VecDeque::new(), found: Vec::new() };
     for number in (0..blocks).rev().take_while(|_| !cancel.is_wanted()) {
         rows.go_back(block * stride);
@@ -184,14 +185,14 @@ impl Sweep {
     /// `row`: where the moment stands in the rows.
     fn look(&mut self, rows: &Rows<'_>, row: usize, near: &Near) {
         let mut meetings = self.meetings(rows, row, near);
-        meetings.sort_by(|a, b| b.robot.cmp(&a.robot).then(a.braking.last.cmp(&b.braking.last)));
-        let kept = self.law.ahead().div_ceil(self.stride);
+        let kept = self.law.ahead.div_ceil(self.stride);
         let oldest = if self.cannot_brake.len() < kept { None } else { self.cannot_brake.pop_back() };
         let mut cannot_brake = oldest.unwrap_or_default();
         cannot_brake.clear();
         cannot_brake.resize(near.corridors.len(), false);
-        let alarm = self.law.steps(self.law.of.alarm_s);
-        for group in meetings.chunk_by(|a, b| a.robot == b.robot) {
+        let alarm = steps(self.law.of.alarm_s);
+        for group in meetings.chunk_by_mut(|a, b| a.robot == b.robot) {
+            group.sort_by_key(|meeting| meeting.braking.last);
             // The first robot that brakes reports it, and the fleet rests soon after.
             let rests = group.first().map_or(0, |first| usize::from(first.braking.last) + alarm);
             let (robot, mut worst) = (group[0].robot, None::<&Meeting>);
@@ -231,10 +232,11 @@ impl Sweep {
                 }
             }
         });
+        pairs.sort_by_key(|&(robot, _)| Reverse(robot));
         Near { corridors, pairs }
     }
 
-    /// Every pair of which one comes near the place of the other.
+    /// Every pair of which one comes near the place of the other, in the order of the pairs.
     fn meetings(&self, rows: &Rows<'_>, row: usize, near: &Near) -> Vec<Meeting> {
         let mut meetings = Vec::new();
         for &(robot, by) in &near.pairs {
@@ -258,7 +260,7 @@ impl Sweep {
 struct Near {
     /// `[robot]`: around its path from the first moment of the block on.
     corridors: Vec<Corridor>,
-    /// A robot, and another that may come near its place.
+    /// A robot, and another that may come near its place; the last robot first.
     pairs: Vec<(usize, usize)>,
 }
 
@@ -290,6 +292,8 @@ pub(crate) struct Law {
     sight_m: f64,
     /// The farthest a robot drives in a step, metres.
     step_m: f64,
+    /// Number of steps ahead that matter.
+    ahead: usize,
     of: StopAssumptions,
 }
 
@@ -298,17 +302,8 @@ impl Law {
         let step_m = (limits.speed_mps * STEP.as_secs() * 1.01).max(1e-4);
         let [contact_m, wary_m] = [of.spare_m, of.wary_m.max(of.spare_m)].map(|m| limits.contact_m() + m);
         let sight_m = limits.contact_m() + of.sight_m;
-        Self { contact_m, wary_m, sight_m, step_m, of }
-    }
-
-    /// Number of steps ahead that matter.
-    fn ahead(&self) -> usize {
-        self.steps(self.of.silence_s.max(self.of.alarm_s)).clamp(2, 100)
-    }
-
-    /// A time in whole steps, rounded up.
-    fn steps(&self, seconds: f64) -> usize {
-        (seconds / STEP.as_secs() - 1e-9).ceil().max(0.0) as usize
+        let ahead = steps(of.silence_s.max(of.alarm_s)).clamp(2, 100);
+        Self { contact_m, wary_m, sight_m, step_m, ahead, of }
     }
 
     /// Braking of a robot that is `at(steps ahead)` if another stops dead at a place; `None`: it does not come near.
@@ -327,7 +322,7 @@ impl Law {
         // It may begin to brake in any step before it comes near; in that one if it stands before.
         let in_time = |step: &usize| self.rolling_m(place, at, *step as f64 * STEP.as_secs()) >= wary_m;
         let last = (1..=touched).rev().find(in_time).unwrap_or(1);
-        let in_sight = |step: &usize| place.distance(at(*step)) < self.sight_m;
+        let in_sight = |step: &usize| (at(*step) - place).length_squared() < self.sight_m * self.sight_m;
         let first = (1..last).find(in_sight).unwrap_or(last);
         Some(Braking { first: first as u8, last: last as u8, touched: touched as u8, missing_m: 0.0 })
     }
@@ -335,7 +330,7 @@ impl Law {
     /// The step in which a robot comes nearer to a place than it must.
     fn touched(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, need_m: f64) -> Option<usize> {
         let mut step = 0;
-        while step < self.ahead() {
+        while step < self.ahead {
             let spare_m = point_to_segment(place, at(step), at(step + 1)) - need_m;
             if spare_m < 0.0 {
                 return Some(step);
@@ -364,6 +359,11 @@ impl Law {
     }
 
     fn step_of(&self, delay_s: f64) -> usize {
-        ((delay_s / STEP.as_secs() + 1e-9) as usize).min(self.ahead() - 1)
+        ((delay_s / STEP.as_secs() + 1e-9) as usize).min(self.ahead - 1)
     }
+}
+
+/// A time in whole steps, rounded up.
+fn steps(seconds: f64) -> usize {
+    (seconds / STEP.as_secs() - 1e-9).ceil().max(0.0) as usize
 }
