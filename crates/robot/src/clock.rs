@@ -3,8 +3,12 @@
 //! A Kalman filter over offset and drift. An answer measures the offset as half the difference of both directions. Its
 //! error is at most half of the excess of its round trip over the shortest one known, so the excess sets the noise of the
 //! measurement. Over a jittery link the few quick answers therefore count, and none is discarded. The clock filter of NTP
-//! (RFC 5905 section 10) discards all but the quickest.
+//! (RFC 5905 section 10) discards all but the quickest. Where both directions of a link have much jitter, quick round trips
+//! are rare, and the least delays of each direction alone say more ([`least_delays`]).
 
+mod least_delays;
+
+use least_delays::LeastDelays;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
@@ -70,6 +74,7 @@ pub(crate) struct ClockFilter {
     variance: [f64; 3],
     shortest_us: f64,
     mean_us: f64,
+    delays: LeastDelays,
     /// Questions answered lately, a ring.
     answered: [Instant; ANSWERED],
 }
@@ -112,6 +117,7 @@ impl ClockFilter {
             variance: [0.0; 3],
             shortest_us: f64::INFINITY,
             mean_us: 0.0,
+            delays: LeastDelays::NONE,
             unanswered: 0,
             was_reset: false,
         }
@@ -146,6 +152,9 @@ impl ClockFilter {
         let half_us = ((there - clock.base_us) as f64 - back.saturating_add(clock.base_us) as f64) * 0.5;
         self.answers = self.answers.saturating_add(1);
         self.learn(clock, half_us, round_us);
+        self.narrow(clock, now, there, back);
+        let good = self.answers >= QUICK || self.variance[0] <= GOOD_US * GOOD_US;
+        clock.synchronised |= self.answers >= ENOUGH && good;
     }
 
     fn begin(&mut self, clock: &mut ShowClock, now: Instant, there: i64, round_us: f64) {
@@ -162,6 +171,7 @@ impl ClockFilter {
         let elapsed = (now - clock.at).0 as f64;
         let [offset, both, drift] = self.variance;
         clock.offset_us += clock.drift * elapsed;
+        self.delays.age(clock.drift * elapsed, libm::sqrt(drift) * elapsed.max(0.0));
         self.variance = [
             offset + elapsed * (2.0 * both + elapsed * drift),
             both + elapsed * drift,
@@ -186,8 +196,27 @@ impl ClockFilter {
         clock.offset_us += gain * off;
         clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
         self.variance = [offset * (1.0 - gain), both * (1.0 - gain), drift - drift_gain * both];
-        let good = self.answers >= QUICK || self.variance[0] <= GOOD_US * GOOD_US;
-        clock.synchronised |= self.answers >= ENOUGH && good;
+    }
+
+    /// Moves the offset between the bounds that the least delays give it, and to their middle where that is surer.
+    fn narrow(&mut self, clock: &mut ShowClock, now: Instant, there: i64, back: i64) {
+        let there_us = there.saturating_sub(clock.base_us) as f64;
+        let back_us = back.saturating_add(clock.base_us) as f64;
+        self.delays.take(now, there_us, back_us);
+        let [least, most] = self.delays.bounds_us();
+        let [offset, both, drift] = self.variance;
+        let middle = self.delays.middle(now, libm::sqrt(drift));
+        let variance = middle.variance + BEST_US * BEST_US;
+        if variance < offset {
+            let kept = variance / offset;
+            let drift_gain = both / offset * (1.0 - kept);
+            let off = middle.offset_us - clock.offset_us;
+            clock.offset_us = middle.offset_us;
+            clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
+            self.variance = [variance, both * kept, drift - drift_gain * both];
+        } else {
+            clock.offset_us = clock.offset_us.clamp(least.min(most), most);
+        }
     }
 
     /// Bounds the offset by an answer, which proves that it is at most `there` and at least `-back`. An estimate

@@ -1,0 +1,141 @@
+//! The least delays of both directions of a link, which bound the offset of the show clock.
+//!
+//! No message arrives before it was sent, so that each question bounds the offset from above and each answer from below.
+//! The quickest question and the quickest answer need not belong together: over a link with much jitter they are quicker
+//! than any round trip. The middle between both bounds is the offset where the link is as quick there as back.
+
+use lightbots_base::{Instant, Span};
+
+/// Delays kept of each direction. With 2, the gap between them says little about how much the least may exceed the shortest
+/// possible one. With more, it says more about the link than about its quickest messages.
+const KEPT: usize = 3;
+
+/// Delays of messages in one direction, plus or minus the offset, microseconds; the least ones, ascending.
+#[derive(Clone, Copy, Debug)]
+struct Direction {
+    delays_us: [f64; KEPT],
+    /// When the least one came.
+    least_at: Instant,
+}
+
+impl Direction {
+    const NONE: Self = Self { delays_us: [f64::INFINITY; KEPT], least_at: Instant::ZERO };
+
+    fn take(&mut self, now: Instant, delay_us: f64) {
+        if delay_us < self.delays_us[0] {
+            self.least_at = now;
+        }
+        let after = self.delays_us.partition_point(|kept| *kept <= delay_us);
+        if after < KEPT {
+            self.delays_us[after..].rotate_right(1);
+            self.delays_us[after] = delay_us;
+        }
+    }
+
+    fn least_us(&self) -> f64 {
+        self.delays_us[0]
+    }
+
+    /// How far the least one may be above the shortest possible one. Infinite until enough are known.
+    fn gap_us(&self) -> f64 {
+        self.delays_us[KEPT - 1] - self.delays_us[0]
+    }
+}
+
+/// What the least delays say about the offset.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Middle {
+    /// Microseconds.
+    pub offset_us: f64,
+    /// Microseconds squared; infinite until enough delays are known.
+    pub variance: f64,
+}
+
+/// See the [module documentation](self).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeastDelays {
+    there: Direction,
+    back: Direction,
+}
+
+impl LeastDelays {
+    pub const NONE: Self = Self { there: Direction::NONE, back: Direction::NONE };
+
+    /// Time passes: the offset changes by `change_us`, give or take `error_us`.
+    pub fn age(&mut self, change_us: f64, error_us: f64) {
+        self.there.delays_us.iter_mut().for_each(|delay_us| *delay_us += error_us + change_us);
+        self.back.delays_us.iter_mut().for_each(|delay_us| *delay_us += error_us - change_us);
+    }
+
+    /// An answer came at `now`: the question took `there_us` less the offset, the answer `back_us` plus the offset.
+    pub fn take(&mut self, now: Instant, there_us: f64, back_us: f64) {
+        if there_us + self.back.least_us() < 0.0 || back_us + self.there.least_us() < 0.0 {
+            // Earlier delays contradict this one: one of both clocks was set.
+            *self = Self::NONE;
+        }
+        self.there.take(now, there_us);
+        self.back.take(now, back_us);
+    }
+
+    /// Least and largest possible offset, microseconds.
+    pub fn bounds_us(&self) -> [f64; 2] {
+        [-self.back.least_us(), self.there.least_us()]
+    }
+
+    /// The offset at `now` in the middle of its bounds. `drift`: 1 sigma of the drift, as a share.
+    pub fn middle(&self, now: Instant, drift: f64) -> Middle {
+        let [gap_there, gap_back] = [self.there.gap_us(), self.back.gap_us()];
+        let age = |direction: &Direction| (now - direction.least_at).max(Span::ZERO).0 as f64;
+        let aged_us = 0.5 * drift * (age(&self.there) + age(&self.back));
+        Middle {
+            offset_us: 0.5 * (self.there.least_us() - self.back.least_us()),
+            // Of the excess of the least of many delays and the gap to the third, over evenly spread delays and over
+            // the sum of two exponential ones: 1.0 to 1.4 times the error that the middle has.
+            variance: (gap_there * gap_there + gap_back * gap_back) / 12.0 + aged_us * aged_us,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_quickest_of_each_direction_bound_the_offset() {
+        let mut delays = LeastDelays::NONE;
+        for (second, (there, back)) in
+            [(9.0, 30.0), (40.0, 7.0), (20.0, 8.0), (10.0, 50.0)].into_iter().enumerate()
+        {
+            delays.take(Instant(second as u64 * 1_000_000), 100.0 + there, back - 100.0);
+        }
+        assert_eq!(delays.bounds_us(), [93.0, 109.0]);
+        let middle = delays.middle(Instant(4_000_000), 0.0);
+        assert_eq!((middle.offset_us, middle.variance), (101.0, (11.0 * 11.0 + 23.0 * 23.0) / 12.0));
+        let aged = delays.middle(Instant(4_000_000), 1e-6);
+        assert!((aged.variance - middle.variance - 3.5 * 3.5).abs() < 1e-9, "{aged:?}");
+    }
+
+    #[test]
+    fn two_delays_say_nothing_yet() {
+        let mut delays = LeastDelays::NONE;
+        delays.take(Instant::ZERO, 5.0, 5.0);
+        delays.take(Instant::ZERO, 6.0, 6.0);
+        assert!(delays.middle(Instant::ZERO, 0.0).variance.is_infinite());
+    }
+
+    #[test]
+    fn bounds_move_with_the_drift_and_widen_by_its_error() {
+        let mut delays = LeastDelays::NONE;
+        delays.take(Instant::ZERO, 15.0, -5.0);
+        delays.age(3.0, 2.0);
+        assert_eq!(delays.bounds_us(), [6.0, 20.0]);
+    }
+
+    #[test]
+    fn a_clock_that_was_set_begins_anew() {
+        let mut delays = LeastDelays::NONE;
+        delays.take(Instant::ZERO, 15.0, -5.0);
+        delays.take(Instant::ZERO, 115.0, -105.0);
+        assert_eq!(delays.bounds_us(), [105.0, 115.0]);
+    }
+}
