@@ -12,6 +12,9 @@ const SPEED_RESERVE: f64 = 1.25;
 /// Acceleration after braking without a ramp, as a multiple of the ramp: about the grip of tyres. An Elisa-3 stumbles at it
 /// and loses 4 mm at most. Below, it loses 20 mm, and the robots close behind brake in turn, each more than the one before.
 const RECOVERY: f64 = 9.0;
+/// Braked steps that make stop and go of it, at which the robots behind brake too. A robot that lost the speed of one step
+/// because a sensor erred and regains it by the ramp lags 18 mm, and the one behind runs into it (campaign, seeds 498, 703).
+const STOP_AND_GO: u32 = 2;
 /// Largest change of the turning rate, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
 /// Time for which a robot drives on as commanded before, seconds: one step until the motors answer, and one step of holding
@@ -42,9 +45,9 @@ pub(crate) struct BodyPose {
 #[derive(Debug, Default)]
 pub(crate) struct DriveBase {
     commanded: Setpoint,
-    /// It braked without a ramp, and has not regained its speed.
-    braked: bool,
-    /// It regains its speed by the ramp.
+    /// Steps in which it braked without a ramp, since it last had its speed.
+    braked_steps: u32,
+    /// It regains its speed by the ramp, where it braked for [`STOP_AND_GO`].
     pub gently: bool,
 }
 
@@ -64,8 +67,10 @@ impl DriveBase {
         let turn = within(want.turn_radps, limits.turn_radps);
         let (ramp_step, turn_step) = (limits.accel_mps2 * ACCEL_RESERVE * dt, TURN_ACCEL * dt);
         let missing = speed - self.commanded.speed_mps;
-        self.braked &= missing * self.commanded.speed_mps >= 0.0 && missing.abs() > ramp_step;
-        let speed_step = if self.braked && !self.gently { RECOVERY * ramp_step } else { ramp_step };
+        if missing * self.commanded.speed_mps < 0.0 || missing.abs() <= ramp_step {
+            self.braked_steps = 0;
+        }
+        let speed_step = if self.recovers_fast() { RECOVERY * ramp_step } else { ramp_step };
         self.commanded = Setpoint {
             speed_mps: self.commanded.speed_mps + within(missing, speed_step),
             turn_radps: self.commanded.turn_radps + within(turn - self.commanded.turn_radps, turn_step),
@@ -85,9 +90,14 @@ impl DriveBase {
         self.step(want, slip, dt, limits);
         if self.commanded.speed_mps.abs() > most_mps {
             self.commanded.speed_mps = within(self.commanded.speed_mps, most_mps);
-            self.braked = true;
+            self.braked_steps = self.braked_steps.saturating_add(1);
         }
         self.wheels(slip, limits)
+    }
+
+    /// Whether speed lost by braking comes back as fast as the tyres grip.
+    fn recovers_fast(&self) -> bool {
+        self.braked_steps > 0 && !(self.gently && self.braked_steps >= STOP_AND_GO)
     }
 
     /// The setpoint of a robot that has nothing to do: to stand by the ramp, on the curve that it drives. Robots close
@@ -185,6 +195,25 @@ mod tests {
         drive.step_within(want, 0.0, [0.0; 2], 0.016, &Limits::ELISA_3);
         drive.halt();
         assert_eq!(steps_to_speed(&mut drive), Some(14));
+    }
+
+    #[test]
+    fn a_gentle_robot_regains_by_the_ramp_what_it_lost_in_more_than_one_step() {
+        let want = Setpoint { speed_mps: 0.27, turn_radps: 0.0 };
+        let steps_to_speed = |braked_steps: u32| {
+            let mut drive = DriveBase { gently: true, ..DriveBase::default() };
+            for _ in 0..20 {
+                drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3);
+            }
+            for _ in 0..braked_steps {
+                drive.step_within(want, 0.06, [0.0; 2], 0.016, &Limits::ELISA_3);
+            }
+            (1..60).find(|_| {
+                drive.step(want, [0.0; 2], 0.016, &Limits::ELISA_3);
+                drive.speed_mps() >= 0.27
+            })
+        };
+        assert_eq!([1, 2, 3].map(steps_to_speed), [Some(2), Some(11), Some(11)]);
     }
 
     #[test]
