@@ -27,8 +27,10 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 
-/// START of the drive under way is repeated this often, so that robots know that the link works (R43: 2 s).
-const HEARTBEAT: Span = Span::from_millis(500);
+/// START of the drive under way is repeated, so that robots know that the link works (R43: 2 s). The more often, the nearer
+/// to each other do robots fall silent whose link breaks while copies are on their way.
+const HEARTBEAT: Heartbeat =
+    Heartbeat { a_robot: Span::from_millis(2), least: Span::from_millis(60), most: Span::from_millis(500) };
 /// Routes of the next leg wait this long after the drive began. A robot whose clock or step is a little behind has not
 /// begun it yet, and would take the next route in its place.
 const BEGUN: Span = drive::WATCH_EVERY;
@@ -37,12 +39,31 @@ const OLD_REPORTS: Span = Span::from_millis(800);
 /// A robot whose clock is ahead may end its route this much before the planned end.
 const EARLY: Span = Span::from_millis(100);
 
+/// Time between two copies of START.
+struct Heartbeat {
+    /// For each robot, because every copy goes to every robot: 500 messages a second up to the fleet that reaches `most`.
+    a_robot: Span,
+    least: Span,
+    most: Span,
+}
+
+impl Heartbeat {
+    /// Robots that are held stand already, and fall silent where they are.
+    fn every(&self, robots: usize, held: bool) -> Span {
+        let by_count = self.a_robot * i64::try_from(robots).unwrap_or(i64::MAX);
+        if held { self.most } else { by_count.clamp(self.least, self.most) }
+    }
+}
+
 impl Driving {
     /// The first leg of the queue is under way since `began`.
     pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
         let leg = cx.pipeline.drive_next().expect("a drive begins with a planned leg");
         let clock = PathClock::new(began, leg.duration);
-        let heartbeat_at = if leg.kind == LegKind::Routes { cx.now + HEARTBEAT } else { Instant::FAR };
+        let heartbeat_at = match leg.kind {
+            LegKind::Routes => cx.now + HEARTBEAT.every(cx.roster.len(), false),
+            LegKind::Targets => Instant::FAR,
+        };
         let mut drive = Self::new(clock, cx.now, heartbeat_at, cx.roster.len());
         let (frame, duration) = (leg.frame, leg.duration);
         if cx.playback.purpose.is_of_show() {
@@ -158,7 +179,7 @@ impl Driving {
         }
         self.clock.end_hold(cx.now);
         if cx.now >= self.heartbeat_at {
-            self.heartbeat_at = cx.now + HEARTBEAT;
+            self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), self.clock.hold.is_some());
             let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
             cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
         }
