@@ -13,6 +13,11 @@ const OUTAGE: Span = Span::from_millis(3300);
 /// Time between two such questions.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
+/// A message that is older than this when it comes counts as this old. Below, robots on slow links stop one after the other.
+/// Above, a robot whose clock is wrong, or whose link is very slow, stops where the link works.
+const OLDEST: Span = Span::from_millis(500);
+
+const _: () = assert!(OLDEST.0 + QUIET.0 < 1_900_000);
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
 
 /// What the robot is doing, as far as the link matters to it.
@@ -33,6 +38,8 @@ pub(crate) enum Drives {
 pub(crate) struct Supervisor {
     silence: Span,
     heard: Instant,
+    /// Messages say when they left, since the route began. Others do not count then: they reach each robot at another time.
+    dated: bool,
     down_since: Option<Instant>,
     cut: bool,
     /// It was cut until the link came back, and has not reported that.
@@ -47,6 +54,7 @@ impl Supervisor {
         Self {
             silence,
             heard: start,
+            dated: false,
             down_since: None,
             cut: false,
             untold: false,
@@ -57,9 +65,24 @@ impl Supervisor {
 
     /// A message came in.
     pub(crate) fn receive(&mut self, now: Instant) {
-        self.heard = now;
+        if !self.dated {
+            self.heard = now;
+        }
         self.down_since = None;
         self.cut = false;
+    }
+
+    /// The message that came in is `age` old. Robots whose link breaks at one moment fall silent together by that, however
+    /// long their last message was on its way.
+    pub(crate) fn date(&mut self, now: Instant, age: Span) {
+        let left = Instant(now.0.saturating_sub(age.clamp(Span::ZERO, OLDEST).0.unsigned_abs()));
+        self.heard = if self.dated { self.heard.max(left) } else { left };
+        self.dated = true;
+    }
+
+    /// Whether messages say when they left.
+    pub(crate) fn is_dated(&self) -> bool {
+        self.dated
     }
 
     /// The link went up or down. A link that is up is no message: silence goes on.
@@ -96,6 +119,7 @@ impl Supervisor {
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
         let silent = self.is_silent(now);
+        self.dated &= drives == Drives::Route;
         let cuts = match drives {
             Drives::Not | Drives::Soon => false,
             Drives::Target => down,
@@ -163,6 +187,36 @@ mod tests {
         assert!(!supervisor.is_cut() && supervisor.check_link(Instant(4 * SECOND), Drives::Route));
         supervisor.receive(Instant(4 * SECOND));
         assert!(!supervisor.is_cut());
+    }
+
+    #[test]
+    fn silence_counts_from_when_a_message_left_where_it_says_so() {
+        let at = |ms: u64| Instant(ms * 1000);
+        let silent_from = |ages_ms: &[i64]| {
+            let mut supervisor = Supervisor::new(Span::from_millis(1900));
+            for (place, age_ms) in ages_ms.iter().enumerate() {
+                let now = at(5000 + 60 * place as u64);
+                supervisor.receive(now);
+                supervisor.date(now, Span::from_millis(*age_ms));
+                // One that does not say when it left.
+                supervisor.receive(now + Span::from_millis(30));
+            }
+            (5000..9000).find(|ms| supervisor.check_link(at(*ms), Drives::Route))
+        };
+        assert_eq!(silent_from(&[20]), Some(6881));
+        assert_eq!(silent_from(&[20, 200]), Some(6881), "an older one changes nothing");
+        assert_eq!(silent_from(&[20, 40]), Some(6921));
+        assert_eq!(silent_from(&[-100]), Some(6901), "the clock is behind");
+        assert_eq!(silent_from(&[90_000]), Some(6401), "the clock is wrong");
+    }
+
+    #[test]
+    fn the_next_route_hears_all_messages_again() {
+        let mut supervisor = Supervisor::new(Span::from_millis(1900));
+        supervisor.date(Instant(SECOND), Span::ZERO);
+        supervisor.check_link(Instant(SECOND), Drives::Not);
+        supervisor.receive(Instant(2 * SECOND));
+        assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Route));
     }
 
     #[test]

@@ -8,6 +8,7 @@ use lightbots_wire::{Command, Route};
 use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
+use crate::supervise::Drives;
 
 /// A `STOP at` by which the robot would rest this much later or more is obeyed at once. Below, that happens on slow links
 /// too. Above, a wrong moment lets robots drive on for longer.
@@ -42,7 +43,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.routes.keep(route, self.storage.borrow_mut());
                 self.hot.outbox.report_status();
             }
-            Command::Start { seq, at } => {
+            Command::Start { seq, at, sent } => {
+                self.date(now, sent);
                 self.light.tracks.start(seq, at);
                 if self.hot.routes.start(seq, at, self.route_time(now)) || personal {
                     self.hot.outbox.report_status();
@@ -57,6 +59,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             Command::Stop => self.stop(),
             Command::StopFrom { at } => self.stop_from(now, at),
             Command::Time(answer) => {
+                if self.hot.supervisor.is_dated() {
+                    self.date(now, Some(answer.sent));
+                }
                 self.clock_filter.answer(&mut self.hot.clock, now, &answer);
                 if self.clock_filter.take_reset() {
                     self.hot.routes.forget_moments();
@@ -89,6 +94,14 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.light_changes = true;
             }
             Command::Status => self.hot.outbox.report_status(),
+        }
+    }
+
+    /// A message of the controller left at `sent`, if it says so: silence counts from then on a route under way.
+    fn date(&mut self, now: Instant, sent: Option<Instant>) {
+        let show = self.hot.clock.show_time(now);
+        if let (Some(show), Some(sent), Drives::Route) = (show, sent, self.hot.drives()) {
+            self.hot.supervisor.date(now, show - sent);
         }
     }
 

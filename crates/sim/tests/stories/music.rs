@@ -70,14 +70,15 @@ fn robots_keep_to_the_music_without_faults_and_with_lost_messages() {
     assert_eq!(fine.per_frame.len(), FRAMES);
     let late = later_s(&played(&with_music(), "loss=5%"), &fine);
     assert!(late.len() == FRAMES && late.iter().all(|late_s| late_s.abs() < 0.4), "{late:?}");
-    // With a fifth of all messages lost, one run in twenty begins a drive anew, which takes 6 s.
-    let mut late: Vec<f64> = (1..=10)
+    // With a fifth of all messages lost, one run in fifteen plans a drive anew. In 200 runs 3 % of the pictures were more
+    // than 2 s late, and half of them 0.44 s or less.
+    let mut late: Vec<f64> = (1..=20)
         .map(|seed| play(&with_music(), "loss=20%,jitter", seed, Conditions::default()))
         .flat_map(|report| later_s(&report, &fine).split_off(1))
         .collect();
     late.sort_by(f64::total_cmp);
     let count = late.len();
-    assert!(count > 9 * (FRAMES - 1), "{late:?}");
+    assert!(count > 19 * (FRAMES - 1), "{late:?}");
     assert!(late[count / 2] < 0.6 && late[count * 9 / 10] < 2.0, "{late:?}");
 }
 

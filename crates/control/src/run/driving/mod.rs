@@ -181,7 +181,7 @@ impl Driving {
         if cx.now >= self.heartbeat_at {
             self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), self.clock.hold.is_some());
             let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
-            cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
+            cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at, sent: Some(cx.now) }]);
         }
         cx.pipeline.light.see(self.clock);
         cx.pump_lights();
