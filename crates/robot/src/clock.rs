@@ -171,7 +171,7 @@ impl ClockFilter {
         let elapsed = (now - clock.at).0 as f64;
         let [offset, both, drift] = self.variance;
         clock.offset_us += clock.drift * elapsed;
-        self.delays.age(clock.drift * elapsed, libm::sqrt(drift) * elapsed.max(0.0));
+        self.delays.age(clock.drift * elapsed, libm::sqrt(drift.max(0.0)) * elapsed.max(0.0));
         self.variance = [
             offset + elapsed * (2.0 * both + elapsed * drift),
             both + elapsed * drift,
@@ -205,7 +205,7 @@ impl ClockFilter {
         self.delays.take(now, there_us, back_us);
         let [least, most] = self.delays.bounds_us();
         let [offset, both, drift] = self.variance;
-        let middle = self.delays.middle(now, libm::sqrt(drift));
+        let middle = self.delays.middle(now, self.answers, libm::sqrt(drift.max(0.0)));
         let variance = middle.variance + BEST_US * BEST_US;
         if variance < offset {
             let kept = variance / offset;

@@ -15,9 +15,8 @@ const ASK_AGAIN: Span = Span::from_millis(150);
 
 /// A message that is older than this when it comes counts as this old. Below, robots on slow links stop one after the other.
 /// Above, a robot whose clock is wrong, or whose link is very slow, stops where the link works.
-const OLDEST: Span = Span::from_millis(500);
+const OLDEST: Span = Span::from_millis(300);
 
-const _: () = assert!(OLDEST.0 + QUIET.0 < 1_900_000);
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
 
 /// What the robot is doing, as far as the link matters to it.
@@ -38,8 +37,9 @@ pub(crate) enum Drives {
 pub(crate) struct Supervisor {
     silence: Span,
     heard: Instant,
-    /// Messages say when they left, since the route began. Others do not count then: they reach each robot at another time.
-    dated: bool,
+    /// When the last START of the route under way left, or an answer after it, own clock. From then on no other message
+    /// counts for that route: they reach each robot at another time.
+    left: Option<Instant>,
     down_since: Option<Instant>,
     cut: bool,
     /// It was cut until the link came back, and has not reported that.
@@ -54,7 +54,7 @@ impl Supervisor {
         Self {
             silence,
             heard: start,
-            dated: false,
+            left: None,
             down_since: None,
             cut: false,
             untold: false,
@@ -65,9 +65,7 @@ impl Supervisor {
 
     /// A message came in.
     pub(crate) fn receive(&mut self, now: Instant) {
-        if !self.dated {
-            self.heard = now;
-        }
+        self.heard = now;
         self.down_since = None;
         self.cut = false;
     }
@@ -76,13 +74,17 @@ impl Supervisor {
     /// long their last message was on its way.
     pub(crate) fn date(&mut self, now: Instant, age: Span) {
         let left = Instant(now.0.saturating_sub(age.clamp(Span::ZERO, OLDEST).0.unsigned_abs()));
-        self.heard = if self.dated { self.heard.max(left) } else { left };
-        self.dated = true;
+        self.left = self.left.max(Some(left));
     }
 
     /// Whether messages say when they left.
     pub(crate) fn is_dated(&self) -> bool {
-        self.dated
+        self.left.is_some()
+    }
+
+    /// Another route is under way, or none.
+    pub(crate) fn end_route(&mut self) {
+        self.left = None;
     }
 
     /// The link went up or down. A link that is up is no message: silence goes on.
@@ -118,8 +120,10 @@ impl Supervisor {
     /// Cuts the robot off where the link is silent for too long for what the robot does. Whether it did so just now.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
-        let silent = self.is_silent(now);
-        self.dated &= drives == Drives::Route;
+        let silent = now - self.left.unwrap_or(self.heard) > self.silence;
+        if drives != Drives::Route {
+            self.end_route();
+        }
         let cuts = match drives {
             Drives::Not | Drives::Soon => false,
             Drives::Target => down,
@@ -207,16 +211,18 @@ mod tests {
         assert_eq!(silent_from(&[20, 200]), Some(6881), "an older one changes nothing");
         assert_eq!(silent_from(&[20, 40]), Some(6921));
         assert_eq!(silent_from(&[-100]), Some(6901), "the clock is behind");
-        assert_eq!(silent_from(&[90_000]), Some(6401), "the clock is wrong");
+        assert_eq!(silent_from(&[90_000]), Some(6601), "the clock is wrong");
     }
 
     #[test]
     fn the_next_route_hears_all_messages_again() {
         let mut supervisor = Supervisor::new(Span::from_millis(1900));
         supervisor.date(Instant(SECOND), Span::ZERO);
-        supervisor.check_link(Instant(SECOND), Drives::Not);
         supervisor.receive(Instant(2 * SECOND));
-        assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Route));
+        assert!(supervisor.check_link(Instant(3 * SECOND), Drives::Route));
+        supervisor.receive(Instant(3 * SECOND));
+        supervisor.end_route();
+        assert!(!supervisor.check_link(Instant(4 * SECOND), Drives::Route));
     }
 
     #[test]

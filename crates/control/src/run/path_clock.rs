@@ -48,6 +48,11 @@ impl PathClock {
         self.open_hold().is_some()
     }
 
+    /// Whether robots stand in a hold whose end is not stated yet.
+    pub fn rests(&self, now: Instant) -> bool {
+        self.open_hold().is_some_and(|hold| now >= hold.at + Route::EASE)
+    }
+
     /// Progress is held from `at` on, for an unknown time.
     pub fn stand(&mut self, at: Instant) {
         let mut at = at;

@@ -70,7 +70,7 @@ impl LeastDelays {
     /// An answer came at `now`: the question took `there_us` less the offset, the answer `back_us` plus the offset.
     pub fn take(&mut self, now: Instant, there_us: f64, back_us: f64) {
         if there_us + self.back.least_us() < 0.0 || back_us + self.there.least_us() < 0.0 {
-            // Earlier delays contradict this one: one of both clocks was set.
+            // Earlier delays contradict this one: one of both clocks was set, or drifts more than was thought.
             *self = Self::NONE;
         }
         self.there.take(now, there_us);
@@ -82,16 +82,20 @@ impl LeastDelays {
         [-self.back.least_us(), self.there.least_us()]
     }
 
-    /// The offset at `now` in the middle of its bounds. `drift`: 1 sigma of the drift, as a share.
-    pub fn middle(&self, now: Instant, drift: f64) -> Middle {
+    /// The offset at `now` in the middle of its bounds, after a number of `answers`. `drift`: 1 sigma of the drift, as a
+    /// share.
+    pub fn middle(&self, now: Instant, answers: u32, drift: f64) -> Middle {
         let [gap_there, gap_back] = [self.there.gap_us(), self.back.gap_us()];
         let age = |direction: &Direction| (now - direction.least_at).max(Span::ZERO).0 as f64;
         let aged_us = 0.5 * drift * (age(&self.there) + age(&self.back));
+        // The first few may all have waited in one queue, so that there is no gap. What the bounds leave open counts then.
+        let width_us = self.there.least_us() + self.back.least_us();
+        let unknown = width_us * width_us / (12.0 * f64::from(answers.max(1)));
         Middle {
             offset_us: 0.5 * (self.there.least_us() - self.back.least_us()),
             // Of the excess of the least of many delays and the gap to the third, over evenly spread delays and over
             // the sum of two exponential ones: 1.0 to 1.4 times the error that the middle has.
-            variance: (gap_there * gap_there + gap_back * gap_back) / 12.0 + aged_us * aged_us,
+            variance: (gap_there * gap_there + gap_back * gap_back) / 12.0 + aged_us * aged_us + unknown,
         }
     }
 }
@@ -109,10 +113,21 @@ mod tests {
             delays.take(Instant(second as u64 * 1_000_000), 100.0 + there, back - 100.0);
         }
         assert_eq!(delays.bounds_us(), [93.0, 109.0]);
-        let middle = delays.middle(Instant(4_000_000), 0.0);
-        assert_eq!((middle.offset_us, middle.variance), (101.0, (11.0 * 11.0 + 23.0 * 23.0) / 12.0));
-        let aged = delays.middle(Instant(4_000_000), 1e-6);
+        let middle = delays.middle(Instant(4_000_000), 4, 0.0);
+        let by_gaps = (11.0 * 11.0 + 23.0 * 23.0) / 12.0;
+        assert_eq!((middle.offset_us, middle.variance), (101.0, by_gaps + 16.0 * 16.0 / 48.0));
+        let aged = delays.middle(Instant(4_000_000), 4, 1e-6);
         assert!((aged.variance - middle.variance - 3.5 * 3.5).abs() < 1e-9, "{aged:?}");
+    }
+
+    #[test]
+    fn answers_from_one_queue_do_not_make_the_middle_sure() {
+        let mut delays = LeastDelays::NONE;
+        for _ in 0..4 {
+            delays.take(Instant::ZERO, 2_000.0, 100_000.0);
+        }
+        let sigma_us = delays.middle(Instant::ZERO, 4, 0.0).variance.sqrt();
+        assert!(sigma_us > 10_000.0, "{sigma_us}");
     }
 
     #[test]
@@ -120,7 +135,7 @@ mod tests {
         let mut delays = LeastDelays::NONE;
         delays.take(Instant::ZERO, 5.0, 5.0);
         delays.take(Instant::ZERO, 6.0, 6.0);
-        assert!(delays.middle(Instant::ZERO, 0.0).variance.is_infinite());
+        assert!(delays.middle(Instant::ZERO, 2, 0.0).variance.is_infinite());
     }
 
     #[test]

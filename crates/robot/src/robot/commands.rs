@@ -8,7 +8,6 @@ use lightbots_wire::{Command, Route};
 use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
-use crate::supervise::Drives;
 
 /// A `STOP at` by which the robot would rest this much later or more is obeyed at once. Below, that happens on slow links
 /// too. Above, a wrong moment lets robots drive on for longer.
@@ -44,7 +43,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.outbox.report_status();
             }
             Command::Start { seq, at, sent } => {
-                self.date(now, sent);
+                if self.hot.routes.drives(seq) {
+                    self.date(now, sent);
+                }
                 self.light.tracks.start(seq, at);
                 if self.hot.routes.start(seq, at, self.route_time(now)) || personal {
                     self.hot.outbox.report_status();
@@ -97,10 +98,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// A message of the controller left at `sent`, if it says so: silence counts from then on a route under way.
+    /// A message about the route under way left at `sent`, if it says so: silence counts from then on.
     fn date(&mut self, now: Instant, sent: Option<Instant>) {
-        let show = self.hot.clock.show_time(now);
-        if let (Some(show), Some(sent), Drives::Route) = (show, sent, self.hot.drives()) {
+        if let (Some(show), Some(sent)) = (self.hot.clock.show_time(now), sent) {
             self.hot.supervisor.date(now, show - sent);
         }
     }

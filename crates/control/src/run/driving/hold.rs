@@ -65,6 +65,7 @@ impl Driving {
             target_commands::resume_all(cx);
         } else {
             cx.io.outbox.broadcast(now, Command::Resume { at: until }, COPIES.0, COPIES.1);
+            self.heartbeat_at = self.heartbeat_at.min(now);
         }
     }
 

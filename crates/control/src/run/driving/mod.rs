@@ -27,8 +27,8 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 
-/// START of the drive under way is repeated, so that robots know that the link works (R43: 2 s). The more often, the nearer
-/// to each other do robots fall silent whose link breaks while copies are on their way.
+/// START of the drive under way is repeated, so that robots know that the link works (R43: 1.9 s). The more often, the
+/// nearer to each other do robots fall silent whose link breaks while copies are on their way.
 const HEARTBEAT: Heartbeat =
     Heartbeat { a_robot: Span::from_millis(2), least: Span::from_millis(60), most: Span::from_millis(500) };
 /// Routes of the next leg wait this long after the drive began. A robot whose clock or step is a little behind has not
@@ -48,10 +48,10 @@ struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// Robots that are held stand already, and fall silent where they are.
-    fn every(&self, robots: usize, held: bool) -> Span {
+    /// `rests`: robots stand in a hold, and fall silent where they are.
+    fn every(&self, robots: usize, rests: bool) -> Span {
         let by_count = self.a_robot * i64::try_from(robots).unwrap_or(i64::MAX);
-        if held { self.most } else { by_count.clamp(self.least, self.most) }
+        if rests { self.most } else { by_count.clamp(self.least, self.most) }
     }
 }
 
@@ -179,7 +179,7 @@ impl Driving {
         }
         self.clock.end_hold(cx.now);
         if cx.now >= self.heartbeat_at {
-            self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), self.clock.hold.is_some());
+            self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), self.clock.rests(cx.now));
             let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
             cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at, sent: Some(cx.now) }]);
         }
@@ -198,5 +198,17 @@ impl Driving {
         narrow(&mut places.possible, &seen);
         narrow(&mut places.likely, &seen);
         places
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn start_is_repeated_less_often_to_more_robots_and_to_those_that_stand() {
+        let every_ms = |robots, rests| HEARTBEAT.every(robots, rests).0 / 1000;
+        assert_eq!([0, 30, 100, 250, 10_000].map(|robots| every_ms(robots, false)), [60, 60, 200, 500, 500]);
+        assert_eq!(every_ms(30, true), 500);
     }
 }
