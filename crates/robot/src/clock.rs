@@ -97,6 +97,11 @@ impl ShowClock {
         self.synchronised.then(|| now + Span(self.base_us.saturating_add(self.offset_at(now) as i64)))
     }
 
+    /// How long a question and its answer took, plus and minus the offset, microseconds.
+    fn delays_us(&self, there: i64, back: i64) -> [f64; 2] {
+        [there.saturating_sub(self.base_us) as f64, back.saturating_add(self.base_us) as f64]
+    }
+
     fn offset_at(&self, now: Instant) -> f64 {
         self.offset_us + self.drift * (now - self.at).0 as f64
     }
@@ -149,10 +154,11 @@ impl ClockFilter {
             self.begin(clock, now, there, round_us);
         }
         self.answered[self.answers as usize % ANSWERED] = answer.asked;
-        let half_us = ((there - clock.base_us) as f64 - back.saturating_add(clock.base_us) as f64) * 0.5;
+        let [there_us, back_us] = clock.delays_us(there, back);
         self.answers = self.answers.saturating_add(1);
-        self.learn(clock, half_us, round_us);
-        self.narrow(clock, now, there, back);
+        self.learn(clock, (there_us - back_us) * 0.5, round_us);
+        self.delays.take(now, there_us, back_us);
+        self.narrow(clock, now);
         let good = self.answers >= QUICK || self.variance[0] <= GOOD_US * GOOD_US;
         clock.synchronised |= self.answers >= ENOUGH && good;
     }
@@ -189,32 +195,33 @@ impl ClockFilter {
             (self.mean_us - 0.5 * self.shortest_us) / libm::sqrt(f64::from(self.answers.min(200)));
         let excess = round_us - self.shortest_us + unknown_us;
         let noise = BEST_US * BEST_US + excess * excess / 12.0 + unknown_us * unknown_us / 4.0;
-        let [offset, both, drift] = self.variance;
+        let [offset, both, _] = self.variance;
         let sum = offset + noise;
         let (gain, drift_gain) = (offset / sum, both / sum);
         let off = measured_us - clock.offset_us;
         clock.offset_us += gain * off;
+        self.correct(clock, off, 1.0 - gain, drift_gain);
+    }
+
+    /// The offset was `off` from what was measured: so is the drift, and that share of the covariance is kept.
+    fn correct(&mut self, clock: &mut ShowClock, off: f64, kept: f64, drift_gain: f64) {
+        let [offset, both, drift] = self.variance;
         clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
-        self.variance = [offset * (1.0 - gain), both * (1.0 - gain), drift - drift_gain * both];
+        self.variance = [offset * kept, both * kept, drift - drift_gain * both];
     }
 
     /// Moves the offset between the bounds that the least delays give it, and to their middle where that is surer.
-    fn narrow(&mut self, clock: &mut ShowClock, now: Instant, there: i64, back: i64) {
-        let there_us = there.saturating_sub(clock.base_us) as f64;
-        let back_us = back.saturating_add(clock.base_us) as f64;
-        self.delays.take(now, there_us, back_us);
-        let [least, most] = self.delays.bounds_us();
+    fn narrow(&mut self, clock: &mut ShowClock, now: Instant) {
         let [offset, both, drift] = self.variance;
         let middle = self.delays.middle(now, self.answers, libm::sqrt(drift.max(0.0)));
         let variance = middle.variance + BEST_US * BEST_US;
         if variance < offset {
             let kept = variance / offset;
-            let drift_gain = both / offset * (1.0 - kept);
             let off = middle.offset_us - clock.offset_us;
             clock.offset_us = middle.offset_us;
-            clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
-            self.variance = [variance, both * kept, drift - drift_gain * both];
+            self.correct(clock, off, kept, both / offset * (1.0 - kept));
         } else {
+            let [least, most] = self.delays.bounds_us();
             clock.offset_us = clock.offset_us.clamp(least.min(most), most);
         }
     }
@@ -223,8 +230,8 @@ impl ClockFilter {
     /// outside was too sure and moves to the bound. One outside by [`SET_ANEW_US`] belongs to a controller that began
     /// anew.
     fn keep_within_bounds(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
-        let most = there.saturating_sub(clock.base_us) as f64;
-        let least = -(back.saturating_add(clock.base_us) as f64);
+        let [most, back_us] = clock.delays_us(there, back);
+        let least = -back_us;
         let outside = (clock.offset_us - most).max(least - clock.offset_us);
         if outside > SET_ANEW_US {
             *self = Self { was_reset: true, ..Self::new() };

@@ -170,7 +170,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let Some(time) = route_time.filter(|_| self.hot.routes.keeps_one()) else { return };
         if self.hot.routes.begin_due(time, self.storage.borrow()) {
             self.hot.seek = None;
-            self.hot.supervisor.end_route();
+            self.hot.supervisor.begin_route();
             self.reflex.begin_route();
         }
     }

@@ -82,8 +82,8 @@ impl Supervisor {
         self.left.is_some()
     }
 
-    /// Another route is under way, or none.
-    pub(crate) fn end_route(&mut self) {
+    /// Another route is under way: all messages count again.
+    pub(crate) fn begin_route(&mut self) {
         self.left = None;
     }
 
@@ -121,9 +121,6 @@ impl Supervisor {
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
         let silent = now - self.left.unwrap_or(self.heard) > self.silence;
-        if drives != Drives::Route {
-            self.end_route();
-        }
         let cuts = match drives {
             Drives::Not | Drives::Soon => false,
             Drives::Target => down,
@@ -221,7 +218,7 @@ mod tests {
         supervisor.receive(Instant(2 * SECOND));
         assert!(supervisor.check_link(Instant(3 * SECOND), Drives::Route));
         supervisor.receive(Instant(3 * SECOND));
-        supervisor.end_route();
+        supervisor.begin_route();
         assert!(!supervisor.check_link(Instant(4 * SECOND), Drives::Route));
     }
 

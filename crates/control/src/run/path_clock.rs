@@ -48,9 +48,9 @@ impl PathClock {
         self.open_hold().is_some()
     }
 
-    /// Whether robots stand in a hold whose end is not stated yet.
-    pub fn rests(&self, now: Instant) -> bool {
-        self.open_hold().is_some_and(|hold| now >= hold.at + Route::EASE)
+    /// From when on robots stand in a hold whose end is not stated yet.
+    pub fn rests_from(&self) -> Option<Instant> {
+        self.open_hold().map(|hold| hold.at + Route::EASE)
     }
 
     /// Progress is held from `at` on, for an unknown time.

@@ -179,7 +179,8 @@ impl Driving {
         }
         self.clock.end_hold(cx.now);
         if cx.now >= self.heartbeat_at {
-            self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), self.clock.rests(cx.now));
+            let rests = self.clock.rests_from().is_some_and(|at| cx.now >= at);
+            self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), rests);
             let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
             cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at, sent: Some(cx.now) }]);
         }

@@ -133,7 +133,7 @@ impl Driving {
     /// that does not receive that.
     fn all_stand(&self, cx: &RunContext, silent: Span) -> bool {
         let bound = LINK_LOSS.stands_after() + Route::EASE + cx.link.hold_lead() * 2;
-        let stand_at = self.clock.open_hold().map_or(self.clock.ends, |hold| hold.at + Route::EASE);
+        let stand_at = self.clock.rests_from().unwrap_or(self.clock.ends);
         silent > bound || cx.now >= stand_at
     }
 

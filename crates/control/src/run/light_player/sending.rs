@@ -9,7 +9,7 @@ use crate::run::roster::Roster;
 use crate::run::upload::Upload;
 use lightbots_base::{Instant, Span, TICK};
 use lightbots_lighting::is_seen_apart;
-use lightbots_wire::{Command, Route};
+use lightbots_wire::Command;
 
 /// How far ahead a stretch that runs through holds is stated: a round trip.
 const LEAD: Span = Span::from_millis(100);
@@ -81,7 +81,7 @@ impl LightPlayer {
             false => self.next_moment(current, &clock, elapsed, renews).map(|from| (from, None)),
         };
         let Some((from, free_at)) = begins else { return };
-        let rests_at = clock.open_hold().map_or(now, |hold| hold.at + Route::EASE);
+        let rests_at = clock.rests_from().unwrap_or(now);
         let (longest, over) = match (renews, free_at) {
             // Nothing changes from when all stand until the hold is over.
             (true, Some(at)) if !is_free => ((rests_at - at).max(Span::ZERO) + TICK, LIVE.blend),
