@@ -89,7 +89,7 @@ fn record(is_lit: bool) -> Recording {
     if is_lit {
         plant.tell(&Command::Light(stretch(&route, number, LightAnchor::Start(SEQ))));
     }
-    plant.tell(&Command::Start { seq: SEQ, at: begins, sent: None });
+    plant.tell(&Command::Start { seq: SEQ, at: begins });
     while plant.show() < begins + drive + STANDS {
         if is_lit && plant.show() > begins + STRETCH * i64::from(number) - REFILL {
             number += 1;

@@ -12,7 +12,7 @@ use crate::outbox::Outbox;
 use crate::routes::Routes;
 use crate::seek::Seek;
 use crate::stall::StallDetector;
-use crate::supervise::{Drives, Supervisor};
+use crate::supervise::Supervisor;
 
 /// Fixes are overdue when three have not come and this much time has passed on top. Below one step, jitter of the fixes
 /// counts as an outage. Above, a robot drives on without fixes for longer.
@@ -97,19 +97,6 @@ impl Hot {
             outbox: Outbox::new(phase),
             estimate: Estimate::new(config),
             routes: Routes::new(),
-        }
-    }
-
-    /// What the robot is doing, as far as the link matters to it.
-    pub(crate) fn drives(&self) -> Drives {
-        if self.routes.under_way() {
-            Drives::Route
-        } else if self.routes.in_a_run() {
-            Drives::Soon
-        } else if self.seek.is_some() {
-            Drives::Target
-        } else {
-            Drives::Not
         }
     }
 }

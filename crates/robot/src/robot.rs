@@ -170,7 +170,6 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let Some(time) = route_time.filter(|_| self.hot.routes.keeps_one()) else { return };
         if self.hot.routes.begin_due(time, self.storage.borrow()) {
             self.hot.seek = None;
-            self.hot.supervisor.begin_route();
             self.reflex.begin_route();
         }
     }
@@ -179,7 +178,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// because the others have driven on.
     fn supervise(&mut self, now: Instant) {
         self.stop_in_time(now);
-        let drives = self.hot.drives();
+        let drives = self.drives();
         let is_lost = self.is_lost_now();
         self.heed_link(now);
         let hot = &mut self.hot;
@@ -200,12 +199,25 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
 
     /// Gives up what it drives where the link is silent for too long.
     fn heed_link(&mut self, now: Instant) {
-        let drives = self.hot.drives();
+        let drives = self.drives();
         let hot = &mut self.hot;
         if hot.supervisor.check_link(now, drives) {
             hot.seek = None;
             hot.routes.note_outage();
             hot.routes.abandon();
+        }
+    }
+
+    fn drives(&self) -> Drives {
+        let hot = &self.hot;
+        if hot.routes.under_way() {
+            Drives::Route
+        } else if hot.routes.in_a_run() {
+            Drives::Soon
+        } else if hot.seek.is_some() {
+            Drives::Target
+        } else {
+            Drives::Not
         }
     }
 }

@@ -306,11 +306,6 @@ impl Routes {
         self.running.is_some()
     }
 
-    /// Whether that route is under way.
-    pub(crate) fn drives(&self, seq: u32) -> bool {
-        self.running.as_ref().is_some_and(|running| running.seq == seq)
-    }
-
     /// Whether a route is kept for later.
     pub(crate) fn keeps_one(&self) -> bool {
         self.kept.is_some()

@@ -13,10 +13,6 @@ const OUTAGE: Span = Span::from_millis(3300);
 /// Time between two such questions.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
-/// A message that is older than this when it comes counts as this old. Below, robots on slow links stop one after the other.
-/// Above, a robot whose clock is wrong, or whose link is very slow, stops where the link works.
-const OLDEST: Span = Span::from_millis(300);
-
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
 
 /// What the robot is doing, as far as the link matters to it.
@@ -37,9 +33,6 @@ pub(crate) enum Drives {
 pub(crate) struct Supervisor {
     silence: Span,
     heard: Instant,
-    /// When the last START of the route under way left, or an answer after it, own clock. From then on no other message
-    /// counts for that route: they reach each robot at another time.
-    left: Option<Instant>,
     down_since: Option<Instant>,
     cut: bool,
     /// It was cut until the link came back, and has not reported that.
@@ -54,7 +47,6 @@ impl Supervisor {
         Self {
             silence,
             heard: start,
-            left: None,
             down_since: None,
             cut: false,
             untold: false,
@@ -68,23 +60,6 @@ impl Supervisor {
         self.heard = now;
         self.down_since = None;
         self.cut = false;
-    }
-
-    /// The message that came in is `age` old. Robots whose link breaks at one moment fall silent together by that, however
-    /// long their last message was on its way.
-    pub(crate) fn date(&mut self, now: Instant, age: Span) {
-        let left = Instant(now.0.saturating_sub(age.clamp(Span::ZERO, OLDEST).0.unsigned_abs()));
-        self.left = self.left.max(Some(left));
-    }
-
-    /// Whether messages say when they left.
-    pub(crate) fn is_dated(&self) -> bool {
-        self.left.is_some()
-    }
-
-    /// Another route is under way: all messages count again.
-    pub(crate) fn begin_route(&mut self) {
-        self.left = None;
     }
 
     /// The link went up or down. A link that is up is no message: silence goes on.
@@ -120,7 +95,7 @@ impl Supervisor {
     /// Cuts the robot off where the link is silent for too long for what the robot does. Whether it did so just now.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
-        let silent = now - self.left.unwrap_or(self.heard) > self.silence;
+        let silent = self.is_silent(now);
         let cuts = match drives {
             Drives::Not | Drives::Soon => false,
             Drives::Target => down,
@@ -188,38 +163,6 @@ mod tests {
         assert!(!supervisor.is_cut() && supervisor.check_link(Instant(4 * SECOND), Drives::Route));
         supervisor.receive(Instant(4 * SECOND));
         assert!(!supervisor.is_cut());
-    }
-
-    #[test]
-    fn silence_counts_from_when_a_message_left_where_it_says_so() {
-        let at = |ms: u64| Instant(ms * 1000);
-        let silent_from = |ages_ms: &[i64]| {
-            let mut supervisor = Supervisor::new(Span::from_millis(1900));
-            for (place, age_ms) in ages_ms.iter().enumerate() {
-                let now = at(5000 + 60 * place as u64);
-                supervisor.receive(now);
-                supervisor.date(now, Span::from_millis(*age_ms));
-                // One that does not say when it left.
-                supervisor.receive(now + Span::from_millis(30));
-            }
-            (5000..9000).find(|ms| supervisor.check_link(at(*ms), Drives::Route))
-        };
-        assert_eq!(silent_from(&[20]), Some(6881));
-        assert_eq!(silent_from(&[20, 200]), Some(6881), "an older one changes nothing");
-        assert_eq!(silent_from(&[20, 40]), Some(6921));
-        assert_eq!(silent_from(&[-100]), Some(6901), "the clock is behind");
-        assert_eq!(silent_from(&[90_000]), Some(6601), "the clock is wrong");
-    }
-
-    #[test]
-    fn the_next_route_hears_all_messages_again() {
-        let mut supervisor = Supervisor::new(Span::from_millis(1900));
-        supervisor.date(Instant(SECOND), Span::ZERO);
-        supervisor.receive(Instant(2 * SECOND));
-        assert!(supervisor.check_link(Instant(3 * SECOND), Drives::Route));
-        supervisor.receive(Instant(3 * SECOND));
-        supervisor.begin_route();
-        assert!(!supervisor.check_link(Instant(4 * SECOND), Drives::Route));
     }
 
     #[test]

@@ -14,7 +14,7 @@ const END: Vec2 = Vec2::new(0.4, -0.3);
 fn send(plant: &mut Plant, route: &Route) -> Instant {
     let at = plant.show() + Span::from_millis(300);
     plant.tell(&Command::Route(route.clone()));
-    plant.tell(&Command::Start { seq: route.seq, at, sent: None });
+    plant.tell(&Command::Start { seq: route.seq, at });
     at
 }
 

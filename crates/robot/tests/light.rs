@@ -52,7 +52,7 @@ fn a_robot_shows_its_records_at_every_step_and_stands_in_a_hold() {
     plant.tell(&Command::Route(straight(SEQ, START, END)));
     let began = plant.show() + Span::from_millis(400);
     plant.tell(&Command::Light(stretch(1, LightAnchor::Start(SEQ), Span::ZERO)));
-    plant.tell(&Command::Start { seq: SEQ, at: began, sent: None });
+    plant.tell(&Command::Start { seq: SEQ, at: began });
     let (hold, resume) = (began + Span::from_millis(2_000), began + Span::from_millis(4_500));
     let skip = Span::from_millis(7_000);
     let shown = |show: Instant| {

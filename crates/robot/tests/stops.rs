@@ -15,7 +15,7 @@ fn driving() -> (Plant, Route, Instant) {
     let route = straight(9, START, END);
     let at = plant.show() + Span::from_millis(300);
     plant.tell(&Command::Route(route.clone()));
-    plant.tell(&Command::Start { seq: 9, at, sent: None });
+    plant.tell(&Command::Start { seq: 9, at });
     plant.run(2.0);
     assert_eq!(plant.robot.state(), RobotState::Driving);
     plant.tell(&Command::Route(straight(10, END, START)));
@@ -74,7 +74,7 @@ fn stop_for_a_moment_is_at_once_where_that_is_long_ago_or_far_ahead_or_nothing_d
     let mut plant = Plant::ready(START, 0.0, Flaws::NONE, 2);
     let at = plant.show() + Span::from_millis(300);
     plant.tell(&Command::Route(straight(9, START, END)));
-    plant.tell(&Command::Start { seq: 9, at, sent: None });
+    plant.tell(&Command::Start { seq: 9, at });
     plant.tell(&Command::StopFrom { at });
     plant.step();
     has_stopped(&mut plant);

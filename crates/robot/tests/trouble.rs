@@ -24,7 +24,7 @@ fn ready(flaws: Flaws) -> Plant {
 fn send(plant: &mut Plant, seq: u32, to: Vec2, in_ms: i64) {
     let at = plant.show() + Span::from_millis(in_ms);
     plant.tell(&Command::Route(straight(seq, plant.at, to)));
-    plant.tell(&Command::Start { seq, at, sent: None });
+    plant.tell(&Command::Start { seq, at });
 }
 
 /// A robot that is in the middle of a route.
@@ -151,7 +151,7 @@ fn a_robot_that_waits_for_its_start_does_not_turn_in_silence() {
         plant.step();
         assert_eq!(plant.last.wheels_radps, [0.0; 2], "that may be an old message");
     }
-    plant.tell(&Command::Start { seq: 9, at: plant.show() + Span::from_millis(60_000), sent: None });
+    plant.tell(&Command::Start { seq: 9, at: plant.show() + Span::from_millis(60_000) });
     plant.run(1.0);
     assert!((plant.heading + core::f64::consts::FRAC_PI_2).abs() < 0.05, "{}", plant.heading);
 }
@@ -172,7 +172,7 @@ fn a_robot_between_two_drives_does_not_turn_to_a_route_that_comes_after_silence(
         plant.step();
         assert_eq!(plant.last.wheels_radps, [0.0; 2], "that may be an old message");
     }
-    plant.tell(&Command::Start { seq: 10, at: plant.show() + Span::from_millis(60_000), sent: None });
+    plant.tell(&Command::Start { seq: 10, at: plant.show() + Span::from_millis(60_000) });
     plant.run(1.0);
     assert!((plant.heading + core::f64::consts::FRAC_PI_2).abs() < 0.05, "{}", plant.heading);
 }

@@ -23,14 +23,12 @@ pub enum Command {
     Uuid,
     /// `PATH …`: keep this route until a `START` names it. It replaces a kept route that was not started.
     Route(Route),
-    /// `START seq at sent`: the kept route `seq` begins at this moment of the show clock.
+    /// `START seq at`: the kept route `seq` begins at this moment of the show clock.
     Start {
         /// Number of the route.
         seq: u32,
         /// Moment on the show clock.
         at: Instant,
-        /// When the message left, show clock, where the controller says so.
-        sent: Option<Instant>,
     },
     /// `HOLD at`: from this moment of the show clock on, progress along the route slows to rest within
     /// [`Route::EASE`], the same for every robot.

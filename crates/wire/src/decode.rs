@@ -73,7 +73,7 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
         "COLOR" => made(colour(fields), Command::Color),
         "UUID" => Some(Ok(Command::Uuid)),
         "PATH" => made(decode_route(fields).ok_or(Unknown::Fields), Command::Route),
-        "START" => made(start(fields), |(seq, at, sent)| Command::Start { seq, at, sent }),
+        "START" => made(start(fields), |(seq, at)| Command::Start { seq, at }),
         "HOLD" => made(moment(fields), |at| Command::Hold { at }),
         "RESUME" => made(moment(fields), |at| Command::Resume { at }),
         // Whatever follows it, a robot stops.
@@ -104,9 +104,9 @@ fn target(fields: &mut Fields<'_>) -> Result<Vec2, Unknown> {
     Ok(Vec2::new(next()?, next()?))
 }
 
-fn start(fields: &mut Fields<'_>) -> Result<(u32, Instant, Option<Instant>), Unknown> {
+fn start(fields: &mut Fields<'_>) -> Result<(u32, Instant), Unknown> {
     let seq = fields.next().and_then(|field| field.parse().ok()).filter(|&seq| seq != 0);
-    Ok((seq.ok_or(Unknown::Fields)?, moment(fields)?, moment(fields).ok()))
+    Ok((seq.ok_or(Unknown::Fields)?, moment(fields)?))
 }
 
 fn time(fields: &mut Fields<'_>) -> Result<TimeAnswer, Unknown> {

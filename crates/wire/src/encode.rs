@@ -29,10 +29,7 @@ fn write(command: &Command, out: &mut TextBuffer<'_>) -> fmt::Result {
         Command::Color(colour) => words(out, "COLOR", &[u64::from(colour.number())])?,
         Command::Uuid => out.write_str("UUID")?,
         Command::Route(route) => encode_route(route, out)?,
-        Command::Start { seq, at, sent: None } => words(out, "START", &[u64::from(*seq), at.0])?,
-        Command::Start { seq, at, sent: Some(sent) } => {
-            words(out, "START", &[u64::from(*seq), at.0, sent.0])?
-        }
+        Command::Start { seq, at } => words(out, "START", &[u64::from(*seq), at.0])?,
         Command::Hold { at } => words(out, "HOLD", &[at.0])?,
         Command::Resume { at } => words(out, "RESUME", &[at.0])?,
         Command::Stop => out.write_str("STOP")?,

@@ -34,10 +34,9 @@ impl LinkLoss {
     }
 }
 
-/// The last message to a robot is at most 500 ms older or newer than its last report. It counts as up to 300 ms older, from
-/// when it left.
+/// The last message to a robot is at most 500 ms older or newer than its last report.
 pub(crate) const LINK_LOSS: LinkLoss =
-    LinkLoss { drives_on: Span::from_millis(1_200), at_most_longer: Span::from_millis(1_300) };
+    LinkLoss { drives_on: Span::from_millis(1_500), at_most_longer: Span::from_millis(1_000) };
 
 /// Time between two places of a path: 14 mm at full speed.
 const PATH_STEP: Span = Span::from_millis(50);

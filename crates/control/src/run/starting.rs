@@ -59,7 +59,7 @@ impl Starting {
         assert!(seq != 0, "a START needs a queued leg");
         let lead = cx.start_lead();
         let at = earliest.max(cx.now + lead);
-        cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at, sent: None }]);
+        cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
         Self {
             at,
             seq,
@@ -81,7 +81,7 @@ impl Starting {
     }
 
     fn command(&self) -> Command {
-        Command::Start { seq: self.seq, at: self.at, sent: None }
+        Command::Start { seq: self.seq, at: self.at }
     }
 
     /// A participant that is to start reports its state.

@@ -173,7 +173,7 @@ impl Robot {
                 }
                 self.say_report(Topic::Status, self.named());
             }
-            Command::Start { seq, at, .. } => {
+            Command::Start { seq, at } => {
                 self.starts_heard += 1;
                 let mine =
                     self.kept.as_mut().filter(|(route, starts)| route.seq == seq && *starts != Some(at));

@@ -42,10 +42,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.routes.keep(route, self.storage.borrow_mut());
                 self.hot.outbox.report_status();
             }
-            Command::Start { seq, at, sent } => {
-                if self.hot.routes.drives(seq) {
-                    self.date(now, sent);
-                }
+            Command::Start { seq, at } => {
                 self.light.tracks.start(seq, at);
                 if self.hot.routes.start(seq, at, self.route_time(now)) || personal {
                     self.hot.outbox.report_status();
@@ -60,9 +57,6 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             Command::Stop => self.stop(),
             Command::StopFrom { at } => self.stop_from(now, at),
             Command::Time(answer) => {
-                if self.hot.supervisor.is_dated() {
-                    self.date(now, Some(answer.sent));
-                }
                 self.clock_filter.answer(&mut self.hot.clock, now, &answer);
                 if self.clock_filter.take_reset() {
                     self.hot.routes.forget_moments();
@@ -95,13 +89,6 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.hot.light_changes = true;
             }
             Command::Status => self.hot.outbox.report_status(),
-        }
-    }
-
-    /// A message about the route under way left at `sent`, if it says so: silence counts from then on.
-    fn date(&mut self, now: Instant, sent: Option<Instant>) {
-        if let (Some(show), Some(sent)) = (self.hot.clock.show_time(now), sent) {
-            self.hot.supervisor.date(now, show - sent);
         }
     }
 

@@ -81,7 +81,7 @@ fn robots_on_a_path_are_where_it_says_when_it_says() {
         hall.tell(Topic::Robot(*id), &Command::Route(route.clone()));
     }
     let at = hall.now + Span::from_millis(200);
-    hall.tell(Topic::Broadcast, &Command::Start { seq: 7, at, sent: None });
+    hall.tell(Topic::Broadcast, &Command::Start { seq: 7, at });
     let mut worst: f64 = 0.0;
     while hall.now < at + routes[0].1 {
         hall.run(1);

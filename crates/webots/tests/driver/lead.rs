@@ -81,7 +81,7 @@ async fn lead(link: &mut Link, id: RobotId, route: &Route, that: impl Fn(&Report
         let details = report.details.as_ref().expect("a robot of ours");
         if details.clock_us.is_some() && !sent {
             tell(&Command::Route(route.clone()));
-            tell(&Command::Start { seq: route.seq, at: show() + Span::from_millis(300), sent: None });
+            tell(&Command::Start { seq: route.seq, at: show() + Span::from_millis(300) });
             sent = true;
         }
     }

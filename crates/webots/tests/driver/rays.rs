@@ -86,7 +86,7 @@ fn touches_mps(aside_m: f64, seed: u64) -> Option<f64> {
     meeting.steps(200);
     let at = meeting.now + AHEAD + Span::from_millis(200);
     meeting.tell(&Command::Route(route(start, end)));
-    meeting.tell(&Command::Start { seq: 1, at, sent: None });
+    meeting.tell(&Command::Start { seq: 1, at });
     let mut before = meeting.world.places()[0];
     for _ in 0..300 {
         meeting.step();

@@ -106,7 +106,7 @@ impl Score {
         for command in commands(payload).flatten() {
             match (to, command) {
                 (Some(id), Command::Route(route)) => self.keep(id, route),
-                (to, Command::Start { seq, at, .. }) => self.start(to, seq, at),
+                (to, Command::Start { seq, at }) => self.start(to, seq, at),
                 (to, Command::Stop) => {
                     self.stops.extend(self.show_at(std::time::Instant::now()).map(|at| (at, to)))
                 }

@@ -182,7 +182,7 @@ impl Driving {
             let rests = self.clock.rests_from().is_some_and(|at| cx.now >= at);
             self.heartbeat_at = cx.now + HEARTBEAT.every(cx.roster.len(), rests);
             let (seq, at) = (cx.pipeline.leg().map_or(0, |leg| leg.seq), self.clock.began);
-            cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at, sent: Some(cx.now) }]);
+            cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
         }
         cx.pipeline.light.see(self.clock);
         cx.pump_lights();
