@@ -2,29 +2,30 @@
 
 use lightbots_base::{Instant, Span};
 
-/// A clock is precise below this, 2 sigma, microseconds: 2.7 mm at full speed, less than the 3 mm that plans leave.
-/// Above, robots on slow links brake for each other where nothing is wrong. Below, all wait longer on such a link; on one
-/// of 5 to 20 ms each way, clocks are this good as soon as they are set.
+/// Largest error of a clock that counts as precise, 2 sigma, microseconds: 2.7 mm at full speed, less than the 3 mm
+/// that plans leave. Above, robots on slow links brake for each other without need. Below, all wait longer on a slow
+/// link. On links of 5 to 20 ms each way, clocks are this good as soon as they are set.
 pub(crate) const PRECISE_US: u32 = 10_000;
-/// A run waits for this long in all: as long as robots ask quickly. Above, a link on which clocks are never precise
-/// delays the show in vain.
+/// Longest time that a run waits for clocks in all: robots put time questions in quick succession for as long. Above,
+/// a link on which clocks are never precise delays the show in vain.
 const MOST: Span = Span::from_millis(30_000);
 
 /// How long a run has waited for clocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ClockWait {
     waited: Span,
-    /// When it was looked at last while robots are waited for.
+    /// When the wait was last counted, while robots are waited for.
     looked: Option<Instant>,
 }
 
 impl ClockWait {
-    /// Whether robots are waited for.
+    /// Whether the run waits for clocks.
     pub fn is_on(&self) -> bool {
         self.looked.is_some()
     }
 
-    /// All wait for clocks, at `now`. The time since the last look; `None`: they have waited long enough.
+    /// Counts the wait until `now` and returns the time since the last call. `None` once the run has waited long
+    /// enough.
     pub fn look(&mut self, now: Instant) -> Option<Span> {
         let passed = self.looked.map_or(Span::ZERO, |looked| now - looked);
         self.looked = Some(now);
@@ -32,7 +33,7 @@ impl ClockWait {
         (self.waited < MOST).then_some(passed)
     }
 
-    /// No robot is waited for.
+    /// Ends a wait: time until the next [`look`](Self::look) does not count.
     pub fn end(&mut self) {
         self.looked = None;
     }

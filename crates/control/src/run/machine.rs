@@ -36,11 +36,11 @@ pub(crate) struct Run {
     pub pipeline: Pipeline,
     /// How slow and lossy the link is.
     pub link: LinkEstimate,
-    /// Where the run is.
+    /// The present phase.
     pub phase: RunPhase,
-    /// What is counted.
+    /// Counts of frames, dropouts and arrivals, and bounds on recovery.
     pub tally: Tally,
-    /// The tests of a preflight; `None`: the run is none.
+    /// The checks of a preflight. `None` if the run is no preflight.
     pub preflight: Option<PreflightCheck>,
 }
 
@@ -160,11 +160,12 @@ impl Run {
         for (participant, why) in dropped {
             self.drop_out(io, now, participant, why);
         }
-        // The others may be ready.
+        // The remaining robots may all be ready by now.
         if was_gathering { self.next_at_tick(io, now) } else { Next::Stay }
     }
 
-    /// Those that drop out now. Robots that are silent do only if it is not the link that is lost.
+    /// Returns the dropouts that count now. Robots that are silent drop out only if the link is not lost. `Err` holds
+    /// what the run does instead.
     fn without_lost_link(
         &mut self,
         io: &mut Context,
@@ -210,7 +211,7 @@ impl Run {
         self.regather(io, now);
     }
 
-    /// Where a robot may stand that drops out now; nowhere else than it reported: none.
+    /// Where a robot that drops out now may stand. Empty if that is only the place that it reported.
     fn whereabouts(
         &mut self,
         io: &mut Context,
@@ -226,7 +227,8 @@ impl Run {
                 Whereabouts { possible: places.clone(), likely: places }
             }
             Trouble::Silent => self.whereabouts_on_path(io, now, participant),
-            // It does not know where it is. It stood at once, or waited before that where it reported last.
+            // The robot does not know where it is. It stopped at once on its path, or had not yet left the place
+            // where it last stood.
             _ if reported.is_none() && !Mutant::ForgetLostRobot.is_planted() => {
                 let mut places = self.whereabouts_on_path(io, now, participant);
                 places.possible.extend(last);
@@ -261,14 +263,16 @@ impl Run {
         self.gather_what_moves(io, now);
     }
 
-    /// Robots that may drive stop and say where they are.
+    /// Stops robots that may be driving and asks where they are. Robots that stand and report of their own accord
+    /// need neither.
     pub fn gather_what_moves(&mut self, io: &mut Context, now: Instant) {
-        // What robots that know TARGET only said last may be old: they report only when they are asked.
+        // TARGET-only robots (they understand the command TARGET but no routes) report only when asked: their last
+        // reports may be old.
         if !matches!(self.phase, RunPhase::Standing(_)) || self.roster.has_target_robots(io) {
             let left = self.phase.left(&self.pipeline);
             self.gather(io, now, left);
         } else if let RunPhase::Standing(standing) = &mut self.phase {
-            // One of them may have been moved: what it reports is better known.
+            // A robot may have been moved, so its reported place counts rather than its goal.
             standing.air.is_at_goals = false;
         }
     }
@@ -278,14 +282,15 @@ impl Run {
         self.enter(RunPhase::Gathering(gathering));
     }
 
-    /// The run stands still until robots report again.
+    /// Interrupts the run until robots report again. `silent` is the number of silent robots, `None` if the broker is
+    /// lost.
     fn interrupt(&mut self, io: &mut Context, now: Instant, silent: Option<usize>) {
         if matches!(self.phase, RunPhase::Interrupted(_) | RunPhase::Over(..)) {
             return;
         }
         let left = self.phase.left(&self.pipeline);
         if matches!(self.phase, RunPhase::Starting(_)) {
-            // Robots may have begun it, and nothing is heard of that.
+            // Robots may have started on this leg, although no report of that arrives.
             self.pipeline.drive_next();
         }
         self.drop_plans(io);
@@ -300,7 +305,7 @@ impl Run {
         self.enter(RunPhase::Interrupted(interrupted));
     }
 
-    /// Robots report again: all say where they stand, and all is planned again from there.
+    /// Gathers all robots once they report again. All is then planned from where they stand.
     fn go_on_from_where_robots_stand(&mut self, io: &mut Context, now: Instant) {
         let RunPhase::Interrupted(interrupted) = &self.phase else { return };
         let left = interrupted.left;
@@ -311,7 +316,7 @@ impl Run {
         self.enter(RunPhase::Gathering(gathering));
     }
 
-    /// Plans and requests are dropped: robots will not be where they begin.
+    /// Drops plans and requests, because robots will not be where these plans begin.
     pub fn drop_plans(&mut self, io: &mut Context) {
         let next = (!self.playback.is_ended()).then_some(self.playback.next);
         self.pipeline.clear(next);
@@ -351,7 +356,7 @@ impl Run {
         }
     }
 
-    /// The frame that is driven to or stands, counted from 0.
+    /// The frame that robots drive to or stand in, counted from 0.
     pub fn frame(&self) -> usize {
         let reached = self.pipeline.leg().map(|leg| leg.frame);
         match &self.phase {
@@ -362,13 +367,14 @@ impl Run {
         }
     }
 
-    /// Whether [`frame`](Self::frame) stands; otherwise robots are on their way to it.
+    /// Whether robots have reached [`frame`](Self::frame). `false` while they are on their way, and once the run is
+    /// over.
     pub fn is_frame_reached(&self) -> bool {
         let Some(leg) = self.pipeline.leg().filter(|leg| leg.reaches_frame) else { return false };
         let towards = self.playback.jump.map_or(self.playback.next, |jump| jump.instead_of);
         match &self.phase {
             RunPhase::Starting(_) | RunPhase::Driving(_) | RunPhase::Over(..) => false,
-            // Once a frame is reached, another one is next.
+            // Once robots have reached a frame, `next` is another one.
             _ => !self.playback.leaves() && leg.cursor() != towards,
         }
     }

@@ -1,7 +1,7 @@
-//! A run: phases that own their data, and what outlives a phase.
+//! A run of a show on live robots: its phases, which own their data, and the state that outlives a phase.
 //!
-//! This file has the inputs of a run. Each goes to the present phase, which returns [`Next`]; `machine` then changes the
-//! phase. A phase sees the rest of the run as a [`RunContext`]; it never sees [`Run`].
+//! This file passes each input of a run to the present phase, which returns [`Next`]; `machine` then changes the
+//! phase. A phase reaches the rest of the run through a [`RunContext`]; it never sees [`Run`].
 
 mod bystanders;
 mod candidates;
@@ -79,7 +79,8 @@ use target_commands::PASSED_ERROR_M;
 use target_progress::TargetProgress;
 
 impl Run {
-    /// All robots take part that can; then they are asked where they stand, unless that is known.
+    /// Creates the run with all robots of the fleet that can take part. If any of them may be driving, all are
+    /// stopped and asked where they are.
     pub fn begin(context: &mut Context, now: Instant, playback: PlayedShow) -> Self {
         context.mapping.shown.clear();
         let roster = Roster::of_fleet(context, now);
@@ -93,7 +94,8 @@ impl Run {
                 _ => EventKind::RunBegun { from, robots },
             },
         );
-        // Robots that know TARGET only do not say whether they drive: their places count once they stay the same.
+        // TARGET-only robots (they understand the command TARGET but no routes) do not report whether they drive.
+        // Their places count once they stay the same.
         let may_drive = (0..roster.len()).any(|participant| {
             let robot = roster.robot(context, participant);
             robot.is_original() || robot.reported.state != Some(RobotState::Idle)
@@ -113,8 +115,9 @@ impl Run {
         run
     }
 
-    /// A run that robots are out of reach of until now. `leg`: what they drive or drove last. `heard`: when
-    /// they were heard last.
+    /// Creates a run whose robots are out of reach at present. `leg` is the leg that they drive or drove last, and
+    /// `left` is what was broken off. The run goes on without the operator if robots are back within `by_itself`.
+    /// `heard` is the time of the oldest among the robots' last reports.
     pub fn interrupted(
         now: Instant,
         playback: PlayedShow,
@@ -134,7 +137,8 @@ impl Run {
         }
     }
 
-    /// The run is over: robots keep what they show.
+    /// Releases the robots at the end of the run. Notes for each robot its pixel, its goal and whether it may keep a
+    /// route.
     pub fn leave(&mut self, context: &mut Context) {
         for (participant, known) in self.roster.participants.iter().enumerate() {
             let step = self.pipeline.leg().and_then(|leg| leg.robots.get(participant));
@@ -149,7 +153,7 @@ impl Run {
         }
     }
 
-    /// A robot of the fleet reported; the fleet table knows already.
+    /// Handles a report of a robot of the fleet. The fleet table has already taken it in, with the result `received`.
     pub fn on_report(
         &mut self,
         io: &mut Context,
@@ -176,7 +180,8 @@ impl Run {
         self.on_status(io, now, participant, received.restarted, report);
     }
 
-    /// A robot reports that takes no part.
+    /// Handles a report of a robot that takes no part or dropped out. It may become a candidate, or all are planned
+    /// again because it obstructs a path.
     fn on_bystander(&mut self, io: &mut Context, now: Instant, robot: usize) {
         let (phase, mut cx) = self.split(io, now);
         candidates::consider(&mut cx, robot, matches!(phase, RunPhase::Gathering(_)));
@@ -251,7 +256,7 @@ impl Run {
         }
     }
 
-    /// Time passes.
+    /// Does what is due at `now`.
     pub fn on_tick(&mut self, io: &mut Context, now: Instant) {
         self.tally.recovery.pause(now, self.playback.waits());
         self.tick_phase(io, now);
@@ -264,7 +269,7 @@ impl Run {
         self.apply(io, now, next);
     }
 
-    /// When time has to pass next.
+    /// When [`on_tick`](Self::on_tick) has to be called next.
     pub fn due(&self, io: &Context, now: Instant) -> Instant {
         let checked = self.preflight.as_ref().map_or(Instant::FAR, PreflightCheck::due);
         checked.min(self.phase_due(io, now))
@@ -290,7 +295,7 @@ impl Run {
         }
     }
 
-    /// A plan is there.
+    /// Takes in the result of a plan request.
     pub fn on_plan(&mut self, io: &mut Context, now: Instant, result: PlanResult) {
         let is_standing = matches!(self.phase, RunPhase::Standing(_));
         let (_, mut cx) = self.split(io, now);
@@ -309,7 +314,7 @@ impl Run {
         }
     }
 
-    /// The operator goes on; `step`: to the next frame, where the run pauses again.
+    /// Resumes the run for the operator. With `step` robots go to the next frame, where the run pauses again.
     pub fn resume(&mut self, io: &mut Context, now: Instant, step: bool) {
         (self.playback.paused, self.playback.stepping) = (false, step);
         self.playback.waits_for_go &= !step;
@@ -321,7 +326,8 @@ impl Run {
         }
     }
 
-    /// The operator gives GO: the frame that waits for it is left.
+    /// Handles the operator's GO: robots that stand leave at once, without the rest of the air time or the wait at a
+    /// cue.
     pub fn go(&mut self, now: Instant) {
         self.playback.waits_for_go = false;
         self.playback.music.seen = None;
@@ -330,13 +336,13 @@ impl Run {
         }
     }
 
-    /// The operator changes live light.
+    /// Applies the operator's change of live light.
     pub fn set_live_light(&mut self, io: &mut Context, now: Instant, live: LiveLayers) {
         let Pipeline { light, driven, .. } = &mut self.pipeline;
         light.set_live(io, (&self.roster, driven.as_ref().map(|driven| &driven.leg)), now, live);
     }
 
-    /// The show was played to its end: robots show their frame, without live light.
+    /// Ends live light because the show was played to its end. Robots then show the light of their frame alone.
     pub fn end_live_light(&mut self, io: &mut Context, now: Instant) {
         let Pipeline { light, driven, .. } = &mut self.pipeline;
         if let Some(driven) = driven {
@@ -344,22 +350,23 @@ impl Run {
         }
     }
 
-    /// The show starts again after its last frame, or does not.
+    /// Sets whether the show starts again after its last frame.
     pub fn set_looping(&mut self, io: &mut Context, now: Instant, looping: bool) {
         let is_starting = matches!(self.phase, RunPhase::Starting(_));
         requests::set_looping(&mut self.split(io, now).1, looping, is_starting);
     }
 
-    /// The operator ends the run.
+    /// Ends the run because the operator aborts it.
     pub fn abort(&mut self, io: &mut Context, now: Instant) {
         self.apply(io, now, Next::Over(RunOutcome::Aborted));
     }
 
-    /// When robots on a drive are held, if all are to be stopped now; `None`: they stand, or are to halt at once.
+    /// The moment at which progress is held before STOP, if all robots are to be stopped now. `None` if robots rest
+    /// already or are to halt at once.
     pub fn holds_before_stop(&mut self, io: &mut Context, now: Instant) -> Option<Instant> {
         let (phase, cx) = self.split(io, now);
         match phase {
-            // STOP voids a RESUME that was stated for later.
+            // STOP cancels a RESUME whose moment is still to come, so the hold does not wait for that RESUME.
             RunPhase::Driving(drive) => {
                 let soonest = cx.now + cx.link.hold_lead();
                 gathering::hold_before_stop(&cx, &drive.clock).map(|at| at.min(soonest))
@@ -369,13 +376,13 @@ impl Run {
         }
     }
 
-    /// The broker is lost: robots stop by themselves.
+    /// Interrupts the run because the connection to the broker is lost. Robots then stop by themselves.
     pub fn on_disconnect(&mut self, io: &mut Context, now: Instant) {
         self.apply(io, now, Next::Interrupt(None));
     }
 
-    /// The operator lets a run go on that was interrupted, without robots that do not report. `false`: there is no
-    /// such run, or no robot reports.
+    /// Lets an interrupted run go on for the operator, without robots that do not report. Returns `false` if the run
+    /// is not interrupted, the broker is away, or no robot has reported.
     pub fn go_on(&mut self, io: &mut Context, now: Instant) -> bool {
         let (phase, cx) = self.split(io, now);
         let RunPhase::Interrupted(interrupted) = phase else { return false };
@@ -387,7 +394,8 @@ impl Run {
         true
     }
 
-    /// The leg whose paths are driven or about to be, and when they begin.
+    /// The leg of routes that robots drive or are about to start, and when it begins. `None` in other phases and for
+    /// legs of TARGETs.
     pub fn driven_paths(&self) -> Option<(&Leg, Instant)> {
         let (leg, began) = match &self.phase {
             RunPhase::Starting(starting) => (self.pipeline.queue.front(), starting.at),

@@ -11,14 +11,14 @@ use std::sync::Arc;
 /// Longest air time of a frame, seconds: a day. A larger value in a show would overflow the show clock.
 const AIR_TIME_MAX_S: f64 = 86_400.0;
 
-/// Whether a run plays a show or drives to one frame.
+/// What a run is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum RunPurpose {
     /// All frames from the first one on.
     Play,
     /// One frame, without air time.
     Preview,
-    /// The starting places, which are a frame of their own.
+    /// The starting places, played as a show of one frame.
     Home,
     /// All frames of a preflight.
     Preflight,
@@ -31,45 +31,46 @@ impl RunPurpose {
     }
 }
 
-/// The operator chose the frame that is reached next. This ends when robots leave for it.
+/// What to restore if the frame that the operator chose cannot be reached. Kept until robots leave for that frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Jump {
     /// The frame that would have been next.
     pub instead_of: FrameCursor,
-    /// The frame that stood waited for GO.
+    /// Whether the run was waiting for GO.
     pub waited_for_go: bool,
-    /// The loop that GO had been given for.
+    /// The value of [`PlayedShow::leaves_loop`] before the jump.
     pub left_loop: Option<FrameCursor>,
-    /// Robots leave as soon as they can. Otherwise the show waits as it would have.
+    /// Whether robots leave as soon as they can. Otherwise the air time, a pause and the wait for GO stay as they
+    /// were.
     pub leaves: bool,
 }
 
-/// What is played, and where it is.
+/// What a run plays, and how far it has come.
 #[derive(Clone, Debug)]
 pub(crate) struct PlayedShow {
     /// The show; it does not change during a run.
     pub show: Arc<Show>,
-    /// Whether all frames are played.
+    /// What the run is for.
     pub purpose: RunPurpose,
     /// What happens to pixels without a robot.
     pub missing: MissingPolicy,
-    /// The show starts again after its last frame.
+    /// Whether the show starts again after its last frame.
     pub looping: bool,
     /// The frame that is reached next.
     pub next: FrameCursor,
-    /// The operator paused.
+    /// Whether the operator paused the run.
     pub paused: bool,
-    /// The run pauses again at the next frame.
+    /// Whether the run pauses again at the next frame.
     pub stepping: bool,
-    /// The frame that was reached last has a cue, and GO was not given: it is not left.
+    /// Whether robots stay in the frame that was reached last until GO, because it has a cue.
     pub waits_for_go: bool,
-    /// The operator chose the next frame.
+    /// The operator's choice of the next frame, until robots leave for it.
     pub jump: Option<Jump>,
-    /// The frames that repeat until GO.
+    /// The loops: ranges of frames that repeat until GO.
     pub loops: Vec<FrameLoop>,
-    /// The last frame of the present pass of a loop: GO was given, and the show goes on after it.
+    /// The last frame of the present pass of a loop, if GO was given in that pass. The show goes on after this frame.
     pub leaves_loop: Option<FrameCursor>,
-    /// Where the music is.
+    /// Where the music is on the timeline.
     pub music: MusicTime,
 }
 
@@ -92,7 +93,7 @@ impl PlayedShow {
         }
     }
 
-    /// The frame after one, if there is any.
+    /// The frame that follows `cursor` in this run. `None` after the last one.
     pub fn after(&self, cursor: FrameCursor) -> Option<FrameCursor> {
         let FrameCursor { frame, round, pass } = cursor;
         let repeats = self.loop_at(frame);
@@ -118,7 +119,7 @@ impl PlayedShow {
         self.loops.iter().copied().find(|repeats| repeats.has(frame))
     }
 
-    /// A frame was reached: the one after it is next.
+    /// Makes the frame after `next` the next one, because robots have reached `next`.
     pub fn advance(&mut self) {
         match self.after(self.next) {
             Some(next) => self.next = next,
@@ -126,7 +127,8 @@ impl PlayedShow {
         }
     }
 
-    /// The operator chooses the frame that is reached next. `leaves`: robots leave for it at once.
+    /// Makes `next` the frame that is reached next, as the operator chose. `None`: no further frame is reached. With
+    /// `leaves` robots leave for it at once.
     pub fn choose(&mut self, next: Option<FrameCursor>, leaves: bool) {
         let begun = Jump {
             instead_of: self.next,
@@ -143,7 +145,8 @@ impl PlayedShow {
         }
     }
 
-    /// There is no path to the frame that the operator chose: the show waits where it is.
+    /// Takes a jump back, because no path leads to the chosen frame: the frame that would have been next is next
+    /// again. If robots were to leave at once, the run waits for GO as before the jump, or else is paused.
     pub fn give_up(&mut self, jump: Jump) {
         self.jump = None;
         (self.next, self.leaves_loop) = (jump.instead_of, jump.left_loop);
@@ -158,7 +161,7 @@ impl PlayedShow {
         self.jump.is_some_and(|jump| jump.leaves)
     }
 
-    /// Whether the run stands until the operator says that it goes on.
+    /// Whether the run waits for the operator: it is paused or waits for GO.
     pub fn waits(&self) -> bool {
         self.paused || self.waits_for_go
     }
@@ -168,7 +171,7 @@ impl PlayedShow {
         self.next.frame >= self.show.frames.len()
     }
 
-    /// The last frame, where the next one is after it.
+    /// The next frame, or the last frame of the show if all were reached; counted from 0.
     pub fn shown_frame(&self) -> usize {
         self.next.frame.min(self.show.frames.len().saturating_sub(1))
     }
@@ -183,19 +186,20 @@ impl PlayedShow {
         cues.find(|cue| matches!(&cue.at, CuePlace::Frame(at) if at == id)).map(|cue| cue.name.as_str())
     }
 
-    /// How long a frame stands by the show; zero where the show has no such frame.
+    /// The air time of a frame by the show, at most a day. Zero if the show has no such frame or the value is not
+    /// finite.
     pub fn air_time(&self, frame: usize) -> Span {
         let air_s = self.show.frames.get(frame).map_or(0.0, |frame| frame.air_time_s);
         Span::from_secs(if air_s.is_finite() { air_s.clamp(0.0, AIR_TIME_MAX_S) } else { 0.0 })
     }
 
-    /// How long a frame stands in this run.
+    /// The air time of a frame in this run: zero in a preview and on the way home.
     pub fn standing_time(&self, frame: usize) -> Span {
         let stands = matches!(self.purpose, RunPurpose::Play | RunPurpose::Preflight);
         if stands { self.air_time(frame) } else { Span::ZERO }
     }
 
-    /// Distance of two centres at which rims touch, metres.
+    /// Distance between the centres of two robots whose rims touch, metres.
     pub fn contact_m(&self) -> f64 {
         self.show.stage.limits.contact_m()
     }

@@ -13,14 +13,15 @@ use crate::run::run_context::RunContext;
 use lightbots_base::Span;
 use std::ops::ControlFlow;
 
-/// Most routes that one request plans, so that it ends in bounded time: 40 frames of 10,000 robots.
+/// Largest number of routes that one request plans, so that planning ends in bounded time: 40 frames of 10,000
+/// robots.
 const ROUTES_A_REQUEST: usize = 400_000;
-/// While fewer frames than this are planned ahead, more are planned.
+/// Least number of planned frames in the queue. More frames are planned while there are fewer.
 const FRAMES_AHEAD: usize = 3;
 /// Most pixels that an event lists.
 const LISTED: usize = 16;
 
-/// Gives out the next plan request, if one is due.
+/// Makes the next plan request, if one is due.
 pub(crate) fn plan_ahead(cx: &mut RunContext) {
     let ahead = cx.pipeline.queue.iter().filter(|leg| leg.reaches_frame).count();
     let planning = &cx.pipeline.planning;
@@ -50,7 +51,7 @@ pub(crate) fn plan_ahead(cx: &mut RunContext) {
     cx.pipeline.planning.pending = Some((cx.io.plan_number, cx.now));
 }
 
-/// At most `most` frames of one round, and of one pass of a loop, from `first` on; they count as planned.
+/// Takes at most `most` frames from `first` on, all of one round and one pass of a loop. They then count as planned.
 fn take_frames(cx: &mut RunContext, first: FrameCursor, most: usize) -> Vec<FrameCursor> {
     let planning = &mut cx.pipeline.planning;
     let mut frames = vec![first];
@@ -73,8 +74,9 @@ fn planned_robots(cx: &RunContext) -> Vec<PlannedRobot> {
     cx.roster.active().map(|(participant, _)| robot(participant)).collect()
 }
 
-/// A plan is there. `Break`: it is of no use, and the phase goes on as before; `Continue`: its legs are queued, as far as
-/// there are any. `is_standing`: robots wait for it.
+/// Takes in the result of a plan request and queues its legs. `Break`: the caller applies this [`Next`] and does
+/// nothing else. `Continue`: the caller applies it and works with the queue. `is_standing`: the run is in Standing,
+/// so robots wait for the plan.
 pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool) -> ControlFlow<Next, Next> {
     if cx.pipeline.planning.pending.is_none_or(|(number, _)| number != result.number) {
         return ControlFlow::Break(Next::Stay);
@@ -109,7 +111,7 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
     }
 }
 
-/// Where all stand at the end of the last leg: more is planned from there.
+/// Notes where all robots stand at the end of the last leg. The next request plans from there.
 fn remember_ends(cx: &mut RunContext, legs: &[Leg]) {
     let Some(last) = legs.last() else { return };
     cx.pipeline.planning.from = last.robots.iter().map(|robot| robot.goal).collect();
@@ -129,7 +131,7 @@ fn report_dark(cx: &mut RunContext, dark: &[(usize, Vec<u32>)]) {
 
 fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>, stopped: bool) {
     let last = cx.pipeline.queue.back().or(cx.pipeline.leg());
-    // Robots that were stopped are not where the drive from the frame before begins.
+    // Robots that were stopped do not set out from the frame before, so this drive is no measure for the timeline.
     let mut before = last.map(|leg| leg.frame).filter(|_| !stopped);
     let mut takes = Span::ZERO;
     for mut leg in legs {
@@ -147,7 +149,8 @@ fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>, stopped: bool) {
     }
 }
 
-/// There is no plan to a frame.
+/// Handles that there is no plan to `frame`. The run ends, a jump is taken back, obstacles are dropped, or the reason
+/// is kept for later.
 fn on_failure(
     cx: &mut RunContext,
     (frame, message): (usize, String),
@@ -173,7 +176,8 @@ fn on_failure(
     ControlFlow::Continue(Next::Stay)
 }
 
-/// No path leads to the frame that the operator chose: the one that would have been next is planned again.
+/// Takes the operator's jump back, because no path leads to that frame. The frame that would have been next is
+/// planned again.
 fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
     cx.playback.give_up(jump);
     cx.io.log.record(cx.now, EventKind::JumpGivenUp { frame });
@@ -183,7 +187,8 @@ fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
     planning.from.clear();
 }
 
-/// Whether recovery has cost too much, or would with this plan: then another is made, or the run ends.
+/// Checks whether recovery has cost too much, or would with this plan. If so, returns that all is planned again with
+/// fewer obstacles, or that the run ends.
 fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> {
     let takes = result.legs.iter().fold(Span::ZERO, |sum, leg| sum + leg.duration);
     let why = cx.tally.recovery.exceeded(cx.now + takes)?;
@@ -194,7 +199,8 @@ fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> 
     Some(if is_hopeless { Next::failed(why) } else { Next::Regather })
 }
 
-/// The show starts again after its last frame, or does not. `is_starting`: the first leg of the queue is about to begin.
+/// Sets whether the show starts again after its last frame, and plans the next round or drops its plans.
+/// `is_starting`: the first leg of the queue is about to begin.
 pub(crate) fn set_looping(cx: &mut RunContext, looping: bool, is_starting: bool) {
     let (playback, pipeline) = (&mut *cx.playback, &mut *cx.pipeline);
     let planning = &mut pipeline.planning;

@@ -1,66 +1,70 @@
-//! When frames are on the timeline: the show time at which each is driven to, stands and ends.
+//! The timeline of frames: the show times at which the drive to each begins, its air time begins, and its air time
+//! ends.
 
 use crate::run::playback::PlayedShow;
 use lightbots_base::Span;
 use lightbots_lighting::FrameTimes;
 use std::collections::BTreeMap;
 
-/// When the frames of one round of a show are.
+/// Show times of the frames of one round of a show.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShowTimes {
-    /// Moments of the frames that were begun.
+    /// `[frame]`: show times of the frames to which a drive was begun.
     pub begun: BTreeMap<usize, FrameTimes>,
-    /// `[frame]`: when its air time was due by the timeline, seconds. Frames that are late begin after that.
+    /// `[frame]`: show time at which its air time was due by the timeline, seconds. The air time of a late frame
+    /// begins after that.
     pub due: BTreeMap<usize, f64>,
-    /// `[frame]`: how long the drive there from the frame before was first planned to take.
+    /// `[frame]`: how long the drive to it from the frame before was first planned to take.
     drives: BTreeMap<usize, Span>,
 }
 
 impl ShowTimes {
-    /// The drive to a frame from the one before was planned; later plans change nothing.
+    /// Notes how long the drive to a frame from the one before is planned to take. Later plans change nothing.
     pub fn plan_drive(&mut self, frame: usize, takes: Span) {
         self.drives.entry(frame).or_insert(takes);
     }
 
-    /// Show time at which the air time of a frame begins if all frames before it are played, seconds. It counts from the
-    /// last of them that was begun, by the drives that were planned. A drive without a plan counts as the show says, or as
-    /// nothing.
+    /// Show time at which the air time of a frame begins if all frames before it are played, seconds. It counts from
+    /// the last of these that was begun, with the planned durations of the drives. A drive without a plan counts with
+    /// the duration that the show asks for, or 0.
     pub fn begin_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
         let begun = self.begun.range(..=frame).rev().find(|(_, times)| times.air_s.is_finite());
         self.count_s(playback, begun.map_or((0, 0.0), |(&first, times)| (first, times.air_s)), frame)
     }
 
-    /// The same as [`ShowTimes::begin_s`] by the timeline, seconds: without the time that robots were late until now.
+    /// Like [`ShowTimes::begin_s`], but by the timeline: without the delays of late robots. Seconds.
     pub fn due_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
         let due = self.due.range(..=frame).next_back();
         self.count_s(playback, due.map_or((0, 0.0), |(&first, &due_s)| (first, due_s)), frame)
     }
 
-    /// When a frame begins if `first` does at a time, seconds.
+    /// Show time at which `frame` begins if the frame `first` begins at `begun_s`, seconds.
     fn count_s(&self, playback: &PlayedShow, (first, begun_s): (usize, f64), frame: usize) -> f64 {
         let takes_s = |frame: usize| playback.air_time(frame).as_secs() + self.drive_s(playback, frame + 1);
         begun_s + (first..frame).map(takes_s).sum::<f64>()
     }
 
-    /// How long the drive to a frame was first planned to take, seconds; `None`: it was not planned yet.
+    /// How long the drive to a frame was first planned to take, seconds. `None` if it was not planned yet.
     pub fn planned_s(&self, frame: usize) -> Option<f64> {
         self.drives.get(&frame).map(|drive| drive.as_secs())
     }
 
-    /// A new round begins.
+    /// Forgets begun and due times, because a new round begins. Planned durations of drives stay.
     pub fn clear(&mut self) {
         self.begun.clear();
         self.due.clear();
     }
 
-    /// Show time at which the drive to a frame begins if all frames before it are played, seconds; `None`: not known.
+    /// Show time at which the drive to a frame begins if all frames before it are played, seconds. `None` if that
+    /// drive was neither begun nor planned.
     pub fn drive_begin_s(&self, playback: &PlayedShow, frame: usize) -> Option<f64> {
         let begun = self.begun.get(&frame).map(|times| times.drive_s);
         let planned = self.drives.get(&frame).map(|drive| self.begin_s(playback, frame) - drive.as_secs());
         begun.or(planned)
     }
 
-    /// Frames that were passed over count as begun, so that layers over several frames began with the first of them.
+    /// Counts skipped frames before `frame` as begun, so that layers over several frames count from the first of
+    /// them.
     pub fn begin_earlier(&mut self, playback: &PlayedShow, frame: usize) {
         for earlier in 0..frame {
             let air_s = self.begin_s(playback, earlier);

@@ -1,7 +1,7 @@
-//! Where a robot may stand that fell silent on its way.
+//! Where a robot that fell silent on a drive may stand.
 //!
-//! The robot may have died. Or its reports are lost, and it holds with the others. Or its link broke, and it drives on
-//! along its path until it stops by itself.
+//! The robot may have died. Or its reports are lost, and it holds with the others. Or its link broke, and it drives
+//! on along its path until it stops by itself.
 
 use crate::journal::Position;
 use crate::leg::Leg;
@@ -15,15 +15,15 @@ use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::RobotState;
 
-/// A robot that fell silent died at most this long after its last report: driving robots report every 500 ms (R41).
+/// Longest time from the last report of a robot until it died: driving robots report every 500 ms (R41).
 const UNREPORTED: Span = Span::from_millis(600);
 
-/// How long a robot drives on whose link broke, by R43 of docs/protocol.md. It rolls out from 1.9 s after the last message
-/// to it on, and comes to rest where it would have been after 2 s.
+/// How long a robot drives on after its link broke, by R43 of docs/protocol.md. It slows down from 1.9 s after the
+/// last message that it received. It comes to rest where it would have been after 2 s.
 pub(crate) struct LinkLoss {
-    /// Least time that it drives on after its last report.
+    /// Least time that the robot drives on after its last report.
     pub drives_on: Span,
-    /// How much longer it may drive on.
+    /// How much longer than `drives_on` the robot may drive on.
     pub at_most_longer: Span,
 }
 
@@ -34,23 +34,24 @@ impl LinkLoss {
     }
 }
 
-/// The last message to a robot is at most 500 ms older or newer than its last report.
+/// The last message that a robot received is at most 500 ms older or newer than its last report.
 pub(crate) const LINK_LOSS: LinkLoss =
     LinkLoss { drives_on: Span::from_millis(1_500), at_most_longer: Span::from_millis(1_000) };
 
-/// Time between two places of a path: 14 mm at full speed.
+/// Time between two sampled places of a path: 14 mm at full speed.
 const PATH_STEP: Span = Span::from_millis(50);
-/// Number of these steps that may pass until a robot stops that still receives STOP.
+/// Number of steps of `PATH_STEP` by which a robot that receives STOP may stop later than the others.
 const STEPS_UNTIL_STOP: i64 = 2;
-/// Distance between two places of a straight drive, metres.
+/// Distance between two sampled places of a straight drive, metres.
 const STRAIGHT_STEP_M: f64 = 0.03;
-/// Places nearer to each other than this are one, metres. A disc that is left out must not stick out of those that are
-/// kept, because other robots pass these as near as the planner allows.
+/// Places closer to each other than this count as one, metres. The disc of a dropped place must not stick out of the
+/// kept discs, because other robots pass these as closely as the planner allows.
 const SAME_PLACE_M: f64 = 0.002;
 
-/// Where a silent robot may stand. Likely are places along its path from where it last said to be, if it died, and where
-/// its path was when all stopped, if only its reports are lost. Possible is also where it gives its route up by itself, if
-/// it receives nothing either. A robot that has said since the drive began that it stands is where it said.
+/// Where a silent robot may stand. Likely places: along its path from where it last reported, if it died, and where
+/// its path was when all stopped, if only its reports are lost. Possible places also include those where it stops by
+/// itself, if it receives no messages either. Empty if the robot has reported since the drive began that it stands:
+/// it is where it reported.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
     clock: &PathClock,
@@ -81,7 +82,7 @@ pub(crate) fn whereabouts(
     Whereabouts { possible, likely }
 }
 
-/// [`whereabouts`] of a participant once a drive was broken off; nowhere else than it reported: none was.
+/// [`whereabouts`] of a participant after a drive was broken off. Empty if no drive was.
 pub(crate) fn whereabouts_after(cx: &RunContext, left: &Position, participant: usize) -> Whereabouts {
     let (Position { drive: Some(clock), stops: Some(stops), .. }, Some(DrivenLeg { leg, targets })) =
         (left, &cx.pipeline.driven)
@@ -91,7 +92,7 @@ pub(crate) fn whereabouts_after(cx: &RunContext, left: &Position, participant: u
     whereabouts((leg, targets), clock, *stops, participant, cx.robot(participant))
 }
 
-/// Places without those that are as good as the one before.
+/// Drops each place that is closer than `SAME_PLACE_M` to the last one kept before it.
 fn thinned(places: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = places.collect();
     places.dedup_by(|a, b| a.distance(*b) < SAME_PLACE_M);

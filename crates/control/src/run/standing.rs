@@ -1,4 +1,5 @@
-//! All stand: the air time runs, what comes is planned and uploaded, and the next drive starts in time.
+//! The phase in which all robots stand: the air time runs, what comes is planned and uploaded, and the next drive
+//! starts in time.
 
 use crate::event::{EventKind, RunOutcome, Trouble};
 use crate::leg::LegKind;
@@ -14,27 +15,28 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Details, RobotState};
 
-/// START is stated this much earlier than it must be, because the shell may wake the controller late.
+/// How much earlier than necessary START is sent, because the shell may wake the controller late.
 const EARLY: Span = Span::from_millis(20);
-/// How often the phase is looked at while nothing is due.
+/// Longest time between two checks of the phase.
 const CHECK_EVERY: Span = Span::from_millis(1_000);
 
-/// All stand, in a frame or before the first.
+/// The state while all robots stand, in a frame or before the first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Standing {
-    /// When the frame may be left.
+    /// When robots may leave the frame.
     pub air: AirTime,
-    /// When the link is looked at.
+    /// When the link is checked next.
     check_at: Instant,
 }
 
 impl Standing {
-    /// All stand since now.
+    /// The state of robots that stand since `now`.
     pub fn begin(now: Instant, air: AirTime) -> Self {
         Self { air, check_at: now + CHECK_EVERY }
     }
 
-    /// When something is due; START is stated `start_lead` ahead. `waits`: the run is paused, or waits for GO.
+    /// When [`on_tick`](Self::on_tick) has something to do next. START is sent `start_lead` before its moment.
+    /// `waits`: the run is paused or waits for GO.
     pub fn due(&self, pipeline: &Pipeline, start_lead: Span, now: Instant, waits: bool) -> Instant {
         let start = match pipeline.queue.front().map(|leg| leg.kind) {
             _ if waits => Instant::FAR,
@@ -45,12 +47,12 @@ impl Standing {
         pipeline.due().min(start).min(now + CHECK_EVERY)
     }
 
-    /// The frame is left at once: the operator gives GO, or steps to the next one.
+    /// Ends the air time at `now`, because the operator gave GO or steps to the next frame.
     pub fn leave_now(&mut self, now: Instant) {
         (self.air.left, self.air.until) = (None, now);
     }
 
-    /// A participant that is to stand reports its state.
+    /// Handles a status report of a participant that is to stand.
     pub fn on_report(
         &mut self,
         cx: &mut RunContext,
@@ -65,7 +67,7 @@ impl Standing {
         next
     }
 
-    /// Time passes.
+    /// Does what is due: checks the link, plans, uploads, and leaves the frame.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if cx.now >= self.check_at {
             self.check_at = cx.now + CHECK_EVERY;
@@ -122,13 +124,13 @@ impl Standing {
     }
 }
 
-/// Nothing is planned any more: the run is over, unless something is left to try.
+/// Ends the run because nothing more is planned, unless obstacles are left that another plan can ignore.
 fn end(cx: &mut RunContext) -> Next {
-    // A plan that failed ahead says nothing once all frames were reached after all.
+    // A plan that failed ahead does not matter once all frames were reached after all.
     let failure = cx.pipeline.planning.failure.take().filter(|_| !cx.playback.is_ended());
     match failure {
         None => Next::Over(RunOutcome::Finished),
-        // What stood in the way when that was planned ahead may have gone.
+        // What blocked that plan, which was made ahead, may have gone.
         Some(_) if obstacles::relax(cx) => Next::Regather,
         Some(why) => Next::failed(why),
     }
@@ -143,8 +145,9 @@ pub(crate) fn drop_if_unfit(participant: usize, details: &Details) -> Next {
     }
 }
 
-/// A place that is reported while all stand: an arrival that is old or of a robot that went somewhere on its own, or a robot
-/// that knows TARGET only and was lifted, which does not notice that.
+/// Checks a place that is reported while all stand. If it is not at the goal, all is planned again. The arrival may
+/// be old, or the robot moved on its own. A TARGET-only robot (it understands the command TARGET but no routes) does
+/// not notice if it is lifted.
 pub(crate) fn check_place(cx: &mut RunContext, participant: usize, at: Option<Vec2>, noise_m: f64) {
     let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return };
     let is_known = cx.pipeline.planning.is_outdated;

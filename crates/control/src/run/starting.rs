@@ -1,4 +1,5 @@
-//! START: stated ahead for all robots at once, repeated, confirmed by reports, and postponed while some do not confirm.
+//! The phase of START: its moment is sent ahead to all robots at once, repeated, and confirmed by reports. START is
+//! postponed while some robots do not confirm.
 
 use crate::event::Trouble;
 use crate::run::link::{ASK_AGAIN, REPEAT};
@@ -13,47 +14,51 @@ use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
-/// When robots that did not confirm are first asked by name, in percent of the lead: time for the confirmations that the
-/// broadcast leads to.
+/// When robots that did not confirm are first asked individually, in percent of the lead after START was sent. By
+/// then the confirmations of the broadcast have arrived.
 const ASK_FIRST_PERCENT: i64 = 27;
-/// Most robots that are asked by name, and the same as a share of the fleet: more are asked by the broadcast.
+/// Largest number of robots that are asked individually, or one in `MANY` if that is more. If more robots did not
+/// confirm, the repeated broadcast asks them.
 const ASKED_MAX: usize = 64;
-/// Up to this many robots that did not confirm, messages are lost; where there are more, the link is slow.
+/// Largest number of robots without confirmation that counts as lost messages, or one in `MANY` if that is more.
+/// Above, the link counts as slow.
 const LOST_MAX: usize = 2;
-/// A larger share of the fleet counts as many for both bounds: one robot in this many.
+/// Replaces the two bounds above in large fleets: one robot in this many of those that start.
 const MANY: usize = 8;
-/// A START that was postponed is repeated this often: a robot that misses it leaves alone.
+/// Time between repeats of a START that was postponed. It is short, because a robot that misses the new moment starts
+/// alone.
 const REPEAT_POSTPONED: Span = Span::from_millis(15);
 /// How often a START is postponed before robots that did not confirm drop out.
 const POSTPONED_MAX: u32 = 12;
 /// How often a START is postponed before an event names the robots that did not confirm.
 const POSTPONED_NAMED: u32 = 4;
 
-/// A stated START.
+/// A START that was sent and whose moment is still to come.
 #[derive(Clone, Debug)]
 pub(crate) struct Starting {
-    /// The moment, show clock.
+    /// The moment of the START, show clock.
     pub at: Instant,
     /// Number of the routes that begin.
     seq: u32,
-    /// When it is looked at whether all have confirmed: early enough to postpone the START for all.
+    /// When to check whether all robots have confirmed: early enough to postpone the START for all.
     check_at: Instant,
     repeat_at: Instant,
-    /// When robots that did not confirm are asked by name.
+    /// When robots that did not confirm are asked individually next.
     ask_at: Instant,
-    /// When its first moment was stated, and the estimate of the round trip then.
+    /// When this START was first sent, and the round-trip estimate at that time.
     first: (Instant, Span),
-    /// The moment that was stated first.
+    /// The moment of this START as first sent, before it was postponed.
     first_at: Instant,
     postponed: u32,
-    /// All had confirmed when it was looked at.
+    /// Whether all robots had confirmed at the last check.
     is_confirmed: bool,
-    /// `[participant]`: the moment that the robot confirmed last.
+    /// `[participant]`: the moment of START that the robot confirmed last.
     confirmed: Vec<Option<Instant>>,
 }
 
 impl Starting {
-    /// States the START of the first leg of the queue, as soon as possible but not before `earliest`.
+    /// Sends START for the first leg of the queue, for the earliest possible moment that is not before `earliest`.
+    /// Panics if no leg is queued.
     pub fn begin(cx: &mut RunContext, earliest: Instant) -> Self {
         let seq = cx.pipeline.queue.front().map_or(0, |leg| leg.seq);
         assert!(seq != 0, "a START needs a queued leg");
@@ -74,7 +79,7 @@ impl Starting {
         }
     }
 
-    /// When something is due.
+    /// When [`on_tick`](Self::on_tick) has something to do next.
     pub fn due(&self) -> Instant {
         let moment = if self.is_confirmed { self.at } else { self.check_at };
         moment.min(self.repeat_at).min(self.ask_at)
@@ -84,7 +89,7 @@ impl Starting {
         Command::Start { seq: self.seq, at: self.at }
     }
 
-    /// A participant that is to start reports its state.
+    /// Handles a status report of a participant that is to start.
     pub fn on_report(
         &mut self,
         cx: &mut RunContext,
@@ -107,13 +112,13 @@ impl Starting {
         next
     }
 
-    /// A participant says that it arrived though it has not started: it began alone.
+    /// Handles the arrival of a participant. If it started alone, all stop and are planned again.
     pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
         if self.began_alone(cx, participant, details) { cx.replan_with(participant) } else { Next::Stay }
     }
 
-    /// Whether a robot has begun at a moment that was postponed, because it did not receive the later moment in time.
-    /// It may have ended its route since. A route that leads nowhere does not count.
+    /// Whether a robot has started at a moment that was postponed, because it did not receive the later moment in
+    /// time. It may have finished its route since. A route without movement does not count.
     fn began_alone(&self, cx: &RunContext, participant: usize, details: &Details) -> bool {
         let elsewhen = match details.state {
             RobotState::Driving | RobotState::Held => details.starts != Some(self.at),
@@ -124,8 +129,8 @@ impl Starting {
         elsewhen && details.route == self.seq && path.is_some_and(|path| !path.as_ref().rests())
     }
 
-    /// Where a participant may stand that is silent: if it ever confirmed, it may have begun at the moment that was stated
-    /// first.
+    /// Where a silent participant may stand. If it ever confirmed, it may have started at the moment that was sent
+    /// first. Empty if it has not left the place that it reported.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         let leg = cx.pipeline.queue.front().filter(|_| self.confirmed[participant].is_some());
         let Some(leg) = leg else { return Whereabouts::default() };
@@ -140,7 +145,7 @@ impl Starting {
         )
     }
 
-    /// Time passes.
+    /// Does what is due: asks for confirmations, postpones or repeats the START, or begins the drive.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         cx.pump_lights();
         let next = cx.pump();
@@ -173,9 +178,9 @@ impl Starting {
         Next::Stay
     }
 
-    /// Participants that did not confirm the stated moment. A robot whose route leads nowhere may have begun it, as its
-    /// clock was ahead of a moment that was postponed. No later START changes that (R33): its report is the
-    /// confirmation.
+    /// Participants that did not confirm the present moment. A robot whose route has no movement may have begun it
+    /// already, because its clock was ahead of a postponed moment. No later START changes that (R33), so its report
+    /// counts as confirmation.
     fn unconfirmed(&self, cx: &RunContext) -> Vec<usize> {
         let Some(leg) = cx.pipeline.queue.front() else { return Vec::new() };
         let owes = |&participant: &usize| {
@@ -189,7 +194,8 @@ impl Starting {
         cx.roster.active().map(|(one, _)| one).filter(owes).collect()
     }
 
-    /// Asks the few robots by name whose confirmation may be lost.
+    /// Sends START and STATUS to each robot that did not confirm, unless there are too many. Their confirmations may
+    /// have been lost.
     fn ask_unconfirmed(&self, cx: &mut RunContext) {
         let unconfirmed = self.unconfirmed(cx);
         if unconfirmed.len() > ASKED_MAX.max(starters(cx) / MANY) {
@@ -200,11 +206,11 @@ impl Starting {
         }
     }
 
-    /// Robots that were asked again and again since START was stated first and do not report at all have died. The others
-    /// do not wait as long for them as for a robot that reports over a slow link.
+    /// Unconfirmed robots that have sent no report for longer than a bound, although they were asked again and again.
+    /// They count as dead: the fleet waits less long for them than for robots that report over a slow link.
     fn silent(&self, cx: &RunContext, unconfirmed: &[usize]) -> Vec<usize> {
         let (first, round_trip) = self.first;
-        // A robot whose link broke after it received START stands by then.
+        // By then a robot whose link broke after it received START has stopped by itself.
         let bound = cx.io.config.silence + LINK_LOSS.stands_after() + round_trip * 2;
         if cx.link.patience(first) > cx.now - first {
             return Vec::new();
@@ -213,12 +219,13 @@ impl Starting {
         unconfirmed.iter().copied().filter(is_silent).collect()
     }
 
-    /// States a later moment for all. Robots that did not confirm are told by name, or get the route again.
+    /// Sends a later moment to all robots. Robots that did not confirm also get it individually, and those without
+    /// the route get that again. Returns dropouts instead if robots are silent or START was postponed too often.
     fn postpone(&mut self, cx: &mut RunContext, unconfirmed: &[usize]) -> Next {
         self.postponed += 1;
         let silent = self.silent(cx, unconfirmed);
         if !silent.is_empty() {
-            // The link is as fast as before: only dead robots did not answer.
+            // The link is no slower than before, because only dead robots did not answer.
             cx.link.round_trip = self.first.1;
             return drop_all(&silent, Trouble::Silent);
         }

@@ -1,7 +1,8 @@
 //! Messages on their way to participants: sent within a window, acknowledged by reports, sent again until they are.
 //!
-//! MQTT's quality of service 1 would do this between each client and the broker. It says nothing of whether the robot
-//! took the message, and a broker that restarts forgets it; so the acknowledgement is end to end.
+//! MQTT's quality of service 1 would do this between each client and the broker. It does not show whether the robot
+//! took the message, and a broker that restarts forgets the message. The acknowledgement here is therefore end to
+//! end.
 
 use crate::mutant::Mutant;
 use lightbots_base::{Instant, Span};
@@ -10,23 +11,24 @@ use std::collections::VecDeque;
 /// One message for each participant, and which of them acknowledged it.
 #[derive(Clone, Debug)]
 pub(crate) struct Upload {
-    /// What is uploaded: number of the routes, or 0.
+    /// Number of the routes or of the stretch of light that is uploaded; 0 for changes of light.
     pub number: u32,
     /// When the upload began.
     pub began: Instant,
-    /// An event said that no robot acknowledges.
+    /// Whether an event has reported that no robot acknowledges.
     pub is_announced: bool,
-    /// `[participant]`.
+    /// `[participant]`: the message to its robot.
     deliveries: Vec<Delivery>,
-    /// The next participant that is served for the first time.
+    /// The next participant to which nothing was sent yet.
     unserved: usize,
-    /// Sent and perhaps not acknowledged: when that is looked at again, and the participant. In order of time.
+    /// Messages that were sent and may not be acknowledged: when each is due again, and its participant. In order of
+    /// time.
     sent: VecDeque<(Instant, usize)>,
-    /// Participants that were sent to and did not acknowledge.
+    /// Number of participants with a message that they have not acknowledged.
     open: usize,
     /// Acknowledgements of messages that were sent once.
     once: Answers,
-    /// Acknowledgements of messages that were sent more often.
+    /// Acknowledgements of messages that were sent more than once.
     again: Answers,
 }
 
@@ -38,7 +40,7 @@ struct Delivery {
     acknowledged: bool,
 }
 
-/// How many acknowledged, and the slowest of them since the first sending.
+/// How many robots acknowledged, and the longest time from the first sending to the acknowledgement.
 #[derive(Clone, Copy, Debug, Default)]
 struct Answers {
     count: usize,
@@ -46,7 +48,7 @@ struct Answers {
 }
 
 impl Upload {
-    /// Nothing is sent yet.
+    /// An upload of which nothing is sent yet.
     pub fn new(number: u32, now: Instant, participants: usize) -> Self {
         Self {
             number,
@@ -61,12 +63,12 @@ impl Upload {
         }
     }
 
-    /// When the next message is due again.
+    /// When the next message may have to be sent again. `None` if no message is out.
     pub fn due(&self) -> Option<Instant> {
         self.sent.front().map(|(due, _)| *due)
     }
 
-    /// Whether all were served and all acknowledged.
+    /// Whether every participant was served and every message acknowledged.
     pub fn is_done(&self) -> bool {
         self.open == 0 && self.unserved >= self.deliveries.len()
     }
@@ -76,7 +78,7 @@ impl Upload {
         self.unserved < self.deliveries.len()
     }
 
-    /// Whether several were sent to, and none acknowledged.
+    /// Whether more than one message is out and no message was acknowledged.
     pub fn is_unanswered(&self) -> bool {
         self.open > 1 && self.once.count + self.again.count == 0
     }
@@ -86,7 +88,8 @@ impl Upload {
         self.deliveries[participant].tries
     }
 
-    /// The participant whose acknowledgement is overdue; it leaves the queue, as all do that need no message.
+    /// Removes the next overdue message from the queue and returns its participant. Messages that need no repeat are
+    /// removed on the way. `None` if none is overdue.
     pub fn next_overdue(&mut self, now: Instant, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
         while let Some(&(due, participant)) = self.sent.front() {
             let settled = needs_none(participant) || self.deliveries[participant].acknowledged;
@@ -101,7 +104,8 @@ impl Upload {
         None
     }
 
-    /// The next participant that is served for the first time, while fewer than `window` are open.
+    /// Returns the next participant to which nothing was sent yet, and counts its message as open. `None` if `window`
+    /// messages are open or no participant is left.
     pub fn next_unserved(&mut self, window: usize, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
         while self.has_unserved() && self.open < window {
             let participant = self.unserved;
@@ -114,7 +118,7 @@ impl Upload {
         None
     }
 
-    /// The message to a participant was sent; it is due again then.
+    /// Notes that the message to a participant was sent. `due` is when it has to be sent again.
     pub fn record_sent(&mut self, now: Instant, participant: usize, due: Instant) {
         let delivery = &mut self.deliveries[participant];
         if delivery.tries == 0 {
@@ -124,12 +128,13 @@ impl Upload {
         self.sent.push_back((due, participant));
     }
 
-    /// Waiting begins anew for a participant: how long its answer takes says nothing of the link.
+    /// Restarts the time measurement of a participant, because its wait until now does not measure the link.
     pub fn restart_clock(&mut self, now: Instant, participant: usize) {
         self.deliveries[participant].first_sent = now;
     }
 
-    /// A participant acknowledges; whether that is news.
+    /// Notes the acknowledgement of a participant. Returns `false` if nothing was sent to it or it had acknowledged
+    /// before.
     pub fn acknowledge(&mut self, now: Instant, participant: usize) -> bool {
         let Some(delivery) = self.deliveries.get_mut(participant) else { return false };
         let is_overlooked = Mutant::DropAcknowledgement.is_planted() && participant == 6;
@@ -144,7 +149,7 @@ impl Upload {
         true
     }
 
-    /// A participant lost what it acknowledged: it is sent again at once.
+    /// Makes the message to a participant due at once, because it lost what it had acknowledged.
     pub fn reopen(&mut self, now: Instant, participant: usize) {
         let Some(delivery) = self.deliveries.get_mut(participant) else { return };
         if std::mem::take(&mut delivery.acknowledged) {
@@ -153,8 +158,9 @@ impl Upload {
         }
     }
 
-    /// The slowest round trip. Karn's rule counts only messages that were sent once. Where most were sent again the
-    /// link is slow rather than lossy, and those count: otherwise a slow link would never be measured.
+    /// The slowest round trip. By Karn's rule only messages that were sent once count. If most were sent again, the
+    /// link is slow rather than lossy, and the repeated ones count instead. Otherwise a slow link would never be
+    /// measured.
     pub fn slowest(&self) -> Span {
         if self.again.count > self.once.count { self.again.slowest } else { self.once.slowest }
     }
