@@ -1,30 +1,33 @@
-//! Robots that dropped out and still report. People put them aside, or they find their place again: then a plan may not know
-//! where they stand.
+//! Robots that dropped out and still report. People may put them aside, or they find their position again. A plan
+//! then may not know where they stand.
 
 use crate::leg::Leg;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Span, Vec2};
 use std::sync::Arc;
 
-/// A robot that stands within this of where a plan drives around it is where the plan has it, metres: 4 sigma of two fixes.
+/// Largest distance between a reported place and a place that the plan drives around at which both count as one,
+/// metres. This is 4 sigma of two fixes.
 const SAME_M: f64 = 0.008;
-/// Share of the contact distance within which a path leads through a robot. Plans pass at the whole distance and more; fixes
-/// are off by a few millimetres.
+/// Share of the contact distance: a path that comes closer to a robot leads through it. Plans keep the whole distance
+/// and more; fixes are off by a few millimetres.
 const THROUGH: f64 = 0.9;
-/// Least time between two places of a path that are looked at: 14 mm at full speed.
+/// Least time between two sampled places of a path: 14 mm at full speed.
 const STEP: Span = Span::from_millis(50);
-/// How often all is planned again because of one robot. One that is somewhere else each time must not hold up the show.
+/// Largest number of times that all is planned again because of one robot. A robot that is somewhere else each time
+/// must not hold up the show.
 const REPLANS_MAX: u8 = 3;
-/// The paths of a drive are compared with the reports of one robot this often at most: 10,000 paths take milliseconds, and a
-/// robot that stands reports every 2 s (R41).
+/// Least time between two comparisons of the paths of a drive with the reports of one robot. To compare 10,000 paths
+/// takes milliseconds, and a robot that stands reports every 2 s (R41).
 const LOOK_EVERY: Span = Span::from_millis(500);
 
-/// Where robots report to stand that dropped out: plans drive around these places.
+/// The places where robots that dropped out report to stand. Plans drive around them.
 pub(crate) fn places(cx: &RunContext) -> Arc<[Vec2]> {
     (0..cx.roster.len()).filter_map(|participant| place(cx, participant)).collect()
 }
 
-/// Whether the first leg of the queue leads through a robot that dropped out.
+/// Whether the first leg of the queue leads through a robot that dropped out. If it does, a replan is counted for
+/// that robot.
 pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
     let obstructing = cx.pipeline.queue.front().and_then(|leg| {
         (0..cx.roster.len()).find(|&participant| {
@@ -34,8 +37,9 @@ pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
     obstructing.inspect(|&participant| plan_around(cx, participant)).is_some()
 }
 
-/// Whether a leg leads through a participant that reports: the one that is driven, from the path time `driven` on, or the
-/// first of the queue, whose START is stated.
+/// Whether a leg leads through a participant that dropped out and reports. With `driven` this is the driven leg from
+/// that path time on; otherwise it is the first leg of the queue. Answers `false` within `LOOK_EVERY` of the last
+/// comparison.
 pub(crate) fn obstructs(cx: &mut RunContext, participant: usize, driven: Option<Span>) -> bool {
     let leg = if driven.is_some() { cx.pipeline.leg() } else { cx.pipeline.queue.front() };
     let from = driven.unwrap_or(Span::ZERO);
@@ -52,19 +56,21 @@ pub(crate) fn obstructs(cx: &mut RunContext, participant: usize, driven: Option<
     is_through
 }
 
-/// Notes that all is planned again because of a robot.
+/// Counts a replan because of a robot.
 fn plan_around(cx: &mut RunContext, participant: usize) {
     cx.roster.participants[participant].bystander.replans += 1;
 }
 
-/// Where a participant stands that dropped out, by its own report.
+/// Where a participant that dropped out stands, by its own report. `None` if it may be moving, or if its name is
+/// shared.
 fn place(cx: &RunContext, participant: usize) -> Option<Vec2> {
     let (known, robot) = (cx.participant(participant), cx.robot(participant));
     let says_where = known.is_excluded() && known.last_seen.possible.is_empty();
     robot.reported.at.filter(|_| says_where && !robot.may_move() && !robot.namesakes.are_there())
 }
 
-/// Where a participant stands that dropped out, if the plan of a leg has it elsewhere.
+/// Where a participant that dropped out stands, unless the plan of a leg drives around that place. `None` also once
+/// it has caused too many replans.
 fn unexpected(cx: &RunContext, leg: &Leg, participant: usize) -> Option<Vec2> {
     let may_cost = cx.participant(participant).bystander.replans < REPLANS_MAX;
     let is_known = |at: Vec2| leg.around.iter().any(|known| known.distance(at) < SAME_M);
@@ -82,7 +88,7 @@ fn leads_through(cx: &RunContext, leg: &Leg, from: Span, at: Vec2) -> bool {
             if far_m < 0.0 {
                 return true;
             }
-            // A robot is not there sooner.
+            // The robot cannot be at `at` sooner than at full speed.
             time += STEP.max(Span::from_secs(far_m / speed_mps));
         }
         false

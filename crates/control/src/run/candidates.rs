@@ -6,13 +6,14 @@ use crate::run::probation;
 use crate::run::readiness::is_ready;
 use crate::run::run_context::RunContext;
 
-/// A robot of the fleet reports that takes no part, or is excluded: it may take part from the next frame on.
-/// `is_stopping`: all are being told to stop.
+/// Makes a robot a candidate for the next frame if it may take part. The robot reports, and takes no part or is
+/// excluded. `is_stopping`: all robots are being stopped.
 pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
     let is_welcome = match participant {
         Some(participant) => cx.participant(participant).membership.may_return(),
-        // Any client can claim to be a robot: a name that is first heard during a run takes a pixel only if it is listed.
+        // Any client can claim to be a robot. A name that first appears during a run takes a pixel only if it is
+        // listed.
         None => cx.pipeline.planning.is_dark && is_expected(cx, robot),
     };
     let plays = cx.playback.purpose == RunPurpose::Play;
@@ -30,7 +31,7 @@ fn is_expected(cx: &RunContext, robot: usize) -> bool {
     known.is_admitted && !(cx.io.config.admitted.is_none() && cx.roster.is_stranger(known))
 }
 
-/// Robots that want to take part do, while all stand; whether any does now that did not before.
+/// Lets ready candidates take part, while all stand. Returns whether any was admitted.
 pub(crate) fn admit(cx: &mut RunContext) -> bool {
     if cx.roster.candidates.is_empty() || cx.playback.is_ended() {
         return false;

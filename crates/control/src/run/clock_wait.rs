@@ -6,8 +6,8 @@ use lightbots_base::{Instant, Span};
 /// that plans leave. Above, robots on slow links brake for each other without need. Below, all wait longer on a slow
 /// link. On links of 5 to 20 ms each way, clocks are this good as soon as they are set.
 pub(crate) const PRECISE_US: u32 = 10_000;
-/// Longest time that a run waits for clocks in all: robots put time questions in quick succession for as long. Above,
-/// a link on which clocks are never precise delays the show in vain.
+/// Longest time that a run waits for clocks in all. Robots send time questions in quick succession for as long.
+/// Above, a link on which clocks are never precise delays the show in vain.
 const MOST: Span = Span::from_millis(30_000);
 
 /// How long a run has waited for clocks.

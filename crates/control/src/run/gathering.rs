@@ -1,4 +1,4 @@
-//! All stop and say where they stand; robots that do not answer drop out.
+//! The phase in which all robots stop and report where they stand. Robots that do not answer drop out.
 
 use crate::context::Context;
 use crate::event::Trouble;
@@ -18,21 +18,21 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Route};
 
-/// How often HOLD and STOP are sent, and how far apart.
+/// How many copies of HOLD and STOP are sent, and the time between them.
 const COPIES: (u32, Span) = (4, Span::from_millis(40));
-/// Reports count this long after STOP was sent: all copies have arrived and robots stand.
+/// How long after STOP reports begin to count: all copies have arrived by then, and robots stand.
 const SETTLE: Span = Span::from_millis(200);
-/// Robots that have not answered are asked again this often.
+/// Time between requests to robots that have not answered.
 const ASK: Span = Span::from_millis(300);
-/// How often the phase is looked at.
+/// Time between two checks of the phase.
 const CHECK_EVERY: Span = Span::from_millis(50);
 
-/// How long robots have that are not ready.
+/// How long robots that are not ready may take.
 struct Bounds {
-    /// To answer, beyond the silence after which a robot drops out. A robot that knows TARGET only has three times as
-    /// long, because a question and its answer must both be delivered.
+    /// To answer, beyond the silence after which a robot drops out. A TARGET-only robot (it understands the command
+    /// TARGET but no routes) has three times as long, because a question and its answer must both be delivered.
     answer: Span,
-    /// To stop, for a robot that knows TARGET only and does not receive that it should: it drives on to its target.
+    /// To stop, for a TARGET-only robot that does not receive its halt: it drives on to its target.
     stop: Span,
     /// To set its clock: ten answers to time questions.
     clock: Span,
@@ -45,25 +45,25 @@ const BOUNDS: Bounds = Bounds {
     clock: Span::from_millis(8_000),
 };
 
-/// All are asked where they stand.
+/// The state while robots stop and are asked where they stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gathering {
-    /// Robots that receive messages stand then.
+    /// When robots that receive messages stand.
     since: Instant,
-    /// Reports count from then on.
+    /// When reports begin to count.
     fresh_from: Instant,
-    /// When robots that have not answered are asked again.
+    /// When robots that have not answered are asked next.
     ask_at: Instant,
-    /// When STOP is sent, if progress is held first.
+    /// When STOP is sent, if progress is held first. `None` if STOP has been sent.
     stop_at: Option<Instant>,
-    /// Nothing was driven yet: too few robots are a reason not to begin.
+    /// Whether nothing was driven yet. Too few robots are then a reason not to begin.
     is_first: bool,
     /// What was broken off.
     pub left: Position,
 }
 
 impl Gathering {
-    /// All robots are known and nothing has to stop.
+    /// The state at the beginning of a run whose robots all stand at known places: nothing is sent.
     pub fn at_begin(now: Instant) -> Self {
         Self {
             since: now,
@@ -75,7 +75,7 @@ impl Gathering {
         }
     }
 
-    /// All stop; a drive is broken off, or a frame stood before.
+    /// Stops all robots. `left` is the drive that is broken off, or the frame in which robots stood.
     pub fn begin(cx: &mut RunContext, mut left: Position) -> Self {
         cx.io.outbox.stop_repeating();
         let held_from = left.drive.and_then(|clock| hold_before_stop(cx, &clock));
@@ -96,17 +96,17 @@ impl Gathering {
         }
     }
 
-    /// When robots are held, if STOP is still to come.
+    /// When progress is held, if STOP is still to come.
     pub fn held_from(&self) -> Option<Instant> {
         self.stop_at.map(|at| at - Route::EASE)
     }
 
-    /// The frame that stood is left as soon as robots are ready.
+    /// Ends the air time of the frame in which robots stood: they leave as soon as all are ready.
     pub fn leave_now(&mut self) {
         self.left.stood = None;
     }
 
-    /// The robots (indices into the fleet) that all wait for.
+    /// The robots (indices into the fleet) for which all others wait.
     pub fn awaited<'a>(&'a self, io: &'a Context, roster: &'a Roster) -> impl Iterator<Item = usize> + 'a {
         let robots = roster.active().map(|(_, known)| known.robot);
         robots.filter(|&robot| {
@@ -114,18 +114,18 @@ impl Gathering {
         })
     }
 
-    /// Whether all have said where they stand, and only clocks are waited for.
+    /// Whether all robots have reported where they stand, and some clock is not precise yet.
     pub fn waits_for_clocks_only(&self, io: &Context, roster: &Roster) -> bool {
         let is_ready = |robot: usize| missing(io, robot, self.fresh_from).is_none();
         roster.active().all(|(_, known)| is_ready(known.robot)) && self.awaited(io, roster).next().is_some()
     }
 
-    /// When something is due.
+    /// When [`on_tick`](Self::on_tick) has something to do next.
     pub fn due(&self, now: Instant) -> Instant {
         now + CHECK_EVERY
     }
 
-    /// Time passes.
+    /// Does what is due: sends STOP, asks robots for what they lack, drops those that are overdue, or ends the phase.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if let Some(stop_at) = self.stop_at {
             if cx.now >= stop_at {
@@ -159,7 +159,7 @@ impl Gathering {
         Next::Stay
     }
 
-    /// How long a robot has that lacks something.
+    /// How long a robot may take if it is not ready because of `why`.
     fn bound(&self, cx: &RunContext, participant: usize, why: Trouble) -> Span {
         let is_original = cx.robot(participant).is_original();
         let bound = match why {
@@ -174,7 +174,7 @@ impl Gathering {
         if reports { bound.max(cx.link.patience(self.since)) } else { bound }
     }
 
-    /// All stand and their places are known.
+    /// Ends the phase, because all stand and their places are known. The run fails if too few robots are left.
     fn end(&self, cx: &RunContext) -> Next {
         let active = cx.roster.active().count();
         let frame = cx.playback.show.frames.get(cx.playback.next.frame);
@@ -187,7 +187,7 @@ impl Gathering {
         Next::Stand(AirTime { since: cx.now, until: until.max(cx.now), left, is_at_goals: false })
     }
 
-    /// Why `active` robots are too few for the `pixels` of the next frame, for people.
+    /// A text for people: why `active` robots are too few for the `pixels` of the next frame.
     fn shortage(&self, cx: &RunContext, active: usize, pixels: usize) -> String {
         if active > 0 {
             return format!("only {active} of the {pixels} robots it needs can take part");
@@ -201,14 +201,15 @@ impl Gathering {
         }
     }
 
-    /// Where a participant may stand that fell silent on the drive that was broken off.
+    /// Where a participant that fell silent on the broken-off drive may stand.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         silence::whereabouts_after(cx, &self.left, participant)
     }
 }
 
-/// When a drive is held before STOP. A lost STOP reaches its robot 40 ms later than the others, which is 11 mm at full
-/// speed and more than plans leave. `None` where robots stand, or stand before that.
+/// When a drive is held before STOP. Without a hold, a robot that misses the first STOP stops 40 ms later than the
+/// others. That is 11 mm at full speed and more than plans leave. `None` for legs of TARGETs, and if robots stand
+/// already or will soon.
 pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
     if cx.pipeline.leg().is_none_or(|leg| leg.kind == LegKind::Targets) {
         return None;
@@ -216,14 +217,15 @@ pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Ins
     let soonest = cx.now + cx.link.hold_lead();
     let at = match clock.hold {
         Some(Hold { at, until: None, .. }) => at,
-        // All are still picking up again: they slow down once they have.
+        // Robots are still picking up speed: they slow down after that.
         Some(Hold { until: Some(until), .. }) => soonest.max(until + Route::EASE),
         None => soonest,
     };
     (cx.now < at + Route::EASE && at < clock.ends).then_some(at)
 }
 
-/// Whether all wait on for robots whose clocks are not precise yet. It is said once, of the least precise one.
+/// Whether the run waits for robots whose clocks are not precise yet. An event names the one with the least precise
+/// clock, once.
 fn waits_for_clocks(cx: &mut RunContext) -> bool {
     let clocks = cx.roster.active().map(|(one, known)| (clock_us(cx.io, known.robot), one));
     let worst = clocks.max().filter(|&(us, _)| us > PRECISE_US);
@@ -233,7 +235,7 @@ fn waits_for_clocks(cx: &mut RunContext) -> bool {
         cx.tally.clock_wait.end();
         return false;
     };
-    // It is the link that costs this time, and not a robot that dropped out.
+    // The link costs this time, and not a robot that dropped out.
     cx.tally.recovery.put_off(passed);
     if begins {
         cx.report_waiting(worst, Trouble::Clock);
@@ -241,12 +243,12 @@ fn waits_for_clocks(cx: &mut RunContext) -> bool {
     true
 }
 
-/// How far a robot's clock may be off, 2 sigma, microseconds; 0 where it did not say.
+/// Error of a robot's clock, 2 sigma, microseconds; 0 if the robot did not report it.
 fn clock_us(io: &Context, robot: usize) -> u32 {
     io.fleet.robot(robot).reported.clock_us.unwrap_or(0)
 }
 
-/// Asks robots for what they lack.
+/// Asks each robot for what it lacks.
 fn ask(cx: &mut RunContext, unready: &[(usize, Trouble)]) {
     for &(participant, why) in unready {
         if why == Trouble::Deaf {

@@ -1,7 +1,9 @@
-//! A run that stands still because its robots are out of reach: it goes on once they report where they are.
+//! The phase in which the run stands still because its robots are out of reach. The run goes on once they report
+//! where they are.
 //!
 //! Robots stop by themselves (R43 of docs/protocol.md), so a robot that is out of reach is no dropout. After a short
-//! interruption the run goes on by itself, after a longer one the operator says so: people may be on the floor by then.
+//! interruption the run goes on by itself. After a longer one the operator has to agree, because people may be on the
+//! floor by then.
 
 use crate::event::{EventKind, Trouble};
 use crate::journal::Position;
@@ -15,39 +17,40 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Topic};
 
-/// How often robots are looked for.
+/// Time between two checks for robots that are back.
 const CHECK_EVERY: Span = Span::from_millis(100);
-/// How often HOLD and STOP are sent, and how far apart.
+/// How many copies of HOLD and STOP are sent, and the time between them.
 const COPIES: (u32, Span) = (4, Span::from_millis(40));
-/// How often all are asked to report: robots that know TARGET only do not report of their own accord.
+/// Time between requests to all robots to report. TARGET-only robots (they understand the command TARGET but no
+/// routes) do not report of their own accord.
 const ASK_EVERY: Span = Span::from_millis(2_000);
 /// While robots come back, the run waits this long for one more. Clients look for a broker every 2 s.
 const ONE_MORE: Span = Span::from_millis(3_000);
 
-/// A run that stands still.
+/// The state of a run that stands still.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interrupted {
-    /// Since when. Reports from before do not count.
+    /// When the run was interrupted. Reports from before do not count.
     pub since: Instant,
-    /// When the robot had reported whose last report is the oldest.
+    /// The oldest among the times of the robots' last reports.
     heard: Instant,
-    /// What was going on.
+    /// What was broken off.
     pub left: Position,
-    /// Robots that are back until then go on by themselves.
+    /// Until when robots have to be back for the run to go on without the operator.
     by_itself_until: Instant,
     /// When enough robots had reported for the run to go on.
     back_at: Option<Instant>,
-    /// Number of robots that reported, and when the last of them did first.
+    /// Number of robots that have reported, and when that number last grew.
     reported: (usize, Instant),
     ask_at: Instant,
-    /// Robots were told to stand.
+    /// Whether HOLD or STOP was sent to robots that report again.
     is_halted: bool,
-    /// The operator said that the run goes on.
+    /// Whether the operator agreed that the run goes on.
     is_agreed: bool,
 }
 
 impl Interrupted {
-    /// Nothing is known of robots since `now`. The run goes on by itself if they are back within `by_itself`.
+    /// Begins the phase at `now`. The run goes on by itself if robots are back within `by_itself`.
     pub fn begin(now: Instant, mut left: Position, by_itself: Span) -> Self {
         left.stops.get_or_insert(StopTimes { began: now, stood: now });
         Self {
@@ -63,27 +66,27 @@ impl Interrupted {
         }
     }
 
-    /// Every robot has reported since `heard`.
+    /// Sets the oldest among the times of the robots' last reports.
     pub fn heard(self, heard: Instant) -> Self {
         Self { heard, ..self }
     }
 
-    /// When something is due.
+    /// When [`on_tick`](Self::on_tick) has something to do next.
     pub fn due(&self, now: Instant) -> Instant {
         now + CHECK_EVERY
     }
 
-    /// Whether robots are back and only the operator is waited for.
+    /// Whether robots are back and the run waits for the operator alone.
     pub fn asks_operator(&self) -> bool {
         !self.is_agreed && self.back_at.is_some_and(|back| back > self.by_itself_until)
     }
 
-    /// Whether any robot has reported since.
+    /// Whether any robot has reported since the interruption.
     pub fn is_any_back(&self) -> bool {
         self.reported.0 > 0
     }
 
-    /// Time passes.
+    /// Does what is due: counts robots that are back, asks for reports, and goes on or ends the run.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         let robots = cx.roster.active().count();
         let missing = self.missing(cx).len();
@@ -105,7 +108,7 @@ impl Interrupted {
         if self.back_at.is_none() || self.asks_operator() { Next::Stay } else { Next::GoOn }
     }
 
-    /// The operator lets the run go on, without robots that do not report. They drop out.
+    /// Lets the run go on for the operator. Robots that do not report drop out.
     pub fn go_on(&mut self, cx: &RunContext) -> Next {
         self.is_agreed = true;
         self.back_at.get_or_insert(cx.now);
@@ -116,16 +119,16 @@ impl Interrupted {
         Next::Drop(missing.into_iter().map(|participant| (participant, Trouble::Silent)).collect())
     }
 
-    /// Robots that report again may still drive: they stand until the others are back.
+    /// Stops robots that report again and may still drive, until the others are back. Does so only once.
     fn halt(&mut self, cx: &mut RunContext) {
         if std::mem::replace(&mut self.is_halted, true) {
             return;
         }
-        // In a hold, those that drive would drive on into those that have stopped by themselves.
+        // With HOLD, robots that drive would roll on into those that have already stopped by themselves.
         let may_have_stopped = cx.now - self.heard > LINK_LOSS.drives_on;
         match &mut self.left.drive {
             Some(clock) if !cx.is_target_leg() && !may_have_stopped => {
-                // A hold that was stated before may have been lost with the link.
+                // A HOLD that was sent before may have been lost with the link.
                 let at = clock.open_hold().map_or(cx.now + cx.link.hold_lead(), |hold| hold.at);
                 clock.stand(at);
                 cx.io.outbox.broadcast(cx.now, Command::Hold { at }, COPIES.0, COPIES.1);
@@ -135,23 +138,23 @@ impl Interrupted {
         }
     }
 
-    /// Where a participant may stand that did not report since.
+    /// Where a participant that has not reported since the interruption may stand.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         silence::whereabouts_after(cx, &self.left, participant)
     }
 
-    /// Participants that have not reported since.
+    /// Participants that have not reported since the interruption.
     fn missing(&self, cx: &RunContext) -> Vec<usize> {
         let is_missing = |one: &usize| cx.robot(*one).contact.heard <= self.since;
         cx.roster.active().map(|(one, _)| one).filter(is_missing).collect()
     }
 
-    /// Whether enough robots report for the others to be lost robots.
+    /// Whether enough robots report for the silent ones to count as lost robots rather than a lost link.
     fn is_back(&self, cx: &RunContext, robots: usize, missing: usize) -> bool {
         cx.io.outbox.linked() && missing < robots && missing < many_of(robots)
     }
 
-    /// Robots are back.
+    /// Notes that robots are back, and records an event.
     fn come_back(&mut self, cx: &mut RunContext, robots: usize) {
         self.back_at = Some(cx.now);
         let (reported, _) = self.reported;
@@ -159,7 +162,7 @@ impl Interrupted {
         cx.io.log.record(cx.now, EventKind::LinkBack { reported, robots, after, asks_operator });
     }
 
-    /// Robots stay away: the run ends in bounded time.
+    /// Ends the run if robots have stayed away for longer than the bound.
     fn give_up(&self, cx: &RunContext) -> Next {
         if cx.now - self.since <= cx.io.config.waits.outage {
             return Next::Stay;

@@ -1,4 +1,4 @@
-//! The operator chooses the frame that comes next: robots are planned there from where they stand, as after a dropout.
+//! The operator's choice of the next frame. Robots are planned there from where they stand, as after a dropout.
 
 use crate::context::Context;
 use crate::event::EventKind;
@@ -19,7 +19,7 @@ impl Run {
         }
     }
 
-    /// The operator sends robots to a frame: they leave for it as soon as they can.
+    /// Sends robots to a frame that the operator chose. They leave for it as soon as they can.
     pub fn go_to(&mut self, io: &mut Context, now: Instant, frame: usize) {
         let present = self.pipeline.leg().map_or(self.playback.next, Leg::cursor);
         // A jump within a loop stays in its present pass.
@@ -36,14 +36,14 @@ impl Run {
         self.plan_chosen(io, now);
     }
 
-    /// The operator leaves out the next frame.
+    /// Leaves out the next frame for the operator.
     pub fn skip(&mut self, io: &mut Context, now: Instant) {
         io.log.record(now, EventKind::Skipped { frame: self.playback.next.frame });
         self.playback.music.lead();
         self.leave_out(io, now);
     }
 
-    /// The next frame is left out.
+    /// Leaves out the next frame and plans the drive to the one after it.
     pub fn leave_out(&mut self, io: &mut Context, now: Instant) {
         self.playback.choose(self.playback.after(self.playback.next), false);
         self.plan_chosen(io, now);
@@ -51,7 +51,7 @@ impl Run {
 
     fn plan_chosen(&mut self, io: &mut Context, now: Instant) {
         self.pipeline.planning.failure = None;
-        // The frame that recovery made late is not driven to any more.
+        // Robots no longer drive to the frame that recovery made late.
         self.tally.recovery.reached(now);
         self.drop_plans(io);
         if !matches!(self.phase, RunPhase::Gathering(_)) {
@@ -59,7 +59,7 @@ impl Run {
         }
     }
 
-    /// The frame that comes after the one that is driven to or stands, counted from 0.
+    /// The frame after the one that robots drive to or stand in, counted from 0. `None` if there is none.
     pub fn next_frame(&self) -> Option<usize> {
         let next = self.playback.next;
         let next = if self.is_frame_reached() { Some(next) } else { self.playback.after(next) };

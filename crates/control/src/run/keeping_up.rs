@@ -1,5 +1,5 @@
-//! Music does not wait for late robots: a picture that is late stands for a shorter time, and where that is not enough, the
-//! next one is left out. docs/music.md states the rule.
+//! Music does not wait for late robots. A late frame gets a shorter air time; if that is not enough, the next frame
+//! is left out. docs/music.md states the rule.
 
 use crate::context::Context;
 use crate::event::EventKind;
@@ -7,13 +7,14 @@ use crate::run::{MusicTime, Run, RunPhase, RunPurpose};
 use crate::snapshot::ShowPosition;
 use lightbots_base::{Instant, Span};
 
-/// A late picture stands at least as long, or as long as the show says if that is less.
+/// Least air time of a late frame, unless the show gives it less.
 const STANDS: Span = Span::from_millis(500);
-/// Pictures that are later than this do not catch up by shorter air times alone, seconds.
+/// Delay up to which shorter air times alone catch up, seconds. Above, the next frame is left out.
 const LATE_MAX_S: f64 = 2.0;
 
 impl Run {
-    /// Where the music of the show is on the timeline; for a show without music, where the show is.
+    /// Where the music of the show is on the timeline. Without music this is the position of the show. `None` if no
+    /// show is played or its first drive has not begun.
     pub fn music_position(&self, now: Instant) -> Option<ShowPosition> {
         let show = self.show_position(now)?;
         let MusicTime { seen, runs, .. } = self.playback.music;
@@ -22,7 +23,8 @@ impl Run {
         Some(ShowPosition { show_s: music_s + since_s, runs })
     }
 
-    /// Moves the music on. It runs with the show clock from the first picture on, whether robots drive or are held.
+    /// Moves the position of the music on to `now`. From the first reached frame on it runs with the show clock,
+    /// whether robots drive or are held.
     pub fn follow_music(&mut self, now: Instant) {
         let show = self.show_position(now).filter(|_| self.playback.show.music.is_some());
         let (Some(show), Some(music)) = (show, self.music_position(now)) else {
@@ -32,8 +34,8 @@ impl Run {
         let before = self.playback.music;
         let light = self.pipeline.light.current();
         let (leg, leads) = light.map_or((before.leg, false), |light| (light.seq, light.times.leads_music));
-        // A frame that the operator chose, or that comes once more, is where the music goes too. A picture that is late, or
-        // left out, is not.
+        // The music jumps to a frame that the operator chose or that comes once more. It does not jump for a frame
+        // that is late or left out.
         let is_led_there = leads && leg != before.leg;
         let is_before = self.tally.frames_played == 0;
         let music_s = if is_before || is_led_there { show.show_s } else { music.show_s };
@@ -48,7 +50,8 @@ impl Run {
         }
     }
 
-    /// A picture that stands since the last time catches up with the music.
+    /// Shortens the air time of a frame that robots have just reached, so that the show catches up with the music.
+    /// Leaves out the next frame if that is not enough.
     pub fn keep_up_with_music(&mut self, io: &mut Context, now: Instant) {
         if std::mem::replace(&mut self.playback.music.stood, self.tally.frames_played)
             == self.tally.frames_played
@@ -66,7 +69,7 @@ impl Run {
         let RunPhase::Standing(standing) = &mut self.phase else { return };
         let stands = standing.air.until - now;
         let shorter = Span::from_secs(late_s).min((stands - STANDS).max(Span::ZERO));
-        // A picture that is early after a frame was left out stands until the music is there.
+        // A frame that is early because one was left out stays until the music has reached it: `shorter` is negative.
         standing.air.until = standing.air.until - shorter;
         if late_s > LATE_MAX_S && self.may_leave_out_next() {
             let frame = self.playback.next.frame;
@@ -76,7 +79,8 @@ impl Run {
         }
     }
 
-    /// Whether the next frame is neither the last nor one that the operator waits for.
+    /// Whether the next frame may be left out: it is not the last, and the operator neither chose it nor waits for
+    /// it.
     fn may_leave_out_next(&self) -> bool {
         let playback = &self.playback;
         let frame = playback.next.frame;

@@ -1,4 +1,5 @@
-//! Light from the beginning of a drive until its frame is left: when each of its moments is, and colours at them.
+//! The light of one leg, from the beginning of its drive until robots leave the frame: moments of show time, and
+//! colours at these.
 
 use crate::config::Config;
 use crate::frame_cursor::FrameCursor;
@@ -9,79 +10,80 @@ use lightbots_lighting::{DrivenLight, FrameLight, LightMoment, ShowLight, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
 use std::sync::Arc;
 
-/// A stretch of light that is sent to all robots.
+/// A stretch of light, which is sent to all robots with the colours of each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlannedStretch {
-    /// Number of the messages.
+    /// Number of the messages, which robots acknowledge.
     pub number: u32,
-    /// Time since the drive began, without holds, at its beginning.
+    /// Beginning of the stretch, as time since the drive began without holds.
     pub from: Span,
-    /// Its duration in ticks.
+    /// Duration of the stretch in ticks.
     pub ticks: u32,
-    /// How long robots take from what they show to its colours.
+    /// How long robots blend from what they show to the colours of the stretch.
     pub over: Span,
-    /// The moment at which it begins, if it runs through holds. `None`: it stands still in them.
+    /// Moment at which the stretch begins if it runs through holds, show clock. `None` if it stands still in holds.
     pub free_at: Option<Instant>,
 }
 
-/// When a leg happens on the timeline, and how show time goes on after it.
+/// Where a leg is on the timeline, and how show time goes on after it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LegTimes {
     /// Show time at the beginning of the drive, seconds.
     pub show_s: f64,
-    /// When the frame is to stand by the timeline, seconds. Show time then is later by what robots are behind.
+    /// Show time at which robots are to reach the frame by the timeline, seconds. If robots are late, show time is
+    /// later by then.
     pub due_s: f64,
-    /// The music goes there with it: the operator chose the frame, or frames repeat.
+    /// Whether the music jumps to this leg: the operator chose the frame, or frames repeat.
     pub leads_music: bool,
     /// Duration of the drive by plan.
     pub drive: Span,
-    /// How long the frame stands by the show.
+    /// Air time of the frame by the show; zero if the leg does not reach the frame.
     pub air: Span,
-    /// The frame has a cue: show time goes on until GO.
+    /// Whether the frame has a cue. Show time then goes on until GO.
     pub waits_for_go: bool,
-    /// How long show time had stood at the beginning of the drive, seconds.
+    /// How long show time had stood still until the drive began, seconds.
     pub lead_s: f64,
 }
 
-/// Light of a leg.
+/// The light of a leg.
 #[derive(Clone, Debug)]
 pub(crate) struct LegLight {
     /// Number of the leg's routes.
     pub seq: u32,
-    /// The frame it leads to, in its run.
+    /// The frame to which the leg leads.
     pub frame: FrameCursor,
-    /// Whether the frame is reached at its end.
+    /// Whether robots reach the frame at the end of the leg.
     pub reaches_frame: bool,
-    /// When it happens.
+    /// Where the leg is on the timeline.
     pub times: LegTimes,
-    /// `[participant]`: its number in effects.
+    /// `[participant]`: the number of its robot in effects.
     pub numbers: Arc<[u32]>,
-    /// `[participant]`: colour before, and whether layers shone on the robot then.
+    /// `[participant]`: colour before the leg, and whether layers shone on the robot then.
     pub before: Vec<(Rgb, bool)>,
-    /// The same at its end.
+    /// `[participant]`: colour at the end of the leg, and whether layers may shine on the robot then.
     pub after: Vec<(Rgb, bool)>,
-    /// The layers that may shine.
+    /// The layers that may shine during the leg.
     pub layers: FrameLight,
-    /// The first stretch.
+    /// The first stretch of the leg.
     pub first: PlannedStretch,
-    /// The time base, once the drive has begun.
+    /// The time base of the drive. `None` before it begins, and after it was broken off.
     pub clock: Option<PathClock>,
-    /// Time since the drive began, when that was looked at last.
+    /// Time since the drive began, as last noted.
     pub seen: Span,
 }
 
 impl LegLight {
-    /// The end of show time in this leg, as time since the drive began; `None`: show time goes on.
+    /// The end of show time in this leg, as time since the drive began. `None` if show time goes on until GO.
     pub fn end(&self) -> Option<Span> {
         (!self.times.waits_for_go).then_some(self.times.drive + self.times.air)
     }
 
-    /// Time since the drive began, without holds; `None`: it has not begun.
+    /// Time since the drive began, without holds. `None` before the drive begins, and after it was broken off.
     pub fn elapsed(&self, now: Instant) -> Option<Span> {
         self.clock.map(|clock| clock.path_time(now)).filter(|elapsed| *elapsed >= Span::ZERO)
     }
 
-    /// What robots show at a time since the drive began. `lost`: how long it was held.
+    /// The moment of light at a time since the drive began. `lost`: how long the drive was held.
     pub fn moment(&self, elapsed: Span, lost: Span) -> LightMoment {
         let shown = self.end().map_or(elapsed, |end| elapsed.min(end));
         let lead_s = self.times.lead_s + (lost + (elapsed - shown)).as_secs();
@@ -90,22 +92,23 @@ impl LegLight {
         LightMoment { elapsed, show_s: self.times.show_s + shown.as_secs(), lead_s, clock_s }
     }
 
-    /// What robots show at a moment of the show clock, by the holds that are stated.
+    /// The moment of light at a moment of the show clock, by the holds that are known.
     pub fn moment_at(&self, at: Instant) -> LightMoment {
         self.moment(self.elapsed(at).unwrap_or(Span::ZERO), self.lost(at))
     }
 
-    /// How long holds have taken until now.
+    /// How long holds have delayed the drive until now.
     pub fn lost(&self, now: Instant) -> Span {
         self.clock.map_or(Span::ZERO, |clock| (now - clock.began - clock.path_time(now)).max(Span::ZERO))
     }
 
-    /// How long show time has stood until the end of the leg, by the holds that were released, seconds.
+    /// How long show time has stood still by the end of the leg, seconds. Only holds that are over count.
     pub fn lead_s_after(&self) -> f64 {
         self.times.lead_s + self.clock.map_or(0.0, |clock| clock.lost.as_secs())
     }
 
-    /// The light of a participant. `next`: the leg to the frame after.
+    /// What determines the light of a participant. `next`: the leg to the frame after. `None` if the participant is
+    /// not in the leg.
     pub fn driven<'a>(
         &self,
         leg: &'a Leg,
@@ -127,7 +130,7 @@ impl LegLight {
         })
     }
 
-    /// A stretch as a participant's message.
+    /// The message with a participant's colours for a stretch.
     pub fn command(
         &self,
         config: &Config,
@@ -142,7 +145,8 @@ impl LegLight {
                 Some(at) => self.moment_at(at + time),
                 None => self.moment(stretch.from + time, lost),
             });
-        // Robots draw lines between the colours that they get: these are corrected first and fitted then.
+        // Robots interpolate linearly between the colours that they get. Colours are therefore corrected for the lamp
+        // first and fitted afterwards.
         if !config.lamp.changes_nothing() {
             samples.iter_mut().for_each(|colour| *colour = config.lamp.sent(*colour));
         }
@@ -154,13 +158,14 @@ impl LegLight {
             skip,
             over: stretch.over,
             start: fitted.start,
-            // Fits: the fit has no more records.
+            // They fit, because `fit` makes no more than `MAX_LIGHT_RECORDS`.
             records: LightRecords::from_slice(&fitted.records).unwrap_or_default(),
         })
     }
 
-    /// From when a stretch counts. Until robots stand, that is the START, because holds may still come; then it is a moment,
-    /// so that a frame may wait for GO as long as it likes.
+    /// The moment from which robots count the time of a stretch, and the time from there to its beginning. Until
+    /// robots stand, that moment is the START, because holds may still come. After that it is a fixed moment, because
+    /// a frame may wait for GO for any time.
     fn anchor(&self, stretch: &PlannedStretch, now: Instant) -> (LightAnchor, Span) {
         let Some(clock) = self.clock else { return (LightAnchor::Start(self.seq), stretch.from) };
         if let Some(at) = stretch.free_at {
@@ -173,10 +178,11 @@ impl LegLight {
         (LightAnchor::Moment(clock.began), stretch.from)
     }
 
-    /// The stretch that begins at a time since the drive began; `None`: show time is over then.
+    /// The stretch that begins at a time since the drive began and takes `longest` at most. `None` if show time is
+    /// over by then.
     pub fn stretch(&self, number: u32, from: Span, longest: Span, over: Span) -> Option<PlannedStretch> {
         let left = self.end().map_or(longest, |end| (end - from).min(longest));
-        // Layers that run freely go on when show time is over.
+        // Layers that run freely go on after show time is over.
         let left = if self.layers.is_free() { longest } else { left };
         let ticks = u32::try_from((left.0 + TICK.0 - 1) / TICK.0).ok().filter(|ticks| *ticks > 0)?;
         Some(PlannedStretch { number, from, ticks, over, free_at: None })

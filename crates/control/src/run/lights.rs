@@ -1,6 +1,6 @@
 //! Changes of light: colours change over the last part of a drive, by the show clock.
 //!
-//! A change outlives its drive: it goes along with the next route until that is acknowledged.
+//! A change outlives its drive: it is sent along with the next route until that route is acknowledged.
 
 use crate::context::Context;
 use crate::leg::Leg;
@@ -12,13 +12,13 @@ use lightbots_wire::{Command, Fade, Topic};
 /// Longest time that a colour takes to change; longer fades look like a fault of the light.
 const FADE_MAX: Span = Span::from_millis(1_000);
 
-/// How changes of light are sent again that no robot acknowledges.
+/// How changes of light that were sent without a route are repeated. Reports do not acknowledge these.
 struct Repeats {
-    /// Time between two of them. Two copies that are closer are lost by the same burst.
+    /// Time between two repeats. Two copies that are closer together are lost in one burst.
     every: Span,
-    /// Number of them in small fleets, and in larger ones: there the link is busy with routes.
+    /// Number of repeats in small fleets, and in larger ones, where the link is busy with routes.
     times: (u32, u32),
-    /// Most robots of a small fleet.
+    /// Largest number of robots in a small fleet.
     few: usize,
 }
 
@@ -28,14 +28,15 @@ const REPEATS: Repeats = Repeats { every: Span::from_millis(300), times: (4, 1),
 /// Changes of light, by participant.
 #[derive(Clone, Debug)]
 pub(crate) struct Lights {
-    /// `[participant]`: a change that the robot may not know yet. Participants that joined later have none.
+    /// `[participant]`: a change that the robot may not have received yet. Participants that joined later have none.
     pending: Vec<Option<Fade>>,
-    /// The pending changes that are sent again.
+    /// Deliveries of the pending changes that are repeated.
     repeats: Option<Upload>,
-    /// When that is done next, for all at once, and how often it is still done.
+    /// When they are repeated next, all at once.
     repeat_at: Instant,
+    /// Number of repeats that are left.
     repeats_left: u32,
-    /// When robots that cannot fade change their light.
+    /// When robots that cannot fade change their colour.
     colors_at: Instant,
 }
 
@@ -52,8 +53,8 @@ impl Default for Lights {
 }
 
 impl Lights {
-    /// A drive begins from `began` to `ends`: robots are told when and how their lights change. Where a next route
-    /// follows, the change goes along with it, which is acknowledged; otherwise it is sent at once and again.
+    /// Sends robots their changes of light for a drive from `began` to `ends`. If a next route follows, the change is
+    /// sent along with that route, which is acknowledged. Otherwise it is sent at once and repeated.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -100,25 +101,25 @@ impl Lights {
         self.repeats = Some(repeats);
     }
 
-    /// The changes of the drive before are forgotten.
+    /// Forgets the changes of the drive before.
     pub fn forget(&mut self, participants: usize) {
         *self = Self { pending: vec![None; participants], ..Self::default() };
     }
 
-    /// Changes that were to go along with routes go by themselves, because there are no such routes any more.
+    /// Lets pending changes be sent without routes, because the routes that were to carry them were dropped.
     pub fn send_again(&mut self, now: Instant) {
         if self.pending.iter().any(Option::is_some) {
             self.begin_repeats(now);
         }
     }
 
-    /// The drive is over: what is pending goes along with the next routes.
+    /// Ends the drive: pending changes are only sent along with the next routes.
     pub fn end_drive(&mut self) {
         let pending = std::mem::take(&mut self.pending);
         *self = Self { pending, ..Self::default() };
     }
 
-    /// Sends what is due.
+    /// Sends repeats and colours that are due.
     pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, leg: &Leg) {
         self.repeat(context, roster, now);
         if now >= self.colors_at {
@@ -144,17 +145,17 @@ impl Lights {
         }
     }
 
-    /// When something is due.
+    /// When [`pump`](Self::pump) has something to do next.
     pub fn due(&self) -> Instant {
         self.repeat_at.min(self.colors_at)
     }
 
-    /// A change that goes along with the next route of a participant.
+    /// The change to send along with the next route of a participant.
     pub fn pending(&self, participant: usize) -> Option<Fade> {
         self.pending.get(participant).copied().flatten()
     }
 
-    /// A participant acknowledged the route with which its change went along, or dropped out.
+    /// Forgets the pending change of a participant, because it acknowledged the route with the change or dropped out.
     pub fn settle(&mut self, participant: usize) {
         if let Some(pending) = self.pending.get_mut(participant) {
             *pending = None;
@@ -162,7 +163,7 @@ impl Lights {
     }
 }
 
-/// Robots that follow paths and cannot fade change their light.
+/// Sends robots that follow paths and cannot fade their new colour.
 fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
     for (participant, step) in leg.robots.iter().enumerate() {
         let known = &roster.participants[participant];
@@ -174,7 +175,8 @@ fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
     }
 }
 
-/// Robots that know TARGET only learn their lights, all at once as they leave.
+/// Sends TARGET-only robots (they understand the command TARGET but no routes) their colours, all at once as they
+/// leave.
 pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &Leg) {
     for (participant, step) in leg.robots.iter().enumerate() {
         let known = &roster.participants[participant];
@@ -185,7 +187,7 @@ pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &
     }
 }
 
-/// A robot that was switched off and on shows its pixel again.
+/// Sends a robot that was switched off and on the colour of its pixel again.
 pub(crate) fn relight(context: &mut Context, roster: &Roster, leg: &Leg, participant: usize) {
     let Some(step) = leg.robots.get(participant) else { return };
     let robot = roster.participants[participant].robot;

@@ -1,33 +1,34 @@
 //! What is known of the link to the robots: how slow it is, how many messages it loses, when it came back.
 //!
-//! The estimate is the largest round trip, which fades. RFC 6298 estimates a mean and a variance instead. A START has to
-//! wait for the slowest robot, not for the usual one.
+//! The estimate is the largest round trip, which fades. RFC 6298 estimates a mean and a variance instead, but a START
+//! has to wait for the slowest robot and not for the usual one.
 
 use crate::config::Config;
 use lightbots_base::{Instant, Span};
 
-/// START is repeated this often until its moment: six copies within the shortest lead of 240 ms.
+/// Time between repeats of START before its moment: six copies within the shortest lead of 240 ms.
 pub(crate) const REPEAT: Span = Span::from_millis(40);
-/// Robots that did not confirm a START are asked again after this time, or after a round trip where that is longer.
+/// Time after which robots that did not confirm a START are asked again; a round trip if that is longer.
 ///
-/// An answer passes a lossy link twice. With one message in ten lost, two questions left one START in two of 200 robots
-/// unconfirmed, so that it was postponed.
+/// Question and answer each have to pass the lossy link. With one message in ten lost, two questions left every
+/// second START of 200 robots unconfirmed, and it was postponed.
 pub(crate) const ASK_AGAIN: Span = Span::from_millis(50);
-/// Shortest time by which HOLD and RESUME are stated ahead: four copies, 30 ms apart, and the way of the last one.
+/// Shortest time before its moment at which HOLD or RESUME is sent: four copies, 30 ms apart, and the delay of the
+/// last one.
 const HOLD_LEAD: Span = Span::from_millis(150);
-/// Longest time by which HOLD is stated ahead. Above, robots drive on for too long into what blocks another one. Below,
-/// on a slow link some robots slow down later than others.
+/// Longest time before its moment at which HOLD is sent. Above, robots drive on for too long into what blocks another
+/// one. Below, on a slow link some robots slow down later than others.
 const HOLD_LEAD_MAX: Span = Span::from_millis(450);
-/// Shortest time before a START at which its confirmations are counted: enough to state a later one to all.
+/// Shortest time before a START at which its confirmations are counted: enough to send a later moment to all.
 const CHECK_AHEAD: Span = Span::from_millis(80);
 /// Time that each robot adds to the lead of a START, because their reports share one link: 20 ms for 1,000 robots.
 const LEAD_PER_ROBOT: Span = Span(20);
-/// Largest estimate of a round trip where robots do not confirm; slower links are not waited for.
+/// Largest round-trip estimate that missing confirmations lead to; slower links are not waited for.
 const ROUND_TRIP_MAX: Span = Span::from_millis(1_500);
 /// Largest round trip that is measured. Above, a broker or a computer that slept for half a minute delays each START by a
 /// minute. Below, shows in simulated worlds that pause for 2.5 s lose robots.
 const MEASURED_MAX: Span = Span::from_millis(3_000);
-/// Largest time added to the lead for lost messages: nine questions by name.
+/// Largest time added to the lead for lost messages: nine questions to single robots.
 const LOSS_MARGIN_MAX: Span = Span::from_millis(450);
 /// After a reconnect, a broker cluster may need this long to restore subscriptions. Until then a robot that reports but
 /// does not acknowledge is kept.
@@ -36,32 +37,33 @@ const RESTORES: Span = Span::from_millis(15_000);
 /// What is known of the link to the robots.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LinkEstimate {
-    /// The longest time until a message was acknowledged, both ways included; it fades by a tenth each frame.
+    /// The longest time from a message to its acknowledgement. The estimate fades by a tenth each frame.
     pub round_trip: Span,
-    /// The same as far as it was measured. Robots that do not confirm a START widen the other alone: dead and silent ones
-    /// make no link slow.
+    /// The part of `round_trip` that was measured. Robots that do not confirm a START widen `round_trip` alone,
+    /// because dead and silent robots do not make a link slow.
     measured: Span,
-    /// Time added to the lead of a START, because answers were lost.
+    /// Time added to the lead of a START, because confirmations were lost.
     pub loss_margin: Span,
     /// When the broker came back last.
     pub reconnected: Option<Instant>,
-    /// When all robots were asked last whether they are there, because some were silent.
+    /// When all robots were last asked for a report because some were silent.
     pub all_asked: Option<Instant>,
 }
 
 impl LinkEstimate {
-    /// How long ahead a START is stated: time for all robots to receive and confirm it, and to be postponed.
+    /// How long before its moment a START is sent: time for all robots to receive and confirm it, and for postponing
+    /// it.
     pub fn start_lead(&self, config: &Config, participants: usize) -> Span {
         let slow = self.round_trip * 2 + REPEAT;
         config.start_lead.max(slow) + self.loss_margin + LEAD_PER_ROBOT * participants as i64
     }
 
-    /// How long ahead HOLD is stated. It is urgent: robots that receive it late slow down late.
+    /// How long before its moment HOLD is sent. HOLD is urgent, yet robots that receive it late slow down late.
     pub fn hold_lead(&self) -> Span {
         self.measured.clamp(HOLD_LEAD, HOLD_LEAD_MAX)
     }
 
-    /// How long ahead RESUME is stated: all receive it before.
+    /// How long before its moment RESUME is sent, so that all receive it in time.
     pub fn resume_lead(&self) -> Span {
         self.round_trip.max(HOLD_LEAD)
     }
@@ -71,29 +73,30 @@ impl LinkEstimate {
         CHECK_AHEAD.max(self.round_trip * 3 / 4)
     }
 
-    /// How long from `since` on a robot that reports may not answer, because the broker came back only now.
+    /// How long after `since` a robot that reports may fail to acknowledge, because the broker came back only
+    /// recently.
     pub fn patience(&self, since: Instant) -> Span {
         self.reconnected.map_or(Span::ZERO, |at| (at + RESTORES - since).max(Span::ZERO))
     }
 
-    /// A message took this long to be acknowledged.
+    /// Takes in the time that a message took to be acknowledged.
     pub fn measure(&mut self, round_trip: Span) {
         let round_trip = round_trip.min(MEASURED_MAX);
         self.round_trip = self.round_trip.max(round_trip);
         self.measured = self.measured.max(round_trip);
     }
 
-    /// Many robots did not confirm in time: the link is slower than estimated.
+    /// Widens the round-trip estimate by half, because many robots did not confirm in time.
     pub fn widen(&mut self) {
         self.round_trip = self.round_trip.max((self.round_trip * 3 / 2).min(ROUND_TRIP_MAX));
     }
 
-    /// A few robots did not confirm in time while the others did: messages are lost.
+    /// Adds to the loss margin, because a few robots did not confirm in time while the others did: messages are lost.
     pub fn add_loss_margin(&mut self) {
         self.loss_margin = (self.loss_margin + ASK_AGAIN * 3).min(LOSS_MARGIN_MAX);
     }
 
-    /// A frame was reached: old evidence fades.
+    /// Lowers all estimates by a tenth, because robots have reached a frame and old evidence counts less.
     pub fn fade(&mut self) {
         self.round_trip = self.round_trip * 9 / 10;
         self.measured = self.measured * 9 / 10;

@@ -8,7 +8,7 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, RobotState};
 
-/// How many robots that fall silent at once are a lost link.
+/// How many robots that fall silent at once count as a lost link.
 struct Many {
     /// At least this many …
     least: usize,
@@ -16,16 +16,17 @@ struct Many {
     percent: usize,
 }
 
-/// Fewer would stop the show for a few dead robots; more would take a broken access point for dead robots.
+/// Lower bounds would stop the show for a few dead robots. Higher bounds would take a broken access point for dead
+/// robots.
 const MANY: Many = Many { least: 3, percent: 30 };
 
-/// Longest time until a robot reports again, by R41 of docs/protocol.md.
+/// Longest time between two reports of a robot, by R41 of docs/protocol.md.
 struct ReportInterval {
-    /// While it drives or its route is held.
+    /// While the robot drives or its route is held.
     driving: Span,
-    /// Otherwise.
+    /// While the robot stands.
     standing: Span,
-    /// Added for the time that a report is under way.
+    /// Added for the time that a report takes to arrive.
     late: Span,
 }
 
@@ -35,33 +36,34 @@ const REPORTS: ReportInterval = ReportInterval {
     late: Span::from_millis(300),
 };
 
-/// How often all are asked whether they are there, and how far apart. With one message in ten lost, two robots of 100
-/// miss both the questions and their reports.
+/// How many copies of the question to all robots are sent, and the time between them. With one message in ten lost,
+/// two robots of 100 miss both the questions and their reports.
 const COPIES: (u32, Span) = (3, Span::from_millis(150));
-/// A robot that does not answer within this is silent; a round trip comes on top. It is shorter than the time from the hold
-/// for a silent robot to its dropout, so that the question costs no time.
+/// Time after the question within which a robot must report, or it counts as silent; a round trip comes on top. It is
+/// shorter than the time from the hold for a silent robot to its dropout. The question therefore costs no time.
 const ANSWER: Span = Span::from_millis(600);
 
 /// What it means that robots are silent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// These robots are lost; the others answer.
+    /// These robots are lost; enough of the others answer.
     RobotsLost,
-    /// The others have not answered yet.
+    /// The others have not had enough time to answer.
     Unknown,
-    /// The link is lost; number of robots that are silent.
+    /// The link is lost. Holds the number of silent robots.
     LinkLost(usize),
 }
 
-/// Whether a dropout is because a robot is silent, and not because of what it says.
+/// Whether a robot drops out because it is silent, and not because of what it reports.
 pub(crate) fn is_by_silence(cx: &RunContext, &(participant, why): &Dropout) -> bool {
     let silent =
         || cx.now - cx.robot(participant).contact.heard > cx.io.config.silence + cx.link.round_trip * 2;
     why == Trouble::Silent || why == Trouble::Deaf && silent()
 }
 
-/// What it means that these participants are silent. All others are asked first, unless `is_starting`: all that are there
-/// have confirmed a START lately then, and the next one must not pass meanwhile.
+/// Finds out what it means that these participants are silent. First all robots are asked for a report, and the
+/// verdict is `Unknown` until they have had time to answer. With `is_starting` they are not asked: robots in reach
+/// have confirmed a START lately, and the next one must not pass meanwhile.
 pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) -> Verdict {
     if cx.roster.active().count() < MANY.least || Mutant::LinkLossIsDeath.is_planted() {
         return Verdict::RobotsLost;
@@ -84,9 +86,9 @@ pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) 
     many(cx, is_silent).map_or(Verdict::RobotsLost, Verdict::LinkLost)
 }
 
-/// Participants that are stale, which is three reports missed. Where a frame waits for GO, these drop out at once, so that
-/// GO does not wait for a plan without them; elsewhere the next START finds them. Original robots may report only when they
-/// are asked.
+/// Participants that are stale: they have missed three reports. While a frame waits for GO, these drop out at once,
+/// so that GO does not wait for a plan without them. At other times the next START finds them. TARGET-only robots
+/// (they understand the command TARGET but no routes) are left out, because they may report only when asked.
 pub(crate) fn stale(cx: &RunContext) -> Vec<usize> {
     let is_stale = |&one: &usize| {
         let robot = cx.robot(one);
@@ -95,13 +97,13 @@ pub(crate) fn stale(cx: &RunContext) -> Vec<usize> {
     cx.roster.active().map(|(one, _)| one).filter(is_stale).collect()
 }
 
-/// Number of silent robots, if the link is lost by what robots report of their own accord: many are stale, which is three
-/// reports missed.
+/// Number of silent robots, if the link seems lost without asking: many robots are stale, having missed three
+/// reports. `None` otherwise.
 pub(crate) fn apparent(cx: &RunContext) -> Option<usize> {
     many(cx, |one| cx.robot(*one).contact.age != Age::Active)
 }
 
-/// Asks all robots for a report, as some are silent; not where they are too few for a lost link.
+/// Asks all robots for a report, because some are silent. Does nothing if a run is too small for a lost link.
 pub(crate) fn ask_all(cx: &mut RunContext) {
     if cx.roster.active().count() < MANY.least {
         return;
@@ -110,19 +112,19 @@ pub(crate) fn ask_all(cx: &mut RunContext) {
     cx.io.outbox.broadcast(cx.now, Command::Uuid, COPIES.0, COPIES.1);
 }
 
-/// Asks all robots for a report, unless they were asked since.
+/// Asks all robots for a report, unless they were asked at `since` or later.
 pub(crate) fn ask_all_once(cx: &mut RunContext, since: Instant) {
     if cx.link.all_asked.is_none_or(|asked| asked < since) {
         ask_all(cx);
     }
 }
 
-/// The least number of robots of a run that are many.
+/// The least number of silent robots that counts as many in a run of `robots`.
 pub(crate) fn many_of(robots: usize) -> usize {
     MANY.least.max((robots * MANY.percent).div_ceil(100))
 }
 
-/// Number of silent participants, if they are many that may have fallen silent at one moment.
+/// Number of silent participants, if many of them may have fallen silent at one moment. `None` otherwise.
 fn many(cx: &RunContext, is_silent: impl Fn(&usize) -> bool) -> Option<usize> {
     let silent = cx.roster.active().map(|(one, _)| one).filter(is_silent);
     let silences: Vec<Silence> = silent.map(|one| silence_of(cx, one)).collect();
@@ -143,14 +145,14 @@ fn silence_of(cx: &RunContext, participant: usize) -> Silence {
     let interval = match robot.reported.state {
         Some(RobotState::Driving | RobotState::Held) => REPORTS.driving,
         Some(_) => REPORTS.standing,
-        // A robot that knows TARGET only is asked that often.
+        // TARGET-only robots are asked for reports that often.
         None => cx.io.config.ageing.stale_after / 2,
     };
     let after = robot.contact.heard;
     Silence { after, before: after + interval + REPORTS.late + cx.link.round_trip }
 }
 
-/// Number of robots that may have fallen silent at one moment: most intervals that overlap.
+/// Largest number of robots that may have fallen silent at one moment: the most intervals that overlap.
 fn most_at_once(silences: Vec<Silence>) -> usize {
     let begins = silences.iter().map(|silence| (silence.after, false));
     let mut ends: Vec<(Instant, bool)> =

@@ -11,7 +11,7 @@ use lightbots_base::Instant;
 use lightbots_show::FrameLoop;
 
 impl Run {
-    /// The frame that stands, or is driven to.
+    /// The frame that robots stand in or drive to.
     fn present(&self) -> FrameCursor {
         match self.pipeline.leg() {
             Some(leg) if self.is_frame_reached() => leg.cursor(),
@@ -19,8 +19,8 @@ impl Run {
         }
     }
 
-    /// The loop under way, and the last frame of its present pass. A loop begins once its first frame stands, so that a GO
-    /// that is pressed twice at the cue before it does not end it.
+    /// The loop under way, and the last frame of its present pass. A loop begins once robots have reached its first
+    /// frame. A GO that is pressed twice at the cue before it therefore does not end it.
     fn present_loop(&self) -> Option<(FrameLoop, FrameCursor)> {
         let present = self.present();
         let repeats = self.playback.loop_at(present.frame)?;
@@ -35,8 +35,8 @@ impl Run {
         Some(RepeatView { first, last, round: end.pass.saturating_add(1), leaves })
     }
 
-    /// The operator gives GO while frames repeat: the show goes on after the last frame of the present pass. What was
-    /// planned beyond it is dropped. `false`: no frames repeat, or GO was given before.
+    /// Handles the operator's GO while frames repeat: the show goes on after the last frame of the present pass.
+    /// Plans beyond that frame are dropped. Returns `false` if no frames repeat or GO was given before.
     pub fn leave_loop(&mut self, io: &mut Context, now: Instant) -> bool {
         let Some((repeats, end)) = self.present_loop() else { return false };
         if self.playback.leaves_loop == Some(end) {
@@ -49,7 +49,7 @@ impl Run {
     }
 }
 
-/// Plans what comes after the last frame of a pass, in place of the way back.
+/// Plans what comes after the last frame of a pass, in place of the drive back to the first.
 fn plan_on(cx: &mut RunContext, repeats: FrameLoop, end: FrameCursor) {
     let is_in_pass = |at: FrameCursor| at.is_in_pass_of(end) && repeats.has(at.frame);
     let after = cx.playback.after(end);
@@ -65,10 +65,10 @@ fn plan_on(cx: &mut RunContext, repeats: FrameLoop, end: FrameCursor) {
         let tail = pipeline.queue.back().or(pipeline.driven.as_ref().map(|driven| &driven.leg));
         planning.from =
             tail.map_or(Vec::new(), |leg: &Leg| leg.robots.iter().map(|step| step.goal).collect());
-        // Changes of light that were to go along with a dropped route go by themselves.
+        // Changes of light that were to be sent along with a dropped route are sent by themselves.
         pipeline.lights.send_again(now);
     }
-    // A request that is out leads to frames of one pass.
+    // A pending plan request covers frames of one pass only.
     if planning.pending.is_some() && !is_in_pass(planning.last) {
         planning.pending = None;
         (planning.last, planning.next) = (end, after);

@@ -4,36 +4,36 @@ use crate::event::Trouble;
 use lightbots_base::Instant;
 use serde::{Deserialize, Serialize};
 
-/// A robot that dropped out more often than this in a run stays excluded: each dropout costs a new plan.
+/// Most dropouts of a robot that may still come back in a run: each dropout costs a new plan.
 const DROPOUTS_MAX: u8 = 3;
 
-/// Whether a robot that dropped out drives again.
+/// Whether a robot that dropped out has to show that it drives, and the state of that test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Probation {
-    /// Nothing speaks against it.
+    /// The robot needs no test, or has passed it.
     None,
-    /// The robot has to show that.
+    /// The robot has yet to be tested.
     Due,
-    /// The robot was told to turn when it had this heading, radians; and how often it was told.
+    /// The robot was told to turn: its heading at that time, radians, the time itself, and how often it was told.
     Turning { from: f64, since: Instant, tries: u8 },
-    /// The robot did not turn.
+    /// The robot did not turn in any try.
     Failed,
 }
 
 /// Whether a robot takes part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Membership {
-    /// The robot dropped out and stands somewhere.
+    /// Whether the robot dropped out. It then stands somewhere on the floor.
     pub excluded: bool,
-    /// How often the robot dropped out; a robot that did not drive as told counts twice.
+    /// How often the robot dropped out. A dropout because it did not drive as told counts twice.
     pub dropouts: u8,
-    /// The robot may come back once this many frames were played.
+    /// Number of frames that must have been played before the robot may come back.
     pub eligible_from_frame: usize,
 }
 
 impl Membership {
-    /// The robot drops out after `frames_played` frames. A robot that does not drive as told may come back once, after
-    /// the next frame, to see if it does then.
+    /// Excludes the robot after `frames_played` frames. A robot that did not drive as told may come back once, after
+    /// the next frame, to see whether it then does.
     pub fn exclude(&mut self, why: Trouble, frames_played: usize) {
         let fails = fails_to_drive(why);
         self.excluded = true;
@@ -41,14 +41,14 @@ impl Membership {
         self.eligible_from_frame = if fails { frames_played + 1 } else { 0 };
     }
 
-    /// Whether the robot may take part again, as far as its dropouts are concerned.
+    /// Whether the robot dropped out seldom enough to take part again.
     pub fn may_return(&self) -> bool {
         self.dropouts <= DROPOUTS_MAX
     }
 }
 
 impl Probation {
-    /// What a robot has to show that dropped out.
+    /// The test that a robot needs after it dropped out for this reason.
     pub fn after(why: Trouble) -> Self {
         if fails_to_drive(why) || why == Trouble::Faulty { Self::Due } else { Self::None }
     }

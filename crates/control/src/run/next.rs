@@ -1,40 +1,40 @@
-//! What a phase wants to come next. A phase never changes the phase of its run: it returns one of these.
+//! The transition that a phase requests. A phase never changes the phase of its run: it returns a [`Next`].
 
 use crate::event::{RunOutcome, Trouble};
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// When the frame that stands may be left.
+/// When robots may leave the frame in which they stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct AirTime {
-    /// Since when robots stand.
+    /// When the phase Standing began.
     pub since: Instant,
-    /// The frame stands at least until then.
+    /// The earliest moment at which robots leave the frame.
     pub until: Instant,
-    /// Air time that is left while the run is paused.
+    /// Air time that is left; `Some` while the run is paused.
     pub left: Option<Span>,
-    /// Robots stand at the goals of the last drive, and not where it was broken off.
+    /// Whether robots stand at the goals of the last drive, and not where it was broken off.
     pub is_at_goals: bool,
 }
 
-/// A participant that can go on no longer, and why.
+/// A participant that cannot go on, and why.
 pub(crate) type Dropout = (usize, Trouble);
 
-/// What comes next, in the eyes of a phase.
+/// The transition that a phase requests.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Next {
     /// The phase goes on.
     Stay,
-    /// All robots stand, or their places are known.
+    /// All robots have arrived, or all have stopped and reported their places.
     Stand(AirTime),
-    /// START is stated for the first leg of the queue, for this moment at the earliest.
+    /// START is to be sent for the first leg of the queue, for this moment at the earliest.
     Start(Instant),
-    /// The first leg of the queue is under way since this moment.
+    /// Robots have driven the first leg of the queue since this moment.
     Drive(Instant),
     /// Robots stop, say where they are, and all is planned again from there.
     Regather,
-    /// The link to robots is lost: the run stands still until they report again. Number of robots that are silent;
-    /// `None`: the broker is lost.
+    /// The link to robots is lost: the run stands still until they report again. Holds the number of silent robots,
+    /// `None` if the broker is lost.
     Interrupt(Option<usize>),
     /// Robots report again: all say where they stand, and all is planned again from there.
     GoOn,
@@ -45,12 +45,12 @@ pub(crate) enum Next {
 }
 
 impl Next {
-    /// The run cannot go on; `why` is for people, without a full stop.
+    /// Ends the run as failed; `why` is for people, without a full stop.
     pub fn failed(why: impl Into<String>) -> Self {
         Self::Over(RunOutcome::Failed(why.into()))
     }
 
-    /// One participant drops out.
+    /// Drops one participant.
     pub fn drop(participant: usize, why: Trouble) -> Self {
         Self::Drop(vec![(participant, why)])
     }
@@ -60,7 +60,7 @@ impl Next {
         *self == Self::Stay
     }
 
-    /// This, or what `then` says where the phase goes on.
+    /// Returns `self`, or what `then` returns if `self` is [`Next::Stay`].
     pub fn or_else(self, then: impl FnOnce() -> Self) -> Self {
         if self.stays() { then() } else { self }
     }

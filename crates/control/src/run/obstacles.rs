@@ -8,16 +8,16 @@ use crate::run::run_context::RunContext;
 use crate::snapshot::Age;
 use lightbots_base::Vec2;
 
-/// Two robots cannot stand closer than this share of contact: one of the reports is out of date.
+/// Share of the contact distance below which two places cannot both hold a robot: one of them is out of date.
 const SAME_PLACE: f64 = 0.9;
 
 /// How an inferred disc is moved out of robots that reported their places.
 struct Displacement {
-    /// Farthest that a disc is moved, metres: inferred places are off by 20 mm.
+    /// Farthest that a disc is moved, metres. Inferred places are off by 20 mm.
     most_m: f64,
-    /// Clearance that it has after the move, metres. The planner can start with it.
+    /// Clearance between disc and robot after the move, metres. The planner can start with it.
     clearance_m: f64,
-    /// Sweeps over the robots around it: it lies between three at most.
+    /// Number of sweeps over the robots around the disc, which lies between three at most.
     sweeps: usize,
 }
 
@@ -32,7 +32,8 @@ pub(crate) struct Discs {
     pub inferred: Vec<Vec2>,
 }
 
-/// Everything on the floor that takes no part in the next plan. A disc inside a robot that does is out of date.
+/// The discs of everything on the floor that takes no part in the next plan. A disc inside a robot that takes part is
+/// out of date and left out.
 pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     let contact_m = cx.playback.contact_m();
     let near_m = contact_m * SAME_PLACE;
@@ -51,7 +52,8 @@ pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     }
 }
 
-/// Where a robot may stand that dropped out. Robots that share a name stood after STOP where they report from since.
+/// Where a robot that dropped out may stand. Robots that share a name have stood since STOP, so the places that they
+/// report count.
 fn places_of(cx: &RunContext, known: &Participant) -> Vec<Vec2> {
     let namesakes = &cx.io.fleet.robot(known.robot).namesakes;
     let is_shared = namesakes.are_there() && !known.last_seen.possible.is_empty();
@@ -63,16 +65,17 @@ fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
     let known = robot.participant.map(|participant| cx.participant(participant as usize));
     let is_ignored = cx.pipeline.obstacles.ignores_strangers && cx.roster.is_stranger(robot);
     match known {
-        // Where a silent robot may be by now is known better than by its last report.
+        // The possible places of a silent robot count rather than its last report.
         Some(_) if Mutant::ForgetDeadRobot.is_planted() => false,
         Some(known) => known.is_excluded() && known.last_seen.possible.is_empty(),
         None => robot.contact.age != Age::Gone && !is_ignored,
     }
 }
 
-/// There is no plan to the next frame from where robots stand: gives up what is driven around, in this order. Robots
-/// that came during the run and take no part, because any client can claim to be a robot. The unlikely places of silent
-/// robots. All inferred places. At last the frame itself. Whether there was anything left to give up.
+/// Drops obstacles, because there is no plan to the next frame from where robots stand. Each call drops the first
+/// kind that is left. First come robots that came during the run and take no part, because any client can claim to be
+/// a robot. Then come the unlikely places of silent robots, then all inferred places, and at last the frame itself.
+/// Returns whether there was anything to drop.
 pub(crate) fn relax(cx: &mut RunContext) -> bool {
     let participants = &cx.roster.participants;
     let is_any_silent = participants.iter().any(|known| !known.last_seen.possible.is_empty());
@@ -100,8 +103,8 @@ pub(crate) fn relax(cx: &mut RunContext) -> bool {
     true
 }
 
-/// An inferred place of a disc, moved until it touches none of the robots that are known to stand there. A disc that
-/// would be moved too far stays inside one, and is dropped.
+/// Moves the inferred place of a disc until the disc touches none of the robots at `starts`. Returns `place` if that
+/// is too far: the disc then overlaps a robot and is dropped.
 fn displaced(place: Vec2, starts: &[Vec2], contact_m: f64) -> Vec2 {
     let near: Vec<Vec2> =
         starts.iter().copied().filter(|start| start.distance(place) < 2.0 * contact_m).collect();

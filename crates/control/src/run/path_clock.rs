@@ -1,21 +1,22 @@
-//! How far along their paths robots are by plan: show time minus what holds cost.
+//! Path time: how far along their paths robots are by plan. It is the time since the drive began, minus what holds
+//! cost.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 use serde::{Deserialize, Serialize};
 
-/// Progress along the paths is held.
+/// A hold: the progress of all robots along their paths falls to zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Hold {
-    /// Progress begins to fall to zero at this moment.
+    /// When progress begins to fall to zero.
     pub at: Instant,
-    /// The operator wants it.
+    /// Whether the operator asked for the hold.
     pub by_operator: bool,
-    /// When progress picks up again, once that is stated.
+    /// When progress picks up again. `None` until RESUME was sent.
     pub until: Option<Instant>,
-    /// When that is to be stated: shortly before it must be, so that a new trouble can still prolong the hold.
+    /// When RESUME is to be sent: shortly before it must be, so that a new trouble can still prolong the hold.
     pub release_at: Option<Instant>,
-    /// When it is looked at whether all robots stand.
+    /// When to check whether all robots stand.
     pub check_at: Instant,
 }
 
@@ -26,46 +27,46 @@ pub(crate) struct PathClock {
     pub began: Instant,
     /// When the drive ends by plan, holds included.
     pub ends: Instant,
-    /// The last hold, until progress has picked up again.
+    /// The hold, until progress has fully picked up again. `None` if there is none.
     pub hold: Option<Hold>,
     /// Time lost by holds that are over.
     pub lost: Span,
 }
 
 impl PathClock {
-    /// A drive that was not held yet.
+    /// The clock of a drive without a hold.
     pub fn new(began: Instant, duration: Span) -> Self {
         Self { began, ends: began + duration, hold: None, lost: Span::ZERO }
     }
 
-    /// The hold whose end is not stated yet.
+    /// The hold, if no RESUME was sent for it yet.
     pub fn open_hold(&self) -> Option<&Hold> {
         self.hold.as_ref().filter(|hold| hold.until.is_none())
     }
 
-    /// Whether progress is held and the end of that is not stated yet.
+    /// Whether progress is held and no RESUME was sent yet.
     pub fn is_held(&self) -> bool {
         self.open_hold().is_some()
     }
 
-    /// From when on robots stand in a hold whose end is not stated yet.
+    /// When robots come to rest in a hold for which no RESUME was sent yet.
     pub fn rests_from(&self) -> Option<Instant> {
         self.open_hold().map(|hold| hold.at + Route::EASE)
     }
 
-    /// Progress is held from `at` on, for an unknown time.
+    /// Holds progress from `at` on, for an unknown time. Does nothing if a hold without RESUME is there already.
     pub fn stand(&mut self, at: Instant) {
         let mut at = at;
         if let Some(Hold { at: before, until, .. }) = self.hold {
             let Some(until) = until else { return };
-            // All are still picking up again.
+            // Robots may still be picking up speed after the hold before.
             at = at.max(until + Route::EASE);
             self.lost += until - before;
         }
         self.hold = Some(Hold { at, by_operator: false, until: None, release_at: None, check_at: at });
     }
 
-    /// A hold that is over counts as lost time.
+    /// Adds a hold to the lost time and forgets it, once progress has picked up again by `now`.
     pub fn end_hold(&mut self, now: Instant) {
         if let Some(Hold { at, until: Some(until), .. }) = self.hold
             && now >= until + Route::EASE

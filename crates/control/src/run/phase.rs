@@ -13,14 +13,14 @@ use crate::run::run_context::RunContext;
 use crate::run::standing::Standing;
 use crate::run::starting::Starting;
 
-/// Where a run is.
+/// The phase of a run.
 #[derive(Clone, Debug)]
 pub(crate) enum RunPhase {
-    /// All are asked where they stand.
+    /// Robots stop and are asked where they stand.
     Gathering(Gathering),
-    /// All stand, in a frame or before the first; the next leg is planned and uploaded meanwhile.
+    /// All robots stand, in a frame or before the first; the next leg is planned and uploaded meanwhile.
     Standing(Standing),
-    /// The START of the next leg is stated.
+    /// The START of the next leg was sent, and its moment is still to come.
     Starting(Starting),
     /// Robots drive.
     Driving(Driving),
@@ -31,8 +31,8 @@ pub(crate) enum RunPhase {
 }
 
 impl RunPhase {
-    /// What is broken off if robots stop now. A stated START counts as a drive while its leg is in the queue, because
-    /// robots may have begun it.
+    /// What is broken off if robots stop now. A START that was sent counts as a drive while its leg is in the queue,
+    /// because robots may have begun it.
     pub fn left(&self, pipeline: &Pipeline) -> Position {
         match self {
             Self::Gathering(gathering) => gathering.left,
@@ -48,7 +48,7 @@ impl RunPhase {
         }
     }
 
-    /// The leg that [`left`](Self::left) is about.
+    /// The leg to which [`left`](Self::left) refers.
     pub fn left_leg<'a>(&self, pipeline: &'a Pipeline) -> Option<&'a Leg> {
         match self {
             Self::Starting(_) => pipeline.queue.front(),
@@ -56,7 +56,7 @@ impl RunPhase {
         }
     }
 
-    /// Where a participant may stand that fell silent; nowhere else than it reported: none.
+    /// Where a participant that fell silent may stand. Empty if that is only the place that it reported.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         match self {
             Self::Driving(drive) => drive.whereabouts(cx, participant),

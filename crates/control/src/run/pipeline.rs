@@ -17,10 +17,11 @@ use lightbots_wire::{Command, Details, Pieces, Route, Topic};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Largest clearance that a route states, millimetres: farther than proximity sensors see.
+/// Largest clearance that a route contains, millimetres: farther than proximity sensors see.
 const ROOM_MAX_MM: f64 = 40.0;
 
-/// The leg that is driven or was driven last, and how far robots that know TARGET only are on it.
+/// The leg that is driven or was driven last. Also the progress of TARGET-only robots (they understand the command
+/// TARGET but no routes) on it.
 #[derive(Clone, Debug)]
 pub(crate) struct DrivenLeg {
     pub leg: Leg,
@@ -30,33 +31,34 @@ pub(crate) struct DrivenLeg {
 /// What is planned, and from where.
 #[derive(Clone, Debug)]
 pub(crate) struct Planning {
-    /// The frame that is planned next.
+    /// The frame that is planned next. `None` if nothing more is to be planned.
     pub next: Option<FrameCursor>,
     /// The last frame that is planned or being planned.
     pub last: FrameCursor,
-    /// `[participant]`: where all stand when that frame is driven to, stage metres.
+    /// `[participant]`: where its robot stands when the drive to `next` begins, stage metres. Empty if it is to be
+    /// read from reports.
     pub from: Vec<Vec2>,
-    /// Number of the plan request that is out, and since when.
+    /// Number of the plan request that is being worked on, and when it was made.
     pub pending: Option<(u64, Instant)>,
-    /// Where robots that dropped out stood when it was made.
+    /// Where robots that dropped out stood when that request was made, stage metres.
     pub around: Arc<[Vec2]>,
-    /// Robots wait for the plan: only one frame is planned.
+    /// Whether robots wait for the plan. Only one frame is planned then.
     pub is_urgent: bool,
-    /// Robots stand too far from where the next leg begins.
+    /// Whether robots stand too far from where the next leg begins.
     pub is_outdated: bool,
-    /// Pixels of the last plan stay dark.
+    /// Whether pixels of the last plan stay dark.
     pub is_dark: bool,
     /// Why there is no plan beyond the queue.
     pub failure: Option<String>,
 }
 
-/// What stands on the floor, takes no part and is driven around, besides the robots of the fleet.
+/// What plans drive around, besides the robots of the fleet.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Obstacles {
-    /// Where robots met something that no robot of the fleet explains; stage metres.
+    /// Where robots met something that no robot of the fleet explains, stage metres.
     pub found: Vec<Vec2>,
-    /// Robots that came during the run and take no part are not driven around until the next frame is reached, because
-    /// there was no path with them.
+    /// Whether plans ignore robots that came during the run and take no part, because there was no path with them.
+    /// Reset when robots reach the next frame.
     pub ignores_strangers: bool,
 }
 
@@ -65,32 +67,32 @@ pub(crate) struct Obstacles {
 pub(crate) struct Pipeline {
     pub planning: Planning,
     pub obstacles: Obstacles,
-    /// Legs that are planned; the first is uploaded.
+    /// Legs that are planned, in driving order; the first is uploaded.
     pub queue: VecDeque<Leg>,
-    /// Routes of the next leg are sent from this moment on.
+    /// Earliest time at which routes of the next leg are sent.
     pub upload_from: Instant,
     /// The upload of the first leg of the queue.
     pub upload: Option<Upload>,
     pub lights: Lights,
     pub light: LightPlayer,
-    /// When routes follow that were put off.
+    /// When routes that were put off are sent.
     pub again_at: Instant,
-    /// The leg that is driven, or has brought all where they stand.
+    /// The leg that is driven, or that has brought robots to where they stand.
     pub driven: Option<DrivenLeg>,
 }
 
-/// A robot does not acknowledge although its route was sent as often as is tolerated.
+/// Why a robot does not acknowledge, although its route was sent as often as allowed.
 enum Unacknowledged {
-    /// The robot is deaf.
+    /// The robot does not receive messages.
     Deaf,
-    /// The link does not deliver: the robot is sent to again.
+    /// The link does not deliver messages: the route is sent again.
     LinkFails,
-    /// The link does not deliver, and did not for too long.
+    /// The link has not delivered messages for too long.
     LinkFailed,
 }
 
 impl Pipeline {
-    /// Nothing is planned.
+    /// A pipeline in which nothing is planned.
     pub fn new(playback: &PlayedShow) -> Self {
         let first = playback.next;
         let planning = Planning {
@@ -117,7 +119,7 @@ impl Pipeline {
         }
     }
 
-    /// Legs and requests are dropped; `next` is planned again from where robots are.
+    /// Drops legs and requests. `next` is then planned from where robots are.
     pub fn clear(&mut self, next: Option<FrameCursor>) {
         self.upload = None;
         self.light.halt();
@@ -129,19 +131,19 @@ impl Pipeline {
         self.planning.from.clear();
     }
 
-    /// The next leg becomes the one that is driven; `None`: there is none.
+    /// Makes the first leg of the queue the one that is driven. `None` if the queue is empty.
     pub fn drive_next(&mut self) -> Option<&Leg> {
         let leg = self.queue.pop_front()?;
         let targets = TargetProgress::new(&leg);
         Some(&self.driven.insert(DrivenLeg { leg, targets }).leg)
     }
 
-    /// The leg that is driven, or has brought all where they stand.
+    /// The leg that is driven, or that has brought robots to where they stand.
     pub fn leg(&self) -> Option<&Leg> {
         self.driven.as_ref().map(|driven| &driven.leg)
     }
 
-    /// Whether all that take part in the next leg have its route.
+    /// Whether all robots that take part in the next leg have its route.
     pub fn is_uploaded(&self) -> bool {
         match (&self.upload, self.queue.front()) {
             (Some(upload), Some(leg)) => upload.number == leg.seq && upload.is_done(),
@@ -149,12 +151,14 @@ impl Pipeline {
         }
     }
 
-    /// When something of the upload is due.
+    /// When the upload has something to do next.
     pub fn due(&self) -> Instant {
         self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR).min(self.again_at)
     }
 
-    /// Sends what may be sent now: first routes that were not acknowledged, then those that were not sent yet.
+    /// Sends routes that may be sent now: first those that were not acknowledged, then those that were not sent yet.
+    /// Returns a dropout for a robot that does not acknowledge, and a failure if the link does not deliver for too
+    /// long.
     pub fn pump(
         &mut self,
         context: &mut Context,
@@ -186,7 +190,8 @@ impl Pipeline {
         {
             left -= 1;
             let tries = upload.tries(participant);
-            // Also where it drops out: that may be put off until it is known whether the others answer.
+            // Recorded also for a robot that drops out. The dropout may be put off until it is known whether the
+            // others answer.
             upload.record_sent(now, participant, now + again_after);
             if tries >= context.config.upload.tries {
                 match judge(context, roster, link, upload, (now, participant)) {
@@ -213,7 +218,7 @@ impl Pipeline {
         Next::Stay
     }
 
-    /// A report names the route that its robot keeps; whether more can be sent now.
+    /// Takes in a report, which names the route that its robot keeps. Returns whether more routes can be sent now.
     pub fn acknowledge(
         &mut self,
         link: &mut LinkEstimate,
@@ -234,7 +239,8 @@ impl Pipeline {
         upload.has_unserved()
     }
 
-    /// A robot lost the route that it acknowledged, or never had it: the route is sent again.
+    /// Lets the route be sent again to a robot that lost the route it acknowledged. Does nothing without an
+    /// acknowledgement.
     pub fn upload_again(&mut self, now: Instant, participant: usize) {
         if let Some(upload) = &mut self.upload {
             upload.reopen(now, participant);
@@ -242,8 +248,9 @@ impl Pipeline {
     }
 }
 
-/// What it means that a robot does not acknowledge. Messages may not be delivered: no robot acknowledges though all
-/// report, or the broker came back only now. Then the robot is kept, for as long as a run outlives its broker.
+/// Decides what it means that a robot does not acknowledge. Messages may not be delivered: no robot acknowledges
+/// though this one reports, or the broker came back only recently. The robot is then kept, for as long as a run may
+/// wait for its broker.
 fn judge(
     context: &mut Context,
     roster: &Roster,
@@ -266,8 +273,8 @@ fn judge(
     Unacknowledged::LinkFails
 }
 
-/// Sends a participant its route of a leg, with the change of light that its robot may not know yet, or its first stretch of
-/// light.
+/// Sends a participant its route of a leg. Along with it goes the first stretch of light, or else a change of light
+/// that the robot may not have received yet.
 fn send_route(
     context: &mut Context,
     roster: &Roster,
@@ -280,7 +287,7 @@ fn send_route(
     let robot = roster.robot(context, participant);
     let (topic, abilities) = (Topic::Robot(robot.id), robot.reported.abilities);
     let step = &leg.robots[participant];
-    // The cast rounds down, and less than nothing to nothing.
+    // The cast rounds down, and makes negative values 0.
     let room_mm = abilities.room.then(|| (step.room_m * 1e3).min(ROOM_MAX_MM) as u16);
     let neighbours = step.neighbours.as_deref().filter(|_| abilities.neighbours).cloned().unwrap_or_default();
     let route = Command::Route(Route { seq: leg.seq, start: path.start, pieces, room_mm, neighbours });

@@ -1,26 +1,28 @@
-//! A robot that did not drive as told shows that it can before it takes part again. Otherwise all robots would drive as
-//! if it left its place, and it would stand in their way once more.
+//! A robot that did not drive as told has to show that it can before it takes part again. Otherwise plans would rely
+//! on it to leave its place, and it would stand in the way of others once more.
 //!
-//! The robot is sent a route that is never started. While it waits for the START it turns on the spot towards the begin
-//! of the route. That needs no room, whatever other robots do meanwhile.
+//! The robot is sent a route that is never started. While it waits for the START it turns on the spot into the
+//! direction of the route. A turn needs no room, whatever other robots do meanwhile.
 
 use crate::run::membership::Probation;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Piece, Span, Vec2, wrap};
 use lightbots_wire::{Command, Pieces, Route};
 
-/// The test of a robot's wheels.
+/// Parameters of the test of a robot's wheels.
 struct Test {
     /// How far the robot is to turn, radians: less than a quarter turn, so that its front stays its front.
     turn: f64,
-    /// Having turned by this, radians, it can drive: more than its heading is off.
+    /// Least turn that passes the test, radians: more than the error of the heading.
     turned: f64,
-    /// How long one try may take: several times as long as the turn.
+    /// Longest time of one try: several times as long as the turn.
     bound: Span,
-    /// Number of tries, because all may be stopped meanwhile; then the robot stays excluded.
+    /// Number of tries after which the robot stays excluded. There are several, because all robots may be stopped
+    /// during one.
     tries: u8,
-    /// Length of the route, metres, and its time. It is never started.
+    /// Length of the route, metres. The route is never started.
     route_m: f64,
+    /// Duration of the route.
     route: Span,
 }
 
@@ -36,8 +38,8 @@ const TEST: Test = Test {
 
 const _: () = assert!(TEST.turned < TEST.turn && TEST.turn < std::f64::consts::FRAC_PI_2);
 
-/// A robot that is excluded reports: whether it may take part again as far as its driving is concerned. `is_stopping`:
-/// all are being told to stop, so that it cannot be tested.
+/// Whether an excluded robot that reports may take part again as far as its driving is concerned. Sends the route of
+/// the next try if one is due. `is_stopping`: all robots are being stopped, so the robot cannot be tested.
 pub(crate) fn passes(cx: &mut RunContext, participant: usize, is_stopping: bool) -> bool {
     let robot = cx.robot(participant);
     let probation = cx.participant(participant).probation;
@@ -75,7 +77,7 @@ pub(crate) fn passes(cx: &mut RunContext, participant: usize, is_stopping: bool)
     false
 }
 
-/// The test is over: its route is forgotten.
+/// Ends the test with `outcome`, and sends STOP so that the robot forgets the route.
 fn end(cx: &mut RunContext, participant: usize, outcome: Probation) {
     cx.roster.participants[participant].probation = outcome;
     cx.send(participant, &[Command::Stop]);

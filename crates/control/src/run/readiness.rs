@@ -1,4 +1,4 @@
-//! What a robot lacks to be planned for.
+//! What a robot lacks before it can be planned for.
 
 use crate::context::Context;
 use crate::event::Trouble;
@@ -6,11 +6,12 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::RobotState;
 
-/// A robot that knows TARGET only stands if it reported the same place for this long. A shorter time may be a turn on the
-/// spot before it drives.
+/// A TARGET-only robot (it understands the command TARGET but no routes) counts as standing once it has reported one
+/// place for this long. Within a shorter time it may be turning on the spot before it drives.
 const STILL: Span = Span::from_millis(1_200);
 
-/// What a robot of the fleet lacks to be planned for; `None`: nothing. Reports from before `fresh_from` do not count.
+/// What a robot of the fleet lacks before it can be planned for. `None` if nothing. Reports from before `fresh_from`
+/// do not count.
 pub(crate) fn missing(context: &Context, robot: usize, fresh_from: Instant) -> Option<Trouble> {
     let robot = context.fleet.robot(robot);
     let (reported, heard) = (&robot.reported, robot.contact.heard);

@@ -1,4 +1,4 @@
-//! What recovery may cost: replans for each robot that dropped out, and time. Then the run ends and says why.
+//! The bound on recovery: replans for each robot that dropped out, and time. Beyond it the run ends with a reason.
 
 use std::collections::BTreeMap;
 
@@ -6,45 +6,46 @@ use lightbots_base::{Instant, RobotId, Span};
 
 use crate::event::Trouble;
 
-/// Replans for each robot that dropped out. Two are enough where a dead robot was pushed beside its path. A robot that
-/// still obstructs others after three is not where others see it.
+/// Largest number of replans for each robot that dropped out. Two are enough where a dead robot was pushed beside its
+/// path. A robot that still obstructs others after three is not where others see it.
 const REPLANS: usize = 3;
-/// Recovery may take this long even in a show that is shorter. A robot that falls silent, a drive that is broken off and
-/// a slow one around it take 10 s.
+/// Least bound on the time of recovery, also in shows that are shorter. A robot that falls silent, a drive that is
+/// broken off and a slow drive around the robot take 10 s.
 const LEAST: Span = Span::from_millis(10_000);
 
 /// Replans and time that dropouts have cost until now.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RecoveryBound {
-    /// Robots that dropped out, and the last one of them.
+    /// Number of robots that dropped out; `last` is the latest of them.
     dropouts: usize,
     last: Option<(RobotId, Trouble)>,
-    /// The next plan is made because of one of them.
+    /// Whether the next plan is made because of a dropout.
     replanning: bool,
     replans: usize,
-    /// By frame: how long the drive to it and its air time were planned to take first.
+    /// `[frame]`: duration of the drive to it plus its air time, as first planned.
     planned: BTreeMap<usize, Span>,
     /// When the present frame would have been reached without recovery.
     due: Option<Instant>,
-    /// Time that recovery has cost in the frames before.
+    /// Time that recovery has cost in earlier frames.
     lost: Span,
     paused: Option<Instant>,
 }
 
 impl RecoveryBound {
-    /// A frame was planned; later plans of the same frame change nothing.
+    /// Notes how long the drive to a frame and its air time are planned to take. Later plans of the frame change
+    /// nothing.
     pub fn planned(&mut self, frame: usize, takes: Span) {
         self.planned.entry(frame).or_insert(takes);
     }
 
-    /// A robot dropped out.
+    /// Counts a robot that dropped out.
     pub fn dropped_out(&mut self, robot: RobotId, why: Trouble) {
         self.dropouts += 1;
         self.last = Some((robot, why));
     }
 
-    /// Robots are about to be planned anew because one dropped out, or because one that did stands in their way. `due`:
-    /// when the frame would have been reached.
+    /// Notes that robots are about to be planned anew because one dropped out now, or because an earlier one stands
+    /// in their way. `due`: when robots would have reached the frame. Does nothing before the first dropout.
     pub fn begins(&mut self, due: Instant) {
         if self.dropouts > 0 {
             self.replanning = true;
@@ -52,19 +53,19 @@ impl RecoveryBound {
         }
     }
 
-    /// There is a new plan from where robots stopped.
+    /// Counts the new plan from where robots stopped, if it was made because of a dropout.
     pub fn replanned(&mut self) {
         self.replans += usize::from(std::mem::take(&mut self.replanning));
     }
 
-    /// The frame stands.
+    /// Adds the delay of the frame that robots have reached to the lost time.
     pub fn reached(&mut self, now: Instant) {
         if let Some(due) = self.due.take() {
             self.lost += (now - due).max(Span::ZERO);
         }
     }
 
-    /// The operator pauses the run, or lets it go on: that time does not count.
+    /// Begins or ends a pause by the operator. The time of a pause does not count.
     pub fn pause(&mut self, now: Instant, paused: bool) {
         match self.paused {
             None if paused => self.paused = Some(now),
@@ -76,14 +77,15 @@ impl RecoveryBound {
         }
     }
 
-    /// Time that passed does not count: the broker was away.
+    /// Excludes a time from the bound, for example because the broker was away.
     pub fn put_off(&mut self, by: Span) {
         if let Some(due) = &mut self.due {
             *due += by;
         }
     }
 
-    /// Why the run ends, if recovery has cost too much, or will have by `until`; for people, without a full stop.
+    /// The reason to end the run if recovery has cost too much, or will have by `until`; for people, without a full
+    /// stop. `None` also during a pause.
     pub fn exceeded(&self, until: Instant) -> Option<String> {
         let (robot, why) = self.last.filter(|_| self.paused.is_none())?;
         let advice = "take it off the floor, then play on from this frame";
@@ -145,7 +147,7 @@ mod tests {
         let mut bound = died();
         assert_eq!(bound.exceeded(at(60)), None);
         assert!(bound.exceeded(at(61)).unwrap().contains("longer than the show"));
-        // What is lost in one frame is lost in the next.
+        // Time that is lost in one frame counts in the next.
         bound.reached(at(50));
         bound.begins(at(70));
         assert_eq!(bound.exceeded(at(80)), None);

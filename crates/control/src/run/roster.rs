@@ -1,4 +1,4 @@
-//! The robots that take part in a run, and what is known of each from drive to drive.
+//! The robots that take part in a run, and what is kept of each from drive to drive.
 
 use crate::context::Context;
 use crate::robot::KnownRobot;
@@ -6,7 +6,8 @@ use crate::run::membership::{Membership, Probation};
 use lightbots_base::{Instant, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Where a robot may stand that fell silent on its way, stage metres.
+/// Where a robot that fell silent on its way may stand, stage metres. Empty if that is only the place that it
+/// reported.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Whereabouts {
     /// All possible places.
@@ -15,12 +16,12 @@ pub(crate) struct Whereabouts {
     pub likely: Vec<Vec2>,
 }
 
-/// What a participant has cost that dropped out and reports from places that no plan expects.
+/// What a robot that dropped out has cost by reporting from places that no plan expects.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bystander {
     /// How often all was planned again because a path led through the robot.
     pub replans: u8,
-    /// When paths are compared with its next report, at the earliest.
+    /// Earliest time at which paths are compared with the next report of the robot.
     pub look_at: Instant,
 }
 
@@ -44,18 +45,19 @@ pub(crate) struct Participant {
 /// All robots that take part in a run. Participants are numbered in the order in which they joined.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Roster {
-    /// All that take part or took part; they are never removed, so that their numbers stay valid.
+    /// All robots that take part or took part. They are never removed, so that their numbers stay valid.
     pub participants: Vec<Participant>,
     /// Robots (indices into the fleet) that want to take part from the next frame on.
     pub candidates: Vec<usize>,
     /// When the run began.
     pub begun: Instant,
-    /// How often a participant joined, dropped out or came back: the journal writes them down then.
+    /// How often a participant joined, dropped out, came back or was located. The journal writes the participants
+    /// after such a change.
     pub changes: u64,
 }
 
 impl Participant {
-    /// A robot of the fleet that takes part from now on.
+    /// A robot of the fleet, by its index, that takes part from now on.
     pub fn new(robot: usize) -> Self {
         Self {
             robot,
@@ -74,7 +76,7 @@ impl Participant {
 }
 
 impl Roster {
-    /// All robots take part that can.
+    /// Makes all robots of the fleet that can take part participants.
     pub fn of_fleet(context: &mut Context, now: Instant) -> Self {
         let mut participants = Vec::new();
         for index in 0..context.fleet.robots().len() {
@@ -87,12 +89,12 @@ impl Roster {
         Self { participants, candidates: Vec::new(), begun: now, changes: 0 }
     }
 
-    /// Number of participants, with those that dropped out.
+    /// Number of participants, including those that dropped out.
     pub fn len(&self) -> usize {
         self.participants.len()
     }
 
-    /// Those that did not drop out, with their numbers.
+    /// Participants that did not drop out, with their numbers.
     pub fn active(&self) -> impl Iterator<Item = (usize, &Participant)> {
         self.participants.iter().enumerate().filter(|(_, known)| !known.is_excluded())
     }
@@ -107,7 +109,7 @@ impl Roster {
         context.fleet.robot(self.participants[participant].robot)
     }
 
-    /// Whether any robot that takes part knows TARGET only.
+    /// Whether any TARGET-only robot (it understands the command TARGET but no routes) takes part.
     pub fn has_target_robots(&self, context: &Context) -> bool {
         self.active().any(|(_, known)| context.fleet.robot(known.robot).is_original())
     }
@@ -117,7 +119,7 @@ impl Roster {
         robot.participant.is_none() && robot.contact.found > self.begun
     }
 
-    /// A robot that dropped out reports: where it says that it stands is better known than where it may have stood.
+    /// Forgets where a robot that dropped out may have stood, once it reports where it stands.
     pub fn locate(&mut self, robot: &KnownRobot) {
         let Some(participant) = robot.participant else { return };
         let known = &mut self.participants[participant as usize];
@@ -128,7 +130,7 @@ impl Roster {
         }
     }
 
-    /// The robot of the fleet takes part, for the first time or again.
+    /// Lets a robot of the fleet take part, for the first time or again.
     pub fn admit(&mut self, context: &mut Context, robot: usize) {
         self.changes += 1;
         match context.fleet.robot(robot).participant {

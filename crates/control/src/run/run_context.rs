@@ -26,12 +26,12 @@ pub(crate) struct RunContext<'a> {
 }
 
 impl RunContext<'_> {
-    /// The participant of that number.
+    /// The participant with this number.
     pub fn participant(&self, participant: usize) -> &Participant {
         &self.roster.participants[participant]
     }
 
-    /// What the fleet knows of a participant.
+    /// What the fleet table has about the robot of a participant.
     pub fn robot(&self, participant: usize) -> &KnownRobot {
         self.roster.robot(self.io, participant)
     }
@@ -47,12 +47,13 @@ impl RunContext<'_> {
         !self.roster.is_excluded(participant) && drives
     }
 
-    /// Where a participant stands at the end of the present leg.
+    /// The goal of a participant at the end of the present leg, stage metres.
     pub fn goal(&self, participant: usize) -> Option<Vec2> {
         self.pipeline.leg().and_then(|leg| leg.goal(participant))
     }
 
-    /// Where a participant's robot said it is; its goal where it never said.
+    /// Where a participant's robot last reported to be, stage metres. Its goal if it never reported a place, and the
+    /// origin without a goal.
     pub fn place(&self, participant: usize) -> Vec2 {
         let said = self.robot(participant).reported.at;
         said.or_else(|| self.goal(participant)).unwrap_or(Vec2::ZERO)
@@ -63,7 +64,7 @@ impl RunContext<'_> {
         self.pipeline.leg().is_some_and(|leg| leg.kind == LegKind::Targets)
     }
 
-    /// How long ahead a START is stated now.
+    /// How long before its moment a START is to be sent.
     pub fn start_lead(&self) -> Span {
         self.link.start_lead(&self.io.config, self.roster.len())
     }
@@ -79,7 +80,8 @@ impl RunContext<'_> {
         self.pump()
     }
 
-    /// A participant lost its route or began alone, but can go on: all stop and are planned again, with it.
+    /// Lets all robots stop and be planned again, together with a participant that lost its route or began alone. An
+    /// event says that all wait for it.
     pub fn replan_with(&mut self, participant: usize) -> Next {
         self.report_waiting(participant, Trouble::Cut);
         Next::Regather
@@ -96,7 +98,7 @@ impl RunContext<'_> {
         }
     }
 
-    /// An event says that all wait for a participant.
+    /// Records the event that all wait for a participant.
     pub fn report_waiting(&mut self, participant: usize, why: Trouble) {
         let robot = self.robot(participant).id;
         self.io.log.record_limited(self.now, EventKind::Waiting { robot, why });

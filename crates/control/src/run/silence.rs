@@ -48,8 +48,8 @@ const STRAIGHT_STEP_M: f64 = 0.03;
 /// kept discs, because other robots pass these as closely as the planner allows.
 const SAME_PLACE_M: f64 = 0.002;
 
-/// Where a silent robot may stand. Likely places: along its path from where it last reported, if it died, and where
-/// its path was when all stopped, if only its reports are lost. Possible places also include those where it stops by
+/// Where a silent robot may stand. Likely if it died: along its path from where it last reported. Likely if only its
+/// reports are lost: where its path was when all stopped. Possible places also include those where it stops by
 /// itself, if it receives no messages either. Empty if the robot has reported since the drive began that it stands:
 /// it is where it reported.
 pub(crate) fn whereabouts(

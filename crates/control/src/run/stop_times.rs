@@ -1,13 +1,13 @@
-//! When robots that drove stopped.
+//! When robots stopped on a drive.
 
 use lightbots_base::Instant;
 use serde::{Deserialize, Serialize};
 
-/// A drive that was stopped.
+/// When robots stopped on a drive, show clock.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StopTimes {
-    /// Robots began to stop then …
+    /// When robots began to stop.
     pub began: Instant,
-    /// … and stood then.
+    /// When robots stood.
     pub stood: Instant,
 }

@@ -11,12 +11,12 @@ pub(crate) struct Tally {
     pub frames_played: usize,
     /// Robots that dropped out; a robot that dropped out twice counts twice.
     pub dropouts: usize,
-    /// How often the run was taken up by another controller.
+    /// How often another controller continued the run after the one before was killed.
     pub taken_up: u32,
     /// Bound on the replans and the time of recovery.
     pub recovery: RecoveryBound,
-    /// How long it has waited for clocks.
+    /// How long the run has waited for precise clocks.
     pub clock_wait: ClockWait,
-    /// The first and the last arrival at a place in the next frame, whichever legs lead there.
+    /// When the first and the last robot arrived at a place in the next frame, over all legs that lead there.
     pub arrivals: Option<(Instant, Instant)>,
 }

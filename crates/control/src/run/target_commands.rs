@@ -1,5 +1,5 @@
-//! Commands to robots that know TARGET only. Each is told how far it may go, and farther as the robots that it yields to
-//! make progress.
+//! Commands to TARGET-only robots (they understand the command TARGET but no routes). Each is sent as far as it may
+//! go, and farther as the robots to which it yields make progress.
 
 use crate::run::pipeline::{DrivenLeg, Pipeline};
 use crate::run::run_context::RunContext;
@@ -7,14 +7,16 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Command;
 
-/// Least distance by which a robot is told to go farther, metres: it would not move for less than its tolerance of 20 mm.
+/// Least distance by which a robot is sent farther, metres: it would not move for less than its tolerance of 20 mm.
 const STEP_M: f64 = 0.025;
-/// What a report says lies behind a robot may be off by this, metres.
+/// Largest error of the progress that a robot reports, metres.
 pub(crate) const PASSED_ERROR_M: f64 = 0.01;
-/// Robots that know TARGET only are asked where they are this often, and told again where they make no progress.
+/// Time between requests to TARGET-only robots for their places. A robot without progress is sent its target again as
+/// often.
 pub(crate) const ASK: Span = Span::from_millis(500);
 
-/// How a robot that knows TARGET only comes to rest: it stops ahead of where it is, without turning round.
+/// How a TARGET-only robot is brought to rest: its target is set a little ahead of it, so that it does not turn
+/// round.
 struct Stopping {
     /// Highest speed of the robot, m/s.
     speed_mps: f64,
@@ -25,7 +27,7 @@ struct Stopping {
 /// A lower speed or a shorter reaction would send a robot back to a place that it has passed.
 const STOPPING: Stopping = Stopping { speed_mps: 0.3, reaction: Span::from_millis(150) };
 
-/// Tells a robot to go farther on a straight drive, if it may by now.
+/// Sends a robot farther on a straight drive, if it may go farther by now. Does nothing while progress is held.
 pub(crate) fn grant_farther(cx: &mut RunContext, is_held: bool, place: Option<usize>) {
     let Pipeline { driven: Some(DrivenLeg { leg, targets }), .. } = &mut *cx.pipeline else { return };
     let Some(place) = place else { return };
@@ -47,7 +49,7 @@ pub(crate) fn grant_farther(cx: &mut RunContext, is_held: bool, place: Option<us
     send_target(cx, place);
 }
 
-/// Tells a robot how far it may go.
+/// Sends a robot the target up to which it may go, and its colour.
 pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
     if let Some(driven) = &mut cx.pipeline.driven {
         driven.targets.states[place].sent_at = cx.now;
@@ -60,7 +62,8 @@ pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
     cx.send(participant, &[Command::Target(target), Command::Color(color)]);
 }
 
-/// Where a robot is sent that stops `short_m` before its targets, to stand where its straight drive ends.
+/// The target of a robot that stops `short_m` before its targets, so that it stands where its straight drive ends.
+/// Kept inside the stage.
 pub(crate) fn beyond(cx: &RunContext, drive: &StraightDrive, short_m: f64) -> Vec2 {
     let stage = &cx.playback.show.stage;
     let inset = Vec2::new(stage.limits.radius_m, stage.limits.radius_m);
@@ -70,7 +73,7 @@ pub(crate) fn beyond(cx: &RunContext, drive: &StraightDrive, short_m: f64) -> Ve
     Vec2::new(inside(target.x, drive.to.x, most.x), inside(target.y, drive.to.y, most.y))
 }
 
-/// All robots that know TARGET only go as far as no robot is in their way.
+/// Sends each TARGET-only robot off, as far as no robot is in its way.
 pub(crate) fn begin(cx: &mut RunContext) {
     let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
     for participant in 0..participants {
@@ -79,7 +82,7 @@ pub(crate) fn begin(cx: &mut RunContext) {
     }
 }
 
-/// Asks robots that know TARGET only where they stand.
+/// Asks TARGET-only robots where they stand, if they have not reported for `ASK`.
 pub(crate) fn ask_places(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         let is_asked = !cx.roster.is_excluded(participant) && cx.robot(participant).is_original();
@@ -89,14 +92,14 @@ pub(crate) fn ask_places(cx: &mut RunContext) {
     }
 }
 
-/// Robots on a straight drive stop a little ahead of where they last said they are, and say where that is.
+/// Stops robots on straight drives a little ahead of where they last reported to be, and asks for their places.
 pub(crate) fn halt_all(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         halt(cx, participant);
     }
 }
 
-/// The same for one robot, if it is on a straight drive.
+/// Stops one robot as [`halt_all`] does, if it is on a straight drive.
 pub(crate) fn halt(cx: &mut RunContext, participant: usize) {
     let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return };
     let Some(place) = targets.under_way(participant) else { return };
@@ -110,7 +113,7 @@ pub(crate) fn halt(cx: &mut RunContext, participant: usize) {
     cx.send(participant, &[Command::Target(target), Command::Uuid]);
 }
 
-/// Robots that were halted go on.
+/// Sends robots that were halted on.
 pub(crate) fn resume_all(cx: &mut RunContext) {
     let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
     for participant in 0..participants {

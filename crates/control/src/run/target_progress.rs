@@ -1,45 +1,45 @@
-//! How far robots that know TARGET only are on their straight drives.
+//! Progress of TARGET-only robots (they understand the command TARGET but no routes) on their straight drives.
 
 use crate::leg::Leg;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_plan::unsynchronised::StraightDrive;
 
-/// A robot that stands this near to how far it may go has done what it was told, metres. Such a robot stops up to 20 mm
-/// before its target, and its report may be 10 mm old.
+/// Largest distance to the point up to which it may go at which a standing robot has done what it was told, metres.
+/// The robot stops up to 20 mm before its target, and its report may be 10 mm old.
 const RESTS_M: f64 = 0.06;
 
-/// How far all straight drives of a leg are.
+/// Progress of all straight drives of a leg.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TargetProgress {
-    /// `[straight drive]`.
+    /// `[straight drive]`: its progress.
     pub states: Vec<DriveState>,
-    /// `[straight drive]`: those that yield to it.
+    /// `[straight drive]`: the straight drives that yield to it.
     pub followers: Vec<Vec<usize>>,
-    /// `[participant]`: the straight drive that it is on, or drives next.
+    /// `[participant]`: the straight drive that its robot is on or begins next. `None` after the last one.
     pub present: Vec<Option<usize>>,
 }
 
-/// How far one straight drive is.
+/// Progress of one straight drive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DriveState {
-    /// Share of the drive that surely lies behind the robot, 0 to 1.
+    /// Share of the drive that the robot has surely passed, 0 to 1.
     pub passed: f64,
-    /// Share of the drive that the robot was told to go, 0 to 1; 0: it has not begun.
+    /// Share of the drive up to which the robot may go, 0 to 1. It is 0 before the robot was sent off.
     pub granted: f64,
-    /// When the robot was told last.
+    /// When a target was last sent to the robot.
     pub sent_at: Instant,
-    /// When the robot was told to go farther or made progress last.
+    /// When the robot was last allowed to go farther or made progress.
     pub moved_at: Instant,
-    /// How often the robot was told again because it stood beside its goal.
+    /// How often the target was sent again because the robot stood beside its goal.
     pub corrections: u8,
-    /// The drive is over.
+    /// Whether the drive is over.
     pub done: bool,
-    /// An event said that the robot makes no progress.
+    /// Whether an event has reported that the robot makes no progress or is silent.
     pub is_stalled: bool,
 }
 
 impl TargetProgress {
-    /// No straight drive of the leg has begun.
+    /// The progress of a leg of which no straight drive has begun.
     pub fn new(leg: &Leg) -> Self {
         let state = DriveState {
             passed: 0.0,
@@ -59,32 +59,33 @@ impl TargetProgress {
         Self { states: vec![state; leg.drives.len()], followers, present }
     }
 
-    /// The straight drive that a participant is on, if it was told to go.
+    /// The straight drive that a participant is on. `None` if it was not sent off yet.
     pub fn under_way(&self, participant: usize) -> Option<usize> {
         let place = self.present.get(participant).copied().flatten()?;
         let state = &self.states[place];
         (state.granted > 0.0 && !state.done).then_some(place)
     }
 
-    /// Whether a robot that yields to this straight drive may not drive to its end yet.
+    /// Whether a robot that yields to this straight drive is not yet allowed to drive to the end of its own.
     pub fn is_awaited(&self, place: usize) -> bool {
         self.followers[place].iter().any(|&follower| self.states[follower].granted < 1.0)
     }
 
-    /// Whether the robot has stood still for longer than `bound` although it was told to go on.
+    /// Whether the robot has made no progress for longer than `bound`, although it may go on.
     pub fn stands(&self, place: usize, drive: &StraightDrive, now: Instant, bound: Span) -> bool {
         let state = &self.states[place];
         let rests = state.granted < 1.0 && (state.granted - state.passed) * drive.length_m() < RESTS_M;
         !rests && now - state.moved_at > bound
     }
 
-    /// Whether other robots wait for a participant: it makes no progress as told, or is silent.
+    /// Whether an event has reported that a participant makes no progress on its present drive or is silent.
     pub fn is_stalled(&self, participant: usize) -> bool {
         let present = self.present.get(participant).copied().flatten();
         present.is_some_and(|place| self.states[place].is_stalled)
     }
 
-    /// Share of the lengths of all straight drives that lies behind their robots, by what these reported; 0 to 1.
+    /// Share of the lengths of all straight drives that robots have passed by their reports, 0 to 1. It is 1 if there
+    /// are none.
     pub fn share(&self, leg: &Leg) -> f64 {
         let whole_m: f64 = leg.drives.iter().map(StraightDrive::length_m).sum();
         let passed_m: f64 = leg
@@ -96,7 +97,8 @@ impl TargetProgress {
         if whole_m > 0.0 { passed_m / whole_m } else { 1.0 }
     }
 
-    /// Where a robot may stand that fell silent on its straight drive: stage metres, about every `step_m`.
+    /// Places where a robot that fell silent on its straight drive may stand, stage metres, at most `step_m` apart.
+    /// Empty if it is on no straight drive.
     pub fn whereabouts(&self, leg: &Leg, participant: usize, step_m: f64) -> Vec<Vec2> {
         let Some(place) = self.under_way(participant) else { return Vec::new() };
         let (drive, state) = (&leg.drives[place], &self.states[place]);

@@ -10,13 +10,14 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_show::FrameLoop;
 use lightbots_wire::RobotState;
 
-/// An arrival that is reported within this of the planned end is in time: the frame stands since the planned end.
+/// Largest delay of the last arrival after the planned end that counts as in time. The air time then counts from the
+/// planned end.
 const IN_TIME: Span = Span::from_millis(250);
-/// A robot that stands farther from its goal than this has missed it, metres: more than a robot's diameter of 54 mm.
+/// Distance from its goal beyond which a robot has missed the goal, metres: more than a robot's diameter of 54 mm.
 pub(crate) const MISSED_M: f64 = 0.06;
 
 impl Driving {
-    /// A robot that follows paths says that it arrived.
+    /// Handles the arrival of a robot that follows paths.
     pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, at: Option<Vec2>) -> Next {
         let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return Next::Stay };
         if !self.is_under_way(cx, participant) {
@@ -27,14 +28,15 @@ impl Driving {
         if begun && is_there(at, goal, cx.io.config.arrival_tolerance_m) {
             self.arrive(cx, participant)
         } else if cx.now + IN_TIME >= self.clock.ends && !is_held && off_m <= MISSED_M {
-            // The robot believes to be there and will not say so again.
+            // The robot takes this place for its goal and will not report its arrival again.
             self.accept_misaligned(cx, participant, off_m)
         } else {
             Next::Stay
         }
     }
 
-    /// Robots that had ended the leg's route before it was under way here will not say so again.
+    /// Counts the arrival of robots that ended the leg's route before the controller began the drive. They will not
+    /// report it again.
     pub fn arrive_before_start(&mut self, cx: &mut RunContext) -> Next {
         let Some(leg) = cx.pipeline.leg().filter(|leg| leg.kind == LegKind::Routes) else {
             return Next::Stay;
@@ -50,7 +52,7 @@ impl Driving {
         there.into_iter().fold(Next::Stay, |next, participant| next.or_else(|| self.arrive(cx, participant)))
     }
 
-    /// Counts an arrival; the last one ends the leg.
+    /// Counts an arrival, once for each participant. The last one ends the leg.
     pub fn arrive(&mut self, cx: &mut RunContext, participant: usize) -> Next {
         if std::mem::replace(&mut self.progress[participant].arrived, true) {
             return Next::Stay;
@@ -66,7 +68,7 @@ impl Driving {
         self.end_leg(cx)
     }
 
-    /// A robot that stands off its goal for good counts as arrived, and the rest is planned from where it is.
+    /// Counts a robot that stands off its goal for good as arrived. Later legs are planned again from where it is.
     pub fn accept_misaligned(&mut self, cx: &mut RunContext, participant: usize, off_m: f64) -> Next {
         let robot = cx.robot(participant).id;
         cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m });
@@ -96,7 +98,8 @@ impl Driving {
     }
 }
 
-/// The frame stands; it was to stand by plan at `ends`.
+/// Notes that robots have reached a frame: events, counts, and whether the run waits for GO. By plan they were to
+/// reach it at `ends`.
 fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     let spread = cx.tally.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
     let wait = (cx.now - ends).max(Span::ZERO);
@@ -124,15 +127,15 @@ fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     cx.playback.advance();
 }
 
-/// The loop that begins with a frame that was just reached. A show that is played from a frame within a loop begins it
-/// there.
+/// The loop that begins with a frame that was just reached, if any. If a show is played from a frame within a loop,
+/// the loop begins there.
 fn begins_loop(cx: &RunContext, frame: usize) -> Option<FrameLoop> {
     let repeats = cx.playback.loop_at(frame)?;
     let begins = frame == repeats.first || cx.tally.frames_played == 1;
     (begins && cx.playback.next.pass == 0).then_some(repeats)
 }
 
-/// Whether a place is the goal, as the original firmware tests it: along x and along y.
+/// Whether a place is at the goal, as the original firmware tests it: along x and along y.
 pub(crate) fn is_there(at: Vec2, goal: Vec2, tolerance_m: f64) -> bool {
     (at.x - goal.x).abs() <= tolerance_m + 1e-9 && (at.y - goal.y).abs() <= tolerance_m + 1e-9
 }

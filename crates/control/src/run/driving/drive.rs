@@ -5,61 +5,62 @@ use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Command;
 
-/// Robots are watched this often.
+/// Time between two turns of the watch over robots.
 pub(crate) const WATCH_EVERY: Span = Span::from_millis(100);
-/// Robots that have not arrived are asked this long after the planned end: an arrival in time is reported by then.
+/// How long after the planned end robots that have not arrived are asked. An arrival in time is reported by then.
 pub(crate) const ASK_AFTER_END: Span = Span::from_millis(300);
 
-/// A robot is asked for a report this often at most.
+/// Least time between two requests for a report to one robot.
 pub(crate) const ASKED_EVERY: Span = Span::from_millis(90);
 
-/// A robot on its way.
+/// What the controller notes of a robot on a drive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RobotProgress {
-    /// The robot reached the goal of the leg.
+    /// Whether the robot has reached the goal of the leg.
     pub arrived: bool,
-    /// Since when the robot is too far off its path.
+    /// Since when all wait for the robot: it is off its path, unsure of its place, obstructed or silent.
     pub late_since: Option<Instant>,
-    /// The robot is late because it is not sure of its place.
+    /// Whether the robot is late because it is unsure of its place.
     pub is_unsure: bool,
     /// Since when the robot reports an obstacle in its path.
     pub obstructed_since: Option<Instant>,
-    /// When the robot last reported an obstacle while it was not late yet: then the obstacle is why it is late.
+    /// When the robot last reported an obstacle before it was late, or just after. The obstacle is then the reason
+    /// why it is late.
     pub obstructed_at: Option<Instant>,
-    /// Since when the robot owes a report, because a robot near it is obstructed.
+    /// Since when a report of the robot is awaited, because a robot near it is obstructed.
     pub probed_since: Option<Instant>,
     /// When the robot was last asked for a report.
     pub asked_at: Instant,
-    /// When the robot was last on its route although the plan has ended.
+    /// When the robot was last on its route or made progress, counted until some time after the planned end.
     pub on_route_at: Instant,
-    /// Shortest distance to its goal, metres, and when the robot last came nearer by a step that counts.
+    /// Shortest distance to its goal, metres, and when the robot last came nearer by at least `NEARER_M`.
     pub nearest: (f64, Instant),
 }
 
-/// One drive.
+/// The state of one drive.
 #[derive(Clone, Debug)]
 pub(crate) struct Driving {
     pub clock: PathClock,
-    /// `[participant]`.
+    /// `[participant]`: what is noted of its robot.
     pub progress: Vec<RobotProgress>,
-    /// Number of robots that arrived.
+    /// Number of robots that have arrived.
     pub arrivals: usize,
-    /// When the last of them did.
+    /// When the last of these robots arrived.
     pub last_arrival: Instant,
     /// Number of robots that are late.
     pub late: usize,
-    /// When START is repeated, so that robots know that the link works.
+    /// When START is repeated next, so that robots know that the link works.
     pub heartbeat_at: Instant,
     /// When robots are watched next.
     pub watch_at: Instant,
-    /// When robots that have not arrived are asked.
+    /// When the controller begins to ask robots that have not arrived.
     pub ask_at: Instant,
-    /// The participant with which the watch goes on.
+    /// The participant with which the next turn of the watch begins.
     pub watched: usize,
 }
 
 impl Driving {
-    /// Asks a robot for a report, at a bounded rate.
+    /// Asks a robot for a report, unless it was asked less than [`ASKED_EVERY`] ago.
     pub fn ask(&mut self, cx: &mut RunContext, participant: usize) {
         if cx.now - self.progress[participant].asked_at >= ASKED_EVERY {
             self.progress[participant].asked_at = cx.now;
@@ -67,7 +68,7 @@ impl Driving {
         }
     }
 
-    /// A drive that began now, of that many participants.
+    /// The state of a drive that has just begun, for the given number of participants.
     pub fn new(clock: PathClock, now: Instant, heartbeat_at: Instant, participants: usize) -> Self {
         let progress = RobotProgress {
             arrived: false,
@@ -93,7 +94,7 @@ impl Driving {
         }
     }
 
-    /// When something is due.
+    /// When [`on_tick`](Self::on_tick) has something to do next.
     pub fn due(&self) -> Instant {
         let release_at = self.clock.hold.and_then(|hold| hold.release_at).unwrap_or(Instant::FAR);
         self.watch_at.min(self.heartbeat_at).min(release_at)

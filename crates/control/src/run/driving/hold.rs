@@ -10,15 +10,17 @@ use crate::run::target_commands;
 use lightbots_base::Span;
 use lightbots_wire::{Command, Route};
 
-/// How often HOLD and RESUME are sent, and how far apart: with one message in ten lost, one robot of 100,000 misses all.
+/// How many copies of HOLD and RESUME are sent, and the time between them. With one message in ten lost, one robot of
+/// 100,000 misses all copies.
 const COPIES: (u32, Span) = (5, Span::from_millis(30));
-/// Least time that is left of a drive for a hold to be worth it: robots take [`Route::EASE`] to stop and to pick up.
+/// Least time before the planned end at which a hold is worth it: robots take [`Route::EASE`] to stop and to pick up.
 const WORTH: Span = Span::from_millis(400);
-/// How long after all should stand it is looked at whether they do: time for a report of each.
+/// How long after all should stand the controller checks whether they do: time for a report of each.
 const CHECK_AFTER: Span = Span::from_millis(400);
 
 impl Driving {
-    /// All robots slow down together.
+    /// Lets all robots slow down together. If they are held already, the hold is only prolonged. Does nothing shortly
+    /// before the end of the drive, unless the operator asks.
     pub fn hold(&mut self, cx: &mut RunContext, by_operator: bool) {
         let (now, clock) = (cx.now, &mut self.clock);
         if let Some(hold) = &mut clock.hold
@@ -33,7 +35,7 @@ impl Driving {
         }
         let mut at = now + cx.link.hold_lead();
         if let Some(Hold { at: before, until: Some(until), .. }) = clock.hold {
-            // All are still picking up again: they stop once they have.
+            // Robots may still be picking up speed: the new hold begins after that.
             at = at.max(until + Route::EASE);
             clock.lost += until - before;
         }
@@ -46,8 +48,8 @@ impl Driving {
         }
     }
 
-    /// All robots pick up again together, once all stand. RESUME is stated as late as it can be: stated earlier, one hold
-    /// after the other would be postponed until long after its reason.
+    /// Lets all robots pick up again together, once all stand. RESUME is sent as late as possible. If it were sent
+    /// earlier, the next hold could only begin long after its reason.
     pub fn release(&mut self, cx: &mut RunContext) {
         let (now, lead) = (cx.now, cx.link.resume_lead());
         let Some(hold) = self.clock.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
@@ -69,7 +71,7 @@ impl Driving {
         }
     }
 
-    /// The operator goes on.
+    /// Ends a hold of the operator. Robots pick up again unless one is late.
     pub fn resume(&mut self, cx: &mut RunContext) {
         if let Some(hold) = &mut self.clock.hold {
             hold.by_operator = false;
@@ -79,7 +81,7 @@ impl Driving {
         }
     }
 
-    /// A participant is late: all wait for it.
+    /// Notes that a participant is late and holds all robots.
     pub fn mark_late(&mut self, cx: &mut RunContext, participant: usize, why: Trouble) {
         self.late += 1;
         self.progress[participant].late_since = Some(cx.now);
@@ -91,7 +93,7 @@ impl Driving {
         self.hold(cx, false);
     }
 
-    /// A participant is late no more, if it was; whether it was.
+    /// Notes that a participant is no longer late. Returns whether it was late.
     pub fn clear_late(&mut self, participant: usize) -> bool {
         let was_late = self.progress[participant].late_since.take().is_some();
         if was_late {

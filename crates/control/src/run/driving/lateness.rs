@@ -1,4 +1,4 @@
-//! Robots off their paths, and robots that are not sure of their place: all wait for them, within bounds.
+//! Robots off their paths, and robots that are unsure of their place: all wait for both, within bounds.
 
 use crate::event::Trouble;
 use crate::run::driving::drive::Driving;
@@ -6,28 +6,28 @@ use crate::run::run_context::RunContext;
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Details;
 
-/// Largest distance off its path at which no robot waits for a robot, metres, however much room the plan leaves.
+/// Largest distance off its path that a robot may have before all wait for it, metres, if the plan leaves much room.
 pub(crate) const LATE_MAX_M: f64 = 0.03;
-/// Share of the bound for late robots below which a robot is back on its path: hysteresis.
+/// Share of the bound for late robots below which a robot is back on its path. The gap between both is hysteresis.
 const BACK: f64 = 0.6;
 
-/// Standard errors of a robot's place (1 sigma) that count.
+/// Bounds on the standard error of a robot's place (1 sigma).
 struct Uncertainty {
-    /// A robot with a smaller error makes no robot wait, metres.
+    /// Error below which no robot waits, metres.
     sure_m: f64,
-    /// A robot with a larger error makes all wait, before it is `lost` at 20 mm (R46), metres.
+    /// Error from which on all robots wait, metres. The robot is `lost` at 20 mm (R46).
     unsure_m: f64,
-    /// Between them all wait where another robot comes nearer than this many sigma …
+    /// Between these two errors all wait if another robot comes closer than contact plus this many sigma ...
     sigmas: f64,
-    /// … and this for errors of the other robot, metres …
+    /// ... and plus this for errors of the other robot, metres ...
     others_m: f64,
-    /// … within this time …
+    /// ... within this time ...
     ahead: Span,
-    /// … in steps of this.
+    /// ... sampled in steps of this.
     step: Span,
 }
 
-/// Smaller bounds hold the fleet for noise; larger ones let robots touch whose fixes stay away.
+/// Smaller bounds hold the fleet because of noise. With larger ones robots that get no fixes touch others.
 const UNCERTAINTY: Uncertainty = Uncertainty {
     sure_m: 0.004,
     unsure_m: 0.010,
@@ -39,12 +39,12 @@ const UNCERTAINTY: Uncertainty = Uncertainty {
 
 const _: () = assert!(UNCERTAINTY.sure_m < UNCERTAINTY.unsure_m && UNCERTAINTY.others_m < UNCERTAINTY.sure_m);
 
-/// How long all wait for robots that are unsure of their place. In a large fleet some robot is unsure all the time.
+/// How long all wait for robots that are unsure of their place. In a large fleet some robot is unsure at any time.
 struct Patience {
-    /// In fleets of up to `robots`; in larger ones less, in proportion.
+    /// Time in fleets of up to `robots`; in larger fleets it is shorter in proportion.
     longest: Span,
     robots: f64,
-    /// In the largest fleets.
+    /// Shortest time, for the largest fleets.
     shortest: Span,
 }
 
@@ -53,7 +53,7 @@ const PATIENCE: Patience =
     Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
 
 impl Driving {
-    /// A driving robot says how far it is off its path, and how sure it is of its place.
+    /// Handles how far a driving robot reports to be off its path, and how sure it is of its place.
     pub fn on_progress(&mut self, cx: &mut RunContext, participant: usize, details: &Details) {
         let room_m = cx.pipeline.leg().map_or(0.0, |leg| leg.room_m);
         let late_m = cx.io.config.late.off_m.max((room_m / 2.0).min(LATE_MAX_M));
@@ -69,7 +69,7 @@ impl Driving {
         }
     }
 
-    /// Whether a robot may touch another before all could stand, if its place is off by as much as it may be.
+    /// Whether a robot may touch another before all could stand, if its place is off by as much as its error allows.
     fn is_too_unsure(&self, cx: &RunContext, participant: usize, err_m: f64) -> bool {
         let Uncertainty { sure_m, unsure_m, sigmas, others_m, ahead, step } = UNCERTAINTY;
         let Some(leg) = cx.pipeline.leg() else { return false };
@@ -93,8 +93,8 @@ impl Driving {
         })
     }
 
-    /// All go on after a while though robots are unsure, and hold again for those that still are. The more robots, the
-    /// sooner: in a large fleet some robot is unsure all the time, and waiting would never end.
+    /// Ends a hold after a while although robots are unsure. All hold again for those that still are. The more
+    /// robots, the sooner: in a large fleet some robot is unsure at any time, and waiting would never end.
     pub fn lose_patience(&mut self, cx: &mut RunContext) {
         let share = PATIENCE.robots / (cx.roster.len().max(1) as f64);
         let longest_s = PATIENCE.longest.as_secs();

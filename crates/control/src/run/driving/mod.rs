@@ -1,4 +1,5 @@
-//! Robots drive. All state of a drive lives and dies here; read [`drive`] first, then the files in the order of the list.
+//! The phase in which robots drive. All state of a drive lives and dies here; read [`drive`] first, then the files in
+//! the order of the list.
 
 mod arrivals;
 mod drive;
@@ -27,28 +28,30 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 
-/// START of the drive under way is repeated, so that robots know that the link works (R43: 1.9 s). The more often, the
-/// nearer to each other do robots fall silent whose link breaks while copies are on their way.
+/// How often START of the present drive is repeated, so that robots know that the link works (R43: 1.9 s). The link
+/// may break while copies are on their way. The shorter the interval, the closer together in time do robots then
+/// stop.
 const HEARTBEAT: Heartbeat =
     Heartbeat { a_robot: Span::from_millis(2), least: Span::from_millis(60), most: Span::from_millis(500) };
-/// Routes of the next leg wait this long after the drive began. A robot whose clock or step is a little behind has not
-/// begun it yet, and would take the next route in its place.
+/// How long after a drive began routes of the next leg are held back. A robot whose clock or step is a little behind
+/// has not begun the drive yet, and would replace its route by the next one.
 const BEGUN: Span = drive::WATCH_EVERY;
-/// Reports older than this at the begin of a drive may be from before it.
+/// How long after a drive began a report may still describe the time before.
 const OLD_REPORTS: Span = Span::from_millis(800);
-/// A robot whose clock is ahead may end its route this much before the planned end.
+/// How long before the planned end a robot whose clock is ahead may end its route.
 const EARLY: Span = Span::from_millis(100);
 
-/// Time between two copies of START.
+/// Parameters of the time between two copies of START.
 struct Heartbeat {
-    /// For each robot, because every copy goes to every robot: 500 messages a second up to the fleet that reaches `most`.
+    /// Time for each robot, because every copy goes to every robot. This makes 500 messages a second, up to the fleet
+    /// that reaches `most`.
     a_robot: Span,
     least: Span,
     most: Span,
 }
 
 impl Heartbeat {
-    /// `rests`: robots stand in a hold, and fall silent where they are.
+    /// Time between two copies. `rests`: robots stand in a hold, and stay where they are if the link breaks.
     fn every(&self, robots: usize, rests: bool) -> Span {
         let by_count = self.a_robot * i64::try_from(robots).unwrap_or(i64::MAX);
         if rests { self.most } else { by_count.clamp(self.least, self.most) }
@@ -56,7 +59,8 @@ impl Heartbeat {
 }
 
 impl Driving {
-    /// The first leg of the queue is under way since `began`.
+    /// Begins the drive of the first leg of the queue, which is under way since `began`. Also returns what comes
+    /// next, if all have arrived already. Panics if no leg is queued.
     pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
         let leg = cx.pipeline.drive_next().expect("a drive begins with a planned leg");
         let clock = PathClock::new(began, leg.duration);
@@ -78,7 +82,8 @@ impl Driving {
         (drive, next)
     }
 
-    /// Robots learn their lights; those that know TARGET only also where to go.
+    /// Sends robots their lights, and TARGET-only robots (they understand the command TARGET but no routes) also
+    /// their targets.
     fn begin_leg(&mut self, cx: &mut RunContext) {
         let Pipeline { driven: Some(driven), queue, lights, light, .. } = &mut *cx.pipeline else { return };
         lights.forget(cx.roster.len());
@@ -99,7 +104,7 @@ impl Driving {
         }
     }
 
-    /// A participant reports.
+    /// Handles a report of a participant.
     pub fn on_report(
         &mut self,
         cx: &mut RunContext,
@@ -132,7 +137,7 @@ impl Driving {
         }
     }
 
-    /// A robot that follows a path says how it is.
+    /// Handles a status report of a robot that follows a path.
     fn on_status(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
         if !self.is_under_way(cx, participant) {
             return Next::Stay;
@@ -150,12 +155,12 @@ impl Driving {
         }
     }
 
-    /// A robot that should drive says that it stands: it arrived, or it lost its route.
+    /// Handles the report of a robot that stands although it should drive: it arrived, or it lost its route.
     fn on_rest(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
         let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
         let has_route = details.route == leg.seq;
         let goal = leg.robots[participant].goal;
-        // Whether a robot that only had to rest began too early makes no difference.
+        // It makes no difference whether a robot that only had to rest began too early.
         let rested = has_route && leg.path(participant).is_some_and(|path| path.as_ref().rests());
         let at = cx.robot(participant).reported.at;
         let there = at.is_some_and(|at| is_there(at, goal, cx.io.config.arrival_tolerance_m));
@@ -169,7 +174,7 @@ impl Driving {
         }
     }
 
-    /// Time passes.
+    /// Does what is due: hold and release, copies of START, light, uploads, the watch, and the end of the leg.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if cx.playback.paused && self.clock.hold.is_none() {
             self.hold(cx, true);
@@ -189,7 +194,7 @@ impl Driving {
         cx.pump().or_else(|| self.watch(cx)).or_else(|| self.end_leg(cx))
     }
 
-    /// Where a participant may stand that fell silent, by what other robots see.
+    /// Where a participant that fell silent may stand, narrowed by what other robots see.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
         let stop = StopTimes { began: cx.now, stood: cx.now };

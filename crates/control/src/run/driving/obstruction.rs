@@ -9,21 +9,22 @@ use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Blocked, Command};
 
-/// Robots nearer than this to an obstructed one are asked for a report, metres: one of them may be dead in its path.
+/// Distance to an obstructed robot within which robots are asked for a report, metres: one of them may be dead in its
+/// path.
 const NEAR_M: f64 = 0.5;
-/// A robot that was asked and does not answer within this, link times on top, is silent.
+/// Time within which a robot that was asked has to answer, or it counts as silent; link times come on top.
 const ANSWER: Span = Span::from_millis(800);
-/// A robot that was asked and does not answer within this may be silent: all are asked, to know whether the link is lost.
+/// Time without an answer after which all robots are asked, to know whether the link is lost; link times come on top.
 const DOUBT: Span = Span::from_millis(50);
-/// An obstacle that obstructs a robot for longer is there to stay.
+/// Time after which an obstacle that still obstructs a robot counts as permanent.
 const STAYS: Span = Span::from_millis(1_500);
-/// Time that is left for a late or silent robot to be dropped first, as it may be the obstacle.
+/// Time that is added so that a late or silent robot drops out first, because that robot may be the obstacle.
 const SUSPECT: Span = Span::from_millis(500);
-/// How often obstacles in a robot's path lead to a new plan; then the robot itself drops out.
+/// Largest number of new plans because of obstacles in one robot's path. After that the robot itself drops out.
 const REPLANS_MAX: u8 = 3;
 /// Most obstacles that are remembered; more would leave no path.
 const FOUND_MAX: usize = 32;
-/// A robot that brakes for something falls behind at most this long before it reports an obstacle.
+/// Longest time for which a robot that brakes is late before it reports the obstacle.
 const BRAKES: Span = Span::from_millis(150);
 
 impl RobotProgress {
@@ -38,7 +39,7 @@ impl RobotProgress {
 }
 
 impl Driving {
-    /// A robot reports what stands in its path, or that nothing does.
+    /// Handles a robot's report of an obstacle in its path, or of none. All hold for a new obstacle.
     pub fn on_obstruction(&mut self, cx: &mut RunContext, participant: usize, blocked: Option<Blocked>) {
         let progress = &mut self.progress[participant];
         if blocked.is_none() {
@@ -58,7 +59,7 @@ impl Driving {
         self.probe_around(cx, participant);
     }
 
-    /// Asks robots near an obstructed one for a report.
+    /// Asks robots near an obstructed robot for a report.
     fn probe_around(&mut self, cx: &mut RunContext, participant: usize) {
         let Some(at) = cx.robot(participant).reported.at else { return };
         for other in 0..cx.roster.len() {
@@ -73,7 +74,7 @@ impl Driving {
         }
     }
 
-    /// Watches a robot that was asked for a report; `None`: it owes none.
+    /// Watches a robot whose report is awaited, if any is. Returns its dropout if the report is overdue.
     pub fn watch_probed(&mut self, cx: &mut RunContext, participant: usize) -> Option<Next> {
         let since = self.progress[participant].probed_since?;
         if cx.robot(participant).contact.heard > since {
@@ -89,7 +90,8 @@ impl Driving {
         None
     }
 
-    /// Watches a robot that is obstructed since then: all is planned again around an obstacle that stays.
+    /// Watches a robot that is obstructed since `since`. If the obstacle stays, the late robot that it is drops out,
+    /// or all is planned again around it.
     pub fn watch_obstructed(&mut self, cx: &mut RunContext, participant: usize, since: Instant) -> Next {
         if cx.now - since > STAYS
             && let Some(culprit) = self.late_robot_seen_by(cx, participant)
@@ -119,7 +121,7 @@ impl Driving {
     }
 
     /// The late robot that an obstructed one sees. It was late before it reported an obstacle itself, because a robot
-    /// that stands sees others come near. A robot that waits for its fixes is no culprit.
+    /// that stands sees others come near. A robot that waits for its fixes does not count.
     fn late_robot_seen_by(&self, cx: &RunContext, participant: usize) -> Option<usize> {
         let there = seen_by(cx.robot(participant), cx.playback.contact_m())?;
         let is_there = |one: usize| cx.robot(one).reported.at.is_some_and(|at| at.distance(there) < SAME_M);
@@ -127,7 +129,7 @@ impl Driving {
         cx.roster.active().map(|(one, _)| one).find(|&one| is_late(one) && is_there(one))
     }
 
-    /// Narrows where silent robots stand, by what other robots see since.
+    /// Narrows where silent robots may stand, by what other robots have seen since.
     fn locate_silent(&self, cx: &mut RunContext) {
         let seen = self.sightings(cx);
         for known in &mut cx.roster.participants {
@@ -138,7 +140,7 @@ impl Driving {
         }
     }
 
-    /// What obstructed robots see, without robots that reported their places.
+    /// What obstructed robots see in their paths, without robots that reported their places.
     pub fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
         let known: Vec<Vec2> = cx.roster.active().filter_map(|(one, _)| cx.robot(one).reported.at).collect();

@@ -1,46 +1,47 @@
-//! Where robots stand that other robots see in their path.
+//! Locates silent robots by what other robots see in their paths.
 
 use crate::robot::KnownRobot;
 use lightbots_base::{Vec2, wrap};
 
-/// A place this near to where a robot sees something may be what it sees, metres.
+/// Largest distance from what a robot sees at which a place may be the place of it, metres.
 pub(crate) const SAME_M: f64 = 0.035;
-/// Places of a path nearer to each other than this follow on each other, metres.
+/// Places of a path that are closer to each other than this are neighbours on it, metres.
 const NEXT_M: f64 = 0.03;
-/// Number of parts into which the path between two of them is cut.
+/// Number of parts into which the path between two neighbours is cut.
 const PARTS: u32 = 8;
 
-/// Standard deviations of what is known of a robot that others see, metres. Smaller ones make the estimate jump from
-/// sighting to sighting; larger ones leave the robot where its path says, though it was pushed.
+/// Standard deviations for the place of a robot that others see, metres. Smaller ones make the estimate jump from
+/// sighting to sighting. Larger ones leave the robot where its path says, though it was pushed.
 struct Sigma {
     /// Of a sighting along the line of sight: 1 mm of the sensor, and the error of the robot's own place.
     range_m: f64,
     /// Of a sighting across the line of sight: sensors are 45 degrees apart, at 55 mm.
     bearing_m: f64,
-    /// Of a robot that died, beside its path.
+    /// Of a dead robot beside its path.
     path_m: f64,
-    /// The same where several robots see it: those that ran into it have pushed it.
+    /// Of a dead robot beside its path, if several robots see it: those that ran into it have pushed it.
     pushed_m: f64,
 }
 
 /// 1 sigma each.
 const SIGMA: Sigma = Sigma { range_m: 0.002, bearing_m: 0.018, path_m: 0.002, pushed_m: 0.008 };
 
-/// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200. What is
-/// seen farther off is something else.
+/// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200. A
+/// sighting farther off is of something else.
 const PUSHED_M: f64 = 0.05;
 /// Largest difference in range at which a robot that reported its place explains a sighting, metres: 4 sigma.
 const KNOWN_RANGE_M: f64 = 0.008;
 /// Largest error in bearing of a sighting, radians: half the angle between two sensors.
 const BEARING: f64 = 0.4;
-/// Places are tried this far apart, metres.
+/// Distance between two places that are tried, metres.
 const SEARCH_STEP_M: f64 = 0.001;
 /// Number of steps to each side of the mean of all sightings: farther than a sensor's bearing is off.
 const SEARCH_STEPS: i32 = 25;
 /// Least gap that a sighting counts as, metres: the planner finds no path out of a contact.
 const GAP_MIN_M: f64 = 0.0015;
 
-/// Where the centre is of what a robot sees in its path, if that is a robot; stage metres.
+/// The centre of what a robot sees in its path, if that is a robot; stage metres. `None` if it reports no place or
+/// sees nothing.
 pub(crate) fn seen_by(robot: &KnownRobot, contact_m: f64) -> Option<Vec2> {
     let (at, blocked) = (robot.reported.at?, robot.reported.blocked?);
     Some(at + Vec2::unit(blocked.towards) * (contact_m + blocked.gap_m.max(GAP_MIN_M)))
@@ -49,27 +50,28 @@ pub(crate) fn seen_by(robot: &KnownRobot, contact_m: f64) -> Option<Vec2> {
 /// Something that a robot sees in its path, stage metres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sighting {
-    /// Where the robot stands that sees it.
+    /// Where the robot that sees stands.
     pub from: Vec2,
-    /// Where its centre is, if it is a robot.
+    /// Centre of what it sees, if that is a robot.
     pub there: Vec2,
 }
 
 impl Sighting {
-    /// The place in the direction of `towards` that is as far away as what was seen.
+    /// The place in the direction of `towards` at the distance of the sighting.
     fn at_range(&self, towards: Vec2) -> Vec2 {
         let direction = (towards - self.from).normalized();
         direction.map_or(self.there, |unit| self.from + unit * self.from.distance(self.there))
     }
 
-    /// How far the robot is from a place at least, metres: as far away as what was seen, in about its direction.
+    /// Least distance between a place and what was seen, metres, if the bearing of the sighting is off by up to
+    /// `BEARING`.
     fn off_m(&self, place: Vec2) -> f64 {
         let (seen, there) = (self.there - self.from, place - self.from);
         let aside = wrap(there.angle() - seen.angle()).clamp(-BEARING, BEARING);
         (self.from + Vec2::unit(seen.angle() + aside) * seen.length()).distance(place)
     }
 
-    /// Whether a robot that stands at a place explains it.
+    /// Whether a robot that stands at a place explains the sighting.
     pub fn is_of(&self, at: Vec2) -> bool {
         let (seen, known) = (self.there - self.from, at - self.from);
         let aside = wrap(seen.angle() - known.angle()).abs();
@@ -77,9 +79,9 @@ impl Sighting {
     }
 }
 
-/// Where a robot stands that fell silent on its path, of which `places` are known: one place for each group of sightings
-/// near the path. A robot that was run into stands beside its path, and a sensor tells range much better than bearing.
-/// Where only one robot sees it, all places between what its path and what the sensor says are kept clear.
+/// Where a robot that fell silent on its path stands, by places of that path: one place for each group of sightings
+/// near the path. A robot that was run into stands beside its path, and a sensor measures range much better than
+/// bearing. If only one robot sees it far from the estimate, places up to the sighting itself are added.
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     let mut path: Vec<Vec2> = places.to_vec();
     path.extend(between(places));
@@ -102,7 +104,8 @@ fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     found
 }
 
-/// Of the places where a silent robot may stand, keeps those where other robots see something, if they see any.
+/// Replaces the places where a silent robot may stand by those where other robots see something near. If they see
+/// nothing there, the places stay.
 pub(crate) fn narrow(places: &mut Vec<Vec2>, sightings: &[Sighting]) {
     let seen = located(places, sightings);
     if !seen.is_empty() {
@@ -110,7 +113,7 @@ pub(crate) fn narrow(places: &mut Vec<Vec2>, sightings: &[Sighting]) {
     }
 }
 
-/// The most likely place by a group of sightings and a path: least squares, by steps of [`SEARCH_STEP_M`].
+/// The most likely place by a group of sightings and a path: least squares on a grid of [`SEARCH_STEP_M`].
 fn fused(path: &[Vec2], group: &[Sighting]) -> Vec2 {
     let middle = group.iter().fold(Vec2::ZERO, |sum, seen| sum + seen.there) / group.len() as f64;
     let path_error_m = if group.len() == 1 { SIGMA.path_m } else { SIGMA.pushed_m };
@@ -129,7 +132,7 @@ fn fused(path: &[Vec2], group: &[Sighting]) -> Vec2 {
     tried.min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(middle)
 }
 
-/// Places on the stretches of a path between those that are known.
+/// Places between neighbours on a path, at equal parts.
 fn between(places: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
     let stretches = places.windows(2).filter(|pair| pair[0].distance(pair[1]) < NEXT_M);
     stretches
@@ -140,12 +143,12 @@ fn between(places: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
 mod tests {
     use super::*;
 
-    /// A path along x, known every 13 mm.
+    /// A path along x, sampled every 13 mm.
     fn path() -> Vec<Vec2> {
         (0..8).map(|step| Vec2::new(0.013 * f64::from(step), 0.0)).collect()
     }
 
-    /// A sighting of what stands at a place, seen off by an angle.
+    /// A sighting of what stands at a place, with a bearing that is off by an angle, radians.
     fn sighting(from: Vec2, stands: Vec2, off: f64) -> Sighting {
         let there = from + Vec2::unit((stands - from).angle() + off) * from.distance(stands);
         Sighting { from, there }

@@ -1,4 +1,5 @@
-//! Robots that know TARGET only, on their straight drives: what their reports mean, and which of them need help.
+//! TARGET-only robots (they understand the command TARGET but no routes) on their straight drives. What their reports
+//! mean, and which of them need help.
 
 use crate::event::Trouble;
 use crate::run::driving::arrivals::{MISSED_M, is_there};
@@ -10,29 +11,30 @@ use crate::run::target_commands::{ASK, PASSED_ERROR_M, beyond, grant_farther, se
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Command;
 
-/// Least progress by which a robot counts as moving, metres: below it is the noise of its fixes.
+/// Least progress by which a robot counts as moving, metres; less may be noise of its fixes.
 const MOVED_M: f64 = 0.005;
-/// Such a robot is asked this often where it is while others wait for it.
+/// Least time between requests to a TARGET-only robot for its place while others wait for it.
 const ASK_AWAITED: Span = Span::from_millis(90);
-/// Added to that for each robot, because their answers share one link.
+/// Least time between these requests for each robot of the run, because the answers share one link; at most [`ASK`]
+/// in all.
 const ASK_PER_ROBOT: Span = Span::from_millis(1);
-/// A robot that arrived farther from its goal than this is told again, metres: it stopped where it was told before, or
-/// earlier than known. The planner leaves room for a little more than this.
+/// Distance from its goal beyond which a robot that arrived is sent its target again, metres. It stopped at an
+/// earlier target, or shorter of its target than known. The planner leaves room for a little more than this.
 const OFF_M: f64 = 0.015;
-/// How often a robot is told again because it stands beside its goal.
+/// How often at most a robot is sent its target again because it stands beside its goal.
 const CORRECTIONS: u8 = 2;
 
-/// What happens to a robot that stands although it was told to go on.
+/// Bounds for a robot that stands although it may go on.
 struct Standstill {
-    /// At its goal without saying so: it is told again, because its arrival or its target was lost.
+    /// At its goal without a report of arrival: the target is sent again, because the arrival or the target was lost.
     told_again_after: Span,
-    /// Beside its goal, though it said that it arrived: it is taken to be there.
+    /// Beside its goal, though it reported its arrival: the robot counts as arrived.
     accepted_after: Span,
-    /// At its goal without saying so: it is taken to be there.
+    /// At its goal without a report of arrival: the robot counts as arrived.
     believed_after: Span,
-    /// Elsewhere: an event names it.
+    /// Elsewhere: an event names the robot.
     named_after: Span,
-    /// Elsewhere: it drops out after this many times the bound for late robots.
+    /// Elsewhere: the robot drops out after this many times the bound for late robots.
     dropped_after_bounds: i64,
 }
 
@@ -45,12 +47,13 @@ const STANDSTILL: Standstill = Standstill {
     dropped_after_bounds: 2,
 };
 
-/// A robot that knows TARGET only drops out when it is silent for this many times the bound for others. It reports only
-/// when it is asked: a question and its answer must both be delivered.
+/// A TARGET-only robot drops out when it is silent for this many times the bound for other robots. It reports only
+/// when asked: a question and its answer must both be delivered.
 const SILENCE_BOUNDS: i64 = 4;
 
 impl Driving {
-    /// A robot that knows TARGET only says where it is; `arrived`: that it is where it was told to go.
+    /// Handles a report of a TARGET-only robot with its place. `arrived`: the robot reports that it has reached its
+    /// target.
     pub fn on_target_report(
         &mut self,
         cx: &mut RunContext,
@@ -63,7 +66,7 @@ impl Driving {
         let is_held = self.clock.is_held();
         let (drive, state) = (&leg.drives[place], &mut targets.states[place]);
         if !is_held && drive.distance_m(at) > MISSED_M {
-            // It was lifted: its way leads past others.
+            // The robot was lifted, and its way back may lead past others.
             return Next::drop(participant, Trouble::Missed);
         }
         let length_m = drive.length_m();
@@ -81,7 +84,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// A robot that was told its goal says where it is: whether that ends its straight drive, and what follows.
+    /// Handles the place of a robot that was sent to its goal. Returns whether its straight drive is over, and what
+    /// comes next.
     fn settle_target(&mut self, cx: &mut RunContext, place: usize, at: Vec2, arrived: bool) -> (bool, Next) {
         let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return (false, Next::Stay) };
         let (drive, state) = (leg.drives[place].clone(), targets.states[place]);
@@ -97,7 +101,7 @@ impl Driving {
         } else if there && (arrived || stood > STANDSTILL.believed_after) {
             return (true, self.end_straight_drive(cx, place, None));
         } else if there && cx.now - state.sent_at.max(state.moved_at) > STANDSTILL.told_again_after {
-            // The robot may also never have received this target, and still be as far off as its tolerance.
+            // The robot may never have received this target, and still be off by its tolerance.
             send_target(cx, place);
         } else if arrived && stood > STANDSTILL.accepted_after && off_m <= MISSED_M {
             return (true, self.end_straight_drive(cx, place, Some(off_m)));
@@ -112,7 +116,7 @@ impl Driving {
         send_target(cx, place);
     }
 
-    /// Robots that yield to a straight drive go farther, if they may by now.
+    /// Sends robots that yield to a straight drive farther, if they may go by now.
     fn let_follow(&self, cx: &mut RunContext, place: usize) {
         let follower = |cx: &RunContext, number: usize| {
             let driven = cx.pipeline.driven.as_ref()?;
@@ -125,7 +129,8 @@ impl Driving {
         }
     }
 
-    /// A straight drive is over, `off_m` from where it should end if that is too much.
+    /// Ends a straight drive. The robot begins its next one, or has arrived. `off_m`: how far from its end it stands,
+    /// metres, if that is too far.
     fn end_straight_drive(&mut self, cx: &mut RunContext, place: usize, off_m: Option<f64>) -> Next {
         let Some(DrivenLeg { leg, targets }) = &mut cx.pipeline.driven else { return Next::Stay };
         let participant = leg.drives[place].robot;
@@ -143,7 +148,7 @@ impl Driving {
         }
     }
 
-    /// Watches a robot that knows TARGET only, on its way or waiting for others to pass.
+    /// Watches a TARGET-only robot that is on its way or waits for others to pass.
     pub fn watch_target_robot(&mut self, cx: &mut RunContext, participant: usize) -> Next {
         let silent = cx.now - cx.robot(participant).contact.heard.max(self.clock.began);
         if silent > cx.io.config.silence * SILENCE_BOUNDS {
@@ -160,14 +165,14 @@ impl Driving {
         Next::Stay
     }
 
-    /// The straight drive of a participant, if it has stood on it for longer than `bound` and nothing is held.
+    /// The straight drive on which a participant has made no progress for longer than `bound`, while nothing is held.
     fn standing_drive(&self, cx: &RunContext, participant: usize, bound: Span) -> Option<usize> {
         let DrivenLeg { leg, targets } = cx.pipeline.driven.as_ref()?;
         let place = targets.under_way(participant).filter(|_| !self.clock.is_held())?;
         targets.stands(place, &leg.drives[place], cx.now, bound).then_some(place)
     }
 
-    /// An event names a robot that makes no progress or is silent, once.
+    /// Names a robot that makes no progress or is silent in an event, once.
     fn name_stalled(&self, cx: &mut RunContext, participant: usize, silent: Span) {
         let unheard = silent > cx.io.config.silence + cx.link.round_trip;
         let is_stalled = unheard || self.standing_drive(cx, participant, STANDSTILL.named_after).is_some();
@@ -179,7 +184,7 @@ impl Driving {
         }
     }
 
-    /// Asks a robot where it is, and repeats its target where it makes no progress.
+    /// Asks a robot where it is, and sends its target again if it makes no progress.
     fn ask_target_robot(&mut self, cx: &mut RunContext, participant: usize) {
         let Some(DrivenLeg { targets, .. }) = &cx.pipeline.driven else { return };
         let place = targets.under_way(participant);
@@ -193,7 +198,7 @@ impl Driving {
             let state = &targets.states[*place];
             !self.clock.is_held() && cx.now - state.sent_at.max(state.moved_at) >= ASK
         };
-        // The target itself may have been lost: to repeat it changes nothing else.
+        // The target itself may have been lost. To repeat it changes nothing else.
         if let Some(place) = place.filter(is_due) {
             send_target(cx, place);
         }

@@ -1,4 +1,4 @@
-//! The watch over a drive: robots that are silent, late or overdue, and whether a hold holds.
+//! The watch over a drive: robots that are silent, late or overdue, and whether robots keep a hold.
 
 use crate::event::Trouble;
 use crate::leg::LegKind;
@@ -11,15 +11,15 @@ use crate::run::silence::LINK_LOSS;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, RobotState, Route};
 
-/// Number of robots that are watched in one turn; an eighth of all more. A silent robot is asked each turn. With one
-/// message in ten lost, asking four times let live robots drop out in one of ten runs of 200.
+/// Number of robots that are watched in one turn, to which an eighth of the fleet is added. A silent robot is asked
+/// each turn. With one message in ten lost, asking four times let live robots drop out in one of ten runs of 200.
 const SLICE: usize = 512;
 
-/// Silence of a driving robot; link times come on top.
+/// Bounds on the silence of a driving robot; link times come on top.
 struct Silence {
-    /// The robot is asked for a report: it missed one that is due every 500 ms (R41).
+    /// Silence after which the robot is asked for a report: it missed one that is due every 500 ms (R41).
     asked_after: Span,
-    /// All wait for it.
+    /// Silence after which all wait for the robot.
     held_after: Span,
 }
 
@@ -28,19 +28,20 @@ const SILENCE: Silence = Silence { asked_after: Span::from_millis(560), held_aft
 
 const _: () = assert!(SILENCE.asked_after.0 + ASKED_EVERY.0 < SILENCE.held_after.0);
 
-/// Robots that have not arrived this long after the planned end are judged by where they stand.
+/// Time after the planned end, or after a robot was last on its route, at which its place decides: it arrived or
+/// drops out.
 const OVERDUE: Span = Span::from_millis(3_000);
 /// Longest time that the fleet waits after the planned end for a robot that drives on its route. Such a robot is in a
 /// world that is slower than the plan: a simulation on a busy machine. Without a bound, a robot that reports nonsense
 /// would stop the show for good.
 const SLOW: Span = Span::from_millis(60_000);
-/// A robot farther from its goal than it is off its route, by this, is still on its way, metres.
+/// A robot is still on its way if it is farther from its goal than off its route by more than this, metres.
 const END_M: f64 = 0.01;
-/// A robot has made progress once it is nearer to its goal by this, metres: more than its fixes are off.
+/// Least approach to its goal that counts as progress, metres: more than the error of its fixes.
 const NEARER_M: f64 = 0.005;
-/// How long a hold has to be kept by all before all are stopped, after robots should stand.
+/// Time after robots should stand in a hold at which all are stopped, if some still drive.
 const HOLD_BOUND: Span = Span::from_millis(1_200);
-/// How soon a hold is looked at again that all keep.
+/// Time until a hold that all keep is checked again.
 const HOLD_CHECK_EVERY: Span = Span::from_millis(1_000);
 
 impl Driving {
@@ -75,8 +76,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// Watches a robot that follows a path. `is_held` and `ends` are of the begin of the turn: a hold that begins in
-    /// this turn is not stated yet.
+    /// Watches a robot that follows a path. `is_held` and `ends` are those at the beginning of the turn, so that a
+    /// hold that begins in this turn does not count yet.
     fn watch_path_robot(
         &mut self,
         cx: &mut RunContext,
@@ -115,7 +116,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// A driving robot was not heard for that long: what follows if all wait for it by now or it drops out.
+    /// Watches a driving robot that has been silent for the time `silent`. First all wait for it; once all stand, it
+    /// drops out. `None` if nothing of that happens in this turn.
     fn watch_silent(&mut self, cx: &mut RunContext, participant: usize, silent: Span) -> Option<Next> {
         let bound = cx.io.config.silence + cx.link.round_trip * 2;
         if silent > bound && self.all_stand(cx, silent) {
@@ -129,15 +131,15 @@ impl Driving {
         Some(Next::Stay)
     }
 
-    /// Whether all robots stand that drove, or as good as. Stopped earlier, they would not stop together with a robot
-    /// that does not receive that.
+    /// Whether all robots that drove stand, or the robot is silent for long enough that it must stand too. If all
+    /// were stopped earlier, they would not stop together with a robot that does not receive STOP.
     fn all_stand(&self, cx: &RunContext, silent: Span) -> bool {
         let bound = LINK_LOSS.stands_after() + Route::EASE + cx.link.hold_lead() * 2;
         let stand_at = self.clock.rests_from().unwrap_or(self.clock.ends);
         silent > bound || cx.now >= stand_at
     }
 
-    /// When a robot last said that it came nearer to its goal: it is waited for while it does.
+    /// When a robot last reported that it came nearer to its goal. All wait for it as long as it does.
     fn last_progress(&mut self, cx: &RunContext, participant: usize) -> Instant {
         let nearest = &mut self.progress[participant].nearest;
         if let (Some(at), Some(goal)) = (cx.robot(participant).reported.at, cx.goal(participant))
@@ -148,7 +150,8 @@ impl Driving {
         nearest.1
     }
 
-    /// A robot that should have arrived long ago.
+    /// Ends the drive of a robot that should have arrived long ago. It drops out if it may move or is far from its
+    /// goal, and otherwise counts as arrived.
     fn settle_overdue(&mut self, cx: &mut RunContext, participant: usize) -> Next {
         let robot = cx.robot(participant);
         let goal = cx.goal(participant).unwrap_or_default();
@@ -159,7 +162,8 @@ impl Driving {
         self.accept_misaligned(cx, participant, off_m)
     }
 
-    /// Whether all stand that were told to hold. Robots that do not are told by name; then all are stopped.
+    /// Checks whether all robots that were told to hold stand. Those that drive are sent HOLD individually; later all
+    /// are stopped.
     fn check_hold(&mut self, cx: &mut RunContext) -> Next {
         let Some(hold) = self.clock.open_hold().copied().filter(|hold| cx.now >= hold.check_at) else {
             return Next::Stay;
@@ -186,7 +190,8 @@ impl Driving {
     }
 }
 
-/// Whether a robot said that it is on its route and not near its end: nearer to where it should be by now.
+/// Whether a robot reports to be on its route and not near its end: closer to where it should be by now than to its
+/// goal.
 fn is_on_its_way(cx: &RunContext, participant: usize) -> bool {
     let robot = cx.robot(participant);
     let (Some(at), Some(goal), Some(off_m)) = (robot.reported.at, cx.goal(participant), robot.reported.off_m)

@@ -10,9 +10,10 @@ use lightbots_lighting::LiveLayers;
 
 /// Most layers of live light at once.
 pub(crate) const LIVE_MAX: usize = 8;
-/// Most characters in the name of one.
+/// Most characters in the name of a layer of live light.
 pub(crate) const NAME_MAX: usize = 64;
-/// Least time between two changes that robots are told: a hand that drums on the pads does not fill the link.
+/// Least time between two changes of live light that are sent to robots. Quick taps on the pads then do not fill the
+/// link.
 const CHANGE_EVERY: Span = Span::from_millis(100);
 
 impl LightPlayer {
@@ -21,7 +22,7 @@ impl LightPlayer {
         &self.live
     }
 
-    /// Puts live light over the show, in place of what was; robots follow within 0.3 s. `leg`: the one that is driven or was
+    /// Replaces the live light over the show; robots follow within 0.3 s. `leg` is the leg that is driven or was
     /// driven last.
     pub fn set_live(
         &mut self,
@@ -41,11 +42,12 @@ impl LightPlayer {
             self.colours_at = now;
             self.set_lights(context, roster, leg);
         }
-        // A change that waits takes this one along.
+        // A change that is still to be sent includes this one.
         self.renew_at = self.renew_at.min(now.max(self.renewed_at + CHANGE_EVERY));
     }
 
-    /// The show is over: live light ends with it, and robots show their frame.
+    /// Ends live light with the show: robots blend to the light of their frame. Does nothing if there is no live
+    /// light.
     pub fn end_live(&mut self, context: &mut Context, roster: &Roster, now: Instant, leg: &Leg) {
         if self.live.is_empty() {
             return;

@@ -1,7 +1,9 @@
-//! Light over time: stretches that robots get ahead, and COLORs for robots that know no stretches.
+//! Light over time. A stretch is up to 10 s of a robot's colours, sent ahead. Robots that do not understand stretches
+//! get COLORs.
 //!
-//! Runs of shows without layers do not use it until live light is put over them; their lights are in `lights`. `sending`
-//! sends what is due, `placing` says where a leg is on the timeline, and `live` has the layers of live light.
+//! Runs of shows without layers do not use it until live light is put over them; their lights are in `lights`.
+//! `sending` sends what is due, `placing` says where a leg is on the timeline, and `live` has the layers of live
+//! light.
 
 mod live;
 mod placing;
@@ -22,57 +24,60 @@ use lightbots_lighting::{FrameTimes, LiveLayers, ShowLight, numbers};
 use lightbots_wire::Command;
 use std::sync::Arc;
 
-/// Duration of a stretch. Shorter: more messages. Longer: more is sent in vain when plans change.
+/// Longest duration of a stretch. If it is shorter, more messages are needed. If it is longer, more is sent in vain
+/// when plans change.
 const STRETCH: Span = Span::from_millis(10_000);
-/// How long lights take to the new colours where show time jumps: after GO, in a new round, after a new plan.
+/// How long lights blend to the new colours where show time jumps: after GO, in a new round, after a new plan.
 const BLEND: Span = Span::from_millis(500);
-/// How long robots take to a change of live light, message and blend.
+/// How long robots take to adopt a change of live light: the message and the blend.
 const CHANGE: Span = Span::from_millis(250);
-/// Layers that are nearer to the music are left alone, seconds: people notice a difference of twice that.
+/// Largest distance from the music at which freely running layers are left alone, seconds. People notice a difference
+/// of twice that.
 const NEAR_MUSIC_S: f64 = 0.03;
 /// Most stretches that are computed at once: each takes 0.3 ms, and reports wait meanwhile.
 pub(crate) const AT_ONCE: usize = 16;
-/// When the next ones follow.
+/// Time until the next `AT_ONCE` stretches are computed.
 pub(crate) const AGAIN_AFTER: Span = Span::from_millis(5);
 
 /// The light of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LightPlayer {
     show: ShowLight,
-    /// When the frames of this round are.
+    /// Show times of the frames of this round.
     pub times: ShowTimes,
-    /// `[participant]`: its number in effects; it keeps it over the whole run.
+    /// `[participant]`: the number of its robot in effects, the same over the whole run.
     numbers: Arc<[u32]>,
-    /// The leg that is driven or was driven last.
+    /// Light of the leg that is driven or was driven last.
     current: Option<LegLight>,
-    /// The leg after it.
+    /// Light of the leg after `current`.
     next: Option<LegLight>,
-    /// The stretch that is uploaded.
+    /// The stretch that is being uploaded, and its deliveries.
     upload: Option<(PlannedStretch, Upload)>,
-    /// Until when stretches were begun to be sent, as time since the drive began.
+    /// End of the newest stretch, as time since the drive began.
     covered: Span,
-    /// Until when robots have light that runs through holds; far: they have one colour for the hold under way.
+    /// Until when robots have light that runs through holds, show clock. `Instant::FAR`: they have one colour for the
+    /// present hold. `None`: their light stands still in holds.
     free_until: Option<Instant>,
-    /// The hold that the newest stretch counts with: when it began, and its end if that was known.
+    /// The hold that the newest stretch takes into account: when it began, and its end if that was known.
     known_hold: Option<(Instant, Option<Instant>)>,
-    /// When what was put off is sent.
+    /// When stretches that were put off are sent.
     again_at: Instant,
     /// When COLORs are sent next.
     colours_at: Instant,
     /// Layers that the operator put over the show.
     live: LiveLayers,
-    /// Whether the operator did so in this run. From then on stretches are sent, also by a show without layers.
+    /// Whether live light was used in this run. From then on stretches are sent even if the show has no layers.
     was_live: bool,
     /// When all robots get a new stretch, because live light changed or their leg began without one.
     renew_at: Instant,
-    /// When such stretches were begun to be sent last.
+    /// When robots last began to get a stretch for that reason.
     renewed_at: Instant,
-    /// The next stretch is sent this long before the newest ends.
+    /// How long before the end of the newest stretch the next one is sent.
     refill: Span,
 }
 
 impl LightPlayer {
-    /// The light of a run.
+    /// The light of a run. Previews, the way home and preflights have no layers.
     pub fn new(playback: &PlayedShow) -> Self {
         let show = match playback.purpose {
             RunPurpose::Play => ShowLight::new(&playback.show).0,
@@ -86,8 +91,8 @@ impl LightPlayer {
         !self.show.is_empty() || self.was_live
     }
 
-    /// The first stretch of the next leg for a participant, which goes along with its route; `None`: its robot knows no
-    /// stretches.
+    /// The first stretch of the next leg for a participant, which is sent along with its route. `None` if the robot
+    /// does not understand stretches, if none are used, or if there is live light.
     pub fn first_stretch(
         &mut self,
         context: &mut Context,
@@ -95,7 +100,7 @@ impl LightPlayer {
         (leg, after): (&Leg, Option<&Leg>),
         (now, participant): (Instant, usize),
     ) -> Option<Command> {
-        // Live light counts by the show clock, and when the drive begins is not known yet.
+        // Live light counts by the show clock, and it is not known yet when the drive begins.
         let may_be_sent = self.is_active() && self.live.is_empty();
         if !may_be_sent || !roster.robot(context, participant).reported.abilities.light {
             return None;
@@ -106,7 +111,7 @@ impl LightPlayer {
         Some(light.command(&context.config, &self.show, &robot, &light.first, now))
     }
 
-    /// Makes the light of the next leg, unless it is made.
+    /// Computes the light of the next leg, unless that is done already.
     fn prepare(&mut self, context: &mut Context, playback: &PlayedShow, roster: &Roster, leg: &Leg) {
         if self.next.as_ref().is_some_and(|next| next.seq == leg.seq) {
             return;
@@ -159,7 +164,7 @@ impl LightPlayer {
         self.next = Some(light);
     }
 
-    /// Numbers robots at the first leg, and those that came since.
+    /// Numbers the robots at the first leg, and later those that joined since.
     fn number_robots(&mut self, leg: &Leg) {
         if self.numbers.is_empty() {
             self.numbers = numbers(leg.robots.iter().map(|step| step.pixel)).into();
@@ -173,7 +178,8 @@ impl LightPlayer {
         }
     }
 
-    /// The drive of a leg has begun. Also kept where no stretches are sent: live light may be put over it.
+    /// Makes the light of a leg the current one, because its drive has begun. Also needed while no stretches are
+    /// sent, because live light may be put over the show later.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -197,7 +203,7 @@ impl LightPlayer {
         }
     }
 
-    /// Robots that get stretches end with the colours of the leg.
+    /// Notes in the fleet that robots with stretches will end with the colours of the leg.
     fn set_lights(&self, context: &mut Context, roster: &Roster, leg: &Leg) {
         for (participant, step) in leg.robots.iter().enumerate().take(roster.len()) {
             if roster.robot(context, participant).reported.abilities.light {
@@ -206,12 +212,12 @@ impl LightPlayer {
         }
     }
 
-    /// The light of the leg that is driven or was driven last.
+    /// Light of the leg that is driven or was driven last.
     pub fn current(&self) -> Option<&LegLight> {
         self.current.as_ref()
     }
 
-    /// Time passes, also where no stretches are sent.
+    /// Notes how much of the leg has passed at `now`. Needed also while no stretches are sent.
     pub fn look(&mut self, now: Instant) {
         let Some(current) = &mut self.current else { return };
         if let Some(elapsed) = current.elapsed(now) {
@@ -219,14 +225,15 @@ impl LightPlayer {
         }
     }
 
-    /// The drive goes on by this clock.
+    /// Replaces the clock of the current drive.
     pub fn see(&mut self, clock: PathClock) {
         if let Some(current) = &mut self.current {
             current.clock = Some(clock);
         }
     }
 
-    /// Layers that run freely go along with the music, which is there on the timeline, seconds.
+    /// Moves freely running layers to the music if they are off, and lets robots get a new stretch. `music_s` is
+    /// where the music is on the timeline, seconds.
     pub fn keep_to_music(&mut self, now: Instant, music_s: f64) {
         let is_free = |current: &&mut LegLight| current.layers.runs_freely && current.elapsed(now).is_some();
         let Some(current) = self.current.as_mut().filter(is_free) else { return };
@@ -238,15 +245,15 @@ impl LightPlayer {
         }
     }
 
-    /// Robots stop, and all is planned again from where they stand: show time stands until the next drive, unless this one
-    /// was over.
+    /// Stops show time until the next drive, because robots stop and all is planned again. Does nothing if the
+    /// present drive was over.
     pub fn halt(&mut self) {
         if let Some(current) = self.current.as_mut().filter(|current| current.seen < current.times.drive) {
             (current.clock, self.upload) = (None, None);
         }
     }
 
-    /// A report names the stretch that its robot received last.
+    /// Takes in a report, which names the stretch that its robot received last.
     pub fn acknowledge(&mut self, now: Instant, participant: usize, number: u32) {
         let Some((stretch, upload)) = &mut self.upload else { return };
         if stretch.number == number && upload.acknowledge(now, participant) && upload.has_unserved() {
@@ -254,19 +261,20 @@ impl LightPlayer {
         }
     }
 
-    /// Whether robots are on their way to a change of live light.
+    /// Whether robots are still adopting a change of live light.
     fn is_changing(&self, now: Instant) -> bool {
         let is_under_way = self.renewed_at > Instant::ZERO && now < self.renewed_at + CHANGE;
         self.renew_at < Instant::FAR || is_under_way
     }
 
-    /// Whether lights are on their way to the colours of a new drive.
+    /// Whether lights still blend to the colours of a new drive or of live light. Also `true` before the drive
+    /// begins; `false` if no stretches are used.
     pub fn blends(&self, now: Instant) -> bool {
         let Some(current) = self.current.as_ref().filter(|_| self.is_active()) else { return false };
         self.is_changing(now) || current.elapsed(now).is_none_or(|elapsed| elapsed < current.first.over)
     }
 
-    /// The colour that a participant should show now.
+    /// The colour that a participant should show now. `None` if no stretches are used or the drive has not begun.
     pub fn colour(
         &self,
         now: Instant,
@@ -279,7 +287,7 @@ impl LightPlayer {
         Some(robot.colour(&current.layers, self.show.pictures(), moment))
     }
 
-    /// `[participant]`: what robots show before a leg.
+    /// `[participant]`: the colour that the robot shows before a leg, and whether layers shine on it then.
     fn before(&self, context: &Context, roster: &Roster, leg: &Leg) -> Vec<(Rgb, bool)> {
         let shown = |participant: usize| {
             let known = self.current.as_ref().map(|current| &current.after);

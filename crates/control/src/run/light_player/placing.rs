@@ -1,4 +1,4 @@
-//! Where a leg is on the show clock, and when its frame is due on the timeline that the music keeps to.
+//! Where a leg is in show time, and when its frame is due on the timeline that the music keeps to.
 
 use crate::leg::Leg;
 use crate::run::light_leg::LegLight;
@@ -6,23 +6,23 @@ use crate::run::playback::PlayedShow;
 use crate::run::show_times::ShowTimes;
 use lightbots_base::Span;
 
-/// Where a leg is.
+/// Where a leg is on the timeline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LegPlace {
-    /// Show time at the beginning of its drive, seconds.
+    /// Show time at the beginning of the drive, seconds.
     pub show_s: f64,
-    /// When its frame is to stand by the timeline, seconds.
+    /// Show time at which robots are to reach the frame by the timeline, seconds.
     pub due_s: f64,
-    /// It leads where the leg before it did.
+    /// Whether the leg leads to the same frame as the leg before it.
     pub is_same_frame: bool,
-    /// Frames before it were passed over, or it comes once more.
+    /// Whether the operator chose the frame, or a loop goes back to it.
     pub is_chosen: bool,
-    /// The music goes there with it.
+    /// Whether the music jumps there too.
     pub leads_music: bool,
 }
 
-/// Finds where the leg after `current` is. Show time goes on through a drive that is planned anew, and the frame is due when
-/// it was before: robots are late then.
+/// Finds where the leg after `current` is. If a drive is planned anew, show time goes on and the frame stays due when
+/// it was before, because robots are then late.
 pub(super) fn place(
     times: &mut ShowTimes,
     current: Option<&LegLight>,

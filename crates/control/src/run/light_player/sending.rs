@@ -11,22 +11,22 @@ use lightbots_base::{Instant, Span, TICK};
 use lightbots_lighting::is_seen_apart;
 use lightbots_wire::Command;
 
-/// How far ahead a stretch that runs through holds is stated: a round trip.
+/// How long before its beginning a stretch that runs through holds is sent: a round trip.
 const LEAD: Span = Span::from_millis(100);
-/// The second stretch is sent this long after the drive began: robots whose clock is a little behind drop what waits when
-/// the drive begins (R56).
+/// How long after the beginning of a drive the second stretch is sent. When its drive begins, a robot drops a stretch
+/// that waits, and the clocks of some robots are a little behind (R56).
 const BEGUN: Span = Span::from_millis(100);
 
-/// How a change of live light reaches robots: within 0.3 s.
+/// Parameters of a change of live light, which reaches robots within 0.3 s.
 struct LiveChange {
-    /// How long lights take to it. Shorter looks like a fault, longer like a slow button.
+    /// Duration of the blend. A shorter one looks like a fault, a longer one like a slow button.
     blend: Span,
-    /// How far ahead it is stated.
+    /// How long before its beginning the change is sent.
     lead: Span,
-    /// Duration of the first stretch, and what each robot adds to it, so that the next reaches all in time. Short ones are
-    /// computed sooner.
+    /// Duration of the first stretch, and what each robot adds to it, so that the next stretch reaches all in time.
+    /// Short stretches are computed sooner.
     first: (Span, Span),
-    /// How many times more of them than of others may be computed at once: each takes 0.06 ms.
+    /// How many times `AT_ONCE` of these stretches may be computed at once, at most: each takes 0.06 ms.
     at_once: usize,
 }
 
@@ -44,19 +44,19 @@ impl LiveChange {
     }
 }
 
-/// COLORs of robots that know no stretches.
+/// Rate of COLORs for robots that do not understand stretches.
 struct Colours {
-    /// Time between two of a robot.
+    /// Least time between two COLORs to one robot.
     every: Span,
-    /// Most of them a second, for the whole fleet.
+    /// Most COLORs a second for the whole fleet.
     rate: i64,
 }
 
-/// Four a second look like steps of a fade; 200 a second leave the broker free for routes.
+/// Four COLORs a second look like steps of a fade; 200 a second in all leave the broker free for routes.
 const COLOURS: Colours = Colours { every: Span::from_millis(250), rate: 200 };
 
 impl LightPlayer {
-    /// Sends what is due while a leg is driven or its frame stands. `legs`: that leg, and the one after it.
+    /// Sends what is due while a leg is driven or robots stand in its frame. `legs`: that leg, and the one after it.
     pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, legs: (&Leg, Option<&Leg>)) {
         let Some(elapsed) = self.current.as_ref().and_then(|current| current.elapsed(now)) else { return };
         if let Some(clock) = self.current.as_mut().and_then(|current| current.clock.as_mut()) {
@@ -83,7 +83,7 @@ impl LightPlayer {
         let Some((from, free_at)) = begins else { return };
         let rests_at = clock.rests_from().unwrap_or(now);
         let (longest, over) = match (renews, free_at) {
-            // Nothing changes from when all stand until the hold is over.
+            // Once all robots stand, nothing changes until the hold is over.
             (true, Some(at)) if !is_free => ((rests_at - at).max(Span::ZERO) + TICK, LIVE.blend),
             (true, _) => (LIVE.first(leg.robots.len()), LIVE.blend),
             (false, _) => (STRETCH, Span::ZERO),
@@ -91,7 +91,7 @@ impl LightPlayer {
         let number = context.number_route();
         let stretch = match current.stretch(number, from, longest, over) {
             Some(stretch) => PlannedStretch { free_at, ..stretch },
-            // Show time is over: the light stays what it is then.
+            // Show time of the leg is over: the light stays as it is at the end.
             None if renews => PlannedStretch { number, from, ticks: 1, over, free_at },
             None => return,
         };
@@ -108,12 +108,13 @@ impl LightPlayer {
         self.upload = Some((stretch, Upload::new(stretch.number, now, leg.robots.len())));
     }
 
-    /// The moment at which the next stretch begins that runs through holds, if it is time for it.
+    /// The show-clock moment at which the next stretch that runs through holds begins. `None` if it is not time for
+    /// one.
     fn next_free(&self, clock: &PathClock, now: Instant, renews: bool) -> Option<Instant> {
         if renews {
             return Some(now + LIVE.lead);
         }
-        // Light that follows show time slows down and picks up with the drive.
+        // A new hold needs a new stretch: light that follows show time slows down and picks up with the drive.
         let hold = clock.hold.filter(|hold| self.known_hold != Some((hold.at, hold.until)));
         if let Some(hold) = hold {
             return Some(hold.until.unwrap_or(hold.at).max(now + LEAD));
@@ -122,7 +123,8 @@ impl LightPlayer {
         (now + self.refill >= until).then_some(until.max(now + LEAD))
     }
 
-    /// The time since the drive began at which the next stretch begins that stands still in holds, if it is time for it.
+    /// When the next stretch that stands still in holds begins, as time since the drive began. `None` if it is not
+    /// time for one.
     fn next_moment(
         &self,
         current: &LegLight,
@@ -134,7 +136,7 @@ impl LightPlayer {
             return Some(elapsed);
         }
         if self.free_until.is_some() && !clock.is_held() && self.renew_at == Instant::FAR {
-            // A tick later: what is shown in the hold stays until it is over.
+            // One tick later, so that the light of the hold stays until the hold is over.
             return Some(elapsed + TICK);
         }
         let is_covered = elapsed < BEGUN || elapsed + self.refill < self.covered;
@@ -142,7 +144,7 @@ impl LightPlayer {
         (!is_covered && !is_over).then_some(self.covered)
     }
 
-    /// Sends the stretch under way to robots that have not got it.
+    /// Sends the present stretch to robots that have not acknowledged it.
     fn pump_stretch(
         &mut self,
         context: &mut Context,
@@ -153,9 +155,9 @@ impl LightPlayer {
         let is_changing = self.is_changing(now);
         let (Some(current), Some((stretch, upload))) = (&self.current, &mut self.upload) else { return };
         let config = context.config.upload;
-        // A hand waits for a change of live light, and a stretch that runs through holds begins at once.
+        // The operator waits for a change of live light, and a stretch that runs through holds begins soon.
         let is_urgent = is_changing || stretch.free_at.is_some_and(|at| at < now + config.resend_after * 2);
-        // Short stretches take less time.
+        // Short stretches take less time to compute.
         let shorter = STRETCH.0 / (TICK.0 * i64::from(stretch.ticks)).max(1);
         let mut left = AT_ONCE * usize::try_from(shorter).unwrap_or(1).clamp(1, LIVE.at_once);
         while left > 0 {
@@ -172,7 +174,7 @@ impl LightPlayer {
             let again_after = match upload.tries(one) {
                 _ if is_urgent => config.resend_after,
                 0 => config.resend_after * 2,
-                // A broker that is late gets no more to do than it must: at most two to a robot in any second.
+                // A slow broker gets no more work than it must: at most two messages to a robot in any second.
                 _ => config.resend_after * 4,
             };
             upload.record_sent(now, one, now + again_after);
@@ -181,7 +183,8 @@ impl LightPlayer {
         self.again_at = now + AGAIN_AFTER;
     }
 
-    /// Sends COLORs to robots that know no stretches; when that is done next.
+    /// Sends COLORs to robots that do not understand stretches. Returns when to do that next; `Instant::FAR` if there
+    /// are no such robots.
     fn send_colours(
         &self,
         context: &mut Context,
@@ -209,7 +212,7 @@ impl LightPlayer {
         if robots == 0 { Instant::FAR } else { now + every }
     }
 
-    /// A robot was switched off and on: it gets what is left of its light.
+    /// Sends a robot that was switched off and on what is left of its light.
     pub fn relight(
         &self,
         context: &mut Context,
@@ -237,7 +240,7 @@ impl LightPlayer {
         context.send(roster.participants[participant].robot, &[command]);
     }
 
-    /// When something is due.
+    /// When [`pump`](Self::pump) has something to do next.
     pub fn due(&self, now: Instant) -> Instant {
         let Some(current) = self.current.as_ref().filter(|_| self.is_active()) else { return Instant::FAR };
         let resend = self.upload.as_ref().and_then(|(_, upload)| upload.due()).unwrap_or(Instant::FAR);

@@ -1,6 +1,7 @@
 //! The preflight under way: stops robots on their way out, compares reports with the plan, and has robots blink.
 //!
-//! The drives are those of any run. This only looks on, except that it asks for reports, and for the stop on the way out.
+//! The drives are those of any run. The checks here only watch them, except that they ask for reports and stop robots
+//! on the way out.
 
 mod robot_test;
 
@@ -18,27 +19,28 @@ use lightbots_wire::{Blink, Command, Details, RobotState, Route, Topic};
 use robot_test::{RobotTest, untested};
 use std::collections::BTreeMap;
 
-/// Robots are stopped this far before the end of their way out, metres. One that does not stop drives on by this, which is
-/// seen, and all are still fast.
+/// Distance to the end of the way out at which robots are stopped, metres. A robot that does not stop drives on by
+/// this distance, which can be measured. Before that point all robots are still fast.
 const STOP_LEFT_M: f64 = 0.033;
-/// How long after STOP a robot may take to say that it stands; two round trips come on top. R40 asks for it at once; on a
-/// lossy link the robot has to be asked for it again.
+/// How long after it should stand a robot may take to report that it does; two round trips come on top. R40 asks for
+/// that report at once. On a lossy link the robot has to be asked again.
 const STOPS_WITHIN: Span = Span::from_millis(1_000);
-/// Reports count from this long after a frame was reached. While a robot drives, its estimate follows its wheels; only while
-/// it stands, its fixes show within seconds where it really is.
+/// Time after a frame was reached from which reports count. While a robot drives, its estimate follows its wheels.
+/// Only while it stands do its fixes show within seconds where it really is.
 const SETTLES: Span = Span::from_millis(2_950);
-/// All robots are asked to report this long after a frame was reached …
+/// Time after a frame was reached at which all robots are asked to report.
 const ASK_AT: Span = Span::from_millis(3_000);
-/// … and those whose answers are missing again and again, this far apart. Two lost messages in a row name no robot.
+/// Time between further requests to robots whose answers are missing. Two lost messages in a row lead to no finding.
 const ASK_EVERY: Span = Span::from_millis(150);
-/// Answers are judged once all are there, and this long after the frame was reached at the latest.
+/// Latest time after a frame was reached at which the answers are checked. They are checked earlier once all are
+/// there.
 const JUDGE_AT: Span = Span::from_millis(4_100);
 /// How long robots blink at the end.
 const BLINK: Span = Span::from_millis(4_000);
-/// While they drive, robots are asked to report this often: their headings are compared with the directions in which
-/// they drive …
+/// Time between requests for reports to driving robots. Their headings are compared with the directions in which they
+/// drive.
 const ASK_DRIVERS_EVERY: Span = Span::from_millis(120);
-/// … and less often by this for each robot, because their answers share one link.
+/// Least time between these requests for each robot of the run, because the answers share one link.
 const ASK_DRIVERS_PER_ROBOT: Span = Span(400);
 
 /// The preflight under way.
@@ -46,32 +48,32 @@ const ASK_DRIVERS_PER_ROBOT: Span = Span(400);
 pub(crate) struct PreflightCheck {
     /// `[round][participant]`: whether the robot drives in that round.
     drives: Vec<Vec<bool>>,
-    /// `[participant]`.
+    /// `[participant]`: what was found of its robot.
     tests: Vec<RobotTest>,
-    /// The stop that is not judged yet.
+    /// The stop on the way out that is not checked yet.
     stop: Option<StopTest>,
     /// Number of rounds in which robots were stopped.
     stopped: usize,
-    /// The frame that stands and is not judged yet, and how often robots were asked.
+    /// The frame in which robots stand and that is not checked yet.
     standing: Option<StandingTest>,
-    /// Number of frames whose places were judged.
+    /// Number of frames whose places were checked.
     judged: usize,
-    /// When robots on their way are asked to report next.
+    /// When driving robots are asked to report next.
     ask_drivers_at: Instant,
 }
 
-/// Robots were told to stop on their way.
+/// The check of a stop on the way out.
 #[derive(Clone, Debug)]
 struct StopTest {
-    /// When they stand by the protocol.
+    /// When robots should stand by the protocol.
     stand_at: Instant,
-    /// Where they stand then, stage metres: participants and places.
+    /// Where robots should stand then, stage metres: participants and places.
     due: Vec<(usize, Vec2)>,
-    /// `[participant]`: when the robot first said after that that it stands.
+    /// `[participant]`: when the robot first reported after `stand_at` that it stands.
     stood: Vec<Option<Instant>>,
 }
 
-/// A frame stands.
+/// The check of a frame in which robots stand.
 #[derive(Clone, Copy, Debug)]
 struct StandingTest {
     frame: usize,
@@ -80,8 +82,8 @@ struct StandingTest {
 }
 
 impl PreflightCheck {
-    /// A preflight that is about to begin. `rounds`: `[round][participant]`, where the robot drives. `places`:
-    /// where each participant stands, stage metres.
+    /// The checks of a preflight that is about to begin. `rounds`: `[round][participant]`, the goal of the robot, or
+    /// `None` if it does not drive in that round. `places`: where each participant stands, stage metres.
     pub fn new(rounds: &[Vec<Option<Vec2>>], places: impl Iterator<Item = Vec2>) -> Self {
         Self {
             drives: rounds.iter().map(|goals| goals.iter().map(Option::is_some).collect()).collect(),
@@ -94,12 +96,12 @@ impl PreflightCheck {
         }
     }
 
-    /// The round under way, counted from 0, and how many there are.
+    /// The present round, counted from 0, and the number of rounds.
     pub fn round(&self) -> (usize, usize) {
         ((self.judged / 2).min(self.drives.len().saturating_sub(1)), self.drives.len())
     }
 
-    /// What robots do, for people.
+    /// What robots are doing, as a text for people.
     pub fn doing(&self) -> &'static str {
         let is_over = self.judged >= 2 * self.drives.len();
         match (self.judged % 2, self.stopped > self.judged / 2) {
@@ -113,12 +115,12 @@ impl PreflightCheck {
         }
     }
 
-    /// When something is due.
+    /// When robots are next to be asked for their places in a frame. `Instant::FAR` if no frame is being checked.
     pub fn due(&self) -> Instant {
         self.standing.map_or(Instant::FAR, |test| test.ask_at)
     }
 
-    /// A participant dropped out.
+    /// Notes that a participant dropped out, as a finding of its robot.
     pub fn drop_out(&mut self, participant: usize, why: Trouble) {
         let is_stopping = self.stop.is_some() && why == Trouble::Deaf;
         let finding = if is_stopping { PreflightFinding::DidNotStop } else { PreflightFinding::Failed(why) };
@@ -127,7 +129,7 @@ impl PreflightCheck {
         }
     }
 
-    /// A participant reports its state.
+    /// Takes in a status report of a participant: its pose while it drives, and whether it stands after a stop.
     pub fn on_report(&mut self, now: Instant, participant: usize, at: Option<Vec2>, details: &Details) {
         let drives = self.drives(self.judged, participant);
         let pose = at.zip(details.heading).filter(|_| drives);
@@ -145,7 +147,7 @@ impl PreflightCheck {
         }
     }
 
-    /// Robots drive.
+    /// Asks for reports while robots drive, and stops all once on the way out.
     pub fn on_driving(&mut self, drive: &Driving, cx: &mut RunContext) -> Next {
         if cx.now >= self.ask_drivers_at {
             let every = ASK_DRIVERS_EVERY.max(ASK_DRIVERS_PER_ROBOT * cx.roster.len() as i64);
@@ -155,7 +157,7 @@ impl PreflightCheck {
         self.stop_on_the_way(drive, cx)
     }
 
-    /// All stand.
+    /// Checks the stop or the frame while all stand. Drops robots that did not stop.
     pub fn on_standing(&mut self, cx: &mut RunContext, is_frame_reached: bool) -> Next {
         let failed = self.judge_stop(cx);
         if !failed.is_empty() {
@@ -165,7 +167,8 @@ impl PreflightCheck {
         Next::Stay
     }
 
-    /// Robots leave before the last answers were judged, because START is stated early on a slow link.
+    /// Checks the frame with the answers until now, because robots leave before the last ones: on a slow link START
+    /// is sent early.
     pub fn on_starting(&mut self, cx: &RunContext) {
         if let Some((test, leg)) = self.standing.take().zip(cx.pipeline.leg()) {
             self.judge_places(cx, leg, test.since + SETTLES);
@@ -177,7 +180,7 @@ impl PreflightCheck {
         self.drives.get(frame / 2).and_then(|round| round.get(participant)).is_some_and(|drives| *drives)
     }
 
-    /// All are stopped once on their way out of each round.
+    /// Stops all robots once on the way out of each round.
     fn stop_on_the_way(&mut self, drive: &Driving, cx: &RunContext) -> Next {
         let now = cx.now;
         let Some(leg) = cx.pipeline.leg().filter(|leg| leg.kind == LegKind::Routes) else {
@@ -206,7 +209,7 @@ impl PreflightCheck {
         }
         let hold_at = now + cx.link.hold_lead();
         let stand_at = hold_at + Route::EASE;
-        // On a link that slow, the drive is over before all can be stopped: then only that they stand is tested.
+        // On a slow link the drive is over before all can be stopped. Then only that robots stand is tested.
         let is_on_the_way = hold_at + Route::EASE < drive.clock.ends;
         let stands = drive.clock.path_time(hold_at) + Route::EASE / 2;
         let due = movers.iter().filter_map(|&one| Some((one, place(one, stands)?)));
@@ -219,7 +222,8 @@ impl PreflightCheck {
         Next::Regather
     }
 
-    /// All stand that were told to stop: which of them do so elsewhere, or said so too late. They are driven no more.
+    /// Checks the places and times of robots that were told to stop. Returns participants that stand elsewhere or
+    /// reported too late; they are to drop out.
     fn judge_stop(&mut self, cx: &RunContext) -> Vec<usize> {
         let Some(stop) = self.stop.take() else { return Vec::new() };
         let within = STOPS_WITHIN + cx.link.round_trip * 2;
@@ -239,7 +243,8 @@ impl PreflightCheck {
         failed
     }
 
-    /// A frame stands: robots are asked where they are, and their answers are judged.
+    /// Asks robots where they are once they have reached a frame, and checks their answers. In the last frame robots
+    /// blink.
     fn look_at_frame(&mut self, cx: &mut RunContext, is_frame_reached: bool) {
         let now = cx.now;
         let stands = cx.pipeline.leg().map(|leg| leg.frame).filter(|_| is_frame_reached);
@@ -296,7 +301,7 @@ impl PreflightCheck {
         }
     }
 
-    /// What was found. `finished`: the run was not broken off.
+    /// The findings of the preflight. `finished`: the run was not broken off.
     pub fn report(&self, roster: &Roster, io: &Context, finished: bool) -> PreflightReport {
         let part: BTreeMap<RobotId, usize> = (0..self.tests.len().min(roster.len()))
             .map(|participant| (roster.robot(io, participant).id, participant))
@@ -310,7 +315,7 @@ impl PreflightCheck {
     }
 }
 
-/// Asks robots to report where they are; whether any was to be asked.
+/// Asks the selected robots to report where they are. Returns whether any was asked.
 fn ask(cx: &mut RunContext, whom: impl Fn(&KnownRobot) -> bool) -> bool {
     let active = cx.roster.active().map(|(_, known)| known.robot);
     let robots: Vec<usize> = active.filter(|&robot| whom(cx.io.fleet.robot(robot))).collect();
@@ -322,7 +327,7 @@ fn ask(cx: &mut RunContext, whom: impl Fn(&KnownRobot) -> bool) -> bool {
     !robots.is_empty()
 }
 
-/// Every robot that can blinks, those that dropped out too: a person sees which of them answer.
+/// Makes all robots blink that can, those that dropped out too. A person sees which of them answer.
 fn blink(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         let robot = cx.robot(participant);

@@ -1,4 +1,4 @@
-//! What is found of one robot of a preflight.
+//! What a preflight finds of one robot.
 
 use crate::event::Trouble;
 use crate::leg::Leg;
@@ -9,12 +9,13 @@ use lightbots_base::{Vec2, difference};
 use lightbots_wire::RobotState;
 use std::f64::consts::FRAC_PI_2;
 
-/// A path that leaves the line between its ends by no more than this is straight, metres. On a bend close to its end a robot
-/// cannot turn as fast as the path (R35), so its heading is not judged.
+/// Largest distance from the line between its ends at which a path counts as straight, metres. If a path bends close
+/// to its end, a robot cannot turn as fast as the path (R35), so its heading is not checked.
 const STRAIGHT_M: f64 = 0.000_5;
-/// A robot with another rim nearer than this by plan may give way by turning (R49): its heading is not judged, metres.
+/// Least planned clearance to another robot at which a heading is checked, metres. With less, the robot may give way
+/// by turning (R49).
 const ROOM_M: f64 = 0.01;
-/// Number of moments at which a path is looked at for that.
+/// Number of steps in which a path is sampled to find out whether it is straight.
 const MOMENTS: i64 = 40;
 
 /// What was found of a participant.
@@ -23,23 +24,24 @@ pub(super) struct RobotTest {
     pub findings: Vec<PreflightFinding>,
     pub off_m: Option<f64>,
     off_rad: Option<f64>,
-    /// The drive under way.
+    /// What the robot reported on the present drive.
     pub track: DrivenTrack,
-    /// Where the robot stood before that drive, stage metres.
+    /// Where the robot stood before the present drive, stage metres.
     stood: Option<Vec2>,
-    /// Sum of the angles between headings and directions of its drives, radians, and their number.
+    /// Sum of the angles between the headings and the directions of the robot's drives, radians, and the number of
+    /// drives.
     askew: (f64, u32),
-    /// It drove out and back, and both places were judged.
+    /// Whether the place after a way back was checked.
     pub is_done: bool,
 }
 
 impl RobotTest {
-    /// Of a robot that stands there, stage metres.
+    /// The test of a robot that stands at `stood`, stage metres.
     pub fn new(stood: Vec2) -> Self {
         Self { stood: Some(stood), ..Self::default() }
     }
 
-    /// Findings of one kind are one: the first counts.
+    /// Adds a finding, unless there is one of its kind already. After `DidNotStop`, `Failed` is left out too.
     pub fn find(&mut self, finding: PreflightFinding) {
         let same = |known: &PreflightFinding| {
             std::mem::discriminant(known) == std::mem::discriminant(&finding)
@@ -71,7 +73,7 @@ impl RobotTest {
         }
     }
 
-    /// What was found of the robot. `has_room`: it drove in a round.
+    /// The result of the robot. `has_room`: it had a drive in a round.
     pub fn result(&self, robot: &KnownRobot, has_room: bool) -> PreflightRobot {
         let mut findings = self.findings.clone();
         if findings.is_empty() && !self.is_done {
@@ -82,7 +84,7 @@ impl RobotTest {
     }
 }
 
-/// A robot that could not take part; `None`: it is not to take part.
+/// The result of a robot that could not take part. `None` if it is not admitted.
 pub(super) fn untested(robot: &KnownRobot) -> Option<PreflightRobot> {
     let why = match robot.reported.state {
         _ if !robot.is_admitted => return None,
@@ -90,7 +92,7 @@ pub(super) fn untested(robot: &KnownRobot) -> Option<PreflightRobot> {
         _ if !robot.is_heard() => Trouble::Silent,
         Some(RobotState::Faulty) => Trouble::Faulty,
         _ if robot.reported.at.is_none() => Trouble::Lost,
-        // It came while others were tested.
+        // The robot came while others were tested.
         _ => return Some(row(robot, PreflightFinding::Unfinished)),
     };
     Some(row(robot, PreflightFinding::Failed(why)))
@@ -101,7 +103,8 @@ fn row(robot: &KnownRobot, finding: PreflightFinding) -> PreflightRobot {
     PreflightRobot { id: robot.id, findings: vec![finding], off_m: None, off_rad: None, limited }
 }
 
-/// The direction of a participant's path, radians; `None`: it drives no path, or one with bends.
+/// The direction of a participant's path, radians. `None` if it has no path, stays in place, or has a path with
+/// bends.
 fn straight_direction(leg: &Leg, participant: usize) -> Option<f64> {
     let path = leg.path(participant).filter(|path| !path.as_ref().rests())?.as_ref();
     let (start, end, duration) = (path.start, path.end(), path.duration());
@@ -109,7 +112,8 @@ fn straight_direction(leg: &Leg, participant: usize) -> Option<f64> {
     between.all(|at| point_to_segment(at, start, end) <= STRAIGHT_M).then(|| (end - start).angle())
 }
 
-/// The angle between a heading and the line of a direction, 0 to a quarter turn: robots also drive backwards.
+/// The angle between a heading and the line of a direction, radians, 0 to a quarter turn: robots also drive
+/// backwards.
 fn off_line(heading: f64, direction: f64) -> f64 {
     let off = difference(heading, direction).abs();
     if off > FRAC_PI_2 { std::f64::consts::PI - off } else { off }
