@@ -29,8 +29,8 @@ const CHECK_EVERY: Span = Span::from_millis(50);
 
 /// How long robots that are not ready may take.
 struct Bounds {
-    /// To answer, beyond the silence after which a robot drops out. A TARGET-only robot (it understands the command
-    /// TARGET but no routes) has three times as long, because a question and its answer must both be delivered.
+    /// To answer, beyond the silence after which a robot drops out. TARGET-only robots (they understand the command
+    /// TARGET but no routes) have three times as long: question and answer must both be delivered.
     answer: Span,
     /// To stop, for a TARGET-only robot that does not receive its halt: it drives on to its target.
     stop: Span,
@@ -63,7 +63,7 @@ pub(crate) struct Gathering {
 }
 
 impl Gathering {
-    /// The state at the beginning of a run whose robots all stand at known places: nothing is sent.
+    /// The state at the beginning of a run in which no robot has to stop, because all stand at known places.
     pub fn at_begin(now: Instant) -> Self {
         Self {
             since: now,
@@ -208,8 +208,8 @@ impl Gathering {
 }
 
 /// When a drive is held before STOP. Without a hold, a robot that misses the first STOP stops 40 ms later than the
-/// others. That is 11 mm at full speed and more than plans leave. `None` for legs of TARGETs, and if robots stand
-/// already or will soon.
+/// others. That is 11 mm at full speed and more than plans leave. `None` for legs of TARGETs, and if robots rest
+/// already or the drive ends before.
 pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
     if cx.pipeline.leg().is_none_or(|leg| leg.kind == LegKind::Targets) {
         return None;

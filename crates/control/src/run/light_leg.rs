@@ -10,10 +10,10 @@ use lightbots_lighting::{DrivenLight, FrameLight, LightMoment, ShowLight, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
 use std::sync::Arc;
 
-/// A stretch of light, which is sent to all robots with the colours of each.
+/// A stretch of light. Each robot is sent its own colours for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlannedStretch {
-    /// Number of the messages, which robots acknowledge.
+    /// Number of the stretch, by which robots acknowledge it.
     pub number: u32,
     /// Beginning of the stretch, as time since the drive began without holds.
     pub from: Span,
@@ -83,7 +83,8 @@ impl LegLight {
         self.clock.map(|clock| clock.path_time(now)).filter(|elapsed| *elapsed >= Span::ZERO)
     }
 
-    /// The moment of light at a time since the drive began. `lost`: how long the drive was held.
+    /// The [`LightMoment`] at a time since the drive began, from which layers compute colours. `lost`: how long the
+    /// drive was held.
     pub fn moment(&self, elapsed: Span, lost: Span) -> LightMoment {
         let shown = self.end().map_or(elapsed, |end| elapsed.min(end));
         let lead_s = self.times.lead_s + (lost + (elapsed - shown)).as_secs();
@@ -92,7 +93,7 @@ impl LegLight {
         LightMoment { elapsed, show_s: self.times.show_s + shown.as_secs(), lead_s, clock_s }
     }
 
-    /// The moment of light at a moment of the show clock, by the holds that are known.
+    /// The [`LightMoment`] at a moment of the show clock, by the holds that are known.
     pub fn moment_at(&self, at: Instant) -> LightMoment {
         self.moment(self.elapsed(at).unwrap_or(Span::ZERO), self.lost(at))
     }

@@ -32,7 +32,7 @@ pub(crate) struct Lights {
     pending: Vec<Option<Fade>>,
     /// Deliveries of the pending changes that are repeated.
     repeats: Option<Upload>,
-    /// When they are repeated next, all at once.
+    /// When the pending changes are repeated next, all at once.
     repeat_at: Instant,
     /// Number of repeats that are left.
     repeats_left: u32,
@@ -106,7 +106,7 @@ impl Lights {
         *self = Self { pending: vec![None; participants], ..Self::default() };
     }
 
-    /// Lets pending changes be sent without routes, because the routes that were to carry them were dropped.
+    /// Starts to repeat pending changes without routes, because the routes that were to carry them were dropped.
     pub fn send_again(&mut self, now: Instant) {
         if self.pending.iter().any(Option::is_some) {
             self.begin_repeats(now);
@@ -163,7 +163,7 @@ impl Lights {
     }
 }
 
-/// Sends robots that follow paths and cannot fade their new colour.
+/// Sends the new colour to robots that follow paths and cannot fade.
 fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
     for (participant, step) in leg.robots.iter().enumerate() {
         let known = &roster.participants[participant];

@@ -76,7 +76,7 @@ impl Participant {
 }
 
 impl Roster {
-    /// Makes all robots of the fleet that can take part participants.
+    /// Creates the roster of all robots of the fleet that can take part, and sets their numbers in the fleet.
     pub fn of_fleet(context: &mut Context, now: Instant) -> Self {
         let mut participants = Vec::new();
         for index in 0..context.fleet.robots().len() {

@@ -113,7 +113,7 @@ pub(crate) fn halt(cx: &mut RunContext, participant: usize) {
     cx.send(participant, &[Command::Target(target), Command::Uuid]);
 }
 
-/// Sends robots that were halted on.
+/// Lets robots that were halted drive on.
 pub(crate) fn resume_all(cx: &mut RunContext) {
     let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
     for participant in 0..participants {

@@ -4,8 +4,8 @@ use crate::leg::Leg;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_plan::unsynchronised::StraightDrive;
 
-/// Largest distance to the point up to which it may go at which a standing robot has done what it was told, metres.
-/// The robot stops up to 20 mm before its target, and its report may be 10 mm old.
+/// Distance to the point up to which it may go: a robot that stands closer has done what it was told, metres. The
+/// robot stops up to 20 mm before its target, and its last report may be 10 mm behind.
 const RESTS_M: f64 = 0.06;
 
 /// Progress of all straight drives of a leg.
@@ -59,7 +59,7 @@ impl TargetProgress {
         Self { states: vec![state; leg.drives.len()], followers, present }
     }
 
-    /// The straight drive that a participant is on. `None` if it was not sent off yet.
+    /// The straight drive that a participant is on. `None` if it was sent on none, or has ended the last one.
     pub fn under_way(&self, participant: usize) -> Option<usize> {
         let place = self.present.get(participant).copied().flatten()?;
         let state = &self.states[place];

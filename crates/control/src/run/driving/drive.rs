@@ -31,7 +31,7 @@ pub(crate) struct RobotProgress {
     pub probed_since: Option<Instant>,
     /// When the robot was last asked for a report.
     pub asked_at: Instant,
-    /// When the robot was last on its route or made progress, counted until some time after the planned end.
+    /// Latest moment, until `SLOW` after the planned end, at which the robot was on its route or made progress.
     pub on_route_at: Instant,
     /// Shortest distance to its goal, metres, and when the robot last came nearer by at least `NEARER_M`.
     pub nearest: (f64, Instant),

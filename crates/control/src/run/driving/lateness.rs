@@ -17,13 +17,14 @@ struct Uncertainty {
     sure_m: f64,
     /// Error from which on all robots wait, metres. The robot is `lost` at 20 mm (R46).
     unsure_m: f64,
-    /// Between these two errors all wait if another robot comes closer than contact plus this many sigma ...
+    /// For errors between these two: all wait if another robot comes closer than contact, plus this many sigma, plus
+    /// `others_m`.
     sigmas: f64,
-    /// ... and plus this for errors of the other robot, metres ...
+    /// Allowance for errors of the other robot, metres.
     others_m: f64,
-    /// ... within this time ...
+    /// How far ahead paths are checked.
     ahead: Span,
-    /// ... sampled in steps of this.
+    /// Time between two moments that are checked.
     step: Span,
 }
 

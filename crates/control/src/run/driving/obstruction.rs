@@ -90,8 +90,9 @@ impl Driving {
         None
     }
 
-    /// Watches a robot that is obstructed since `since`. If the obstacle stays, the late robot that it is drops out,
-    /// or all is planned again around it.
+    /// Watches a robot that is obstructed since `since`. If the obstacle stays and is a late robot, that robot drops
+    /// out. Otherwise all is planned again around the obstacle, or the obstructed robot drops out after too many
+    /// plans.
     pub fn watch_obstructed(&mut self, cx: &mut RunContext, participant: usize, since: Instant) -> Next {
         if cx.now - since > STAYS
             && let Some(culprit) = self.late_robot_seen_by(cx, participant)

@@ -3,7 +3,7 @@
 use crate::robot::KnownRobot;
 use lightbots_base::{Vec2, wrap};
 
-/// Largest distance from what a robot sees at which a place may be the place of it, metres.
+/// Distance within which the place of a robot and a sighting, or two sightings, may be of one robot, metres.
 pub(crate) const SAME_M: f64 = 0.035;
 /// Places of a path that are closer to each other than this are neighbours on it, metres.
 const NEXT_M: f64 = 0.03;
@@ -79,9 +79,9 @@ impl Sighting {
     }
 }
 
-/// Where a robot that fell silent on its path stands, by places of that path: one place for each group of sightings
-/// near the path. A robot that was run into stands beside its path, and a sensor measures range much better than
-/// bearing. If only one robot sees it far from the estimate, places up to the sighting itself are added.
+/// Where a robot that fell silent on its path stands: one place for each group of sightings near the path, of which
+/// `places` are samples. A robot that was run into stands beside its path, and a sensor measures range much better
+/// than bearing. If only one robot sees it far from the estimate, places up to the sighting itself are added.
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     let mut path: Vec<Vec2> = places.to_vec();
     path.extend(between(places));

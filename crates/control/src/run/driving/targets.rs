@@ -1,5 +1,5 @@
-//! TARGET-only robots (they understand the command TARGET but no routes) on their straight drives. What their reports
-//! mean, and which of them need help.
+//! TARGET-only robots on their straight drives: what their reports mean, and which of them need help. These robots
+//! understand the command TARGET but no routes.
 
 use crate::event::Trouble;
 use crate::run::driving::arrivals::{MISSED_M, is_there};
@@ -15,11 +15,11 @@ use lightbots_wire::Command;
 const MOVED_M: f64 = 0.005;
 /// Least time between requests to a TARGET-only robot for its place while others wait for it.
 const ASK_AWAITED: Span = Span::from_millis(90);
-/// Least time between these requests for each robot of the run, because the answers share one link; at most [`ASK`]
-/// in all.
+/// The time between these requests is at least this for each robot of the run, up to [`ASK`], because the answers
+/// share one link.
 const ASK_PER_ROBOT: Span = Span::from_millis(1);
 /// Distance from its goal beyond which a robot that arrived is sent its target again, metres. It stopped at an
-/// earlier target, or shorter of its target than known. The planner leaves room for a little more than this.
+/// earlier target, or farther before its target than known. The planner leaves room for a little more than this.
 const OFF_M: f64 = 0.015;
 /// How often at most a robot is sent its target again because it stands beside its goal.
 const CORRECTIONS: u8 = 2;
@@ -172,7 +172,7 @@ impl Driving {
         targets.stands(place, &leg.drives[place], cx.now, bound).then_some(place)
     }
 
-    /// Names a robot that makes no progress or is silent in an event, once.
+    /// Records an event, once, that names a robot that makes no progress or is silent.
     fn name_stalled(&self, cx: &mut RunContext, participant: usize, silent: Span) {
         let unheard = silent > cx.io.config.silence + cx.link.round_trip;
         let is_stalled = unheard || self.standing_drive(cx, participant, STANDSTILL.named_after).is_some();

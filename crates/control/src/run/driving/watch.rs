@@ -39,7 +39,7 @@ const SLOW: Span = Span::from_millis(60_000);
 const END_M: f64 = 0.01;
 /// Least approach to its goal that counts as progress, metres: more than the error of its fixes.
 const NEARER_M: f64 = 0.005;
-/// Time after robots should stand in a hold at which all are stopped, if some still drive.
+/// Time after robots should stand in a hold. If some still drive then, all are stopped.
 const HOLD_BOUND: Span = Span::from_millis(1_200);
 /// Time until a hold that all keep is checked again.
 const HOLD_CHECK_EVERY: Span = Span::from_millis(1_000);
@@ -117,7 +117,7 @@ impl Driving {
     }
 
     /// Watches a driving robot that has been silent for the time `silent`. First all wait for it; once all stand, it
-    /// drops out. `None` if nothing of that happens in this turn.
+    /// drops out. `None` if neither happens in this turn.
     fn watch_silent(&mut self, cx: &mut RunContext, participant: usize, silent: Span) -> Option<Next> {
         let bound = cx.io.config.silence + cx.link.round_trip * 2;
         if silent > bound && self.all_stand(cx, silent) {
@@ -190,8 +190,8 @@ impl Driving {
     }
 }
 
-/// Whether a robot reports to be on its route and not near its end: closer to where it should be by now than to its
-/// goal.
+/// Whether a robot that drives reports to be on its route and not near its end. It is then closer to its planned
+/// place than to its goal.
 fn is_on_its_way(cx: &RunContext, participant: usize) -> bool {
     let robot = cx.robot(participant);
     let (Some(at), Some(goal), Some(off_m)) = (robot.reported.at, cx.goal(participant), robot.reported.off_m)

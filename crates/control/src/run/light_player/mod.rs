@@ -53,7 +53,7 @@ pub(crate) struct LightPlayer {
     next: Option<LegLight>,
     /// The stretch that is being uploaded, and its deliveries.
     upload: Option<(PlannedStretch, Upload)>,
-    /// End of the newest stretch, as time since the drive began.
+    /// End of the newest stretch that stands still in holds, as time since the drive began.
     covered: Span,
     /// Until when robots have light that runs through holds, show clock. `Instant::FAR`: they have one colour for the
     /// present hold. `None`: their light stands still in holds.
@@ -70,7 +70,7 @@ pub(crate) struct LightPlayer {
     was_live: bool,
     /// When all robots get a new stretch, because live light changed or their leg began without one.
     renew_at: Instant,
-    /// When robots last began to get a stretch for that reason.
+    /// When robots last began to get a stretch because live light changed or their leg began without one.
     renewed_at: Instant,
     /// How long before the end of the newest stretch the next one is sent.
     refill: Span,

@@ -13,8 +13,8 @@ use lightbots_wire::Command;
 
 /// How long before its beginning a stretch that runs through holds is sent: a round trip.
 const LEAD: Span = Span::from_millis(100);
-/// How long after the beginning of a drive the second stretch is sent. When its drive begins, a robot drops a stretch
-/// that waits, and the clocks of some robots are a little behind (R56).
+/// How long after the beginning of a drive the second stretch is sent. A robot whose clock is a little behind has not
+/// begun the drive yet, and drops a waiting stretch when it does (R56).
 const BEGUN: Span = Span::from_millis(100);
 
 /// Parameters of a change of live light, which reaches robots within 0.3 s.
@@ -26,7 +26,7 @@ struct LiveChange {
     /// Duration of the first stretch, and what each robot adds to it, so that the next stretch reaches all in time.
     /// Short stretches are computed sooner.
     first: (Span, Span),
-    /// How many times `AT_ONCE` of these stretches may be computed at once, at most: each takes 0.06 ms.
+    /// Largest factor on `AT_ONCE` for short stretches: each takes 0.06 ms to compute.
     at_once: usize,
 }
 
@@ -52,7 +52,7 @@ struct Colours {
     rate: i64,
 }
 
-/// Four COLORs a second look like steps of a fade; 200 a second in all leave the broker free for routes.
+/// Four COLORs a second to one robot look like steps of a fade; 200 a second in all leave the broker free for routes.
 const COLOURS: Colours = Colours { every: Span::from_millis(250), rate: 200 };
 
 impl LightPlayer {
@@ -184,7 +184,7 @@ impl LightPlayer {
     }
 
     /// Sends COLORs to robots that do not understand stretches. Returns when to do that next; `Instant::FAR` if there
-    /// are no such robots.
+    /// are none.
     fn send_colours(
         &self,
         context: &mut Context,

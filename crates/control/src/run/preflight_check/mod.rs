@@ -20,7 +20,7 @@ use robot_test::{RobotTest, untested};
 use std::collections::BTreeMap;
 
 /// Distance to the end of the way out at which robots are stopped, metres. A robot that does not stop drives on by
-/// this distance, which can be measured. Before that point all robots are still fast.
+/// this distance, which its reports show. At this distance all robots are still fast.
 const STOP_LEFT_M: f64 = 0.033;
 /// How long after it should stand a robot may take to report that it does; two round trips come on top. R40 asks for
 /// that report at once. On a lossy link the robot has to be asked again.
@@ -40,7 +40,7 @@ const BLINK: Span = Span::from_millis(4_000);
 /// Time between requests for reports to driving robots. Their headings are compared with the directions in which they
 /// drive.
 const ASK_DRIVERS_EVERY: Span = Span::from_millis(120);
-/// Least time between these requests for each robot of the run, because the answers share one link.
+/// The time between these requests is at least this for each robot of the run, because the answers share one link.
 const ASK_DRIVERS_PER_ROBOT: Span = Span(400);
 
 /// The preflight under way.
@@ -327,7 +327,7 @@ fn ask(cx: &mut RunContext, whom: impl Fn(&KnownRobot) -> bool) -> bool {
     !robots.is_empty()
 }
 
-/// Makes all robots blink that can, those that dropped out too. A person sees which of them answer.
+/// Makes all robots that can blink do so, also those that dropped out. A person sees which of them respond.
 fn blink(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         let robot = cx.robot(participant);

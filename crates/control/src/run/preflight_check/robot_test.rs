@@ -1,4 +1,4 @@
-//! What a preflight finds of one robot.
+//! What a preflight finds about one robot.
 
 use crate::event::Trouble;
 use crate::leg::Leg;
