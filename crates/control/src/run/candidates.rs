@@ -1,4 +1,4 @@
-//! Robots that want to take part: new ones, and participants that dropped out and report again.
+//! Robots that may take part from the next frame on: new ones, and participants that dropped out and report again.
 
 use crate::event::EventKind;
 use crate::run::playback::RunPurpose;
@@ -25,7 +25,8 @@ pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     }
 }
 
-/// Whether a robot that has not taken part yet may do so.
+/// Whether a robot that has not taken part yet may do so. It has to be admitted. Without a list of admitted robots,
+/// it must have been found before the run began.
 fn is_expected(cx: &RunContext, robot: usize) -> bool {
     let known = cx.io.fleet.robot(robot);
     known.is_admitted && !(cx.io.config.admitted.is_none() && cx.roster.is_stranger(known))

@@ -24,7 +24,7 @@ const COPIES: (u32, Span) = (4, Span::from_millis(40));
 /// Time between requests to all robots to report. TARGET-only robots (they understand the command TARGET but no
 /// routes) do not report of their own accord.
 const ASK_EVERY: Span = Span::from_millis(2_000);
-/// While robots come back, the run waits this long for one more. Clients look for a broker every 2 s.
+/// How long the run waits for one more robot while robots come back. Clients look for a broker every 2 s.
 const ONE_MORE: Span = Span::from_millis(3_000);
 
 /// The state of a run that stands still.

@@ -10,9 +10,9 @@ use lightbots_wire::{Command, RobotState};
 
 /// How many robots that fall silent at once count as a lost link.
 struct Many {
-    /// At least this many …
+    /// Least number of silent robots.
     least: usize,
-    /// … and at least this share of the run's robots, percent.
+    /// Least share of the run's robots that are silent, percent. Both bounds have to be reached.
     percent: usize,
 }
 
@@ -43,7 +43,7 @@ const COPIES: (u32, Span) = (3, Span::from_millis(150));
 /// shorter than the time from the hold for a silent robot to its dropout. The question therefore costs no time.
 const ANSWER: Span = Span::from_millis(600);
 
-/// What it means that robots are silent.
+/// What the silence of robots means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     /// These robots are lost; enough of the others answer.

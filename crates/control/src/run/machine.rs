@@ -28,7 +28,7 @@ use lightbots_plan::Claims;
 /// Everything about one run.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
-    /// What is played.
+    /// The show that is played, and how far it has come.
     pub playback: PlayedShow,
     /// The robots that take part.
     pub roster: Roster,

@@ -20,7 +20,7 @@ pub(crate) enum Probation {
     Failed,
 }
 
-/// Whether a robot takes part.
+/// Whether a robot takes part, and whether it may come back after a dropout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Membership {
     /// Whether the robot dropped out. It then stands somewhere on the floor.

@@ -31,12 +31,12 @@ pub(crate) enum Next {
     Start(Instant),
     /// Robots have driven the first leg of the queue since this moment.
     Drive(Instant),
-    /// Robots stop, say where they are, and all is planned again from there.
+    /// Robots stop and report where they are, and all is planned again from there.
     Regather,
     /// The link to robots is lost: the run stands still until they report again. Holds the number of silent robots,
     /// `None` if the broker is lost.
     Interrupt(Option<usize>),
-    /// Robots report again: all say where they stand, and all is planned again from there.
+    /// Robots report again. They are gathered, and all is planned again from where they stand.
     GoOn,
     /// These participants drop out; the others are planned again without them. Never empty.
     Drop(Vec<Dropout>),

@@ -26,7 +26,7 @@ const DISPLACEMENT: Displacement = Displacement { most_m: 0.03, clearance_m: 0.0
 
 /// Discs that do not move during a drive, stage metres.
 pub(crate) struct Discs {
-    /// Robots that reported their places.
+    /// Places of robots that reported them.
     pub reported: Vec<Vec2>,
     /// Places that no robot reported.
     pub inferred: Vec<Vec2>,

@@ -47,7 +47,7 @@ pub(crate) struct Participant {
 pub(crate) struct Roster {
     /// All robots that take part or took part. They are never removed, so that their numbers stay valid.
     pub participants: Vec<Participant>,
-    /// Robots (indices into the fleet) that want to take part from the next frame on.
+    /// Robots (indices into the fleet) that may take part from the next frame on.
     pub candidates: Vec<usize>,
     /// When the run began.
     pub begun: Instant,

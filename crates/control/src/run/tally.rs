@@ -7,9 +7,9 @@ use lightbots_base::Instant;
 /// What a run counts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tally {
-    /// Frames reached.
+    /// Number of frames that robots have reached.
     pub frames_played: usize,
-    /// Robots that dropped out; a robot that dropped out twice counts twice.
+    /// Number of dropouts; a robot that dropped out twice counts twice.
     pub dropouts: usize,
     /// How often another controller continued the run after the one before was killed.
     pub taken_up: u32,

@@ -49,7 +49,7 @@ struct Patience {
     shortest: Span,
 }
 
-/// Half as long in fleets of 80 robots, a fifth from 200 on.
+/// The wait is half as long in fleets of 80 robots, and a fifth as long from 200 on.
 const PATIENCE: Patience =
     Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
 

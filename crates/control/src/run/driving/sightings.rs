@@ -23,7 +23,7 @@ struct Sigma {
     pushed_m: f64,
 }
 
-/// 1 sigma each.
+/// Standard deviations (1 sigma).
 const SIGMA: Sigma = Sigma { range_m: 0.002, bearing_m: 0.018, path_m: 0.002, pushed_m: 0.008 };
 
 /// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200. A
@@ -37,7 +37,7 @@ const BEARING: f64 = 0.4;
 const SEARCH_STEP_M: f64 = 0.001;
 /// Number of steps to each side of the mean of all sightings: farther than a sensor's bearing is off.
 const SEARCH_STEPS: i32 = 25;
-/// Least gap that a sighting counts as, metres: the planner finds no path out of a contact.
+/// Least gap that a sighting is taken to have, metres: the planner finds no path out of a contact.
 const GAP_MIN_M: f64 = 0.0015;
 
 /// The centre of what a robot sees in its path, if that is a robot; stage metres. `None` if it reports no place or

@@ -31,9 +31,9 @@ const _: () = assert!(SILENCE.asked_after.0 + ASKED_EVERY.0 < SILENCE.held_after
 /// Time after the planned end, or after a robot was last on its route, at which its place decides: it arrived or
 /// drops out.
 const OVERDUE: Span = Span::from_millis(3_000);
-/// Longest time that the fleet waits after the planned end for a robot that drives on its route. Such a robot is in a
-/// world that is slower than the plan: a simulation on a busy machine. Without a bound, a robot that reports nonsense
-/// would stop the show for good.
+/// Longest time that the fleet waits after the planned end for a robot that drives on its route. The robot may be in
+/// a world that is slower than the plan: a simulation on a busy machine. Without a bound, a robot that reports
+/// nonsense would stop the show for good.
 const SLOW: Span = Span::from_millis(60_000);
 /// A robot is still on its way if it is farther from its goal than off its route by more than this, metres.
 const END_M: f64 = 0.01;
