@@ -19,7 +19,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// Writes bytes as text, one after the other.
+/// Encodes bytes one after the other and writes them as text.
 pub(crate) struct Base64Writer<'a, 'b> {
     out: &'a mut TextBuffer<'b>,
     bytes: heapless::Vec<u8, ENCODED_AT_ONCE>,
@@ -32,7 +32,7 @@ impl<'a, 'b> Base64Writer<'a, 'b> {
     }
 
     pub(crate) fn push(&mut self, byte: u8) {
-        // Fits: it is emptied when it is full.
+        // Cannot fail: the vector is emptied when it is full.
         let _ = self.bytes.push(byte);
         if self.bytes.is_full() {
             self.write();
@@ -55,7 +55,7 @@ impl<'a, 'b> Base64Writer<'a, 'b> {
     }
 }
 
-/// Reads text into `bytes`: the bytes read, or `None` if the text is not base64 or too long.
+/// Decodes text into `bytes` and returns the decoded part; `None` if the text is not base64 or too long.
 pub(crate) fn decode<'a>(text: &str, bytes: &'a mut [u8]) -> Option<&'a [u8]> {
     let length = BASE64.decode_slice(text, bytes).ok()?;
     bytes.get(..length)

@@ -1,4 +1,4 @@
-//! Commands from the controller; a payload holds one or several.
+//! Commands from the controller; a payload holds one or several. `R31` and the like are rules of docs/protocol.md.
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
@@ -10,18 +10,18 @@ pub const MAX_PIECES: usize = 128;
 /// The pieces of a route.
 pub type Pieces = heapless::Vec<Piece, MAX_PIECES>;
 
-/// One command of a payload. `Target`, `Color` and `Uuid` are the original's.
+/// One command of a payload. `Target`, `Color` and `Uuid` come from the original protocol, the others are additions.
 // The large variant is decoded into place and moved once into the robot: boxing it would allocate.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// `TARGET x y`: drive there at once, stage metres.
+    /// `TARGET x y`: drive to this place at once, stage metres.
     Target(Vec2),
     /// `COLOR n`: show this colour at once.
     Color(Rgb),
-    /// `UUID`: report on `T/LightBot/UUID`.
+    /// `UUID`: report on `T/LightBot/UUID` at once.
     Uuid,
-    /// `PATH …`: keep this route until a `START` names it. It replaces a kept route that was not started.
+    /// `PATH …`: keep this route until a `START` names its number. It replaces a route that is kept and has not begun.
     Route(Route),
     /// `START seq at`: the kept route `seq` begins at this moment of the show clock.
     Start {
@@ -43,7 +43,7 @@ pub enum Command {
     },
     /// `STOP`: wheels stop at once; target and routes are deleted.
     Stop,
-    /// `STOP at`: as `HOLD at`, and as `STOP` when the route rests.
+    /// `STOP at`: slow down to rest as by `HOLD at`, then stop as by `STOP`.
     StopFrom {
         /// Moment on the show clock.
         at: Instant,
@@ -54,11 +54,11 @@ pub enum Command {
     Fade(Fade),
     /// `BLINK over`: the light flashes white so that people find the robot.
     Blink(Blink),
-    /// `LIGHT …`: a stretch of light ahead of time.
+    /// `LIGHT …`: a stretch of the robot's light, sent ahead of time.
     Light(LightStretch),
-    /// `SLOT k`: the robot's place in `LIVE` and `RELEASE`.
+    /// `SLOT k`: the number by which `LIVE` and `RELEASE` address the robot.
     Slot(u16),
-    /// `LIVE n first colours`: colours from elsewhere, for many robots.
+    /// `LIVE n first colours`: colours from a lighting desk or another program, for many robots.
     Live(LiveColours),
     /// `RELEASE n first count`: robots show their own light again.
     Release(LiveRelease),
@@ -71,13 +71,13 @@ pub enum Command {
 pub struct Route {
     /// Number chosen by the controller, never 0; a robot repeats it in its reports.
     pub seq: u32,
-    /// Where it starts, stage metres.
+    /// Place where the route starts, stage metres.
     pub start: Vec2,
-    /// Its pieces in order.
+    /// Pieces of the route in order.
     pub pieces: Pieces,
-    /// Least planned clearance to other rims, whole millimetres; `None`: not sent.
+    /// Least planned clearance to the rims of other robots, whole millimetres; `None` if it is not sent.
     pub room_mm: Option<u16>,
-    /// Planned neighbours that come into sight.
+    /// Robots that come into sight of the sensors by plan, with places and times.
     pub neighbours: Neighbours,
 }
 

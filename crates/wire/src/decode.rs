@@ -1,4 +1,4 @@
-//! Bytes → commands.
+//! Reads commands from bytes. `R4` and the like are rules of docs/protocol.md.
 
 use lightbots_base::{Instant, Rgb, Span, Vec2};
 
@@ -12,7 +12,7 @@ use crate::{Blink, Command, Fade, TimeAnswer};
 /// Longest payload that a robot reads, bytes (R4). A route of [`crate::MAX_PIECES`] curves needs half of it.
 pub const MAX_PAYLOAD: usize = 16 * 1024;
 
-/// Longest `BLINK` (R24).
+/// Longest duration of a `BLINK` (R24); a longer one is shortened.
 const LONGEST_BLINK: Span = Span::from_millis(60_000);
 
 /// Why a part of a payload is not a command. The robot counts and drops the part (R7).
@@ -36,7 +36,7 @@ pub struct Commands<'a> {
     refused: Option<Unknown>,
 }
 
-/// The commands of a payload, in order: parts between `|`, empty ones skipped.
+/// Returns the commands of a payload in order. They are the parts between `|`; empty parts are skipped.
 pub fn commands(payload: &[u8]) -> Commands<'_> {
     let read = match payload.len() {
         0..=MAX_PAYLOAD => core::str::from_utf8(payload).map_err(|_| Unknown::NotText),
@@ -76,7 +76,7 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
         "START" => made(start(fields), |(seq, at)| Command::Start { seq, at }),
         "HOLD" => made(moment(fields), |at| Command::Hold { at }),
         "RESUME" => made(moment(fields), |at| Command::Resume { at }),
-        // Whatever follows it, a robot stops.
+        // A robot stops whatever follows the word: an invalid moment makes it `STOP` at once.
         "STOP" => Some(Ok(moment(fields).map_or(Command::Stop, |at| Command::StopFrom { at }))),
         "TIME" => made(time(fields), Command::Time),
         "FADE" => made(fade(fields), Command::Fade),
@@ -90,7 +90,7 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
     }
 }
 
-/// The decoded value as a command.
+/// Returns the command of a decoded value, or why it could not be decoded.
 #[inline(always)]
 fn made<T>(read: Result<T, Unknown>, command: impl Fn(T) -> Command) -> Option<Result<Command, Unknown>> {
     match read {

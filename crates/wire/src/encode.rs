@@ -1,4 +1,4 @@
-//! Commands → bytes.
+//! Writes commands as text.
 
 use core::fmt::{self, Write};
 

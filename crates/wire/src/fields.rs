@@ -36,7 +36,8 @@ impl<'a> Iterator for Fields<'a> {
     }
 }
 
-/// The texts before and after the first `stop`, an ASCII character; `None` after it if there is no `stop`.
+/// Returns the texts before and after the first `stop`, an ASCII character. If there is no `stop`, the first is the
+/// whole text and the second `None`.
 #[inline]
 pub(crate) fn cut(text: &str, stop: u8) -> (&str, Option<&str>) {
     let pattern = LOW_BITS * u64::from(stop);
@@ -44,8 +45,8 @@ pub(crate) fn cut(text: &str, stop: u8) -> (&str, Option<&str>) {
     (&text[..end], text.get(end + 1..))
 }
 
-/// Index of the first byte for which `sought` holds, or the length. `marks` sets the highest bit of candidate bytes in a
-/// word: correct for the lowest candidate, possibly wrong for higher bytes.
+/// Returns the index of the first byte for which `sought` holds, or the length. `marks` sets the highest bit of
+/// candidate bytes in a word. Only its lowest mark has to be a candidate; higher ones may be wrong.
 #[inline]
 fn first(bytes: &[u8], marks: impl Fn(u64) -> u64, sought: impl Fn(u8) -> bool) -> usize {
     let mut at = 0;

@@ -1,4 +1,4 @@
-//! `LIGHT`: a stretch of a robot's light ahead of time (R55).
+//! `LIGHT`: a stretch of a robot's light, sent ahead of time. `R55` is a rule of docs/protocol.md.
 
 use core::fmt::{self, Write};
 
@@ -17,15 +17,15 @@ const MAX_TRACK_BYTES: usize = 3 + 7 * MAX_LIGHT_RECORDS;
 /// The records of a stretch of light.
 pub type LightRecords = heapless::Vec<LightRecord, MAX_LIGHT_RECORDS>;
 
-/// From when a light track's time counts.
+/// The moment from which the time of a stretch of light counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LightAnchor {
-    /// `S12`: from the START of the route with this number; its time is that route's path time.
+    /// `S12`: the START of the route with this number. Time is the path time of that route.
     Start(u32),
-    /// `A9000000`: from this moment of the show clock; time lost by later holds does not count.
+    /// `A9000000`: this moment of the show clock, microseconds. Time stands during later holds.
     Moment(Instant),
-    /// `F9000000`: from this moment of the show clock, also during holds.
+    /// `F9000000`: this moment of the show clock, microseconds. Time goes on during holds.
     Free(Instant),
 }
 
@@ -34,20 +34,20 @@ pub enum LightAnchor {
 pub struct LightStretch {
     /// Number chosen by the controller, never 0; a robot repeats it in its reports.
     pub number: u32,
-    /// From when its time counts.
+    /// Moment from which the time of the stretch counts.
     pub anchor: LightAnchor,
-    /// Time at which the track begins.
+    /// Time since the anchor at which the track begins.
     pub skip: Span,
-    /// How long the light takes from the colour shown before to the track's.
+    /// Duration of the change from the colour shown before to the colours of the track.
     pub over: Span,
-    /// The colour at its beginning.
+    /// Colour at the beginning of the track.
     pub start: Rgb,
-    /// Its records in order.
+    /// Records of the track in order.
     pub records: LightRecords,
 }
 
 impl LightStretch {
-    /// Its colours.
+    /// Returns the colours of the stretch over time.
     pub fn track(&self) -> LightTrack<'_> {
         LightTrack { start: self.start, records: &self.records }
     }
@@ -82,7 +82,7 @@ pub(crate) fn decode_light(fields: &mut Fields<'_>) -> Option<LightStretch> {
     let mut bytes = [0; MAX_TRACK_BYTES];
     let bytes = decode(text, &mut bytes)?;
     let mut records = LightRecords::new();
-    // Fits: that is its capacity.
+    // Cannot fail: this is the capacity of the vector.
     let _ = records.resize(MAX_LIGHT_RECORDS, LightRecord::Repeat { records: 1, times: 1 });
     let track = decode_light_track(bytes, &mut records).ok()?;
     let (start, count) = (track.start, track.records.len());

@@ -1,4 +1,5 @@
-//! `LIVE` and `RELEASE`: colours from elsewhere for many robots in one message (R60, R61).
+//! `LIVE` and `RELEASE`: colours from a lighting desk or another program, for many robots in one message (R60, R61 of
+//! docs/protocol.md).
 
 use core::fmt::{self, Write};
 
@@ -26,7 +27,7 @@ pub struct LiveColours {
 }
 
 impl LiveColours {
-    /// The colour for the robot in a slot.
+    /// Returns the colour for the robot in a slot; `None` if the message has none for that slot.
     pub fn of(&self, slot: u16) -> Option<Rgb> {
         self.colours.get(usize::from(slot.checked_sub(self.first)?)).copied()
     }
@@ -35,7 +36,7 @@ impl LiveColours {
 /// `RELEASE n first count`: robots in consecutive slots show their own light again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LiveRelease {
-    /// Number as in [`LiveColours::number`], of the same sequence.
+    /// Number from the same rising sequence as [`LiveColours::number`].
     pub number: u32,
     /// The first slot.
     pub first: u16,
@@ -44,7 +45,7 @@ pub struct LiveRelease {
 }
 
 impl LiveRelease {
-    /// Whether it concerns the robot in a slot.
+    /// Whether the release applies to the robot in a slot.
     pub fn covers(&self, slot: u16) -> bool {
         slot.checked_sub(self.first).is_some_and(|place| place < self.count)
     }
@@ -80,7 +81,7 @@ pub(crate) fn decode_release(fields: &mut Fields<'_>) -> Option<LiveRelease> {
     Some(LiveRelease { number, first, count })
 }
 
-/// A slot: a robot's place in messages of live light (R59).
+/// Reads a slot: the number by which messages of live light address a robot (R59).
 pub(crate) fn slot(fields: &mut Fields<'_>) -> Option<u16> {
     fields.next()?.parse().ok()
 }

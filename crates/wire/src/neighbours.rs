@@ -1,8 +1,9 @@
-//! `N clearance knots…` after a route: the planned neighbours in sight, with places and times.
+//! `N clearance knots…` at the end of `PATH`: the robots that come into sight by plan (neighbours), with places and
+//! times. `R31` is a rule of docs/protocol.md.
 //!
 //! A neighbour is a clearance in tenths of a millimetre, a number of knots, and the knots. A knot has a path time in
 //! milliseconds, a place in tenths of a millimetre, and a velocity in millimetres per second. Between two knots the
-//! neighbour moves on the cubic with both places and both velocities (a cubic Hermite spline).
+//! neighbour moves on the cubic Hermite spline that has both places and both velocities.
 
 use core::fmt::{self, Write};
 
@@ -48,14 +49,14 @@ pub struct Neighbours {
     pub knots: heapless::Vec<Knot, MAX_KNOTS>,
 }
 
-/// Place, velocity and acceleration of a neighbour on the stage.
+/// Place, velocity and acceleration of a neighbour at one path time, in stage space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NeighbourMotion {
     /// Centre, metres.
     pub position: Vec2,
-    /// Per path time, m/s.
+    /// Velocity, metres per second of path time.
     pub velocity: Vec2,
-    /// Per path time, m/s².
+    /// Acceleration, metres per second squared, by path time.
     pub acceleration: Vec2,
 }
 
@@ -65,7 +66,8 @@ impl Neighbours {
         Self { list: heapless::Vec::new(), knots: heapless::Vec::new() }
     }
 
-    /// Adds a neighbour with its knots; `false` if they do not all fit, and nothing is added.
+    /// Adds a neighbour with its knots. Returns `false` and adds nothing if `knots` is empty or there is no room for
+    /// all of them.
     pub fn push(&mut self, clearance_tenths: u16, knots: &[Knot]) -> bool {
         if knots.is_empty() || self.knots.len() + knots.len() > MAX_KNOTS {
             return false;
@@ -75,8 +77,8 @@ impl Neighbours {
         has_room && self.knots.extend_from_slice(knots).is_ok()
     }
 
-    /// Motion of a neighbour at a path time; `None` while the plan does not have it in sight. A neighbour that rests at its
-    /// last knot stays there.
+    /// Returns the motion of a neighbour at a path time; `None` before its first knot and after its last one. A
+    /// neighbour whose velocity is zero at its last knot stays there.
     pub fn motion(&self, neighbour: &Neighbour, at: Span) -> Option<NeighbourMotion> {
         let first = usize::from(neighbour.first);
         let knots = self.knots.get(first..first + usize::from(neighbour.count))?;
@@ -95,7 +97,7 @@ impl Neighbours {
         Some(hermite(&from.motion(), &to.motion(), (at_us - us(from)) as f64 * 1e-6 / over_s, over_s))
     }
 
-    /// Reads the rest of a route. An invalid entry ends the list and is not an error (R31).
+    /// Reads the neighbours at the end of a route. An invalid entry ends the list and is not an error (R31).
     pub(crate) fn decode(fields: &mut Fields<'_>) -> Self {
         let mut all = Self::new();
         while fields.next() == Some("N") {
@@ -132,7 +134,8 @@ impl Knot {
     }
 }
 
-/// Motion on the cubic with both places and velocities, at the share `u` of the time between them.
+/// Returns the motion on the cubic Hermite spline from `from` to `to`, which takes `over_s` seconds, at its share `u`
+/// from 0 to 1.
 fn hermite(from: &NeighbourMotion, to: &NeighbourMotion, u: f64, over_s: f64) -> NeighbourMotion {
     let (chord, m0, m1) = (to.position - from.position, from.velocity * over_s, to.velocity * over_s);
     // position = p0 + m0·u + b·u² + a·u³
@@ -156,7 +159,7 @@ fn decode_one(fields: &mut Fields<'_>, all: &mut Neighbours) -> Option<()> {
             all.knots.truncate(first);
             return None;
         };
-        // Fits, because the length was checked above.
+        // Cannot fail, because the length was checked above.
         let _ = all.knots.push(knot);
     }
     let ordered = all.knots[first..].windows(2).all(|pair| pair[0].at_ms < pair[1].at_ms);

@@ -1,4 +1,5 @@
-//! Numbers ↔ text, with a short path for the numbers that frequent messages hold.
+//! Reads and writes numbers as text, with a fast path for the numbers that frequent messages hold. `R8` and the like
+//! are rules of docs/protocol.md.
 
 use core::fmt::{self, Write};
 
@@ -19,7 +20,8 @@ const INSTANT_MAX_US: u64 = i64::MAX as u64;
 const DURATION_MAX: Span = Span(3_600_000_000);
 /// Largest coordinate on the wire, metres from the origin (R19, R31).
 const COORDINATE_MAX_M: f64 = 1000.0;
-/// Largest number of a report, in the robot's own unit (R10). A robot that is farther away does not know its place.
+/// Largest absolute value of a number in a report, in the unit of its field (R9). A position with a larger coordinate
+/// counts as unknown.
 pub(crate) const DOUBLE_MAX: f64 = 1e6;
 
 /// Reads a number: decimal point or comma, exponent, `NaN`, `Infinity`. `None` for all other texts and for texts longer than
@@ -32,7 +34,8 @@ pub fn number(text: &str) -> Option<f64> {
     plain_decimal(bytes).or_else(|| any_number(bytes))
 }
 
-/// Reads `[-]digits[.,]digits[E-digit]` with a mantissa of at most `EXACT_MAX`: the result is exact to the last bit.
+/// Reads `[-]digits[.,]digits[E-digit]` with a mantissa of at most `EXACT_MAX`, correctly rounded. `None` for other
+/// texts.
 fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     let (negative, digits) = match bytes {
         [b'-', rest @ ..] => (true, rest),
@@ -73,7 +76,7 @@ fn any_number(bytes: &[u8]) -> Option<f64> {
     core::str::from_utf8(copy).ok()?.parse().ok()
 }
 
-/// Reads an instant in microseconds.
+/// Reads an instant in microseconds; `None` above `INSTANT_MAX_US`.
 pub(crate) fn instant(text: &str) -> Option<Instant> {
     text.parse().ok().filter(|&us| us <= INSTANT_MAX_US).map(Instant)
 }
@@ -95,7 +98,7 @@ pub(crate) fn tenths(metres: f64) -> i32 {
     round(metres.clamp(-COORDINATE_MAX_M, COORDINATE_MAX_M) * 1e4) as i32
 }
 
-/// The nearest whole number, halves away from zero. `core` has no `f64::round` before 1.90 on bare metal.
+/// Returns the nearest whole number, halves away from zero. `core` has no `f64::round` before 1.90 on bare metal.
 fn round(value: f64) -> i64 {
     (value + if value < 0.0 { -0.5 } else { 0.5 }) as i64
 }
@@ -108,7 +111,7 @@ pub(crate) fn write_int(out: &mut TextBuffer<'_>, value: i64) -> fmt::Result {
     write_digits(out, value.unsigned_abs(), 1)
 }
 
-/// Writes digits with leading zeros up to `width`, at most 20.
+/// Writes a whole number, with leading zeros if it has fewer than `width` digits; `width` is at most 20.
 pub(crate) fn write_digits(out: &mut TextBuffer<'_>, mut value: u64, width: usize) -> fmt::Result {
     if value < 10 && width <= 1 {
         return out.bytes(&[b'0' + value as u8]);
@@ -144,8 +147,9 @@ pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::R
     write_digits(out, millionths.unsigned_abs() % 1_000_000, 6)
 }
 
-/// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`,
-/// `1.0E-4`, `NaN`. Places in metres are thus rounded to a tenth of a millimetre.
+/// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`, `1.0E-4`,
+/// `NaN`. Places in metres are thus rounded to a tenth of a millimetre. Finite numbers beyond `DOUBLE_MAX` become
+/// `NaN`.
 pub(crate) fn write_double(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() || value.abs() > DOUBLE_MAX {
         return write_not_finite(out, if value.is_finite() { f64::NAN } else { value });

@@ -14,7 +14,7 @@ use crate::{Neighbours, Pieces, Route};
 /// A place in tenths of a millimetre, as on the wire, so that both sides calculate with equal values.
 type Tenths = [i32; 2];
 
-/// Reads the route after the word `PATH`; `None` if a field is invalid or the route has more than `MAX_PIECES` pieces.
+/// Reads the route after the word `PATH`; `None` if a field is invalid or there are more than `MAX_PIECES` pieces.
 pub(crate) fn decode_route(fields: &mut Fields<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;
@@ -48,7 +48,8 @@ fn place(fields: &mut Fields<'_>) -> Option<Vec2> {
     Some(Vec2::new(x, y))
 }
 
-/// Writes `PATH …` without the bars. Places are rounded to a tenth of a millimetre; durations are at least one microsecond.
+/// Writes `PATH …` without the bars around a command. Rounds places to a tenth of a millimetre; durations are at least
+/// one microsecond.
 pub(crate) fn encode_route(route: &Route, out: &mut TextBuffer<'_>) -> fmt::Result {
     out.write_str("PATH ")?;
     write_int(out, i64::from(route.seq))?;

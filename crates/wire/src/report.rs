@@ -1,8 +1,8 @@
-//! Reports and time questions from robots.
+//! Reports and time questions from robots. `R10` and the like are rules of docs/protocol.md.
 
 use lightbots_base::{Instant, RobotId, Vec2};
 
-/// A robot's report, on `T/LightBot/UUID`, `Arrival` and `Status`: `<uuid> <x> <y>`, then our fields.
+/// A robot's report on `T/LightBot/UUID`, `Arrival` or `Status`: `<uuid> <x> <y>`, then the fields of [`Details`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// Name of the robot.
@@ -22,19 +22,20 @@ pub struct Details {
     pub battery: Option<u8>,
     /// State (R12).
     pub state: RobotState,
-    /// Number of the kept route, else of the route under way or finished last; 0: none.
+    /// Number of the kept route, else of the route under way, else of the route finished last; 0 if there is none.
     pub route: u32,
     /// Start of that route, show clock; `None`: not known.
     pub starts: Option<Instant>,
-    /// Number of the stretch of light that it received last; 0: none (R55).
+    /// Number of the stretch of light that the robot received last; 0 if there is none (R55).
     pub light: u32,
-    /// Its place in messages of live light; `None`: it was given none (R59).
+    /// Number by which messages of live light address the robot; `None` if it was given none (R59).
     pub slot: Option<u16>,
-    /// Distance from the place of its route at this moment, metres; `None`: no route under way.
+    /// Distance between the robot and its planned place at this moment, metres; `None` if no route is under way.
     pub off_m: Option<f64>,
-    /// 1 sigma of its position, metres; while fixes are missing, the value predicted for half a second later.
+    /// Standard deviation (1 sigma) of each coordinate of the position, metres. While fixes are missing on a route: the
+    /// value predicted for half a second later.
     pub err_m: Option<f64>,
-    /// 2 sigma of its show clock, microseconds; `None`: not synchronised.
+    /// Uncertainty (2 sigma) of the robot's show clock, microseconds; `None` if the clock is not synchronised.
     pub clock_us: Option<u32>,
     /// Name and version of its firmware.
     pub firmware: Firmware,
@@ -42,18 +43,18 @@ pub struct Details {
     pub abilities: Abilities,
     /// Number of commands ignored by R7 since power-on.
     pub unknown: u32,
-    /// Obstacle for which it stands or brakes (R49).
+    /// Obstacle for which the robot stands or brakes (R49).
     pub blocked: Option<Blocked>,
     /// Whether it reports itself as simulated (R52).
     pub simulated: bool,
-    /// Number of times since power-on that its safety layer began to slow it (R53).
+    /// Number of times since power-on that the robot's safety layer began to slow it (R53).
     pub brakes: u32,
-    /// Least gap between its rim and the rim of another robot that it saw on its latest route, metres (R53); `None`: it
-    /// saw none.
+    /// Least gap to the rim of another robot that the sensors measured on the latest route, metres (R53). `None` if
+    /// they saw no robot.
     pub near_m: Option<f64>,
 }
 
-/// An unplanned obstacle (R49).
+/// An obstacle that is not in the robot's plan (R49).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Blocked {

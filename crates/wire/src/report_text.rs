@@ -1,4 +1,4 @@
-//! Reports and questions ↔ bytes.
+//! Reads and writes reports and time questions as bytes. `R4` and the like are rules of docs/protocol.md.
 
 use core::fmt::{self, Write};
 
@@ -72,12 +72,12 @@ impl RobotState {
         (Self::Faulty, "faulty"),
     ];
 
-    /// The word of the state on the wire and on the screen.
+    /// Returns the word of the state on the wire and on the screen.
     pub fn word(self) -> &'static str {
         Self::WORDS.iter().find(|(state, _)| *state == self).map_or("idle", |(_, word)| word)
     }
 
-    /// The state of a word; `None` if there is none.
+    /// Returns the state that has this word; `None` if no state has it.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::WORDS.iter().find(|(_, known)| *known == word).map(|(state, _)| *state)
     }
@@ -121,7 +121,7 @@ fn finite(value: &str) -> Option<f64> {
     number(value).filter(|value| value.abs() <= DOUBLE_MAX)
 }
 
-/// `gap@towards`.
+/// Reads `gap@towards`; `None` if a number is invalid or the gap is negative.
 fn blocked(value: &str) -> Option<Blocked> {
     let (gap, towards) = value.split_once('@')?;
     let gap_m = finite(gap).filter(|&gap| gap >= 0.0)?;
@@ -194,7 +194,7 @@ fn write_details(details: &Details, out: &mut TextBuffer<'_>) -> fmt::Result {
 }
 
 impl Abilities {
-    /// All abilities. They are read and written without a loop, because nearly all reports hold them.
+    /// All abilities. Their words are read and written as one text, because nearly all reports hold all of them.
     pub const ALL: Self =
         Self { route: true, fade: true, blink: true, room: true, neighbours: true, light: true, live: true };
     /// `ALL` on the wire.

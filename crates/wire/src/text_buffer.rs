@@ -2,14 +2,14 @@
 
 use core::fmt::{self, Write};
 
-/// Bytes of the buffer: most messages fit as a whole. Smaller: more calls of the sink. Larger: more stack. A report
-/// with all fields and long values, chosen on 2026-11-24, needs 260.
+/// Size of the buffer, bytes: most messages fit as a whole. Smaller: more calls of the sink. Larger: more stack. A
+/// report with all fields and long values needs 260 bytes (2026-11-24).
 const BUFFER_BYTES: usize = 320;
 
 /// Collects the many short parts of a message and writes them at once, because each call of the sink is dynamic.
 pub(crate) struct TextBuffer<'a> {
     out: &'a mut dyn Write,
-    /// Whole UTF-8 characters up to `len`.
+    /// Buffered text, in whole UTF-8 characters; only the first `len` bytes count.
     text: [u8; BUFFER_BYTES],
     len: usize,
 }
@@ -20,7 +20,7 @@ impl<'a> TextBuffer<'a> {
         Self { out, text: [0; BUFFER_BYTES], len: 0 }
     }
 
-    /// Writes the rest of the text.
+    /// Writes what is still buffered to the sink.
     pub(crate) fn finish(mut self) -> fmt::Result {
         self.flush()
     }

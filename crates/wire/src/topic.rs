@@ -2,13 +2,14 @@
 
 use lightbots_base::RobotId;
 
-/// Beginning of all topics.
+/// Text with which all topics begin.
 const ROOT: &str = "T/LightBot/";
 
 /// A topic as text; the longest has 47 bytes (R3).
 pub type TopicText = heapless::String<56>;
 
-/// Topic of a message, below `T/LightBot/`.
+/// Topic of a message, named by its part after `T/LightBot/`. Original topics have to stay; the others are additions of
+/// ours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Topic {
     /// `UUID`: presence of robots. Original.
@@ -17,7 +18,7 @@ pub enum Topic {
     Arrival,
     /// `Status`: periodic reports, and reports of changes. Ours.
     Status,
-    /// `Time`: robots ask for the show clock. Ours.
+    /// `Time`: questions of robots for the show clock. Ours.
     Time,
     /// `Broadcast`: commands for all robots. Original.
     Broadcast,
@@ -38,7 +39,7 @@ impl Topic {
         })
     }
 
-    /// The topic as text.
+    /// Returns the topic as text.
     pub fn write(self) -> TopicText {
         let mut text = TopicText::new();
         let name = match &self {
