@@ -1,80 +1,82 @@
-//! What a controller is told once, at its start.
+//! Settings that a controller gets at its start.
 
 use lightbots_base::{RobotId, Span};
 use lightbots_lighting::{LampSettings, Tolerance};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Bounds and tolerances of a controller. The default is what the shell uses, except for `seq_base`.
+/// Bounds and tolerances of a controller. The server starts with the default values, except for `seq_base` and `lamp`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Config {
-    /// Routes are numbered from here on. A restarted controller must not reuse numbers: derive it from the time of
-    /// day at the start (seconds since 1970 times 8 will do).
+    /// Number of the first route; the following routes count up. A restarted controller must not reuse numbers, so
+    /// derive it from the time of day (seconds since 1970 times 8 will do).
     pub seq_base: u32,
-    /// How far from its goal, along x and along y, a robot may be that reports its arrival, metres.
+    /// Largest distance between a robot and its goal, along x and along y, at which the robot counts as arrived,
+    /// metres.
     pub arrival_tolerance_m: f64,
-    /// The most robots that are remembered; further names are counted and dropped.
+    /// Largest number of robots that are remembered. Reports of further robots are counted and dropped.
     pub robots_max: usize,
-    /// Names of the robots that may take part in runs; `None`: any robot that is there when a run begins. Robots of other
-    /// names are driven around.
+    /// Names of the robots that may take part in runs; `None` admits any. Other robots on the floor are driven around.
     pub admitted: Option<BTreeSet<RobotId>>,
-    /// When robots that do not report age.
+    /// After which silence robots count as stale, and as gone.
     pub ageing: Ageing,
-    /// How long before its moment a START is stated; grows by 20 µs a robot.
+    /// Least time between sending a START and its moment. It grows by 20 µs a robot, on slow links, and after lost
+    /// answers.
     pub start_lead: Span,
-    /// How routes are sent.
+    /// Limits for sending routes.
     pub upload: UploadLimits,
-    /// A robot that should report and did not for this long drops out.
+    /// Time without reports after which a robot that should report drops out. Round trips of the link come on top.
     pub silence: Span,
-    /// When a robot is late.
+    /// Bounds for robots that are behind their paths.
     pub late: LateBounds,
-    /// How long a run waits.
+    /// Longest times for which a run waits.
     pub waits: WaitBounds,
-    /// How far robots' lights may be from the colours of layers.
+    /// Largest deviation of robots' lights from the colours of layers.
     pub light_tolerance: Tolerance,
-    /// The lamps of the fleet: colours leave for robots corrected by these. All others, such as those of snapshots, are as
-    /// they are meant.
+    /// Correction for the fleet's lamps, applied to colours that are sent to robots. Other colours, such as those of
+    /// snapshots, are not corrected.
     pub lamp: LampSettings,
 }
 
-/// When a robot is late.
+/// Bounds for robots that are behind their paths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LateBounds {
-    /// A robot this far off its path makes all robots wait, metres; more where the plan leaves more room.
+    /// Distance from its path at which a robot makes all robots wait, metres. In legs with more clearance the distance
+    /// may be larger.
     pub off_m: f64,
-    /// How long all robots wait for it before the rest is planned again around it.
+    /// How long all robots wait for a late robot. Then it drops out, and the others are planned around it.
     pub wait: Span,
 }
 
-/// How long a run waits.
+/// Longest times for which a run waits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WaitBounds {
-    /// For a plan, before the run is given up.
+    /// Longest wait for a plan; then the run fails.
     pub plan: Span,
-    /// For the broker, or for robots that are all silent, before it ends.
+    /// Longest wait for the broker, for silent robots, or for any acknowledgement of a route; then the run fails.
     pub outage: Span,
-    /// A run whose robots were out of reach for no longer than this goes on by itself. After that, people may have stepped
-    /// on the floor, and the operator says that it goes on.
+    /// Longest interruption after which a run goes on by itself. After a longer one the operator has to agree, because
+    /// people may have stepped on the floor.
     pub goes_on_within: Span,
 }
 
-/// When robots that do not report age.
+/// After which silence robots count as stale, and as gone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ageing {
-    /// A robot that has not reported for longer is stale: it takes no part in a new run, but is driven around.
+    /// Silence after which a robot is stale: it takes no part in a new run, but is driven around.
     pub stale_after: Span,
-    /// A robot that has not reported for longer is gone: it is not driven around any more.
+    /// Silence after which a robot is gone: it is not driven around any more.
     pub gone_after: Span,
 }
 
-/// How routes are sent.
+/// Limits for sending routes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UploadLimits {
-    /// A route that was not acknowledged for this long is sent again.
+    /// Time without acknowledgement after which a route is sent again; longer on slow links.
     pub resend_after: Span,
-    /// How often a route is sent before its robot drops out.
+    /// How often a route is sent without acknowledgement before its robot drops out.
     pub tries: u32,
-    /// Most routes that are sent and not acknowledged.
+    /// Largest number of routes that are sent and not yet acknowledged.
     pub window: usize,
 }
 

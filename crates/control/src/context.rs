@@ -1,4 +1,4 @@
-//! What every run works with, and what outlives a run.
+//! The state that runs use and that outlives them: settings, fleet, messages, events and mapping.
 
 use crate::config::Config;
 use crate::event::EventKind;
@@ -12,7 +12,7 @@ use lightbots_base::{Instant, Rgb};
 use lightbots_wire::{Command, Report, Topic};
 use serde::{Deserialize, Serialize};
 
-/// What every run works with, and what outlives a run.
+/// The state that runs use and that outlives them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Context {
     /// Bounds and tolerances.
@@ -25,21 +25,21 @@ pub(crate) struct Context {
     pub log: EventQueue,
     /// Which robot shows which pixel.
     pub mapping: Mapping,
-    /// A plan to be made; a newer one replaces an older one.
+    /// The plan request that was not taken yet; a newer one replaces an older one.
     #[serde(skip)]
     pub plan_request: Option<PlanRequest>,
     /// Number of the last plan request.
     pub plan_number: u64,
     /// Number of the next route.
     next_route: u32,
-    /// Arrivals of robots that were sent nowhere.
+    /// Number of arrivals reported by robots that were sent nowhere.
     pub unexpected: u64,
-    /// Routes sent more than once.
+    /// Number of times that a route was sent again.
     pub resent: u64,
 }
 
 impl Context {
-    /// An empty fleet.
+    /// Returns the state of a controller that knows no robot yet.
     pub fn new(config: Config) -> Self {
         Self {
             next_route: config.seq_base.max(1),
@@ -55,7 +55,7 @@ impl Context {
         }
     }
 
-    /// A route number that was not used before; never 0.
+    /// Returns the number for the next route; never 0. After the largest number it begins again at 1.
     pub fn number_route(&mut self) -> u32 {
         let number = self.next_route;
         self.next_route = number.checked_add(1).unwrap_or(1);
@@ -67,7 +67,8 @@ impl Context {
         self.outbox.send(Topic::Robot(self.fleet.robot(robot).id), commands);
     }
 
-    /// Sets the light that a robot is told to show from now on; whether it is another one.
+    /// Notes the colour that a robot is told to show from now on. Returns `false` if the robot shows it already for
+    /// certain.
     pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
         let robot = self.fleet.robot_mut(robot);
         let is_other = !robot.shows(color);
@@ -75,7 +76,7 @@ impl Context {
         is_other
     }
 
-    /// An arrival of a robot that was sent nowhere is counted, and reported at a bounded rate.
+    /// Counts an arrival of a robot that was sent nowhere, and records it as an event at a bounded rate.
     pub fn report_unexpected(&mut self, now: Instant, report: &Report) {
         self.unexpected += 1;
         self.log.record_limited(now, EventKind::UnexpectedArrival(report.id));

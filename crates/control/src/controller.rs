@@ -18,41 +18,43 @@ use lightbots_wire::{Command, Report, TimeQuestion, Topic};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A slice of the fleet ages this often.
+/// How often the ages of a slice of the fleet are updated.
 const PATROL: Span = Span::from_millis(250);
-/// Number of slices: each robot ages every 2 s.
+/// Number of slices: the age of each robot is updated every 2 s.
 const ROUNDS: usize = 8;
-/// Between runs all robots are asked to report this often, where some know TARGET only. Such a robot
-/// that was not heard when it was switched on would be driven into.
+/// How often all robots are asked to report between runs, if some have the original firmware. Such a robot may be
+/// missed when it is switched on, and would be driven into.
 const ASK_ALL: Span = Span::from_millis(600);
-/// Added to that for each robot, because their answers share one link.
+/// Time added to [`ASK_ALL`] for each robot, because all answers share one link.
 const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
-/// Robots that know TARGET only are asked to report after this share of the time until they are stale.
+/// Divisor of [`Ageing::stale_after`](crate::Ageing::stale_after): a robot with the original firmware is asked to
+/// report after that time of silence.
 const ASK_AFTER: i64 = 2;
 
-/// A controller of one fleet. Ways in: [`message`](Self::message), [`operate`](Self::operate),
-/// [`connected`](Self::connected), [`disconnected`](Self::disconnected), [`wake`](Self::wake),
-/// [`planned`](Self::planned), each with `now`, which *is* the show clock and never goes back. After each of them
-/// drain [`next_send`](Self::next_send), [`next_event`](Self::next_event) and
-/// [`next_plan_request`](Self::next_plan_request), and wake at [`wake_at`](Self::wake_at).
+/// The controller of one fleet. Its inputs are [`message`](Self::message), [`operate`](Self::operate),
+/// [`connected`](Self::connected), [`disconnected`](Self::disconnected), [`wake`](Self::wake) and
+/// [`planned`](Self::planned). Each takes `now`, which *is* the show clock and never goes back. After each input drain
+/// [`next_send`](Self::next_send), [`next_event`](Self::next_event) and [`next_plan_request`](Self::next_plan_request).
+/// Call `wake` at [`wake_at`](Self::wake_at).
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Controller {
     pub(crate) context: Context,
     #[serde(with = "crate::shared_show::optional")]
     pub(crate) show: Option<Arc<Show>>,
     pub(crate) looping: bool,
-    /// Speed of drives of the next run, percent of the usual one.
+    /// Speed of drives of the next run, percent of the usual speed.
     pub(crate) speed_percent: u32,
     #[serde(skip)]
     pub(crate) run: Option<Run>,
     #[serde(skip)]
     pub(crate) stopping: Option<Stopping>,
-    /// Where and why the last run failed, for people; until the operator dismisses it or begins another run.
+    /// Where and why the last run failed, for people. Kept until the operator dismisses it or begins another run.
     pub(crate) failure: Option<String>,
-    /// The frame in which the last run of a show was stopped; until the operator dismisses it or begins another run.
+    /// The frame in which the last run of a show ended early. Kept until the operator dismisses it or begins another
+    /// run.
     pub(crate) stopped_in: Option<usize>,
-    /// Robots are told to stop once there is a broker: they were cut off in a run that does not go on, or while they were
-    /// told to stop.
+    /// Whether robots are stopped once a broker is connected. Either their run was cut off and does not go on, or the
+    /// broker was lost while they were being stopped.
     pub(crate) stops_when_connected: bool,
     /// What the last preflight found.
     #[serde(skip)]
@@ -68,7 +70,7 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// A controller that knows no robot yet.
+    /// Returns a controller that knows no robot yet.
     pub fn new(config: Config) -> Self {
         Self {
             context: Context::new(config),
@@ -91,14 +93,15 @@ impl Controller {
         }
     }
 
-    /// The broker is connected and the topics are subscribed (`T/LightBot/UUID`, `Arrival`, `Status`, `Time`).
+    /// Handles that the broker is connected and the topics are subscribed (`T/LightBot/UUID`, `Arrival`, `Status`,
+    /// `Time`).
     pub fn connected(&mut self, now: Instant) {
         if self.context.outbox.linked() {
             return;
         }
         self.context.outbox.link(true);
         self.context.log.record(now, EventKind::Connected);
-        // STOP first: a robot that hears anything else again turns towards the route it holds.
+        // STOP goes first: a robot that receives any other message turns towards the route that it keeps.
         if std::mem::take(&mut self.stops_when_connected) {
             self.stopping = Some(Stopping::begin(&mut self.context, now, None));
         }
@@ -106,14 +109,14 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// The connection to the broker is lost.
+    /// Handles that the connection to the broker is lost.
     pub fn disconnected(&mut self, now: Instant) {
         if !self.context.outbox.linked() {
             return;
         }
         self.context.outbox.link(false);
         self.context.log.record(now, EventKind::Disconnected);
-        // STOP was lost with the broker where it was under way.
+        // A STOP that was being sent may be lost with the broker: it is sent again later.
         self.stops_when_connected |= self.stopping.take().is_some();
         if let Some(run) = &mut self.run {
             run.on_disconnect(&mut self.context, now);
@@ -121,7 +124,7 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// A message came. Junk is counted and dropped.
+    /// Handles a message. A message that cannot be read is counted and dropped.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         self.received += 1;
         match Topic::parse(topic) {
@@ -138,13 +141,13 @@ impl Controller {
                 Some(report) => self.receive(now, topic, &report),
                 None => self.junk += 1,
             },
-            // What a controller sends: this one's, which come back, or another's.
+            // Commands of this controller, which the broker returns, or of another controller.
             Some(Topic::Broadcast | Topic::Robot(_)) => {}
             None => self.junk += 1,
         }
     }
 
-    /// Whether a message of a robot counts: one that floods does not.
+    /// Whether a message of a robot counts. Messages beyond the allowed rate do not.
     fn counts(&mut self, now: Instant, id: RobotId) -> bool {
         self.context.fleet.counts(now, id, &mut self.context.log)
     }
@@ -176,7 +179,7 @@ impl Controller {
         self.context.outbox.broadcast(now, Command::Uuid, 2, every);
     }
 
-    /// Time passed.
+    /// Does what is due at `now`.
     pub fn wake(&mut self, now: Instant) {
         self.woken = now;
         self.context.outbox.tick(now);
@@ -196,7 +199,8 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// Ages robots, and asks those to report that know TARGET only: they do not report of their own accord.
+    /// Updates the ages of the next slice of robots. Asks robots with the original firmware to report, because they do
+    /// not report by themselves.
     fn patrol(&mut self, now: Instant) {
         let context = &mut self.context;
         let slice = context.fleet.patrol(now, ROUNDS, &context.config, &mut context.log);
@@ -217,7 +221,7 @@ impl Controller {
         }
     }
 
-    /// A plan is made. Results of requests that were withdrawn are dropped.
+    /// Handles the result of a plan request. Results of withdrawn requests are dropped.
     pub fn planned(&mut self, now: Instant, result: PlanResult) {
         if let Some(run) = &mut self.run {
             run.on_plan(&mut self.context, now, result);
@@ -241,7 +245,7 @@ impl Controller {
         }
     }
 
-    /// Ends a run that is over at a frame.
+    /// Ends the run, which is over at frame `frame` with this outcome. If the run failed, robots are stopped.
     fn end(&mut self, now: Instant, outcome: RunOutcome, frame: usize) {
         let Some(mut run) = self.run.take() else { return };
         if outcome == RunOutcome::Finished {
@@ -266,7 +270,7 @@ impl Controller {
         };
         self.journal.end(now, &outcome.to_string());
         let (frames_played, dropouts) = (run.tally.frames_played, run.tally.dropouts);
-        // A robot that lost the last STOP on its way keeps a route.
+        // A robot may have missed the last STOP, and keeps a route then.
         let stops = matches!(outcome, RunOutcome::Failed(_)) && self.context.outbox.linked();
         if let Some(report) = tested {
             let (passed, robots) = (report.passed(), report.robots.len());
@@ -289,38 +293,38 @@ impl Controller {
         }
     }
 
-    /// Runs are written into a journal from now on; see [`take_journal`](Self::take_journal).
+    /// Writes runs into a journal from now on; see [`take_journal`](Self::take_journal).
     pub fn keep_journal(&mut self) {
         self.journal.keep();
     }
 
-    /// What is to be written into the journal's file since it was asked last, if there is anything. `wall_us`: the time of
-    /// day, microseconds since 1970.
+    /// Returns what to append to the journal's file, or to replace it with, since the last call; `None` if there is
+    /// nothing. `wall_us`: the time of day, microseconds since 1970.
     pub fn take_journal(&mut self, wall_us: u64) -> Option<JournalPiece> {
         self.journal.take(wall_us)
     }
 
-    /// A piece of the journal was lost: the next one begins it again.
+    /// Makes the next piece a whole journal, because an earlier piece was lost.
     pub fn begin_journal_again(&mut self) {
         self.journal.begin_again();
     }
 
-    /// The next message to publish (QoS 0, not retained).
+    /// Returns the next message to publish (QoS 0, not retained).
     pub fn next_send(&mut self) -> Option<Send> {
         self.context.outbox.next()
     }
 
-    /// The next event.
+    /// Returns the next event.
     pub fn next_event(&mut self) -> Option<Event> {
         self.context.log.next()
     }
 
-    /// The next plan to be made. At most one is wanted at a time; a newer request replaces an older one.
+    /// Returns the next plan request. At most one plan is wanted at a time; a newer request replaces an older one.
     pub fn next_plan_request(&mut self) -> Option<PlanRequest> {
         self.context.plan_request.take()
     }
 
-    /// When to call [`wake`](Self::wake) next; always after the last time it was called.
+    /// Returns when to call [`wake`](Self::wake) next: always later than the last call.
     pub fn wake_at(&self) -> Option<Instant> {
         let run = self.run.as_ref().map(|run| run.due(&self.context, self.woken));
         let stopping = self.stopping.as_ref().map(Stopping::due);
@@ -333,7 +337,7 @@ impl Controller {
         self.run.is_some() || self.stopping.is_some()
     }
 
-    /// Whether a frame has stood for its air time and waits for GO.
+    /// Whether the air time of a frame is over and the run waits for GO.
     pub fn is_at_cue(&self, now: Instant) -> bool {
         self.run.as_ref().is_some_and(|run| run.is_at_cue(now))
     }
@@ -348,12 +352,12 @@ impl Controller {
         self.show.as_ref()
     }
 
-    /// How many robots it remembers.
+    /// Returns the number of robots that are remembered.
     pub fn robots(&self) -> usize {
         self.context.fleet.robots().len()
     }
 
-    /// What was received and sent.
+    /// Returns the counts of messages and reports.
     pub fn counters(&self) -> Counters {
         Counters {
             received: self.received,

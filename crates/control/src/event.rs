@@ -16,36 +16,38 @@ pub struct Event {
 /// What happened. `Display` is a line for people.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventKind {
-    /// The broker is there.
+    /// The connection to the broker is established.
     Connected,
-    /// The broker is lost.
+    /// The connection to the broker is lost.
     Disconnected,
     /// The state of the controller changed.
     StateChanged(ControllerState),
     /// A robot reported for the first time.
     RobotFound(RobotId),
-    /// A robot that is not listed reported for the first time: it may not take part.
+    /// A robot that is not in [`Config::admitted`](crate::Config::admitted) reported for the first time: it may not
+    /// take part.
     WantsToJoin(RobotId),
-    /// A robot introduced itself again after a restart.
+    /// A report shows that its robot was restarted.
     RobotRestarted(RobotId),
-    /// A robot has not reported for a while.
+    /// A robot has become stale: it has not reported for [`Ageing::stale_after`](crate::Ageing::stale_after).
     RobotStale(RobotId),
-    /// A robot has not reported for long.
+    /// A robot is gone: it has not reported for [`Ageing::gone_after`](crate::Ageing::gone_after).
     RobotGone(RobotId),
     /// A stale or gone robot reports again.
     RobotBack(RobotId),
-    /// Reports of one name come from places between which no robot can have driven, or its questions follow two clocks.
+    /// Two robots share a name. Their reports come from places between which no robot can have driven, or their time
+    /// questions follow two clocks.
     NameShared {
         /// The name.
         robot: RobotId,
-        /// Where its robots reported from last, stage metres.
+        /// Places from which robots of this name reported last, stage metres.
         places: Vec<Vec2>,
     },
-    /// One robot has a name again that two had shared.
+    /// A name that two robots shared belongs to one robot again.
     NameUnique(RobotId),
-    /// A robot sends more messages than count.
+    /// A robot sends too many messages; the excess does not count.
     Flooding(RobotId),
-    /// There are more robots than can be remembered; recorded once.
+    /// A robot reported that cannot be remembered, because there are too many. Recorded once.
     FleetFull,
     /// A show was opened.
     ShowOpened {
@@ -54,7 +56,7 @@ pub enum EventKind {
         /// Number of its frames.
         frames: usize,
     },
-    /// A run begins to be prepared.
+    /// The preparation of a run began.
     RunBegun {
         /// First frame, counted from 0.
         from: usize,
@@ -63,10 +65,10 @@ pub enum EventKind {
     },
     /// A plan was made.
     Planned {
-        /// Frames that it leads to.
+        /// Number of frames that the plan leads to.
         frames: usize,
     },
-    /// There is no plan to a frame.
+    /// Planning the drive to a frame failed.
     PlanFailed {
         /// Counted from 0.
         frame: usize,
@@ -79,7 +81,7 @@ pub enum EventKind {
         frame: usize,
         /// Ids of the pixels, at most 16.
         pixels: Vec<u32>,
-        /// Number of them.
+        /// Number of all dark pixels.
         count: usize,
     },
     /// Robots leave for a frame.
@@ -91,25 +93,25 @@ pub enum EventKind {
         /// How long the drive is planned to take.
         duration: Span,
     },
-    /// A picture stands.
+    /// Robots have reached a frame.
     FrameReached {
         /// Counted from 0.
         frame: usize,
-        /// Between the first and the last arrival at a place in this frame, over all its legs.
+        /// Time from the first to the last arrival at a place of this frame, over all legs to it.
         spread: Span,
-        /// From the planned end to the last arrival.
+        /// Time from the planned end of the drive until the frame was reached.
         wait: Span,
     },
-    /// A drive of all robots to their starting places began.
+    /// Robots began to drive to their starting places.
     GoingHome {
-        /// Number of them.
+        /// Number of robots that drive.
         robots: usize,
     },
     /// The drive to the starting places was planned.
     PlannedHome,
-    /// All stand at their starting places.
+    /// The robots have reached their starting places.
     AtHome,
-    /// A picture stands until the operator gives GO.
+    /// Robots have reached a frame and wait in it until the operator gives GO.
     WaitsForGo {
         /// Counted from 0.
         frame: usize,
@@ -130,42 +132,42 @@ pub enum EventKind {
     LeftOutForMusic {
         /// Counted from 0.
         frame: usize,
-        /// How late they are.
+        /// How late robots are.
         late: Span,
     },
-    /// There is no path to the frame that the operator chose: the show stays where it is.
+    /// No plan leads to the frame that the operator chose: the show stays where it is.
     JumpGivenUp {
         /// Counted from 0.
         frame: usize,
     },
-    /// All robots wait for one.
+    /// All robots wait for one robot.
     Waiting {
         /// The robot they wait for.
         robot: RobotId,
         /// Why.
         why: Trouble,
     },
-    /// Robots report, and none acknowledges its route: the link to them is broken.
+    /// Robots report, but none acknowledges its route: messages do not reach them.
     Undelivered,
     /// Many robots of a run fell silent at once: the run stands still until they report again.
     LinkLost {
-        /// Number of them.
+        /// Number of silent robots.
         silent: usize,
         /// Robots of the run.
         robots: usize,
     },
-    /// Robots of a run that was interrupted report again.
+    /// Robots of an interrupted run report again.
     LinkBack {
-        /// Number of them.
+        /// Number of robots that report again.
         reported: usize,
         /// Robots of the run.
         robots: usize,
-        /// Since the run was interrupted.
+        /// Time since the run was interrupted.
         after: Span,
-        /// The run goes on once the operator says so; otherwise by itself.
+        /// Whether the run goes on only once the operator says so; otherwise it goes on by itself.
         asks_operator: bool,
     },
-    /// A run was cut off when its controller ended, and this one found it.
+    /// This controller took up a run that was cut off when its former controller ended.
     TakenUp {
         /// The frame that was to be reached next, counted from 0.
         frame: usize,
@@ -173,30 +175,30 @@ pub enum EventKind {
         robots: usize,
         /// How long there was no controller.
         away: Span,
-        /// The run goes on once its robots report; otherwise they are told to stop, and it is over.
+        /// Whether the run goes on once its robots report; otherwise robots are told to stop, and the run is over.
         goes_on: bool,
     },
     /// The drive goes on after a hold.
     Resumed,
-    /// A robot takes no part any more; the rest goes on without it.
+    /// A robot drops out of the run; the others go on without it.
     Dropout {
         /// The robot.
         robot: RobotId,
         /// Why.
         why: Trouble,
     },
-    /// A robot takes part again, or a new one takes a dark pixel.
+    /// A robot that dropped out takes part again, or a new robot joins the run.
     Rejoined(RobotId),
     /// The rest of the run is planned again, from where robots are.
     Replanning {
         /// The frame they were heading for, counted from 0.
         frame: usize,
     },
-    /// A robot reports its arrival, but not where it should be.
+    /// A robot that was to arrive stands away from its goal.
     Misaligned {
         /// The robot.
         robot: RobotId,
-        /// How far off, metres.
+        /// Distance from the goal, metres.
         off_m: f64,
     },
     /// A robot that was sent nowhere, or that is unknown, reports an arrival.
@@ -207,23 +209,23 @@ pub enum EventKind {
     StoppedAll,
     /// A run is over.
     RunEnded {
-        /// How.
+        /// How the run ended.
         outcome: RunOutcome,
-        /// Frames reached.
+        /// Number of frames reached.
         frames_played: usize,
-        /// Robots lost on the way.
+        /// Number of dropouts; a robot that dropped out twice counts twice.
         dropouts: usize,
     },
-    /// The first frame of a loop stands: frames repeat until the operator gives GO.
+    /// Robots have reached the first frame of a loop: its frames repeat until the operator gives GO.
     LoopBegun {
-        /// The first of them, counted from 0.
+        /// First frame of the loop, counted from 0.
         first: usize,
-        /// The last of them, counted from 0.
+        /// Last frame of the loop, counted from 0.
         last: usize,
     },
     /// The operator gave GO for a loop: the show goes on after its last frame.
     LeavesLoop {
-        /// The last frame, counted from 0.
+        /// Last frame of the loop, counted from 0.
         last: usize,
     },
     /// A preflight began.
@@ -245,7 +247,7 @@ pub enum EventKind {
 pub enum Trouble {
     /// It is behind its path.
     Late,
-    /// It does not report.
+    /// It is silent.
     Silent,
     /// It did not acknowledge its route or its START.
     Deaf,
@@ -255,7 +257,7 @@ pub enum Trouble {
     Unsure,
     /// It reports a fault.
     Faulty,
-    /// It was cut off or restarted and stands.
+    /// It lost its link on a drive or was restarted, and stands.
     Cut,
     /// It did not reach its goal in time.
     Missed,
@@ -274,12 +276,12 @@ pub enum RunOutcome {
     Finished,
     /// The operator ended it.
     Aborted,
-    /// It could not go on: where and why, for people, without a full stop.
+    /// It could not go on. The text says where and why, for people, without a full stop.
     Failed(String),
 }
 
 impl EventKind {
-    /// Its severity.
+    /// Returns how serious the event is.
     pub fn severity(&self) -> Severity {
         use EventKind::*;
         match self {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
-/// Places farther from the stage's centre than this are no places, metres.
+/// Bound of a plausible position, metres from the stage's centre along x and along y.
 const PLACE_MAX_M: f64 = 1_000.0;
 
 /// What a report changed.
@@ -20,9 +20,9 @@ const PLACE_MAX_M: f64 = 1_000.0;
 pub(crate) struct FleetUpdate {
     /// The robot that reported: index into [`KnownRobots::robots`].
     pub index: usize,
-    /// The robot was not known before.
+    /// Whether the robot was not known before.
     pub found: bool,
-    /// The robot lost what it knew: it has been switched off and on.
+    /// Whether the report shows that the robot was switched off and on.
     pub restarted: bool,
 }
 
@@ -30,19 +30,20 @@ pub(crate) struct FleetUpdate {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct KnownRobots {
     robots: Vec<KnownRobot>,
-    /// Never iterated; the hasher has fixed keys, so that it is the same everywhere.
+    /// Index of each robot in `robots`, by name. Never iterated; the hasher has fixed keys, so that it is the same
+    /// everywhere.
     #[serde(skip)]
     index_of: HashMap<RobotId, u32, BuildHasherDefault<DefaultHasher>>,
-    /// Where the patrol goes on.
+    /// Index of the robot at which the next patrol begins.
     patrolled: usize,
-    /// Reports of robots beyond the most that are remembered.
+    /// Number of reports that were dropped because no further robot can be remembered.
     pub overflow: u64,
-    /// Messages that did not count, because their robots sent too many.
+    /// Number of messages that were ignored because their robots sent too many.
     pub flooded: u64,
 }
 
 impl KnownRobots {
-    /// Every known robot, in the order they were found.
+    /// Returns all known robots, in the order in which they were found.
     pub fn robots(&self) -> &[KnownRobot] {
         &self.robots
     }
@@ -57,12 +58,13 @@ impl KnownRobots {
         &mut self.robots[index]
     }
 
-    /// Where in the list a robot is.
+    /// Returns the index of a robot; `None` if it is not known.
     pub fn find(&self, id: RobotId) -> Option<usize> {
         self.index_of.get(&id).map(|&index| index as usize)
     }
 
-    /// Whether a message of a robot counts; a robot that sends too many is named. Robots that are not known yet send one.
+    /// Counts a message of a robot, and returns whether it is within the allowed rate. An event names a robot that
+    /// sends too many. The first message of an unknown robot counts.
     pub fn counts(&mut self, now: Instant, id: RobotId, log: &mut EventQueue) -> bool {
         let Some(index) = self.find(id) else { return true };
         let counted = self.robots[index].rate.count(now);
@@ -73,7 +75,7 @@ impl KnownRobots {
         counted == Counted::Yes
     }
 
-    /// Takes over a report. `None` where there is no room for another robot.
+    /// Takes over a report, and adds its robot if it is new. `None` if no further robot can be remembered.
     pub fn receive(
         &mut self,
         now: Instant,
@@ -101,7 +103,8 @@ impl KnownRobots {
         Some(FleetUpdate { index, found, restarted })
     }
 
-    /// A robot asks for the time: its own clock may show that two robots share its name.
+    /// Checks by a time question, which holds the robot's own clock, whether two robots share the name. If that is new,
+    /// records an event.
     pub fn observe_clock(&mut self, now: Instant, question: TimeQuestion, log: &mut EventQueue) {
         if let Some(index) = self.find(question.id) {
             let robot = &mut self.robots[index];
@@ -130,14 +133,15 @@ impl KnownRobots {
         Some(index)
     }
 
-    /// Other robots may take part in runs from now on; `config` says which.
+    /// Updates which robots may take part in runs, because `config` has changed.
     pub fn admit(&mut self, config: &Config) {
         for robot in &mut self.robots {
             robot.is_admitted = config.admits(robot.id);
         }
     }
 
-    /// A robot that takes part in a run that is taken up: it was heard last at `heard`, if it was not since.
+    /// Returns the index of a participant of a run that is taken up. A robot that is not known is added, as last
+    /// received at `heard`.
     pub fn expect(&mut self, id: RobotId, heard: Instant, config: &Config) -> usize {
         if let Some(index) = self.find(id) {
             return index;
@@ -151,14 +155,14 @@ impl KnownRobots {
         index
     }
 
-    /// Finds robots by their names again, after the list was read from bytes. `false`: two have one name.
+    /// Rebuilds the index by name, after the list was read from bytes. Returns `false` if two robots have one name.
     pub fn reindex(&mut self) -> bool {
         let names = self.robots.iter().enumerate().map(|(index, robot)| (robot.id, index as u32));
         self.index_of = names.collect();
         self.index_of.len() == self.robots.len()
     }
 
-    /// Forgets a robot.
+    /// Forgets a robot; the indices of the robots after it decrease by one.
     pub fn forget(&mut self, index: usize) {
         let robot = self.robots.remove(index);
         self.index_of.remove(&robot.id);
@@ -167,7 +171,7 @@ impl KnownRobots {
         }
     }
 
-    /// Ages the next slice of robots, which is returned. All are aged within `rounds` calls.
+    /// Updates the ages of the next slice of robots and returns their indices. `rounds` calls cover all robots.
     pub fn patrol(
         &mut self,
         now: Instant,

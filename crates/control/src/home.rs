@@ -3,13 +3,13 @@
 use lightbots_base::Rgb;
 use lightbots_show::{Frame, Pixel, Show, front_rows, starting_places};
 
-/// Ids of the pixels: shows count from 0, so that no pin is meant by them.
+/// Id of the first pixel. Pixels of shows count from 0, so that no pin of the operator concerns these.
 const FIRST_ID: u32 = 4_000_000_000;
-/// Robots that drive home are seen; their light is dim.
+/// Colour of robots that drive home: dim, but visible.
 const LIGHT: Rgb = Rgb::new(0x40, 0x32, 0x1e);
 
-/// A show whose only frame has a place for each of the robots: the starting places of `show`, or rows along the front edge
-/// if these are too few.
+/// Returns a show whose only frame has a place for each of the robots. The places are the starting places of `show`, or
+/// rows along the front edge if these are too few.
 pub(crate) fn show(show: &Show, robots: usize) -> Show {
     let mut places = starting_places(show);
     if places.len() < robots {

@@ -26,26 +26,26 @@ pub enum Operation {
         /// What happens to pixels no robot can show.
         missing: MissingPolicy,
     },
-    /// All robots slow down together and stand; while a frame stands, its air time stops.
+    /// Pause the run: robots on a drive slow down together and stand. In a frame, the air time stops.
     Pause,
-    /// Go on from where Pause stopped.
+    /// Go on after a pause.
     Resume,
-    /// From a pause to the next frame, and pause there.
+    /// Go on after a pause, and pause again at the next frame.
     Step,
-    /// The run ends. Robots on a drive come to rest together, then all wheels stop.
+    /// End the run. Robots on a drive come to rest together, then all wheels stop.
     Abort,
-    /// Every robot stops, also one that this controller did not start; at once if it is asked for again. Possible whenever
-    /// there is a broker.
+    /// Stop every robot, also robots that take no part in the run. Robots on a drive come to rest together first; a
+    /// second StopAll stops them at once. Refused only without a broker.
     StopAll,
-    /// The operator has read why the last run failed, or that it was stopped.
+    /// Remove the message that the last run failed or was stopped, because the operator has read it.
     DismissFailure,
     /// Ask all robots to report.
     Refresh,
-    /// This robot flashes for five seconds.
+    /// Make a robot flash for five seconds. A robot that does not support BLINK is asked to report.
     Identify(RobotId),
     /// Forget a robot. Refused during a run.
     Forget(RobotId),
-    /// Whether a played show starts again after its last frame.
+    /// Set whether a show starts again after its last frame.
     Loop(bool),
     /// Bind a pixel id to a robot in all frames, or free it.
     Pin {
@@ -54,34 +54,37 @@ pub enum Operation {
         /// The only robot that may show it; `None`: any.
         robot: Option<RobotId>,
     },
-    /// A run whose robots were out of reach goes on from where they stand, without robots that do not report.
+    /// Let an interrupted run go on from where robots stand, without robots that do not report.
     GoOn,
-    /// GO: the frame that waits for it at its cue is left at once, also before its air time is over.
+    /// GO: leave the frame that waits at its cue, at once and even before its air time is over. In a loop: go on after
+    /// its last frame.
     Go,
-    /// Drives of the next run take place at this share of the usual speed, percent. Refused during a run.
+    /// Set the speed of drives of the next run, percent of the usual speed. Refused during a run.
     Speed(u32),
-    /// Drive all robots that can to the starting places of the open show, and stay there.
+    /// Drive all robots that can take part to the starting places of the open show, and stay there.
     Home,
-    /// Only these robots may take part in runs that begin from now on; `None`: any.
+    /// Set which robots may take part in runs that begin from now on; `None` admits any.
     Admit(Option<BTreeSet<RobotId>>),
-    /// Drive to this frame (counted from 0) in place of the next one, and play on from there. Only while robots stand or are
-    /// held; a pause, and waiting for GO, end with it.
+    /// Drive to this frame (counted from 0) in place of the next one, and play on from there. Ends a pause or a wait
+    /// for GO. Refused while robots drive and are not held.
     GoTo(usize),
-    /// Leave out the frame that comes next. No robot moves: the show goes on as it would have, to the frame after it.
+    /// Leave out the frame that comes next. No robot moves for this: at the usual time the show goes on to the frame
+    /// after that one.
     Skip,
-    /// Put a layer of light over the show that plays, in place of one of the same name; `None`: take that layer off.
+    /// Put a layer of light over the show that plays, in place of a layer of the same name. `None` takes that layer
+    /// off.
     LiveLight {
-        /// Its name.
+        /// Name of the layer.
         name: String,
         /// The layer; its span does not count.
         layer: Option<Layer>,
     },
-    /// Test all robots that can take part: each drives 50 mm out and back, is stopped on its way, and blinks. Refused during
-    /// a run, and until a failure or a stop was dismissed.
+    /// Test all robots that can take part: each drives 50 mm out and back, is stopped on its way, and blinks. Refused
+    /// during a run, and while a failed or stopped run is not dismissed.
     Preflight,
 }
 
-/// What happens to pixels no robot can show.
+/// What happens to pixels that no robot can show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MissingPolicy {
     /// The run does not begin.
@@ -99,7 +102,7 @@ pub enum ControllerState {
     Idle,
     /// There is a broker and no run.
     Ready,
-    /// A run is being planned and handed to the robots.
+    /// A run is being planned, and its routes are sent to robots.
     Preparing,
     /// A show plays.
     Playing,
@@ -109,30 +112,30 @@ pub enum ControllerState {
     Preview,
     /// Robots are being stopped.
     Aborting,
-    /// A run stands still because its robots are out of reach, or were and wait for the operator.
+    /// A run stands still because its robots are out of reach, or because the operator has to let it go on.
     LinkLost,
 }
 
-/// Why an operation was not done. Its text says so to people, with what they can do.
+/// Why an operation was refused. Its text tells people the reason and what they can do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// There is no broker.
     NotConnected,
     /// No show is open.
     NoShow,
-    /// The show is not fit to be played.
+    /// The show cannot be played.
     Unfit {
         /// What is wrong with it and what to do: the first error that validation finds, one line.
         issue: String,
     },
     /// The show has no such frame.
     NoSuchFrame {
-        /// Asked for, counted from 0.
+        /// Requested frame, counted from 0.
         frame: usize,
-        /// How many there are.
+        /// Number of frames of the show.
         frames: usize,
     },
-    /// Not while the controller is in this state.
+    /// The operation is not possible while the controller is in this state.
     Busy(ControllerState),
     /// There is no run to pause, resume or abort.
     NoRun,
@@ -140,15 +143,15 @@ pub enum Refusal {
     NotPaused,
     /// There is no robot that can take part.
     NoRobot,
-    /// There is no such speed.
+    /// The speed is outside of the allowed range.
     NoSuchSpeed,
     /// No frame waits for GO.
     NoCue,
     /// The run is paused.
     Paused,
-    /// Robots are not out of reach, or none has reported since.
+    /// The run is not interrupted, or none of its robots has reported since.
     NothingToGoOn,
-    /// Robots drive: they are sent to another frame once they stand.
+    /// Robots drive. They can be sent to another frame once they stand or are held.
     Driving,
     /// No frame comes next.
     NothingToSkip,
@@ -161,37 +164,37 @@ pub enum Refusal {
     },
     /// There are too many layers of live light.
     TooMuchLight {
-        /// The most that are possible.
+        /// Largest number of layers of live light.
         most: usize,
     },
     /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
     TooFewRobots {
-        /// Most pixels in a frame.
+        /// Number of pixels of the largest frame.
         pixels: usize,
-        /// Robots that can take part.
+        /// Number of robots that can take part.
         robots: usize,
-        /// Robots that are here but do not know where they are.
+        /// Number of robots that report but do not know where they are.
         without_place: usize,
-        /// Robots that have not reported lately or report a fault.
+        /// Number of other robots that cannot take part: most are silent or report a fault.
         unfit: usize,
     },
-    /// Pixels are bound to robots that are not here.
+    /// Pixels are bound to robots that cannot take part.
     PinnedMissing {
         /// The pixels' ids, at most 16.
         pixels: Vec<u32>,
     },
     /// No robot of that name is known.
     UnknownRobot(RobotId),
-    /// That robot takes part in the run.
+    /// The robot cannot be forgotten while there is a run.
     TakesPart(RobotId),
     /// The last run failed or was stopped, and the operator has not read it.
     NotDismissed,
-    /// No robot has room to drive out.
+    /// A preflight is not possible: no robot has room to drive out.
     NoRoom,
 }
 
 impl Operation {
-    /// A word for it.
+    /// Returns a short name of the operation.
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Open(_) => "open",

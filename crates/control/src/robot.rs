@@ -10,16 +10,16 @@ use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Details, Report, RobotState};
 use serde::{Deserialize, Serialize};
 
-/// Places nearer to each other than this are the same for a robot whose fixes are noisy, metres.
+/// Places closer to each other than this count as the same place, metres, because fixes are noisy.
 const SAME_PLACE_M: f64 = 0.012;
 
 /// How far before its target a robot with the original firmware comes to rest.
 struct StopsShort {
-    /// Until it is measured, metres.
+    /// First estimate, metres.
     first_m: f64,
-    /// At most, metres: its tolerance.
+    /// Largest estimate, metres: the robot's tolerance at its target.
     most_m: f64,
-    /// How far it rolls on after it reported that it arrived, metres.
+    /// Distance that it rolls on after it has reported its arrival, metres.
     rolls_on_m: f64,
     /// Share by which each arrival corrects the estimate.
     gain: f64,
@@ -37,75 +37,75 @@ pub(crate) struct KnownRobot {
     pub id: RobotId,
     /// What its last report said.
     pub reported: Reported,
-    /// When it reported.
+    /// When it was found and reported last.
     pub contact: LastContact,
     /// How its charge falls.
     pub charge: ChargeTrend,
-    /// How often it sends messages.
+    /// How often it sends messages, to detect a flood.
     pub rate: ReportRate,
     /// Since when it reports the same place.
     pub standstill: Standstill,
-    /// What is known if it knows TARGET only.
+    /// What is known of it if it has the original firmware, which understands TARGET and COLOR but no routes.
     pub original: OriginalRobot,
-    /// The light it was told to show.
+    /// The colour that it was told to show.
     pub light: ToldLight,
     /// Whether it may take part in runs.
     pub is_admitted: bool,
     /// Whether another robot has the same name.
     pub namesakes: Namesakes,
-    /// Its number in the run.
+    /// Its participant number in the run; `None` if it has none.
     pub participant: Option<u32>,
-    /// What is left of the last run.
+    /// What is still known from its last run.
     pub last_run: LastRun,
 }
 
 /// What is known of a robot with the original firmware.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct OriginalRobot {
-    /// When it was asked for a report.
+    /// When it was last asked for a report, because it had been silent.
     pub asked: Instant,
-    /// How far before its target it comes to rest, metres.
+    /// Estimate of how far before its target it comes to rest, metres.
     pub short_m: f64,
 }
 
-/// The light that a robot was told to show.
+/// The colour that a robot was told to show.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct ToldLight {
-    /// Its colour.
+    /// The colour.
     pub color: Rgb,
-    /// Whether the robot surely shows it.
+    /// Whether it is certain that the robot shows this colour.
     pub is_sure: bool,
 }
 
 impl ToldLight {
-    /// The light of a robot that was switched on.
+    /// The light of a robot after it is switched on: dark.
     pub const OFF: Self = Self { color: Rgb::BLACK, is_sure: true };
 }
 
-/// What is left of the last run that a robot took part in.
+/// What is still known from the last run that a robot took part in.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct LastRun {
-    /// The run is over, and the robot has not said since that it keeps no route.
+    /// Whether the robot may keep a route of that run: it has not reported the contrary since.
     pub may_keep_route: bool,
-    /// The pixel it showed when the run ended.
+    /// Id of the pixel that the robot showed when the run ended.
     pub pixel: Option<u32>,
-    /// Where it stood then, stage metres.
+    /// Goal of the robot when the run ended, stage metres.
     pub goal: Option<Vec2>,
 }
 
 /// How long a robot has reported the same place.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Standstill {
-    /// Since then.
+    /// Moment since when it has reported this place, show clock.
     pub since: Instant,
-    /// Where that began, stage metres. A report without a place does not change it.
+    /// The place as it was reported first, stage metres. A report without a place does not change it.
     pub at: Option<Vec2>,
-    /// When it reported a place last.
+    /// When the robot last reported a place, show clock.
     pub placed: Instant,
 }
 
 impl KnownRobot {
-    /// A robot that is found now.
+    /// Returns the state of a robot that is found at `now`.
     pub fn new(id: RobotId, now: Instant) -> Self {
         Self {
             id,
@@ -123,12 +123,12 @@ impl KnownRobot {
         }
     }
 
-    /// Whether it knows TARGET and COLOR only: the original firmware.
+    /// Whether it has the original firmware, which understands TARGET and COLOR but no routes.
     pub fn is_original(&self) -> bool {
         !self.reported.abilities.route
     }
 
-    /// Whether it surely shows a light.
+    /// Whether it is certain that the robot shows this colour.
     pub fn shows(&self, color: Rgb) -> bool {
         self.light.is_sure && self.light.color == color
     }
@@ -144,7 +144,7 @@ impl KnownRobot {
         self.contact.age == Age::Active
     }
 
-    /// What a screen shows of it outside a run.
+    /// Returns what a screen shows of the robot outside a run.
     pub fn view(&self) -> RobotView {
         RobotView {
             id: self.id,
@@ -165,13 +165,13 @@ impl KnownRobot {
         self.is_fit() && self.reported.at.is_some() && self.is_admitted && !self.namesakes.are_there()
     }
 
-    /// Whether its last report says that its wheels may turn.
+    /// Whether it drives by its last report.
     pub fn may_move(&self) -> bool {
         matches!(self.reported.state, Some(RobotState::Driving))
     }
 
-    /// A robot that knows TARGET only arrived at `at`, sent from `from` to `target`: it may be sent a little farther next
-    /// time.
+    /// Corrects the estimate of how far before its target the robot comes to rest. It was sent from `from` to `target`
+    /// and arrived at `at`; all are stage metres.
     pub fn learn_short(&mut self, from: Vec2, target: Vec2, at: Vec2) {
         let Some(towards) = (target - from).normalized() else { return };
         let StopsShort { most_m, rolls_on_m, gain, .. } = STOPS_SHORT;
@@ -179,12 +179,13 @@ impl KnownRobot {
         self.original.short_m += (short_m - self.original.short_m) * gain;
     }
 
-    /// Two robots share its name.
+    /// Records an event that two robots share this name.
     pub fn report_namesakes(&self, now: Instant, log: &mut EventQueue) {
         log.record(now, EventKind::NameShared { robot: self.id, places: self.namesakes.places() });
     }
 
-    /// A report with this place came; whether it says that the robot was restarted.
+    /// Takes over a report; `place` is its position if that is plausible. Returns whether the report shows that the
+    /// robot was restarted.
     pub fn receive(&mut self, now: Instant, report: &Report, place: Option<Vec2>) -> bool {
         self.contact.heard = now;
         let same = |(at, place): (Vec2, Vec2)| at.distance(place) < SAME_PLACE_M;
@@ -197,7 +198,7 @@ impl KnownRobot {
         if place.is_some() || report.details.is_some() {
             self.reported.at = place;
         }
-        // The original firmware does not say: such a robot is real, even where a simulated one had its name.
+        // The original firmware does not report this: the robot counts as real, even if a simulated one had its name.
         self.reported.simulated = report.details.as_ref().is_some_and(|details| details.simulated);
         let restarted = report.details.as_ref().is_some_and(|details| self.take_over(details));
         if let Some(percent) = self.reported.battery {
@@ -209,7 +210,7 @@ impl KnownRobot {
         restarted
     }
 
-    /// Takes over details; whether they say that the robot was restarted.
+    /// Takes over details. Returns whether they show that the robot was restarted.
     fn take_over(&mut self, details: &Details) -> bool {
         let known = &mut self.reported;
         let restarted = known.clock_us.is_some() && details.clock_us.is_none() && details.route == 0;

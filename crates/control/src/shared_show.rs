@@ -1,4 +1,4 @@
-//! A shared show as bytes: those of the show.
+//! Serialises a shared show, `Arc<Show>`, as the show itself.
 
 use lightbots_show::Show;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -12,7 +12,7 @@ pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<
     Show::deserialize(deserializer).map(Arc::new)
 }
 
-/// The same for a show that may not be there.
+/// Serialises an `Option<Arc<Show>>` as an `Option<Show>`.
 pub(crate) mod optional {
     use super::*;
 

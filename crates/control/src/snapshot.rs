@@ -7,93 +7,96 @@ use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Everything a screen shows, at one moment. What happened is told by [`crate::Event`]s.
+/// Everything that a screen shows, at one moment. [`crate::Event`]s say what happened.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
-    /// When, show clock.
+    /// Moment of the snapshot, show clock.
     pub at: Instant,
     /// What the controller is doing.
     pub state: ControllerState,
-    /// Whether there is a broker.
+    /// Whether the broker is connected.
     pub connected: bool,
-    /// Name of the open show.
+    /// Name of the open show; `None` if no show is open.
     pub show: Option<String>,
-    /// Whether a played show starts again.
+    /// Whether a show starts again after its last frame.
     pub looping: bool,
-    /// Speed of drives, percent of the usual one.
+    /// Speed of drives of the next run, percent of the usual speed.
     pub speed_percent: u32,
-    /// The run, if there is one.
+    /// The run; `None` if there is none.
     pub run: Option<RunView>,
     /// Where and why the last run failed: a sentence for people. It stays until the operator dismisses it or starts again.
     pub failure: Option<String>,
-    /// The frame in which the last run of a show ended before its end; `None` as in `failure`, and while a show of another
-    /// name is open.
+    /// Frame in which the last run of a show ended early, counted from 0. `None` once the operator dismisses that,
+    /// begins a run, or opens a show of another name.
     pub stopped_in: Option<usize>,
     /// What the last preflight found; `None`: there was none since the controller's start, or one is under way.
     pub preflight: Option<Arc<PreflightReport>>,
-    /// Every known robot, in the order they were found.
+    /// All known robots, in the order in which they were found.
     pub robots: Vec<RobotView>,
-    /// What came and went.
+    /// Counts of messages and reports.
     pub counters: Counters,
 }
 
 /// Where a run is on the timeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShowPosition {
-    /// Seconds from the start of the first frame's air time; negative during the drive there.
+    /// Position on the timeline, seconds from the start of the first frame's air time; negative during the drive to
+    /// that frame.
     pub show_s: f64,
-    /// Whether it moves on with the show clock. It stands while robots are held, are waited for, or wait for GO.
+    /// Whether the position moves on with the show clock. It stands during a pause and while the run waits for GO.
+    /// Without music it also stands during holds and while robots are late.
     pub runs: bool,
 }
 
 /// A run at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunView {
-    /// The frame that is driven to or stands, counted from 0.
+    /// The frame that robots drive to or have reached, counted from 0.
     pub frame: usize,
-    /// The frame after it, counted from 0; `None`: the run ends then.
+    /// The frame after `frame`, counted from 0; `None` if the run ends with `frame`.
     pub next: Option<usize>,
-    /// Whether robots can be sent to another frame, or the next one be skipped: they stand, or are held.
+    /// Whether the operator can send robots to another frame or skip the next one: a show is played, and robots stand
+    /// or are held.
     pub may_jump: bool,
-    /// Robots drive to their starting places; `frame` says nothing then.
+    /// Whether robots drive to their starting places; `frame` has no meaning then.
     pub home: bool,
-    /// How far a preflight is; `frame` says nothing then. `None`: the run is none.
+    /// Progress of the preflight; `frame` has no meaning then. `None` if the run is no preflight.
     pub preflight: Option<PreflightProgress>,
-    /// What it is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
+    /// What the run is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
-    /// How far its drive or air time is.
+    /// Progress of the drive or of the air time.
     pub progress: LegProgress,
-    /// Where it is on the timeline; `None`: no show is played, or its first drive has not begun.
+    /// Position on the timeline; `None` if no show is played or its first drive has not begun.
     pub position: Option<ShowPosition>,
-    /// What it waits for.
+    /// What the run waits for.
     pub wait: RunWait,
     /// Names of the layers of live light that are on.
     pub live_light: Vec<String>,
-    /// The frames that repeat until GO; `None`: no loop is under way.
+    /// The frames that repeat until GO; `None` if no loop is under way.
     pub repeats: Option<RepeatView>,
     /// Number of dropouts.
     pub dropouts: usize,
 }
 
-/// How far a drive or an air time is.
+/// Progress of a drive or of an air time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegProgress {
-    /// Share of the drive or of the air time that is over, 0 to 1. Where robots drive by TARGET it is the share of their
-    /// paths' length.
+    /// Share of the drive or of the air time that is over, 0 to 1. If robots drive by TARGET: share of the length of
+    /// their paths.
     pub share: f64,
-    /// How long the drive is planned to take, seconds.
+    /// Planned duration of the drive, seconds.
     pub drive_s: f64,
 }
 
 /// What a run waits for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunWait {
-    /// Name of the cue at which it waits for GO; it may be empty. `None`: it does not wait for GO.
+    /// Name of the cue at which the run waits for GO; it may be empty. `None` if the run does not wait for GO.
     pub cue: Option<String>,
-    /// Whether the operator can let a run go on that was interrupted, without robots that do not report.
+    /// Whether the operator can let an interrupted run go on without the robots that do not report.
     pub may_go_on: bool,
-    /// Robots of the run that others wait for, because they make no progress, are silent, or are not ready to set off; at
-    /// most 20.
+    /// Robots for which the others wait, because they make no progress, are silent, or are not ready to leave; at most
+    /// 20.
     pub robots: Vec<RobotId>,
 }
 
@@ -111,13 +114,13 @@ pub struct PreflightProgress {
 /// Frames that repeat until GO, at one moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RepeatView {
-    /// The first of them, counted from 0.
+    /// First of these frames, counted from 0.
     pub first: usize,
-    /// The last of them, counted from 0.
+    /// Last of these frames, counted from 0.
     pub last: usize,
-    /// Which time they are played, counted from 1.
+    /// Number of the present pass through these frames, counted from 1.
     pub round: u32,
-    /// GO was given: the show goes on after the last of them.
+    /// Whether GO was given, so that the show goes on after the last of these frames.
     pub leaves: bool,
 }
 
@@ -128,15 +131,15 @@ pub struct RobotView {
     pub id: RobotId,
     /// What its last report said.
     pub reported: Reported,
-    /// When it reported, and how fresh that is.
+    /// When the robot was found and reported last, and how long ago that is.
     pub contact: LastContact,
-    /// Where its path says it is now; only while it drives one.
+    /// Place where its path has the robot at this moment, stage metres; `None` while it drives no path.
     pub planned: Option<Vec2>,
-    /// Where it goes or stands in the run.
+    /// Goal of its drive, or where it stands after the drive, stage metres. After a run: the last goal of that run.
     pub goal: Option<Vec2>,
-    /// The pixel it shows in the run.
+    /// Id of the pixel that it shows in the run, or showed at the end of its last run.
     pub pixel: Option<u32>,
-    /// The light it was told to show.
+    /// Colour that the robot should show.
     pub light: Rgb,
     /// Time from its last report until its battery is empty at the measured slope; `None`: no slope is known yet.
     pub battery_left: Option<Span>,
@@ -149,70 +152,70 @@ pub struct RobotView {
 /// What a robot's last report said.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reported {
-    /// Its place, stage metres.
+    /// Position, stage metres; `None` if not known.
     pub at: Option<Vec2>,
     /// Its heading, radians in the stage.
     pub heading: Option<f64>,
     /// Its battery, percent.
     pub battery: Option<u8>,
-    /// What it does; `None`: the original firmware, which does not say.
+    /// State of the robot; `None` for the original firmware, which does not report it.
     pub state: Option<RobotState>,
-    /// How far it is off its path, metres.
+    /// Distance from its planned place, metres; `None` if no route is under way.
     pub off_m: Option<f64>,
-    /// What stands in its path.
+    /// Obstacle for which it stands or brakes.
     pub blocked: Option<Blocked>,
-    /// How far its clock may be off, microseconds; `None`: not synchronised.
+    /// Uncertainty of its show clock, microseconds; `None` if the clock is not synchronised.
     pub clock_us: Option<u32>,
-    /// Number of the route it keeps; 0: none.
+    /// Number of the route that it keeps, else of the one that it drives or finished last; 0 if there is none.
     pub route: u32,
-    /// Its firmware; may be empty.
+    /// Name and version of its firmware; may be empty.
     pub firmware: Firmware,
-    /// What it can do.
+    /// Commands that it supports besides those of the original firmware.
     pub abilities: Abilities,
     /// Whether it is simulated. Every other robot is real.
     pub simulated: bool,
 }
 
-/// When a robot reported.
+/// When a robot was found and reported last.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LastContact {
-    /// When it was found, show clock.
+    /// When the robot was found, show clock.
     pub found: Instant,
-    /// When it reported last, show clock.
+    /// When the robot reported last, show clock.
     pub heard: Instant,
-    /// How fresh that is.
+    /// Age of its last report.
     pub age: Age,
 }
 
-/// How lately a robot reported.
+/// Age of a robot's last report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Age {
-    /// Lately.
+    /// Younger than [`Ageing::stale_after`](crate::Ageing::stale_after).
     #[default]
     Active,
-    /// Not for a while.
+    /// At least that old.
     Stale,
-    /// Not for long.
+    /// At least as old as [`Ageing::gone_after`](crate::Ageing::gone_after).
     Gone,
 }
 
-/// What came and went since the controller's start.
+/// Counts since the controller's start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Messages that came in.
+    /// Messages received.
     pub received: u64,
-    /// Of them, those that could not be read.
+    /// Messages received that could not be read.
     pub junk: u64,
-    /// Messages that went out.
+    /// Messages sent.
     pub sent: u64,
     /// Routes sent more than once.
     pub resent: u64,
     /// Messages not sent because the queue was full or there was no broker.
     pub unsent: u64,
-    /// Reports of robots beyond the most that are remembered.
+    /// Reports that were dropped because no further robot can be remembered.
     pub overflow: u64,
-    /// Messages that did not count, because their robots sent too many.
+    /// Messages that were ignored because their robots sent too many.
     pub flooded: u64,
-    /// Arrivals of robots that were sent nowhere.
+    /// Arrivals reported by robots that were sent nowhere.
     pub unexpected: u64,
 }
