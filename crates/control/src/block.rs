@@ -1,9 +1,9 @@
-//! Blocks: bytes with their length and a checksum, one after the other. Input logs and journals are made of them.
+//! Blocks: bytes with their length and a checksum, one after the other. Input logs and journals consist of blocks.
 //!
 //! A block is the length of its content (4 bytes, little-endian), the CRC-32 of that length and the content (4 bytes),
-//! and the content. A file that ends within a block, or whose bytes were changed, ends before that block for its reader.
+//! and the content. For a reader, a file ends before its first block that is cut off or was changed.
 
-/// Bytes before the content of a block.
+/// Number of bytes before the content of a block.
 const HEAD: usize = 8;
 
 /// Appends a block.
@@ -24,7 +24,7 @@ fn checksum(length: [u8; 4], content: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// The contents of whole blocks, in order, up to the first that is not whole.
+/// Iterator over the contents of blocks, up to the first block that is cut off or was changed.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks<'a> {
     bytes: &'a [u8],
@@ -37,7 +37,7 @@ impl<'a> Blocks<'a> {
         Self { bytes, at }
     }
 
-    /// Where the next block begins: after the last whole block, once there are no more.
+    /// Returns the offset at which the next block begins, bytes. After the last whole block: the end of that block.
     pub fn at(&self) -> usize {
         self.at
     }

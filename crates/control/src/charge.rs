@@ -1,4 +1,4 @@
-//! How long a battery lasts: the slope of the charge that a robot reports.
+//! Estimates how long a battery lasts from the slope of the charge that its robot reports.
 //!
 //! Robots report whole percents. The moment at which the number falls says more than the number, so the slope is a
 //! least-squares line through these moments.
@@ -6,25 +6,26 @@
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// Falls that are kept: a quarter of a battery. More: a slope that changes with what the robot does is learnt late.
-/// Fewer: it is less sure.
+/// Number of falls of the charge that are kept: a quarter of a battery. More: a slope that changes is learnt late.
+/// Fewer: the slope is less certain.
 const FALLS: usize = 24;
-/// Falls without which no slope is known.
+/// Least number of falls that give a slope.
 const FALLS_LEAST: usize = 3;
-/// A rise by this much, percent, means that the battery is charged or was changed; a smaller one is noise.
+/// Rise of the charge, percent, from which the battery was charged or changed; a smaller rise is noise.
 const CHARGED: u8 = 2;
 
 /// The charge of one robot over time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ChargeTrend {
-    /// When the charge was first reported to be this much, percent. The first one is no fall: nothing was known before.
+    /// When the reported charge first fell to each value, and that value in percent. The first report is no fall,
+    /// because nothing was known before.
     falls: Vec<(Instant, u8)>,
     /// The least reported charge, percent.
     least: Option<u8>,
 }
 
 impl ChargeTrend {
-    /// The robot reports a charge, percent.
+    /// Takes in a reported charge, percent.
     pub fn report(&mut self, now: Instant, percent: u8) {
         let Some(least) = self.least else {
             self.least = Some(percent);
@@ -41,7 +42,8 @@ impl ChargeTrend {
         }
     }
 
-    /// Time until the battery is empty at the measured slope; `None`: no slope is known yet.
+    /// Returns the time from `now` until the battery is empty at the measured slope; `None` if no falling slope is
+    /// known.
     pub fn left(&self, now: Instant) -> Option<Span> {
         let (first, last) = (self.falls.first()?.0, self.falls.last()?);
         if self.falls.len() < FALLS_LEAST {
@@ -68,8 +70,8 @@ mod tests {
     use super::*;
     use lightbots_base::random::split_mix;
 
-    /// Error of what is left after ten minutes, as a share, of a battery that lasts `life_s` and whose reports, each two
-    /// seconds, are off by up to `noise` percent.
+    /// Returns the relative error of the remaining time after ten minutes. The battery lasts `life_s`; its reports,
+    /// each two seconds, are off by up to `noise` percent.
     fn error_after_ten_minutes(life_s: f64, noise: f64, seed: u64) -> Option<f64> {
         let mut state = seed;
         let mut unit = || (split_mix(&mut state) >> 11) as f64 / (1u64 << 53) as f64;

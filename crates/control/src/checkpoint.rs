@@ -1,6 +1,6 @@
-//! A controller at rest as bytes: between runs, with nothing waiting to be sent.
+//! A controller at rest as bytes: there is no run, and nothing waits to be sent.
 //!
-//! A log of a run begins with it, so that a run is replayed without the hours before it.
+//! A log of a run begins with these bytes, so that a run is replayed without the hours before it.
 
 use crate::controller::Controller;
 use crate::robot::KnownRobot;
@@ -16,12 +16,12 @@ impl Controller {
             && self.context.log.is_drained()
     }
 
-    /// The controller as bytes; `None` unless it is at rest.
+    /// Returns the controller as bytes; `None` unless it is at rest.
     pub(crate) fn checkpoint(&self) -> Option<Vec<u8>> {
         if self.is_at_rest() { postcard::to_allocvec(self).ok() } else { None }
     }
 
-    /// The controller of a checkpoint; `None`: the bytes are none. They may come from anywhere.
+    /// Restores the controller of a checkpoint; `None` if the bytes are not valid. They are untrusted input.
     pub(crate) fn from_checkpoint(bytes: &[u8]) -> Option<Self> {
         let mut controller: Self = postcard::from_bytes(bytes).ok()?;
         if !controller.context.fleet.reindex() {
@@ -34,7 +34,7 @@ impl Controller {
     }
 }
 
-/// Takes what no controller at rest says of a robot from it.
+/// Removes what a controller at rest does not hold of a robot: a participant number, and places that are not finite.
 fn check(robot: &mut KnownRobot) {
     let is_finite = |at: &Vec2| at.x.is_finite() && at.y.is_finite();
     robot.participant = None;

@@ -1,18 +1,18 @@
-//! What is near what on the floor.
+//! A grid that finds robots and discs near each other on the floor.
 
 use lightbots_base::Vec2;
 use std::collections::BTreeMap;
 
-/// Robots and standing discs by the squares of a grid.
+/// Robots and standing discs, sorted into the squares of a grid.
 pub(crate) struct FloorCells {
-    /// Robots first, then standing discs.
+    /// Centres of robots first, then of standing discs, stage metres.
     pub all: Vec<Vec2>,
     side_m: f64,
     cells: BTreeMap<(i64, i64), Vec<usize>>,
 }
 
 impl FloorCells {
-    /// With squares of this side, metres.
+    /// Sorts robots and discs into squares with a side of `side_m` metres.
     pub fn new(robots: &[Vec2], standing: &[Vec2], side_m: f64) -> Self {
         let all: Vec<Vec2> = robots.iter().chain(standing).copied().collect();
         let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
@@ -22,7 +22,7 @@ impl FloorCells {
         Self { all, side_m, cells }
     }
 
-    /// What is in the squares around one, itself left out.
+    /// Returns the indices of all others in the square of `index` and in the eight squares around it.
     pub fn near(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
         let (x, y) = cell(self.all[index], self.side_m);
         (y - 1..=y + 1)

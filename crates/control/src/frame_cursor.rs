@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct FrameCursor {
     /// Index of the frame, counted from 0; `usize::MAX` after the last one.
     pub frame: usize,
-    /// How many times the show started again before.
+    /// How many times the show started again before this frame.
     pub round: u32,
-    /// How many times the frames of the loop that the frame is in were played before; 0 outside of loops.
+    /// How many times the frames of its loop were played before; 0 outside of loops.
     pub pass: u32,
 }
 
 impl FrameCursor {
-    /// Whether this frame is played before the show or a loop goes back to what was played.
+    /// Whether both frames are in the same round of the show and the same pass of a loop.
     pub fn is_in_pass_of(&self, other: FrameCursor) -> bool {
         (self.round, self.pass) == (other.round, other.pass)
     }

@@ -7,57 +7,58 @@ use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Neighbours;
 use std::sync::Arc;
 
-/// What all robots do between two moments at which all stand. A frame takes one leg, or several where robots that know
-/// TARGET only and others have to go one after the other.
+/// The drives of all robots between two moments at which all stand. A frame takes one leg, or several if TARGET-only
+/// robots and others have to go one after the other. TARGET-only robots have the original firmware, which understands
+/// TARGET and COLOR but no routes.
 #[derive(Clone, Debug)]
 pub(crate) struct Leg {
     /// The frame it leads to, counted from 0.
     pub frame: usize,
     /// How many times the show started again before that frame.
     pub round: u32,
-    /// How many times the frames of its loop were played before.
+    /// How many times the frames of its loop were played before; 0 outside of loops.
     pub pass: u32,
-    /// Number of its routes; 0 until it is queued.
+    /// Number of the routes of this leg; 0 until the leg is queued.
     pub seq: u32,
-    /// How robots are told to go.
+    /// Whether robots drive routes or by TARGET.
     pub kind: LegKind,
-    /// `[participant]`; participants that join later have none.
+    /// What each robot does, by participant number; participants that joined later have no entry.
     pub robots: Vec<RobotLeg>,
-    /// The straight drives of robots that know TARGET only, in the order in which each is valid; see [`StraightDrive`].
+    /// The straight drives of TARGET-only robots. Each yields to earlier ones in the list only; see [`StraightDrive`].
     pub drives: Vec<StraightDrive>,
     /// Number of robots that have to arrive.
     pub drivers: usize,
-    /// From the START to the planned end.
+    /// Time from the START to the planned end.
     pub duration: Span,
-    /// The frame is reached at its end.
+    /// Whether the frame is reached at the end of this leg.
     pub reaches_frame: bool,
-    /// Clearance of the closest two robots by plan, metres.
+    /// Planned clearance of the closest two robots, metres; 0 if it is not known.
     pub room_m: f64,
-    /// Where its plan had robots that dropped out.
+    /// Places at which the plan had robots that dropped out, stage metres.
     pub around: Arc<[Vec2]>,
 }
 
-/// How robots are told to go.
+/// Whether robots drive routes or by TARGET.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LegKind {
-    /// Timed paths and a common START.
+    /// Robots drive timed paths after a common START.
     Routes,
-    /// TARGETs, sent one after the other so that no robot is in another's way at any speed.
+    /// Robots get TARGETs one after the other, so that no robot is in another's way at any speed.
     Targets,
 }
 
 /// One robot's part in a leg.
 #[derive(Clone, Debug)]
 pub(crate) struct RobotLeg {
-    /// What the robot is told.
+    /// What the robot does.
     pub task: Task,
-    /// Clearance of the robot by plan, metres; infinite where that is far.
+    /// Planned clearance of the robot, metres; infinite if no other comes near.
     pub room_m: f64,
-    /// The neighbours that come into sight on its path.
+    /// The neighbours that come into sight on its path; `None` if they were not computed.
     pub neighbours: Option<Arc<Neighbours>>,
-    /// Where the robot stands afterwards, stage metres.
+    /// Where the robot stands after the leg, stage metres.
     pub goal: Vec2,
-    /// The robot stands there in the frame too.
+    /// Whether the robot's place in the frame is this goal, and not reached by a later leg.
     pub settles: bool,
     /// The pixel that the robot shows in the leg's frame.
     pub pixel: Option<u32>,
@@ -65,19 +66,19 @@ pub(crate) struct RobotLeg {
     pub color: Rgb,
 }
 
-/// What a robot is told.
+/// What a robot does in a leg.
 #[derive(Clone, Debug)]
 pub(crate) enum Task {
-    /// Nothing: the robot stands.
+    /// It stands.
     Stay,
-    /// A timed path.
+    /// It drives a timed path.
     Path(Path),
-    /// The straight drives of its leg.
+    /// It drives its straight drives in [`Leg::drives`].
     Drives,
 }
 
 impl RobotLeg {
-    /// A robot that stands at a place, dark.
+    /// Returns the part of a robot that stands at a place, dark.
     pub fn stay(at: Vec2) -> Self {
         Self {
             task: Task::Stay,
@@ -92,12 +93,12 @@ impl RobotLeg {
 }
 
 impl Leg {
-    /// The frame it leads to, in its run.
+    /// Returns the frame that the leg leads to, with its round and pass.
     pub fn cursor(&self) -> FrameCursor {
         FrameCursor { frame: self.frame, round: self.round, pass: self.pass }
     }
 
-    /// The path of a participant, if it drives one.
+    /// Returns the path of a participant; `None` if it drives none.
     pub fn path(&self, participant: usize) -> Option<&Path> {
         match self.robots.get(participant).map(|robot| &robot.task) {
             Some(Task::Path(path)) => Some(path),
@@ -105,12 +106,12 @@ impl Leg {
         }
     }
 
-    /// Whether a participant has to arrive.
+    /// Whether a participant drives in this leg and has to arrive.
     pub fn is_driven_by(&self, participant: usize) -> bool {
         self.robots.get(participant).is_some_and(|robot| !matches!(robot.task, Task::Stay))
     }
 
-    /// Where a participant stands at the end; `None` where it joined later.
+    /// Returns where a participant stands at the end, stage metres; `None` if it joined later.
     pub fn goal(&self, participant: usize) -> Option<Vec2> {
         self.robots.get(participant).map(|robot| robot.goal)
     }

@@ -5,11 +5,11 @@ use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// The most events that wait.
+/// Largest number of waiting events.
 const WAITING_MAX: usize = 50_000;
-/// The most events of the frequent kinds in one [`PERIOD`].
+/// Largest number of events of the frequent kinds in one [`PERIOD`].
 const FREQUENT_MAX: u32 = 10;
-/// Over which the frequent kinds are counted.
+/// Time over which events of the frequent kinds are counted.
 const PERIOD: Span = Span::from_millis(1_000);
 
 /// The queue of events.
@@ -23,7 +23,7 @@ pub(crate) struct EventQueue {
 }
 
 impl EventQueue {
-    /// An event that is always queued, unless the queue is full because it is not read.
+    /// Queues an event. If the queue is full, the event is counted as suppressed.
     pub fn record(&mut self, at: Instant, kind: EventKind) {
         if self.waiting.len() < WAITING_MAX {
             self.waiting.push_back(Event { at, kind });
@@ -32,7 +32,8 @@ impl EventQueue {
         }
     }
 
-    /// An event any robot can cause at any rate.
+    /// Queues an event of a frequent kind, which any robot can cause at any rate. Above [`FREQUENT_MAX`] the event is
+    /// counted as suppressed.
     pub fn record_limited(&mut self, at: Instant, kind: EventKind) {
         self.tick(at);
         if self.said < FREQUENT_MAX {
@@ -43,7 +44,7 @@ impl EventQueue {
         }
     }
 
-    /// Records how many events were suppressed, once their period is over.
+    /// Once a period is over, begins the next one and records how many events were suppressed.
     pub fn tick(&mut self, now: Instant) {
         if now - self.period_began < PERIOD {
             return;
@@ -61,7 +62,7 @@ impl EventQueue {
         self.waiting.is_empty()
     }
 
-    /// The next event.
+    /// Takes the next event; `None` if none waits.
     pub fn next(&mut self) -> Option<Event> {
         self.waiting.pop_front()
     }

@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 /// Bindings of pixel ids to robots that outlive a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Mapping {
-    /// What the operator bound.
+    /// Pixels that the operator bound to robots.
     pub pins: BTreeMap<u32, RobotId>,
-    /// Which robot showed a pixel in frames with fixed identity: it stays so.
+    /// Which robot showed a pixel in frames with fixed identity, and shows it in later ones.
     #[serde(with = "claims")]
     pub owners: Claims<RobotId>,
-    /// Which robot shows a pixel last in the planned frames of this run, whatever their identity. A frame with fixed
-    /// identity keeps to that.
+    /// Which robot showed a pixel last in the planned frames of this run, whatever their identity. A frame with fixed
+    /// identity keeps to these robots.
     #[serde(with = "claims")]
     pub shown: Claims<RobotId>,
 }
@@ -48,10 +48,10 @@ impl Mapping {
     }
 }
 
-/// The mapping while a plan is made, for robots that are places in a list.
+/// The mapping while a plan is made, in which robots are indices into a list.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Roles {
-    /// `[robot]`.
+    /// Names of the robots, by index.
     names: Vec<RobotId>,
     pub mapping: Mapping,
     bindings: Bindings,
@@ -87,7 +87,7 @@ impl Roles {
         self.bindings.bind(&frame.pixels, identity, places, blocked)
     }
 
-    /// Keeps which robot shows which pixel; `goal_of[robot]` is an index into the bound pixels.
+    /// Notes which robot shows which pixel; `goal_of[robot]` is an index into the bound pixels.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, identity: Identity, goal_of: &[Option<usize>]) {
         self.bindings.remember(bound, goal_of);
         for (&name, goal) in self.names.iter().zip(goal_of) {

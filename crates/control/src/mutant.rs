@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Mutant {
-    /// A HOLD is not sent.
+    /// HOLD is never sent.
     SkipHold = 1,
     /// The acknowledgement of the seventh participant is overlooked.
     DropAcknowledgement,
@@ -12,17 +12,17 @@ pub enum Mutant {
     ReplayOffByOne,
     /// Robots that dropped out are not driven around.
     ForgetDeadRobot,
-    /// A run that is taken up goes on a frame later.
+    /// A run that is taken up goes on with a later frame.
     WrongFrameAfterRestart,
-    /// STOP is sent once.
+    /// Each STOP is sent once instead of several times.
     StopOnce,
-    /// Silent robots are lost, however many there are.
+    /// Silent robots drop out, even if many fall silent at once.
     LinkLossIsDeath,
     /// Robots that do not answer are waited for without a bound.
     WaitForEver,
     /// Robots that do not know their place are not driven around.
     ForgetLostRobot,
-    /// A fifth of the journal's entries is not written.
+    /// The changes of about a fifth of the journal's entries are lost.
     LoseJournalEntries,
 }
 
@@ -53,7 +53,7 @@ impl Mutant {
         PLANTED.load(core::sync::atomic::Ordering::Relaxed) == self as u8
     }
 
-    /// Whether this mistake is made: none is.
+    /// Always `false`: without the feature `mutants` no mistake is made.
     #[cfg(not(feature = "mutants"))]
     pub(crate) const fn is_planted(self) -> bool {
         false

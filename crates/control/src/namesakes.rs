@@ -1,45 +1,46 @@
-//! Finds out that two robots share a name: its reports come from two places in turn, between which no robot can have
-//! driven, or its time questions follow two clocks.
+//! Detects that two robots share a name. Either reports come in turn from two places between which no robot can have
+//! driven, or time questions follow two clocks.
 
 use crate::own_clocks::OwnClocks;
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Speed above which nothing of a fleet drives, metres per second: three times the usual speed limit, because reports come
-/// late and together.
+/// Speed that no robot of a fleet exceeds, metres per second. It is three times the usual speed limit, because reports
+/// come late and together.
 const SPEED_MPS: f64 = 0.8;
-/// Distance that is no jump whatever the time, metres: noise of fixes, and what a hand moves.
+/// Distance between two reports that is never a jump, metres: noise of fixes, or a robot moved by hand.
 const SLACK_M: f64 = 0.3;
-/// Jumps in turn after which two robots share the name. One is a robot that was put down elsewhere, two is a robot that was
-/// put back.
+/// Number of jumps back and forth that show two robots. One jump is a robot that was put elsewhere; two are a robot
+/// that was put back.
 const JUMPS: u8 = 3;
-/// The jumps are counted within this time.
+/// Time within which the jumps are counted.
 const WITHIN: Span = Span::from_millis(10_000);
-/// After this time without a jump or a second clock one robot has the name again, …
+/// Time without a jump or a second clock after which one robot has the name again, if it also sent [`CLEAR_MESSAGES`].
 const CLEAR_AFTER: Span = Span::from_millis(30_000);
-/// … if it sent this many messages meanwhile. Each robot asks for the time every 3 s (R28 of docs/protocol.md).
+/// Least number of messages within [`CLEAR_AFTER`]. Each robot asks for the time every 3 s (R28 of docs/protocol.md).
 const CLEAR_MESSAGES: u32 = 12;
-/// Places of a robot that stands are no farther apart than this, metres: noise of fixes.
+/// Largest distance between two reported places of a robot that stands, metres: noise of fixes.
 const SAME_PLACE_M: f64 = 0.03;
-/// A robot that stands reports every 2 s (R41); of the last two reports one may be lost.
+/// Largest age of the older of two places for which both count as present. A robot that stands reports every 2 s (R41),
+/// and one of two reports may be lost.
 const REPORTED_WITHIN: Span = Span::from_millis(4_500);
 
-/// A place, and when it was reported.
+/// When a place was reported, and the place, stage metres.
 type Sighting = (Instant, Vec2);
 
-/// What the places of one name say of the number of its robots.
+/// What the messages of one name show about how many robots have it.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Namesakes {
     last: Option<Sighting>,
-    /// Where the other robot of the name would be: the place before the last jump.
+    /// The place before the last jump, where the other robot of the name would be.
     other: Option<Sighting>,
     jumps: u8,
     first_jump: Instant,
     last_jump: Instant,
     clocks: OwnClocks,
-    /// Where the robots of the name stand: its last two places that are not the same.
+    /// The last two places of the name that are not the same: where its robots stand.
     standing: [Option<Sighting>; 2],
-    /// Messages since two robots showed last.
+    /// Number of messages since the last sign of two robots.
     messages: u32,
     are_there: bool,
 }
@@ -50,20 +51,21 @@ impl Namesakes {
         self.are_there
     }
 
-    /// Where they reported from last, stage metres.
+    /// Returns the places from which robots of this name reported last, stage metres.
     pub fn places(&self) -> Vec<Vec2> {
         let newest = self.standing.iter().flatten().map(|(at, _)| *at).max();
         let is_recent = |at: Instant| newest.is_some_and(|newest| newest - at < REPORTED_WITHIN);
         self.standing.iter().flatten().filter(|(at, _)| is_recent(*at)).map(|(_, place)| *place).collect()
     }
 
-    /// The name asks for the time; `asked`: its own clock. Whether that shows, for the first time, that two robots share it.
+    /// Handles a time question; `asked`: what the robot's own clock showed. Returns whether it shows, for the first
+    /// time, that two robots share the name.
     pub fn observe_clock(&mut self, now: Instant, asked: Instant) -> bool {
         self.messages = self.messages.saturating_add(1);
         self.clocks.observe(now, asked) && self.show(now)
     }
 
-    /// Two robots showed. Whether for the first time.
+    /// Notes a sign of two robots. Returns whether it is the first one.
     fn show(&mut self, now: Instant) -> bool {
         (self.last_jump, self.messages) = (now, 0);
         !std::mem::replace(&mut self.are_there, true)
@@ -78,7 +80,8 @@ impl Namesakes {
         self.standing[index] = Some((now, at));
     }
 
-    /// The name reports a place. Whether that shows, for the first time, that two robots share it.
+    /// Handles a reported place, stage metres. Returns whether it shows, for the first time, that two robots share the
+    /// name.
     pub fn observe(&mut self, now: Instant, at: Vec2) -> bool {
         self.messages = self.messages.saturating_add(1);
         self.stand(now, at);
@@ -94,7 +97,7 @@ impl Namesakes {
         self.jumps >= JUMPS && self.show(now)
     }
 
-    /// Time passed. Whether one robot has the name again.
+    /// Returns whether one robot has the name again; all signs of two robots are forgotten then.
     pub fn are_gone(&mut self, now: Instant) -> bool {
         let is_long = now - self.last_jump > CLEAR_AFTER && self.messages >= CLEAR_MESSAGES;
         let is_over = self.are_there && is_long;

@@ -1,4 +1,4 @@
-//! What operations of the operator do.
+//! Carries out the operations of the operator.
 
 use crate::context::Context;
 use crate::controller::Controller;
@@ -16,13 +16,13 @@ use lightbots_show::{Issue, Layer, SPEED_MIN_PERCENT, Show, slowed, validate};
 use lightbots_wire::{Blink, Command, Topic};
 use std::sync::Arc;
 
-/// How long a robot flashes to be found.
+/// How long a robot flashes so that people find it.
 const BLINK: Span = Span::from_millis(5_000);
-/// The most pixels a refusal lists.
+/// Largest number of pixels that a refusal lists.
 const LISTED: usize = 16;
 
 impl Controller {
-    /// Does an operation, or says why not.
+    /// Carries out an operation, or returns why it is refused.
     pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
         self.journal.operated(now, operation.name());
         if let Some(run) = &mut self.run {
@@ -99,7 +99,7 @@ impl Controller {
         self.context
             .log
             .record(now, EventKind::ShowOpened { name: show.name.clone(), frames: show.frames.len() });
-        // Another show has other frames.
+        // A show with another name has other frames.
         if self.show.as_ref().is_none_or(|before| before.name != show.name) {
             self.stopped_in = None;
         }
@@ -131,7 +131,8 @@ impl Controller {
         Ok(())
     }
 
-    /// All robots that can drive to the starting places, whatever show is open.
+    /// Begins a drive of all robots that can take part to the starting places of the open show, which need not be
+    /// valid.
     fn go_home(&mut self, now: Instant) -> Result<(), Refusal> {
         self.linked()?;
         self.idle()?;
@@ -145,7 +146,7 @@ impl Controller {
         Ok(())
     }
 
-    /// All robots that can are tested where they stand, on the floor of the open show.
+    /// Begins a preflight of all robots that can take part, where they stand, on the floor of the open show.
     fn begin_preflight(&mut self, now: Instant) -> Result<(), Refusal> {
         self.linked()?;
         self.idle()?;
@@ -194,7 +195,8 @@ impl Controller {
         self.run = Some(Run::begin(&mut self.context, now, playback));
     }
 
-    /// Whether there are robots for all pixels of these frames.
+    /// Checks that there are robots for all pixels of these frames; with [`MissingPolicy::LeaveOut`], that there is one
+    /// robot.
     fn enough(
         &self,
         show: &Show,
@@ -272,7 +274,7 @@ impl Controller {
         if run.go_on(&mut self.context, now) { Ok(()) } else { Err(Refusal::NothingToGoOn) }
     }
 
-    /// The run of a show whose robots stand or are held.
+    /// Returns the run if it plays a show and its robots stand or are held; otherwise the reason for a refusal.
     fn standing_show(&mut self) -> Result<(&mut Run, &mut Context), Refusal> {
         self.linked()?;
         let state = self.state();

@@ -6,17 +6,17 @@ use lightbots_wire::{Command, Fade, Topic, encode};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// The most messages that wait; what comes on top is counted and dropped.
+/// Largest number of waiting messages; further ones are counted and dropped.
 const WAITING_MAX: usize = 200_000;
-/// The most broadcasts that are being repeated.
+/// Largest number of broadcasts that are repeated at the same time.
 const REPEATS_MAX: usize = 8;
 
 /// One message to publish.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Send {
-    /// Where.
+    /// Topic to publish on.
     pub topic: Topic,
-    /// What; UTF-8 text.
+    /// Content, UTF-8 text.
     pub payload: Vec<u8>,
 }
 
@@ -32,7 +32,7 @@ struct Repeat {
 /// The queue of messages.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct SendQueue {
-    /// The lamps of the robots.
+    /// Correction for the lamps of the robots.
     lamp: LampSettings,
     #[serde(skip)]
     waiting: VecDeque<Send>,
@@ -40,19 +40,19 @@ pub(crate) struct SendQueue {
     #[serde(skip)]
     text: String,
     linked: bool,
-    /// Messages handed out.
+    /// Number of messages that were taken.
     pub sent: u64,
-    /// Messages dropped.
+    /// Number of messages that were dropped.
     pub unsent: u64,
 }
 
 impl SendQueue {
-    /// A queue to robots with these lamps; there is no broker yet.
+    /// Returns a queue to robots with these lamps; the broker is not connected yet.
     pub fn new(lamp: LampSettings) -> Self {
         Self { lamp, ..Self::default() }
     }
 
-    /// The broker is there or lost. What waits for a lost one is dropped: it would come too late.
+    /// Notes whether the broker is connected. If it is lost, drops all that waits, because that would come too late.
     pub fn link(&mut self, up: bool) {
         self.linked = up;
         if !up {
@@ -62,7 +62,7 @@ impl SendQueue {
         }
     }
 
-    /// Whether there is a broker.
+    /// Whether the broker is connected.
     pub fn linked(&self) -> bool {
         self.linked
     }
@@ -72,8 +72,8 @@ impl SendQueue {
         self.waiting.is_empty()
     }
 
-    /// Commands in one payload to one topic. The colours of COLOR and FADE are corrected for lamps here; those of stretches
-    /// of light were, before they were fitted.
+    /// Queues commands in one payload to one topic. Corrects the colours of COLOR and FADE for the lamps; the colours
+    /// of stretches of light are corrected earlier, before they are fitted.
     pub fn send(&mut self, topic: Topic, commands: &[Command]) {
         self.text.clear();
         let Self { lamp, text, .. } = self;
@@ -97,7 +97,7 @@ impl SendQueue {
         self.waiting.push_back(Send { topic, payload });
     }
 
-    /// A broadcast now, and again `times − 1` times.
+    /// Queues a broadcast now and another `times − 1` times, at intervals of `every`.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
         self.send(Topic::Broadcast, std::slice::from_ref(&command));
         if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX {
@@ -109,12 +109,12 @@ impl SendQueue {
         }
     }
 
-    /// Nothing is repeated any more.
+    /// Ends all repetitions.
     pub fn stop_repeating(&mut self) {
         self.repeats.clear();
     }
 
-    /// Sends each repeated message that is due.
+    /// Queues each repeated message that is due.
     pub fn tick(&mut self, now: Instant) {
         if self.repeats.is_empty() {
             return;
@@ -131,12 +131,12 @@ impl SendQueue {
         self.repeats = repeats;
     }
 
-    /// When something is due again.
+    /// Returns when the next repetition is due; `None` if there is none.
     pub fn due(&self) -> Option<Instant> {
         self.repeats.iter().map(|repeat| repeat.next).min()
     }
 
-    /// The next message to publish.
+    /// Takes the next message to publish; `None` if none waits.
     pub fn next(&mut self) -> Option<Send> {
         let send = self.waiting.pop_front()?;
         self.sent += 1;

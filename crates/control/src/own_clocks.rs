@@ -1,42 +1,42 @@
-//! Finds out that two robots share a name by their own clocks: the time questions of one robot (R25 of docs/protocol.md)
-//! follow one clock.
+//! Detects by robots' own clocks that two robots share a name. The time questions of one robot (R25 of
+//! docs/protocol.md) follow one clock.
 //!
-//! The clock of a robot that starts again goes back once. Only where two robots ask in turn does a clock go back, forward,
-//! and back again to where the lower one is by now. Places say the same later, or never on a small floor.
+//! The clock of a robot that restarts goes back once. If two robots ask in turn, the clock goes back, forward, and back
+//! again to what the lower clock shows by then. Reported places show two robots later, or never on a small floor.
 
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// Most that a question's clock is before the one of the question before, if both are of one robot: one message overtook
-/// another. Two robots that were switched on within this time look like one.
+/// Largest step back between two questions of one robot: one message overtook the other. Two robots that were switched
+/// on within this time look like one.
 const OVERTAKEN: Span = Span::from_millis(500);
-/// Most that two questions of one robot are late unlike each other. A robot that starts again and again asks with the same
-/// low clock each time, which stays behind by the time between two starts.
+/// Largest difference between the delays of two questions of one robot. The clock of a robot that restarts again and
+/// again begins low each time, and so lags by the time between two starts.
 const LATE: Span = Span::from_millis(1_000);
-/// Steps back to the same lower clock after which two robots share the name: one is a robot that started again.
+/// Number of steps back to the same lower clock that show two robots. One step back is a robot that restarted.
 const STEPS_BACK: u8 = 2;
-/// These are counted within this time. A robot asks every 3 s (R28).
+/// Time within which the steps back are counted. A robot asks every 3 s (R28).
 const WITHIN: Span = Span::from_millis(15_000);
 
-/// A time question: when it came, and its robot's own clock when it left.
+/// A time question: when it was received, and what the robot's own clock showed when it was sent.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Question {
     received: Instant,
     asked: Instant,
 }
 
-/// The own clocks behind one name.
+/// What questions showed about the clocks behind one name.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct OwnClocks {
     last: Option<Question>,
-    /// The last question whose clock had stepped back.
+    /// The last question whose clock was lower than that of the question before.
     lower: Option<Question>,
     steps_back: u8,
     first_step: Instant,
 }
 
 impl OwnClocks {
-    /// The name asks for the time; `asked`: its own clock. Whether that shows that two robots share the name.
+    /// Handles a time question; `asked`: what the robot's own clock showed. Returns whether two robots share the name.
     pub fn observe(&mut self, now: Instant, asked: Instant) -> bool {
         let question = Question { received: now, asked };
         let Some(last) = self.last.replace(question) else { return false };
@@ -53,7 +53,7 @@ impl OwnClocks {
 }
 
 impl Question {
-    /// Whether an earlier question may be of the same clock, which has gone on since.
+    /// Whether both questions may be of one clock that went on between them.
     fn is_of_clock(self, earlier: Self) -> bool {
         let behind = (self.received - earlier.received) - (self.asked - earlier.asked);
         (-LATE..=LATE).contains(&behind)
@@ -64,7 +64,7 @@ impl Question {
 mod tests {
     use super::*;
 
-    /// The first of these questions, `(received, asked)` in milliseconds, that shows two robots.
+    /// Returns the index of the first question, `(received, asked)` in milliseconds, that shows two robots.
     fn found(questions: impl IntoIterator<Item = (u64, u64)>) -> Option<usize> {
         let mut clocks = OwnClocks::default();
         let at = |ms: u64| Instant(ms * 1_000);

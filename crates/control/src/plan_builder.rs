@@ -1,4 +1,5 @@
-//! Builds a plan: legs of timed paths, and straight drives of robots that know TARGET only.
+//! Builds a plan: legs of timed paths, and straight drives of TARGET-only robots, which understand TARGET and COLOR but
+//! no routes.
 
 use crate::frame_cursor::FrameCursor;
 use crate::leg::{Leg, LegKind, RobotLeg, Task};
@@ -16,22 +17,22 @@ use lightbots_wire::MAX_PIECES;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// A goal closer than this to a disc that does not move cannot be reached, metres more than contact.
+/// Least clearance between a goal and a disc that does not move, metres; closer goals cannot be reached.
 const BLOCKED_MARGIN_M: f64 = 0.001;
-/// The same for discs whose places are inferred, metres: what others see of a dead robot is off by 5 mm.
+/// The same clearance for discs whose places are inferred, metres: as others measure it, a failed robot's place is off
+/// by 5 mm.
 const INFERRED_MARGIN_M: f64 = 0.008;
-/// How often conflicting pixels are left out before a frame is given up.
+/// Number of attempts to plan a frame, with fewer pixels each time, before planning it fails.
 const LENIENT_TRIES: usize = 8;
 
 impl PlanRequest {
-    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest. It never
-    /// panics.
+    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest.
     pub fn run(self) -> PlanResult {
         self.run_unless(&|| false)
     }
 
-    /// [`run`](Self::run), cancelled once `is_over` says so, which must go on saying so. It is asked about every tenth of a
-    /// second. Frames planned until then count.
+    /// Like [`run`](Self::run), but cancelled once `is_over` returns true, which it must do from then on. The planner
+    /// calls it about every tenth of a second. Frames that were planned before count.
     pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
         let questions = Questions { is_over, asked: Cell::new(0), cancelled_at: Cell::new(None) };
         let is_over = || questions.ask();
@@ -56,8 +57,8 @@ impl PlanRequest {
     }
 }
 
-/// Counts the planner's questions whether to give up. The planner asks at the same points of its work whenever it gets the
-/// same problem, so that the number of the question names the moment it was cancelled.
+/// Counts the planner's checks whether it is cancelled. For the same problem it checks at the same points of its work,
+/// so that the number of a check identifies the point.
 struct Questions<'a> {
     is_over: &'a dyn Fn() -> bool,
     asked: Cell<u64>,
@@ -100,7 +101,7 @@ impl<'a> PlanBuilder<'a> {
         }
     }
 
-    /// Adds the legs to one frame.
+    /// Plans one frame and adds the legs to it.
     fn frame(&mut self, FrameCursor { frame: index, round, pass }: FrameCursor) -> Result<(), String> {
         let show = &self.problem.show;
         let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
@@ -137,8 +138,8 @@ impl<'a> PlanBuilder<'a> {
         Ok(())
     }
 
-    /// A drive that moves robots apart that were stopped too close to each other, if there are any. The frame is then
-    /// planned from its end.
+    /// Plans a drive that moves robots apart if they were stopped too close to each other; `None` if no drive is needed
+    /// or possible. The frame is then planned from the end of this drive.
     fn separate(&mut self) -> Option<Transition> {
         let PlanProblem { standing, stopped, .. } = self.problem;
         let problem = TransitionProblem::on_stage(&self.problem.show.stage);
@@ -166,7 +167,8 @@ impl<'a> PlanBuilder<'a> {
         Some(apart)
     }
 
-    /// The transition, without the pixels that make it impossible where that is allowed.
+    /// Plans the transition to a frame. If the problem allows it, leaves out pixels that make the transition
+    /// infeasible.
     fn solve(&self, index: usize, bound: &mut BoundFrame<'_>) -> Result<Transition, String> {
         let mut tries = LENIENT_TRIES;
         loop {
@@ -182,7 +184,7 @@ impl<'a> PlanBuilder<'a> {
             if !self.problem.lenient || tries == 0 || infeasible.goals.is_empty() {
                 return Err(infeasible.message);
             }
-            // Every second one of those in each other's way: the others may then do.
+            // Every second conflicting goal is left out: the others may be feasible then.
             let mut out: Vec<usize> = infeasible.goals.iter().copied().skip(1).step_by(2).collect();
             if out.is_empty() {
                 out = infeasible.goals;
@@ -196,8 +198,8 @@ impl<'a> PlanBuilder<'a> {
         }
     }
 
-    /// The transition that the show prescribes, or where that is not possible an ordinary one: robots that died stand in
-    /// its way, say.
+    /// Plans the transition that the show prescribes. If that is not possible, for example because failed robots are in
+    /// its way, plans an ordinary one.
     fn planned(&self, problem: &TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
         let found = planned_unless(problem, self.is_over).map_err(given_up)?;
         if found.is_ok() || problem.prescribed.is_none() {
@@ -207,7 +209,7 @@ impl<'a> PlanBuilder<'a> {
         planned_unless(&ordinary, self.is_over).map_err(given_up)
     }
 
-    /// `[robot]`: where each stands when the frame is reached, and its light.
+    /// Returns for each robot where it stands when the frame is reached, and its light.
     fn rests(&self, bound: &BoundFrame<'_>, plan: &Transition) -> Vec<RobotLeg> {
         let rest = |robot: usize| match plan.goal_of.get(robot).copied().flatten() {
             Some(goal) => {
@@ -226,7 +228,7 @@ impl<'a> PlanBuilder<'a> {
         (0..self.places.len()).map(rest).collect()
     }
 
-    /// The legs of a frame in which original robots take part.
+    /// Plans the legs of a frame in which TARGET-only robots take part.
     fn staged(&self, frame: &Frame, rests: &[RobotLeg]) -> Result<Vec<Leg>, String> {
         let stage = &self.problem.show.stage;
         let goals: Vec<Vec2> = rests.iter().map(|rest| rest.goal).collect();
@@ -273,7 +275,7 @@ impl<'a> PlanBuilder<'a> {
         Ok(legs)
     }
 
-    /// Paths of the robots that follow paths, while the originals stand.
+    /// Plans the paths of `drivers`, the robots that follow paths, while TARGET-only robots stand.
     fn drive(
         &self,
         frame: &Frame,
@@ -292,7 +294,7 @@ impl<'a> PlanBuilder<'a> {
         Some(drivers.iter().copied().zip(plan.paths).collect())
     }
 
-    /// The leg of a transition in which all robots follow paths.
+    /// Returns the leg of a transition in which all robots follow paths.
     fn synchronised(&self, plan: Transition, rests: &[RobotLeg]) -> Result<Leg, String> {
         let closest_m = plan.closest.map_or(f64::INFINITY, |closest| closest.distance_m);
         let room_m = closest_m - self.problem.show.stage.limits.contact_m();
@@ -335,7 +337,7 @@ impl<'a> PlanBuilder<'a> {
         Leg { drives, ..leg }
     }
 
-    /// A leg in which no robot moves yet.
+    /// Returns a leg in which no robot moves yet.
     fn leg(&self, kind: LegKind, rests: &[RobotLeg], drivers: usize, duration: Span, room_m: f64) -> Leg {
         let mut robots = vec![RobotLeg::stay(Vec2::ZERO); self.problem.participants];
         for (robot, rest) in self.problem.robots.iter().zip(rests) {

@@ -1,4 +1,4 @@
-//! A request for a plan and its result. Any thread may make the plan.
+//! A request for a plan, and its result. Any thread may make the plan.
 
 use crate::frame_cursor::FrameCursor;
 use crate::leg::Leg;
@@ -7,14 +7,14 @@ use lightbots_base::{RobotId, Span, StateHash, Vec2};
 use lightbots_show::Show;
 use std::sync::Arc;
 
-/// Longest duration of a replan of up to [`FEW`] robots, by the promise of 1 s for 100 robots.
+/// Longest duration of planning while robots wait, for up to [`FEW`] robots: the promise is 1 s for 100 robots.
 const BUDGET: Span = Span::from_millis(1_000);
-/// Additional duration for each robot above [`FEW`]: 5 s for 1,000 robots.
+/// Time added to [`BUDGET`] for each robot above [`FEW`]: 5 s in all for 1,000 robots.
 const BUDGET_PER_ROBOT: Span = Span(4_445);
 /// Number of robots up to which [`BUDGET`] is enough.
 const FEW: usize = 100;
 
-/// A request for a plan. Pure: equal requests give equal results on any thread.
+/// A request for a plan. Equal requests give equal results on any thread, unless they are cancelled.
 #[derive(Clone, Debug)]
 pub struct PlanRequest {
     pub(crate) number: u64,
@@ -30,19 +30,19 @@ pub(crate) struct PlanProblem {
     pub robots: Vec<PlannedRobot>,
     /// Number of participants, planned or not.
     pub participants: usize,
-    /// Discs that do not move, stage metres.
+    /// Centres of discs that do not move, stage metres.
     pub standing: Vec<Vec2>,
-    /// The discs of `standing` whose places no robot reported: of silent robots, and of what blocked others.
+    /// Those discs of `standing` whose places no robot reported: silent robots, and obstacles that blocked robots.
     pub inferred: Vec<Vec2>,
     pub mapping: Mapping,
-    /// Whether conflicting pixels are left out, so that the frame is not given up.
+    /// Whether pixels that conflict may be left out. Otherwise planning their frame fails.
     pub lenient: bool,
     /// Whether robots were stopped on their paths, perhaps closer to each other than is ever planned.
     pub stopped: bool,
 }
 
 impl PlanProblem {
-    /// Whether robots take part that know TARGET only.
+    /// Whether TARGET-only robots take part: robots that understand TARGET and COLOR, but no routes.
     pub fn has_originals(&self) -> bool {
         self.robots.iter().any(|robot| robot.original)
     }
@@ -62,22 +62,23 @@ pub(crate) struct PlannedRobot {
 #[derive(Clone, Debug)]
 pub struct PlanResult {
     pub(crate) number: u64,
-    /// At which question of the planner it was cancelled, counted from 1; `None`: it was not. A replay cancels it there.
+    /// Number of the planner's check at which it was cancelled, counted from 1; `None` if it was not. A replay cancels
+    /// at the same check.
     pub(crate) cancelled_at: Option<u64>,
     pub(crate) legs: Vec<Leg>,
-    /// Whether it begins where robots were stopped on their paths.
+    /// Whether the plan begins where robots were stopped on their paths.
     pub(crate) stopped: bool,
     /// Number of planned frames.
     pub(crate) frames: usize,
-    /// Pixels that stay dark, by frame.
+    /// Frames, counted from 0, and the ids of their pixels that stay dark.
     pub(crate) dark: Vec<(usize, Vec<u32>)>,
-    /// The first frame without a plan, and why.
+    /// The first frame without a plan, counted from 0, and the reason.
     pub(crate) failed: Option<(usize, String)>,
     pub(crate) mapping: Mapping,
 }
 
 impl PlanResult {
-    /// The result of a request whose answer is not wanted any more.
+    /// Returns an empty result, for a request whose plan is not wanted any more.
     pub(crate) fn unwanted(number: u64) -> Self {
         Self {
             number,
@@ -93,7 +94,7 @@ impl PlanResult {
 }
 
 impl PlanRequest {
-    /// Appends everything that the plan depends on but the show and the pins to a hash.
+    /// Adds everything to a hash that the plan depends on, except the show and the pins.
     pub(crate) fn imprint(&self, hash: &mut StateHash) {
         let PlanProblem {
             frames, robots, participants, standing, inferred, mapping, lenient, stopped, ..
@@ -119,8 +120,8 @@ impl PlanRequest {
         }
     }
 
-    /// Longest duration while robots wait for the plan; `None`: they do not wait. The caller measures it, because a core
-    /// reads no clock, and cancels the request by [`run_unless`](Self::run_unless).
+    /// Returns the longest time that the plan may take while robots wait for it; `None` if they do not wait. The caller
+    /// measures the time, because a core reads no clock, and cancels the plan by [`run_unless`](Self::run_unless).
     pub fn budget(&self) -> Option<Span> {
         let more = self.problem.robots.len().saturating_sub(FEW);
         self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)

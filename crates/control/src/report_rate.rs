@@ -1,22 +1,24 @@
-//! A robot that floods: its messages beyond a rate do not count, and it is named.
+//! Limits the messages of each robot: messages beyond a rate do not count, and an event names the robot.
 //!
-//! A broker of others may pass everything on. What one robot says too often must not take the time that the reports of all
-//! others need.
+//! A broker that is not ours may pass on everything. A robot that sends too many messages must not take the time that
+//! reports of other robots need.
 
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// What counts of one robot.
+/// How many messages of one robot count.
 struct Rate {
     /// Time between two messages in the long run: ten times as often as a robot of ours reports.
     every: Span,
-    /// Messages at once, before the rate counts: a robot that comes back to a long show acknowledges 100 parts of routes.
+    /// Number of messages that count at once, before the rate limits them. A robot that comes back to a long show
+    /// acknowledges 100 parts of routes.
     burst: i64,
 }
 
-/// The same as the embedded broker's bound for a robot. A lower one loses acknowledgements, a higher one delays others.
+/// The embedded broker has the same bound for a robot. Lower: acknowledgements are lost. Higher: one robot delays the
+/// messages of others.
 const RATE: Rate = Rate { every: Span::from_millis(10), burst: 1_000 };
-/// A robot that goes on flooding is named this often.
+/// Least time between two events that name the same robot.
 const NAMED_EVERY: Span = Span::from_millis(60_000);
 
 /// Whether a message counts.
@@ -24,9 +26,9 @@ const NAMED_EVERY: Span = Span::from_millis(60_000);
 pub(crate) enum Counted {
     /// It does.
     Yes,
-    /// It does not, and its sender is to be named.
+    /// It does not, and an event has to name the sender.
     FloodToName,
-    /// It does not.
+    /// It does not; the sender was named lately.
     Flood,
 }
 
@@ -35,12 +37,12 @@ pub(crate) enum Counted {
 pub(crate) struct ReportRate {
     /// When all counted messages would have been sent at the allowed rate.
     paid_until: Instant,
-    /// When the robot was named last.
+    /// When an event last named the robot.
     named_at: Option<Instant>,
 }
 
 impl ReportRate {
-    /// Counts a message.
+    /// Counts a message that arrives at `now`, and returns whether it is within the rate.
     pub fn count(&mut self, now: Instant) -> Counted {
         let paid_until = self.paid_until.max(now) + RATE.every;
         if paid_until - now <= RATE.every * RATE.burst {

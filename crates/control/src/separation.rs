@@ -1,40 +1,41 @@
-//! Robots that stand too close to plan for are moved apart first, each by no more than it takes.
+//! Moves robots apart that stand too close for a plan, each by a short distance.
 //!
-//! Two robots that begin a drive close to each other may stay that close all the way, because the proof asks no more of a
-//! pair than its start leaves. After a death in a queue whole rows stand rim to rim, and would touch again and again.
+//! Two robots that begin a drive close to each other may stay that close all the way. The proof demands no more
+//! clearance of them than they have at the start. After a robot fails in a queue, whole rows stand rim to rim and would
+//! touch again and again.
 
 use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-/// Clearance that is made between any two robots, metres: the 8 mm that the planner keeps where there is space, and the
-/// error of two fixes. With less the drive that follows is planned tighter than it need be; with more,
-/// robots are moved in crowds that need it not.
+/// Clearance to which robots are moved apart, metres: the 8 mm that the planner keeps if there is space, and the error
+/// of two fixes. Less: the next drive is planned with less clearance than necessary. More: robots are moved in crowds
+/// without need.
 pub(crate) const CLEARANCE_M: f64 = 0.010;
-/// Two robots closer than this are worth a drive of their own, metres: the 3 mm that the planner keeps at least, and the
-/// errors of two fixes.
+/// Clearance below which robots are moved apart by a drive, metres. It is the 3 mm that the planner keeps at least, and
+/// the errors of two fixes.
 const TOO_CLOSE_M: f64 = 0.006;
-/// Sweeps over all pairs at most; a row of twenty that stand rim to rim takes a hundred.
+/// Largest number of sweeps over all pairs. A row of twenty robots rim to rim takes a hundred.
 const SWEEPS: usize = 400;
-/// Moves shorter than this are not driven, metres: a robot follows its path within 2 mm.
+/// Moves shorter than this are left out, metres: a robot follows its path within 2 mm.
 const SHORT_M: f64 = 0.001;
-/// Added to what is asked for, so that it is reached in finitely many sweeps, metres.
+/// Added to the wanted clearance, metres, so that it is reached in finitely many sweeps.
 const SLACK_M: f64 = 0.000_2;
 
-/// Where robots may stand.
+/// The floor on which robots are moved apart, and what stands on it.
 pub(crate) struct Place<'a> {
     /// Half the floor's width and depth, metres.
     pub half_floor: Vec2,
     pub obstacles: &'a [Obstacle],
-    /// Discs that do not move.
+    /// Centres of discs that do not move, stage metres.
     pub standing: &'a [Vec2],
     pub radius_m: f64,
     pub contact_m: f64,
 }
 
 impl Place<'_> {
-    /// Places near `robots`, in the same order, that leave [`CLEARANCE_M`] between them. `None`: no two robots are too
-    /// close, or no such places were found.
+    /// Returns places near `robots`, in the same order, that leave about [`CLEARANCE_M`] between robots. `None` if no
+    /// two robots are too close, or if two still were afterwards.
     pub fn separated(&self, robots: &[Vec2]) -> Option<Vec<Vec2>> {
         if !self.has_pair_within(robots, self.contact_m + TOO_CLOSE_M) {
             return None;
@@ -57,14 +58,15 @@ impl Place<'_> {
         (!self.has_pair_within(&places, self.contact_m + TOO_CLOSE_M)).then_some(places)
     }
 
-    /// Whether two robots, or a robot and a standing disc, are closer than a distance between centres.
+    /// Whether the centres of two robots, or of a robot and a standing disc, are closer than `apart_m`.
     fn has_pair_within(&self, robots: &[Vec2], apart_m: f64) -> bool {
         let cells = FloorCells::new(robots, self.standing, apart_m);
         let close = |(a, b): (usize, usize)| cells.all[a].distance(cells.all[b]) < apart_m;
         (0..robots.len()).any(|robot| cells.near(robot).any(|other| close((robot, other))))
     }
 
-    /// One sweep: each pair that is too close moves apart along the line between its centres. Whether any was.
+    /// Moves each pair whose centres are closer than `apart_m` apart, once, along the line between the centres. Returns
+    /// whether any pair was.
     fn push_apart(&self, robots: &mut [Vec2], apart_m: f64) -> bool {
         let mut cells = FloorCells::new(robots, self.standing, apart_m);
         let mut pushed = false;
@@ -77,7 +79,7 @@ impl Place<'_> {
                     continue;
                 }
                 pushed = true;
-                // Two at one place part in a direction of their own.
+                // Two robots at one place part in a direction given by the index of the first.
                 let away = (at - there).normalized().unwrap_or(Vec2::unit(robot as f64));
                 if other < robots.len() {
                     cells.all[robot] += away * (missing_m / 2.0);
@@ -91,7 +93,7 @@ impl Place<'_> {
         pushed
     }
 
-    /// The place itself, or the nearest on the floor; `from` where that is in an obstacle.
+    /// Returns the place, or the nearest one on the floor; `from` if that is in an obstacle.
     fn inside(&self, place: Vec2, from: Vec2) -> Vec2 {
         if place == from {
             return place;

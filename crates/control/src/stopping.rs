@@ -1,5 +1,6 @@
-//! All stop: robots that know STOP by STOP, those that know TARGET only by a target where they are. Robots on a drive come
-//! to rest first, because robots that halt where they are may touch: a STOP reaches some of them later than others.
+//! Stops all robots. Robots that drive routes get STOP. TARGET-only robots (original firmware: TARGET and COLOR, no
+//! routes) get a target where they are. Robots on a drive come to rest together first: STOP reaches some robots later
+//! than others, so that robots that halt at once may touch.
 
 use crate::context::Context;
 use crate::mutant::Mutant;
@@ -9,19 +10,19 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, RobotState, Route};
 use std::collections::BTreeMap;
 
-/// How often STOP is sent, and how far apart.
+/// Number of copies of STOP, and the time between two copies.
 const COPIES: (u32, Span) = (6, Span::from_millis(50));
-/// Shortest time that stopping takes, so that reports from before do not count.
+/// Least time from STOP until all can count as stopped, so that reports from before STOP do not count.
 const LEAST: Span = Span::from_millis(300);
-/// Longest time that stopping takes, though a robot may still report that it drives.
+/// Longest time from STOP until stopping ends, even if a robot may still drive.
 const MOST: Span = Span::from_millis(3_000);
-/// How often robots are looked at.
+/// Time between two checks of the robots.
 const CHECK: Span = Span::from_millis(100);
-/// A robot that knows TARGET only and has moved this far since it was told to stop is told again, metres.
+/// A TARGET-only robot that has moved this far since it got a target to stop at gets another one, metres.
 const MOVED_M: f64 = 0.01;
 
-/// There is no run. A robot that was cut off when its run ended may keep a route of it: it is told by name, until it says
-/// that it keeps none.
+/// Sends STOP to a robot that reports and may keep a route of a run that is over. Ends when the robot reports that it
+/// keeps none.
 pub(crate) fn stop_late_comer(context: &mut Context, index: usize) {
     let robot = context.fleet.robot_mut(index);
     let Some(state) = robot.reported.state.filter(|_| robot.last_run.may_keep_route) else { return };
@@ -31,26 +32,27 @@ pub(crate) fn stop_late_comer(context: &mut Context, index: usize) {
     }
 }
 
-/// Whether a robot that says this drives, or keeps a route to drive. One that is cut has aborted the route under way only
-/// (R43 of docs/protocol.md); which of them it says depends on the order of R12.
+/// Whether a robot in this state drives or may keep a route. A `Cut` robot has aborted the route under way and may keep
+/// the next one (R43 of docs/protocol.md).
 fn keeps_route(state: RobotState) -> bool {
     matches!(state, RobotState::Driving | RobotState::Held | RobotState::Ready | RobotState::Cut)
 }
 
-/// All are being stopped.
+/// The stopping of all robots, while it is under way.
 #[derive(Clone, Debug)]
 pub(crate) struct Stopping {
-    /// When robots that drive rest, and STOP is sent for those that did not hear from when on, if that is still to come.
+    /// When STOP is sent to all robots. Robots on a drive rest by then; STOP is for those that missed `StopFrom`.
+    /// `None` once it is sent.
     stop_at: Option<Instant>,
-    /// When STOP was sent.
+    /// When stopping began; once STOP is sent, when it was sent.
     since: Instant,
     check_at: Instant,
-    /// Where robots that know TARGET only were told to stop, by index into the fleet.
+    /// The target at which each TARGET-only robot was told to stop, stage metres; by index into the fleet.
     halted: BTreeMap<usize, Vec2>,
 }
 
 impl Stopping {
-    /// Tells all robots. `held_from`: from when on those on a drive come to rest.
+    /// Begins to stop all robots. `held_from`: when robots on a drive begin to slow down; `None` if all stop at once.
     pub fn begin(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
         context.outbox.stop_repeating();
         let stop_at = held_from.map(|at| at + Route::EASE);
@@ -66,7 +68,7 @@ impl Stopping {
         stopping
     }
 
-    /// A robot reported: one that knows TARGET only and still drives is told again, where it is now.
+    /// Handles a report. A TARGET-only robot that still moves gets another target, where it is now.
     pub fn on_report(&mut self, context: &mut Context, index: usize) {
         self.halt(context, index);
     }
@@ -81,7 +83,7 @@ impl Stopping {
         context.send(index, &[Command::Target(at), Command::Uuid]);
     }
 
-    /// Whether a robot may drive, now or later.
+    /// Whether a robot may still drive, now or later: it may keep a route, or has not reported since STOP.
     fn may_go_on(&self, robot: &KnownRobot) -> bool {
         if robot.contact.age == Age::Gone {
             return false;
@@ -93,13 +95,13 @@ impl Stopping {
         }
     }
 
-    /// When something is due.
+    /// Returns when to call [`tick`](Self::tick) next.
     pub fn due(&self) -> Instant {
         self.check_at
     }
 
-    /// Whether stopping is over. Robots that did not report since that they keep no route are told by name: a link that is
-    /// back may have lost all copies.
+    /// Does what is due, and returns whether stopping is over. Robots that may keep a route get STOP on their own
+    /// topics: a link that was lost may have lost all copies.
     pub fn tick(&mut self, context: &mut Context, now: Instant) -> bool {
         if now < self.check_at {
             return false;

@@ -6,45 +6,47 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::Path;
 use lightbots_wire::{Knot, Neighbours};
 
-/// Robots are looked at this often: two that pass at full speed come 1 mm nearer in between.
+/// Time between two samples of the paths. Between two samples, two robots that pass at full speed come closer by 1 mm.
 const STEP: Span = Span::from_millis(40);
-/// Steps at most: longer paths are sampled less often. Over 30,000 steps no robot moves by a millimetre in one.
+/// Largest number of steps; longer paths are sampled less often.
 const MOST_STEPS: i64 = 30_000;
-/// More room than this is as good as any, metres: beyond the range of proximity sensors and what robots are off their
-/// paths.
+/// Clearance above which more makes no difference, metres: the range of proximity sensors plus the distances of robots
+/// from their paths.
 const AMPLE_M: f64 = 0.04;
-/// Neighbours farther away than this are not in sight, metres.
+/// Distance between rims within which a neighbour is in sight, metres.
 const SIGHT_M: f64 = 0.034;
-/// Among more robots than this, each is told the least clearance of all, because looking at each would take too long.
+/// Largest number of robots whose surroundings are computed one by one. In larger fleets this would take too long, and
+/// each robot gets the least clearance of all.
 const MOST: usize = 1000;
-/// A neighbour out of sight for no longer than this many steps stays the same sighting.
+/// Two sightings of a neighbour that are at most this number of steps apart count as one.
 const PAUSE_STEPS: i64 = 3;
-/// Knots follow the path within this distance, metres, …
+/// Largest distance between a neighbour's path and the spline through its knots, metres.
 const KNOT_ERROR_M: f64 = 0.001;
-/// … unless they would be nearer to each other than this.
+/// A stretch between two knots that is shorter than this is not divided any further, even if the spline is less exact
+/// there.
 const KNOT_EVERY: Span = Span::from_millis(60);
 
 /// What is around one robot on its path.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Surroundings {
-    /// How far its rim stays from those of all others by plan, metres; infinite where that is more than 40 mm.
+    /// Least planned distance from its rim to all others, metres; infinite if more than 40 mm.
     pub room_m: f64,
-    /// The neighbours that come into sight; `None` where that was not computed.
+    /// The neighbours that come into sight; `None` if they were not computed.
     pub neighbours: Option<Arc<Neighbours>>,
 }
 
 /// One stretch of time in which a neighbour is near.
 #[derive(Clone, Copy, Debug)]
 struct Sighting {
-    /// Index of the path; beyond the paths: of a disc that stands.
+    /// Index of the neighbour's path. For a disc that stands: the number of paths plus the index of the disc.
     other: usize,
     first: i64,
     last: i64,
     least_m: f64,
 }
 
-/// `[path]`: what is around each. `standing` are discs that do not move meanwhile, `least_m` what the plan leaves to the
-/// closest two of all; `None`: not known.
+/// Returns what is around each path. `standing`: centres of discs that do not move. `least_m`: clearance of the closest
+/// two of the plan; `None` if not known. `contact_m`: distance between centres at contact.
 pub(crate) fn surroundings(
     paths: &[(usize, Path)],
     standing: &[Vec2],
@@ -65,7 +67,7 @@ pub(crate) fn surroundings(
         for one in sightings.iter().filter(|one| one.least_m < SIGHT_M) {
             let clearance_tenths = (one.least_m.max(0.0) * 1e4) as u16;
             let knots = knots_of(one, paths, standing, longest, every);
-            // The farthest are left out where there is no room: the reflex looks at them as at strangers.
+            // The farthest neighbours are left out if there is no room. Robots then treat them as unplanned obstacles.
             neighbours.push(clearance_tenths, &knots);
         }
         Surroundings { room_m, neighbours: Some(Arc::new(neighbours)) }
@@ -73,7 +75,7 @@ pub(crate) fn surroundings(
     sightings.into_iter().map(of_one).collect()
 }
 
-/// `[path]`: which robots come near it, and when.
+/// Returns for each path which robots and discs come near it, and when.
 fn sight(
     paths: &[(usize, Path)],
     standing: &[Vec2],
@@ -85,14 +87,14 @@ fn sight(
     let mut sightings: Vec<Vec<Sighting>> = vec![Vec::new(); paths.len()];
     let places = paths.iter().map(|(_, path)| path.start).chain(standing.iter().copied());
     let mut at: Vec<(Vec2, usize)> = places.enumerate().map(|(index, place)| (place, index)).collect();
-    // At the end of the last step all stand.
+    // The last step is after the longest path, when all robots stand.
     for step in 0..=longest.0 / every.0 + 1 {
         for (place, index) in &mut at {
             if let Some((_, path)) = paths.get(*index) {
                 *place = path.as_ref().at(every * step).position;
             }
         }
-        // Hardly anything changes its turn from step to step.
+        // The order hardly changes from step to step.
         at.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
         for (turn, &(place, index)) in at.iter().enumerate() {
             for &(other_place, other) in at[turn + 1..].iter().take_while(|next| next.0.x - place.x < near_m)
@@ -108,7 +110,7 @@ fn sight(
     sightings
 }
 
-/// One sees another at a step.
+/// Notes that `other` is near `one` at a step, with this gap between rims, metres.
 fn note(sightings: &mut [Vec<Sighting>], one: usize, other: usize, step: i64, gap_m: f64) {
     let Some(known) = sightings.get_mut(one) else { return };
     let goes_on = |sighting: &&mut Sighting| sighting.other == other && step - sighting.last <= PAUSE_STEPS;
@@ -118,7 +120,7 @@ fn note(sightings: &mut [Vec<Sighting>], one: usize, other: usize, step: i64, ga
     }
 }
 
-/// Where the neighbour of a sighting is meanwhile, and a step before and after.
+/// Returns knots for the neighbour of a sighting, from a step before it to a step after it.
 fn knots_of(
     one: &Sighting,
     paths: &[(usize, Path)],
@@ -142,7 +144,7 @@ fn knots_of(
     }
 }
 
-/// Adds knots after `from` up to `to`, as many as it takes to follow the path.
+/// Adds knots after `from` up to `to`, as many as the spline needs to follow the path.
 fn divide(path: &Path, from: Span, to: Span, knots: &mut Vec<Knot>) {
     let ends = [from, to].map(|at| path.as_ref().at(at));
     let over_s = (to - from).as_secs();

@@ -9,22 +9,22 @@ use crate::snapshot::{LegProgress, PreflightProgress, RobotView, RunView, RunWai
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_plan::Path;
 
-/// Most robots that a view names others wait for.
+/// Largest number of awaited robots in a view of a run.
 const WAITING_MAX: usize = 20;
 
 /// The paths of the drive under way or about to begin.
 #[derive(Clone, Debug)]
 pub struct PathsView<'a> {
-    /// The frame they lead to, counted from 0.
+    /// The frame to which the paths lead, counted from 0.
     pub frame: usize,
-    /// When they begin, show clock; holds come on top.
+    /// When the drive began or begins, show clock. Holds delay robots on their paths.
     pub began: Instant,
     /// The robots that drive, and their paths.
     pub paths: Vec<(RobotId, &'a Path)>,
 }
 
 impl Run {
-    /// What the controller is doing, as people see it.
+    /// Returns what the controller is doing, as people see it.
     pub fn state(&self) -> ControllerState {
         match self.phase {
             RunPhase::Interrupted(_) => ControllerState::LinkLost,
@@ -39,7 +39,7 @@ impl Run {
         }
     }
 
-    /// The run at `now`.
+    /// Returns a view of the run at `now`.
     pub fn view(&self, context: &Context, now: Instant) -> RunView {
         RunView {
             frame: self.frame(),
@@ -67,13 +67,13 @@ impl Run {
         }
     }
 
-    /// Name of the cue at which the run waits for GO.
+    /// Returns the name of the cue at which the run waits for GO; `None` if it does not wait.
     fn cue(&self) -> Option<&str> {
         let frame = self.pipeline.leg().map_or(usize::MAX, |leg| leg.frame);
         self.playback.waits_for_go.then(|| self.playback.cue(frame).unwrap_or_default())
     }
 
-    /// Whether a frame has stood for its air time and waits for GO.
+    /// Whether the air time of a frame is over and the run waits for GO.
     pub fn is_at_cue(&self, now: Instant) -> bool {
         let RunPhase::Standing(standing) = &self.phase else { return false };
         self.playback.waits_for_go && !self.playback.paused && now >= standing.air.until
@@ -99,7 +99,7 @@ impl Run {
         }
     }
 
-    /// Whether the operator can let an interrupted run go on.
+    /// Whether the operator can let an interrupted run go on: the broker is connected and a robot reports again.
     pub fn may_go_on(&self, context: &Context) -> bool {
         let RunPhase::Interrupted(interrupted) = &self.phase else { return false };
         context.outbox.linked() && interrupted.is_any_back()
@@ -160,7 +160,7 @@ impl Run {
 }
 
 impl Controller {
-    /// How everything is. Costs time in proportion to the fleet.
+    /// Returns the state of controller, run and fleet. Takes time in proportion to the fleet.
     pub fn snapshot(&self, now: Instant) -> Snapshot {
         Snapshot {
             at: now,
@@ -189,7 +189,7 @@ impl Controller {
         self.context.fleet.robots().iter().map(view).collect()
     }
 
-    /// The paths of the drive under way, for drawing; `None` while no robot drives a path.
+    /// Returns the paths of the drive under way or about to begin, for drawing; `None` if there are none.
     pub fn paths(&self) -> Option<PathsView<'_>> {
         let run = self.run.as_ref()?;
         let (leg, began) = run.driven_paths()?;
@@ -198,14 +198,15 @@ impl Controller {
         Some(PathsView { frame: leg.frame, began, paths })
     }
 
-    /// Which time the frames of the loop under way are played, counted from 1; `None`: no frames repeat, or GO was given.
+    /// Returns the number of the present pass through a loop, counted from 1. `None` if no frames repeat, or GO was
+    /// given.
     pub fn loop_round(&self) -> Option<u32> {
         let repeats = self.run.as_ref()?.repeats()?;
         (!repeats.leaves).then_some(repeats.round)
     }
 
-    /// The colours that layers give now to robots that get stretches of light; empty while no show with layers is played,
-    /// and while lights blend to other colours.
+    /// Returns the colours that layers give at `now` to robots that support LIGHT. Empty if no show with layers is
+    /// played, or while lights blend to other colours.
     pub fn layered_lights(&self, now: Instant) -> Vec<(RobotId, Rgb)> {
         let Some(Run { pipeline, roster, phase, .. }) = &self.run else { return Vec::new() };
         let plays = matches!(phase, RunPhase::Driving(_) | RunPhase::Standing(_) | RunPhase::Starting(_));
@@ -221,7 +222,7 @@ impl Controller {
         roster.active().filter_map(colour).collect()
     }
 
-    /// Where the paths of the drive under way say that their robots are now, stage metres; empty while no path is driven.
+    /// Returns where robots are by the paths of the drive under way, stage metres. Empty if no path is driven.
     pub fn planned_places(&self, now: Instant) -> Vec<(RobotId, Vec2)> {
         let Some(Run { phase: RunPhase::Driving(drive), pipeline, roster, .. }) = &self.run else {
             return Vec::new();

@@ -1,14 +1,14 @@
-//! How the headings that a robot reports on a drive agree with the direction in which it really drove.
+//! Compares the headings that a robot reports on a drive with the direction in which it really drove.
 //!
-//! A robot whose marker is turned still reaches its goals: its feedback bends its path. While it drives, its estimate
-//! follows its wheels along its heading. Where it stands afterwards is measured by its fixes, and tells the direction of
-//! the drive.
+//! A robot whose marker is turned still reaches its goals, because feedback corrects its path. While it drives, its
+//! estimated place follows its wheels along its heading. Once it stands, fixes measure its place, and thus the
+//! direction of the drive.
 
 use lightbots_base::{Vec2, difference};
 
-/// Displacements between two reports below this are noise, or turns on the spot, metres.
+/// Displacements between two reports below this are noise or turns on the spot, metres.
 const STANDS_M: f64 = 0.001;
-/// Displacements from this on count, metres.
+/// Least displacement that counts, metres; shorter ones of a robot that drives add up until they reach it.
 const COUNTS_M: f64 = 0.003;
 /// Between two reports whose headings differ by more, the robot turned, radians.
 const TURNS_RAD: f64 = 0.2;
@@ -25,7 +25,7 @@ pub(crate) struct DrivenTrack {
 }
 
 impl DrivenTrack {
-    /// The robot reports a place and a heading.
+    /// Adds a report of the robot: its place, stage metres, and its heading, radians.
     pub fn add(&mut self, at: Vec2, heading: f64) {
         let Some((from, before)) = self.from else {
             self.from = Some((at, heading));
@@ -43,8 +43,8 @@ impl DrivenTrack {
         }
     }
 
-    /// The angle from the reported headings to the direction of the drive, which displaced the robot by `displacement` in
-    /// the stage; radians. `None`: the drive was too short.
+    /// Returns the angle from the reported headings to the direction of the drive, radians; `None` if the drive was too
+    /// short. `displacement`: from where the robot stood before to where it stands after, stage metres.
     pub fn askew_rad(&self, displacement: Vec2) -> Option<f64> {
         let is_long = self.along.length() >= LEAST_M && displacement.length() >= LEAST_M;
         is_long.then(|| difference(displacement.angle(), self.along.angle()))
@@ -55,7 +55,7 @@ impl DrivenTrack {
 mod tests {
     use super::*;
 
-    /// The angle that is found for a robot that drives on an arc, and whose headings are off.
+    /// Returns the angle, degrees, that is found for a robot that drives on an arc and whose headings are off.
     fn askew_deg(off_deg: f64, backwards: bool) -> f64 {
         let mut track = DrivenTrack::default();
         let place = |heading: f64| Vec2::new(heading.sin(), -heading.cos()) * 0.22;

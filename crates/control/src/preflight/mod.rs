@@ -15,21 +15,21 @@ pub(crate) use rounds::{TestedRobot, rounds};
 use lightbots_base::{Rgb, RobotId, Vec2};
 use lightbots_show::{Frame, Pixel, Show, Stage};
 
-/// Ids of the pixels: shows count from 0, so that no pin is meant by them.
+/// Id of the first pixel. Pixels of shows count from 0, so that no pin of the operator concerns these.
 const FIRST_ID: u32 = 4_100_000_000;
-/// The light of robots that stand …
+/// Colour of robots that stand.
 const RESTS: Rgb = Rgb::new(0x18, 0x18, 0x18);
-/// … and of those that drive.
+/// Colour of robots that drive.
 const DRIVES: Rgb = Rgb::new(0x20, 0x60, 0xa0);
-/// Duration of each drive, seconds. 50 mm take 0.5 s at full speed; a robot that is not known yet is driven slowly, and
-/// there is time for a stop on its way.
+/// Duration of each drive, seconds. 50 mm take 0.5 s at full speed. A robot that is not known yet is driven slowly,
+/// with time for a stop on its way.
 const DRIVE_S: f64 = 2.5;
-/// How long robots stand after a drive, seconds: their places settle, and there is time for several questions and their
-/// answers before START is stated.
+/// How long robots stand after a drive, seconds. Their places settle, and several questions are asked and answered
+/// before the next START is sent.
 const STANDS_S: f64 = 4.6;
 
-/// The frames of a preflight: for each round one with the robots' goals, and one with the places where they stand now.
-/// `robots`: names and places of the robots of the rounds.
+/// Returns the show of a preflight. Each round has a frame with the goals of the robots, and one with their places
+/// before. `robots`: names and places of the robots, stage metres; `rounds`: their goals as [`rounds()`] returns them.
 pub(crate) fn show(
     name: String,
     stage: Stage,

@@ -4,15 +4,15 @@ use crate::event::Trouble;
 use core::fmt;
 use lightbots_base::RobotId;
 
-/// A robot farther from where it was planned is named, metres.
+/// A robot that stands farther than this from its planned place does not pass, metres.
 pub(crate) const OFF_M: f64 = 0.005;
-/// A robot turned farther from where it was planned is named, radians: three degrees.
+/// A robot that is turned by more than this from its planned heading does not pass, radians: three degrees.
 pub(crate) const OFF_RAD: f64 = 3.0 * core::f64::consts::PI / 180.0;
 
 /// The result of a preflight.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PreflightReport {
-    /// Whether it was carried out to its end.
+    /// Whether the preflight was carried out to its end.
     pub finished: bool,
     /// Every robot that was to be tested, in the order of the fleet.
     pub robots: Vec<PreflightRobot>,
@@ -25,11 +25,11 @@ pub struct PreflightRobot {
     pub id: RobotId,
     /// What is wrong with it; empty: it passed.
     pub findings: Vec<PreflightFinding>,
-    /// How far it stood from its planned places at most, metres; `None`: not measured.
+    /// Largest distance from its planned places, metres; `None` if it was not measured.
     pub off_m: Option<f64>,
-    /// How far it was turned from its planned headings at most, radians; `None`: not measured.
+    /// Largest angle from its planned headings, radians; `None` if it was not measured.
     pub off_rad: Option<f64>,
-    /// It knows TARGET and COLOR only: its heading, Stop and blinking were not tested.
+    /// Whether it has the original firmware (TARGET and COLOR only): its heading, Stop and blinking were not tested.
     pub limited: bool,
 }
 
@@ -51,7 +51,7 @@ pub enum PreflightFinding {
         /// Radians.
         off_rad: f64,
     },
-    /// It did not stand where and when it was told to stop.
+    /// It did not stop when it was told to, or not where it should.
     DidNotStop,
     /// It could not take part, or not to the end.
     Failed(Trouble),
@@ -62,26 +62,26 @@ pub enum PreflightFinding {
 }
 
 impl PreflightReport {
-    /// Number of robots that passed.
+    /// Returns the number of robots that passed.
     pub fn passed(&self) -> usize {
         self.robots.iter().filter(|robot| robot.passed()).count()
     }
 
-    /// What was found of a robot.
+    /// Returns the result of a robot; `None` if it was not to be tested.
     pub fn of(&self, robot: RobotId) -> Option<&PreflightRobot> {
         self.robots.iter().find(|tested| tested.id == robot)
     }
 }
 
 impl PreflightRobot {
-    /// Whether nothing was found.
+    /// Whether there is no finding.
     pub fn passed(&self) -> bool {
         self.findings.is_empty()
     }
 }
 
 impl PreflightFinding {
-    /// What to do about it.
+    /// Returns what people can do about it, in one sentence.
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::OffPlace { .. } => {

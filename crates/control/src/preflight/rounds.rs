@@ -1,7 +1,8 @@
-//! Which way each robot drives out, and which robots drive in the same round.
+//! Chooses the direction in which each robot drives out, and the robots that drive in the same round.
 //!
-//! The robots are unknown: one of them may not stop, or drive too far. So the lines of robots that drive in one round, and
-//! the places of all that stand, are apart along their whole lengths. Whatever a robot does on its line, it meets none.
+//! The robots are not tested yet: one of them may not stop, or may drive too far. The lines of robots that drive in one
+//! round are therefore apart, along their whole lengths, from each other and from all robots that stand. Whatever a
+//! robot does on its line, it meets no other.
 
 use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
@@ -12,18 +13,21 @@ use std::f64::consts::FRAC_PI_4;
 
 /// How far each robot drives out, metres.
 pub(crate) const OUT_M: f64 = 0.05;
-/// Gap between the rims of robots whatever they do on their lines, metres: twice the 5 mm by which a robot that passes may
-/// be off.
+/// Least gap between rims, wherever robots are on their lines, metres. It is twice the 5 mm by which a robot that
+/// passes may be off.
 const GAP_M: f64 = 0.01;
-/// Gap to the floor's edge, metres: what the planner keeps at goals, and its rounding.
+/// Least gap to the floor's edge, metres: the planner's gap at goals, and its rounding.
 const EDGE_M: f64 = 0.004;
-/// Directions that are tried, in eighths of a turn from straight ahead: ahead, back, aside, and what is between them.
+/// Directions to try, the preferred one first, in eighths of a turn from straight ahead: ahead, back, left, right, and
+/// those between.
 const DIRECTIONS: [i32; 8] = [0, 4, 2, 6, 1, 7, 3, 5];
-/// A robot that drives away beside another one comes nearer by this at first, metres, because its heading is not exact.
+/// Distance by which a robot that drives away from another one beside it may come closer first, metres, because its
+/// heading is not exact.
 const NEARER_M: f64 = 0.000_5;
-/// Most rounds. Robots need more only where the lines of still more cross: the preflight would take minutes.
+/// Largest number of rounds; more would take minutes. Robots that have not driven by then are not tested.
 const ROUNDS_MAX: usize = 12;
-/// Side of a cell in which robots are looked up, metres: two robots farther apart than this never come near.
+/// Side of the squares in which robots are looked up, metres. Two robots farther apart than this never come near each
+/// other.
 const CELL_M: f64 = 0.25;
 
 /// A robot that is to be tested.
@@ -31,12 +35,12 @@ const CELL_M: f64 = 0.25;
 pub(crate) struct TestedRobot {
     /// Its place, stage metres.
     pub at: Vec2,
-    /// Its heading, radians; 0 where it does not say.
+    /// Its heading, radians; 0 if it does not report one.
     pub heading: f64,
 }
 
-/// `[round][robot]`: where the robot drives in that round; `None`: it stands. Robots without room drive in none. `standing`:
-/// what else stands on the floor, stage metres.
+/// Returns `[round][robot]`: the goal of the robot in that round, stage metres; `None` if it stands. Robots without
+/// room have no goal in any round. `standing`: centres of other discs on the floor, stage metres.
 pub(crate) fn rounds(stage: &Stage, robots: &[TestedRobot], standing: &[Vec2]) -> Vec<Vec<Option<Vec2>>> {
     let floor = TestFloor::new(stage, robots, standing);
     let mut left: Vec<(usize, Vec<Vec2>)> =
@@ -59,9 +63,9 @@ struct TestFloor<'a> {
     space: FreeSpace<'a>,
     gap_m: f64,
     robots: &'a [TestedRobot],
-    /// `[robot]`: the other robots within [`CELL_M`].
+    /// Indices of the other robots within [`CELL_M`] of each robot.
     near: Vec<Vec<usize>>,
-    /// `[robot]`: the other things that stand within [`CELL_M`].
+    /// Centres of the other discs within [`CELL_M`] of each robot, stage metres.
     near_standing: Vec<Vec<Vec2>>,
 }
 
@@ -88,7 +92,7 @@ impl<'a> TestFloor<'a> {
         }
     }
 
-    /// The goals of a robot to which its line is clear of all that stands, the preferred one first.
+    /// Returns the goals of a robot whose lines are clear of all that stands, the preferred one first.
     fn free_goals(&self, robot: usize) -> Vec<Vec2> {
         let TestedRobot { at, heading } = self.robots[robot];
         let goal = |eighths: &i32| at + Vec2::unit(heading + f64::from(*eighths) * FRAC_PI_4) * OUT_M;
@@ -114,7 +118,8 @@ impl<'a> TestFloor<'a> {
         })
     }
 
-    /// Robots that stand closer than the gap only keep their own distance.
+    /// Whether the distance between two lines keeps the gap. Robots that already stand closer only have to keep their
+    /// distance, less [`NEARER_M`].
     fn are_apart(&self, one: (Vec2, Vec2), other: (Vec2, Vec2)) -> bool {
         let needed_m = self.gap_m.min(one.0.distance(other.0) - NEARER_M);
         segment_to_segment(one, other) >= needed_m
