@@ -26,7 +26,8 @@ const INFERRED_MARGIN_M: f64 = 0.008;
 const LENIENT_TRIES: usize = 8;
 
 impl PlanRequest {
-    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest.
+    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest. It never
+    /// panics.
     pub fn run(self) -> PlanResult {
         self.run_unless(&|| false)
     }

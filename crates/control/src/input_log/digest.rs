@@ -7,7 +7,7 @@ use crate::plan_request::PlanRequest;
 use lightbots_base::StateHash;
 use std::fmt::Write;
 
-/// Hashes of the outputs of each kind. They are apart, because the order in which a shell takes the kinds is its own.
+/// Hashes of the outputs of each kind. They are separate, because each shell takes the kinds in an order of its choice.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct OutputDigest {
     sends: StateHash,
@@ -18,33 +18,33 @@ pub(crate) struct OutputDigest {
 }
 
 impl OutputDigest {
-    /// A message was taken.
+    /// Adds a message that was taken.
     pub fn send(&mut self, send: &Send) {
         self.sends.bytes(send.topic.write().as_bytes());
         self.sends.bytes(&send.payload);
     }
 
-    /// An event was taken.
+    /// Adds an event that was taken.
     pub fn event(&mut self, event: &Event) {
         self.text.clear();
-        // A string takes any text.
+        // Cannot fail: a string takes any text.
         let _ = write!(self.text, "{event:?}");
         self.events.bytes(self.text.as_bytes());
     }
 
-    /// A plan request was taken.
+    /// Adds a plan request that was taken.
     pub fn request(&mut self, request: &PlanRequest) {
         request.imprint(&mut self.requests);
     }
 
-    /// An operation was answered.
+    /// Adds the answer to an operation.
     pub fn answer(&mut self, answer: &Result<(), Refusal>) {
         self.text.clear();
         let _ = write!(self.text, "{answer:?}");
         self.answers.bytes(self.text.as_bytes());
     }
 
-    /// The digest of all outputs so far.
+    /// Returns the digest of all outputs that were added.
     pub fn value(&self) -> u64 {
         let mut all = StateHash::new();
         for part in [self.sends, self.events, self.requests, self.answers] {

@@ -1,17 +1,17 @@
-//! A log that is played again, whole or while it grows.
+//! Replays a log, whole or while it grows.
 
 use super::replaying::{HEAD_BYTES, LogError, Replay, ReplayObserver, ReplayReport, check_head};
 use crate::block::Blocks;
 
-/// Bytes of a whole log that are played at once: between them, the share that is done is told.
+/// Number of bytes of a whole log that are replayed between two reports of progress.
 const PIECE: usize = 1 << 18;
 
-/// Plays a log again and compares the outputs. `progress` is called again and again with the share that is done.
+/// Replays a log and compares the outputs. `progress` is called again and again with the share that is done, 0 to 1.
 pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport, LogError> {
     replay_observed(log, progress, &mut |_, _, _| {})
 }
 
-/// [`replay`] with an observer.
+/// Like [`replay`], with an observer that is called for each step.
 pub fn replay_observed(
     log: &[u8],
     progress: &mut dyn FnMut(f64),
@@ -31,23 +31,23 @@ pub fn replay_observed(
     replay.finish()
 }
 
-/// Plays a log again as its bytes come, a second or so behind the controller that writes it.
+/// The replay of a log while its bytes come, about a second behind the controller that writes the log.
 #[derive(Debug, Default)]
 pub struct GrowingReplay {
-    /// Bytes that came and are no whole block yet.
+    /// Bytes that were received and are no whole block yet.
     pending: Vec<u8>,
-    /// Number of bytes before them.
+    /// Number of bytes of the log before `pending`.
     read: usize,
     replay: Option<Replay>,
 }
 
 impl GrowingReplay {
-    /// Whether nothing of what follows counts: the log is over, or had other outputs.
+    /// Whether the replay is over, so that further bytes are ignored: the log ended, or an output differed.
     pub fn is_over(&self) -> bool {
         self.replay.as_ref().is_some_and(Replay::is_over)
     }
 
-    /// Takes in the next bytes of the log, and plays all blocks that are whole.
+    /// Takes in the next bytes of the log, and replays all blocks that are whole.
     pub fn feed(&mut self, bytes: &[u8], observe: &mut ReplayObserver<'_>) -> Result<(), LogError> {
         if self.is_over() {
             return Ok(());
@@ -76,7 +76,7 @@ impl GrowingReplay {
         Ok(())
     }
 
-    /// The log is over: what came of it.
+    /// Ends the replay and returns its report; an error if the header never was whole.
     pub fn finish(self) -> Result<ReplayReport, LogError> {
         Ok(self.replay.ok_or(LogError::NoHeader)?.report(self.read))
     }

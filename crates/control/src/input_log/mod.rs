@@ -1,12 +1,12 @@
-//! The input log: every input of a controller, in order, so that a run can be played again to the bit.
+//! The input log: every input of a controller, in order, so that a replay of a run has the same outputs to the bit.
 //!
-//! A log is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]). The first
-//! block is the [`LogHeader`] with the controller at rest, the show included. The others hold records of inputs, about a
-//! second of them each. After outputs were taken, a record holds two bytes of the digest of all outputs so far. A replay
-//! compares them, and thus finds the first input after which an output differs. Plans are not in the log: the replay makes
-//! them again, and gives up those that were given up, at the same question of the planner.
+//! A log is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]). The
+//! first block is the [`LogHeader`] with the controller at rest, the show included. The other blocks hold records of
+//! inputs, each for about a second. After outputs were taken, a record holds two bytes of the digest of all outputs up
+//! to then. A replay compares these bytes, and thus finds the first input after which an output differs. Plans are not
+//! in the log: the replay makes them again. It cancels those that were cancelled, at the same check of the planner.
 //!
-//! [`RecordedController`] writes a log, [`replay`] plays it.
+//! [`RecordedController`] writes a log, [`replay`] replays it.
 
 mod digest;
 mod growing;
@@ -37,10 +37,10 @@ const VERSION: u16 = 24;
 pub(crate) struct LogHeader {
     /// Version of the program that wrote it.
     pub program: String,
-    /// What people should know of it, such as the command, the seed and the faults: names and values.
+    /// Notes for people, such as the command, the seed and the faults: names and values.
     pub notes: Vec<(String, String)>,
-    /// The moment that the first record counts from, microseconds of the show clock.
+    /// Moment from which the first record counts its time, microseconds of the show clock.
     pub began_us: u64,
-    /// The controller at that moment.
+    /// The controller at that moment, as bytes of a checkpoint.
     pub checkpoint: Vec<u8>,
 }

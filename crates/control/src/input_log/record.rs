@@ -5,43 +5,44 @@ use crate::operation::Operation;
 use lightbots_base::Span;
 use serde::{Deserialize, Serialize};
 
-/// One input, or what was taken after one. Times count from the record before.
+/// One input, or the outputs that were taken after one. Each `after` is the time since the input before.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Record<'a> {
-    /// Time passed.
+    /// A call of `wake`: time passed.
     Wake(Span),
-    /// A robot's message. Its payload is like that of an earlier message but for its middle.
+    /// A robot's message. Its payload has the front and the back of an earlier payload.
     Message {
         after: Span,
         topic: RobotTopic,
-        /// Number of the earlier message's sender, counted from 1; 0: like none.
+        /// Number of the earlier payload in the list of `senders`, counted from 1; 0 if there is none.
         like: u32,
-        /// Bytes that both payloads begin with.
+        /// Number of bytes with which both payloads begin.
         front: u16,
-        /// Bytes that both payloads end with.
+        /// Number of bytes with which both payloads end.
         back: u16,
         middle: &'a [u8],
     },
-    /// Another message.
+    /// A message on another topic.
     OtherMessage { after: Span, topic: &'a str, payload: &'a [u8] },
     /// The broker is connected.
     Connected(Span),
     /// The broker is lost.
     Disconnected(Span),
-    /// The operator asked for something.
+    /// The operator requested an operation.
     Operation { after: Span, operation: Operation },
     /// The plan of a request was made.
     Planned {
         after: Span,
         number: u64,
-        /// At which question the planner was cancelled, counted from 1; 0: it was not.
+        /// Number of the planner's check at which it was cancelled, counted from 1; 0 if it was not.
         cancelled_at: u64,
     },
-    /// Outputs were taken: of which kinds ([`OutputKinds`]), and the last bytes of the digest of all outputs so far.
+    /// Outputs of these kinds ([`OutputKinds`]) were taken. `digest`: the two lowest bytes of the digest of all outputs
+    /// up to then.
     Outputs { taken: u8, digest: [u8; 2] },
     /// A run that was cut off was taken up.
     TakeUp { after: Span, run: Box<UnfinishedRun>, on_return: OnReturn },
-    /// The log ends here, with this digest of all outputs.
+    /// The log ends here; `digest` is that of all outputs.
     End { digest: u64 },
 }
 

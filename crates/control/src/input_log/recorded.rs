@@ -11,8 +11,8 @@ use crate::plan_request::{PlanRequest, PlanResult};
 use lightbots_base::Instant;
 use std::ops::Deref;
 
-/// A controller, and a log of its inputs if one is wanted. It has the ways in and out of a [`Controller`], and shows
-/// everything else of it. Take outputs of a kind until there are none, as a replay does.
+/// A controller with a log of its inputs, if one was begun. It has the inputs and outputs of a [`Controller`] and
+/// dereferences to it. Take outputs of a kind until there are none, as a replay does.
 #[derive(Debug)]
 pub struct RecordedController {
     controller: Controller,
@@ -28,13 +28,13 @@ impl Deref for RecordedController {
 }
 
 impl RecordedController {
-    /// A controller without a log.
+    /// Returns a controller without a log.
     pub fn new(controller: Controller) -> Self {
         Self { controller, recording: None }
     }
 
-    /// Begins a log, with notes for people: names and values. `false`: not now, because there is a run, robots are being
-    /// stopped, or outputs wait to be taken. A log that was there is dropped.
+    /// Begins a log, with notes for people: names and values. Drops a log that was there. Returns `false`, and begins
+    /// none, if there is a run, robots are being stopped, or outputs wait to be taken.
     pub fn begin_log(&mut self, now: Instant, notes: Vec<(String, String)>) -> bool {
         let checkpoint = self.controller.checkpoint();
         self.recording = checkpoint.map(|checkpoint| Recording::begin(now, notes, checkpoint));
@@ -46,12 +46,12 @@ impl RecordedController {
         self.recording.is_some()
     }
 
-    /// What is to be appended to the log's file since it was asked last; may be empty.
+    /// Takes the bytes to append to the log's file since the last call; may be empty.
     pub fn take_log(&mut self) -> Vec<u8> {
         self.recording.as_mut().map(Recording::take).unwrap_or_default()
     }
 
-    /// Ends the log; its last bytes.
+    /// Ends the log and returns its last bytes; empty if there is no log.
     pub fn end_log(&mut self) -> Vec<u8> {
         let Some(mut recording) = self.recording.take() else { return Vec::new() };
         recording.end();

@@ -1,4 +1,4 @@
-//! A log being written.
+//! Writes the bytes of a log.
 
 use super::digest::OutputDigest;
 use super::record::{Record, RobotTopic};
@@ -8,17 +8,18 @@ use crate::block::append_block;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
 
-/// A block of records ends after this time of the show clock: more of it is lost if the program is killed.
+/// Longest duration of a block of records, show clock. If it were longer, more inputs would be lost when the program is
+/// killed.
 const BLOCK_LASTS: Span = Span::from_millis(1_000);
-/// A block of records ends once it has this many bytes.
+/// Number of bytes at which a block of records ends.
 const BLOCK_BYTES: usize = 32 * 1024;
 
-/// A log being written.
+/// A log that is being written.
 #[derive(Debug)]
 pub(crate) struct Recording {
     /// Whole blocks that were not taken yet.
     ready: Vec<u8>,
-    /// The content of the next block.
+    /// Content of the block that is not closed yet.
     open: Vec<u8>,
     /// When that block began.
     open_since: Instant,
@@ -31,7 +32,7 @@ pub(crate) struct Recording {
 }
 
 impl Recording {
-    /// A log that begins now.
+    /// Begins a log at `now`.
     pub fn begin(now: Instant, notes: Vec<(String, String)>, checkpoint: Vec<u8>) -> Self {
         let mut ready = MAGIC.to_vec();
         ready.extend_from_slice(&VERSION.to_le_bytes());
@@ -49,13 +50,13 @@ impl Recording {
         }
     }
 
-    /// An input that `record` makes of the time since the last one.
+    /// Appends an input. `record` makes its record from the time since the last input.
     pub fn input<'r>(&mut self, now: Instant, record: impl FnOnce(Span) -> Record<'r>) {
         let after = self.advance(now);
         self.append(&record(after));
     }
 
-    /// A message comes.
+    /// Appends a message; the payload of a robot is compared with its last one.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         let after = self.advance(now);
         let topic_of_robots = match Topic::parse(topic) {
@@ -70,19 +71,20 @@ impl Recording {
         self.append(&Record::Message { after, topic: topic_of_robots, like, front, back, middle });
     }
 
-    /// The log ends.
+    /// Ends the log: appends the digest of all outputs and closes the block.
     pub fn end(&mut self) {
         self.outputs();
         self.append(&Record::End { digest: self.digest.value() });
         self.close_block();
     }
 
-    /// Blocks that were not taken yet.
+    /// Takes the whole blocks since the last call.
     pub fn take(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.ready)
     }
 
-    /// An input comes: what was taken before it is recorded, and how long ago the last one came.
+    /// Prepares for an input: records which outputs were taken before it, and closes a block that is due. Returns the
+    /// time since the last input.
     fn advance(&mut self, now: Instant) -> Span {
         self.outputs();
         if self.open.len() >= BLOCK_BYTES || now - self.open_since >= BLOCK_LASTS {
@@ -104,7 +106,7 @@ impl Recording {
 
     fn append(&mut self, record: &Record<'_>) {
         let open = std::mem::take(&mut self.open);
-        // A vector takes any bytes, and every record has some.
+        // Cannot fail: a vector takes any bytes, and every record can be written.
         self.open = postcard::to_extend(record, open).unwrap_or_default();
     }
 

@@ -1,4 +1,4 @@
-//! A log played again.
+//! Replays the blocks of a log.
 
 use super::digest::OutputDigest;
 use super::record::{OutputKinds, Record, RobotTopic};
@@ -14,10 +14,10 @@ use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
 use std::collections::BTreeMap;
 
-/// Most plan requests that wait for their plans. A shell makes one plan after the other.
+/// Largest number of plan requests that wait for their plans. A shell makes one plan after the other.
 const REQUESTS_MAX: usize = 64;
 
-/// Length of the head of a log: magic bytes and version.
+/// Length of the head of a log, bytes: magic bytes and version.
 pub const HEAD_BYTES: usize = MAGIC.len() + 2;
 
 /// Why bytes cannot be replayed.
@@ -29,7 +29,7 @@ pub enum LogError {
     OtherVersion(u16),
     /// Not even the header is whole.
     NoHeader,
-    /// A record makes no sense although its checksum is right.
+    /// A record is not valid although its checksum is right.
     BadRecord {
         /// Number of inputs before it.
         inputs: u64,
@@ -39,43 +39,43 @@ pub enum LogError {
 /// Where a log ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogEnd {
-    /// At the end that its writer gave it.
+    /// At its record `End`, which the writer appended.
     Complete,
-    /// Before: its writer was killed, or its bytes were cut or changed after this many.
+    /// Earlier: the writer was killed, or bytes were cut or changed. The number of bytes that were read.
     Cut(u64),
 }
 
 /// The first place where a replay had other outputs than the recorded controller.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Number of the input before the outputs, counted from 1.
+    /// Number of the input after which the outputs differ, counted from 1.
     pub input: u64,
-    /// When it came, show clock.
+    /// When this input came, show clock.
     pub at: Instant,
-    /// The input.
+    /// The input, for people.
     pub what: String,
-    /// The first outputs of the replay there, for people; may be empty.
+    /// The first outputs of the replay after this input, for people; may be empty.
     pub outputs: Vec<String>,
 }
 
-/// What came of a replay.
+/// The result of a replay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReplayReport {
     /// Version of the program that wrote the log.
     pub program: String,
-    /// What its writer noted: names and values.
+    /// Notes of the writer: names and values.
     pub notes: Vec<(String, String)>,
     /// Number of inputs that were replayed.
     pub inputs: u64,
-    /// Of them, messages.
+    /// Number of replayed messages.
     pub messages: u64,
-    /// Of them, plans that were made again.
+    /// Number of plans that were made again.
     pub plans: u64,
-    /// Number of outputs that were compared.
+    /// Number of messages, events and plan requests that were compared.
     pub outputs: u64,
-    /// How many robots the controller knew at the end.
+    /// Number of robots that the controller knew at the end.
     pub robots: usize,
-    /// From the first input to the last, show clock.
+    /// Time from the beginning of the log to the last input, show clock.
     pub lasted: Span,
     /// Digest of all outputs.
     pub digest: u64,
@@ -85,7 +85,7 @@ pub struct ReplayReport {
     pub difference: Option<Difference>,
 }
 
-/// What an observer sees of a replay.
+/// One step of a replay, for an observer.
 #[derive(Clone, Copy, Debug)]
 pub enum ReplayStep<'a> {
     /// A message is about to be received.
@@ -95,20 +95,20 @@ pub enum ReplayStep<'a> {
         /// Its payload.
         payload: &'a [u8],
     },
-    /// Another input than time and messages came: what, for people.
+    /// Another input than time or a message comes; a description for people.
     Input(&'a str),
     /// The controller sent a message.
     Sent(&'a Send),
-    /// The controller said that something happened.
+    /// The controller recorded an event.
     Event(&'a Event),
-    /// Time passed.
+    /// The controller has handled that time passed.
     Woken,
 }
 
-/// Is told what a replay does, with the controller as it is then.
+/// A function that is called for each step of a replay, with the show clock and the controller at that moment.
 pub type ReplayObserver<'o> = dyn FnMut(Instant, &Controller, ReplayStep<'_>) + 'o;
 
-/// Whether this program replays a log that begins with these bytes (at least the first [`HEAD_BYTES`]).
+/// Checks that this program can replay a log that begins with these bytes (at least the first [`HEAD_BYTES`]).
 pub fn check_head(head: &[u8]) -> Result<(), LogError> {
     let rest = head.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
     let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
@@ -138,7 +138,7 @@ pub(super) struct Replay {
 }
 
 impl Replay {
-    /// From the first block of a log.
+    /// Begins a replay with the first block of a log; `None` if the block is no valid header.
     pub fn new(block: &[u8]) -> Option<Self> {
         let header: LogHeader = postcard::from_bytes(block).ok()?;
         Some(Self {
@@ -158,12 +158,12 @@ impl Replay {
         })
     }
 
-    /// Whether nothing of what follows counts.
+    /// Whether the replay is over, so that further blocks are ignored.
     pub fn is_over(&self) -> bool {
         self.is_complete || self.difference.is_some()
     }
 
-    /// Plays the records of a block.
+    /// Replays the records of a block.
     pub fn block(&mut self, mut block: &[u8], observe: &mut ReplayObserver<'_>) -> Result<(), LogError> {
         while !block.is_empty() && !self.is_over() {
             let bad = LogError::BadRecord { inputs: self.inputs };
@@ -174,7 +174,7 @@ impl Replay {
         Ok(())
     }
 
-    /// Plays one record; `None`: no writer writes it.
+    /// Replays one record; `None` if no writer can have written it.
     fn record(&mut self, record: Record<'_>, observe: &mut ReplayObserver<'_>) -> Option<()> {
         match record {
             Record::Wake(after) => {
@@ -234,7 +234,7 @@ impl Replay {
         self.last = what();
     }
 
-    /// An input that is neither time nor a message.
+    /// Notes an input that is neither time nor a message, and calls the observer.
     fn other_input(&mut self, after: Span, what: impl FnOnce() -> String, observe: &mut ReplayObserver<'_>) {
         self.input(after, what);
         observe(self.now, &self.controller, ReplayStep::Input(&self.last));
@@ -254,14 +254,14 @@ impl Replay {
     fn planned(&mut self, number: u64, cancelled_at: u64) {
         let request = self.requests.remove(&number);
         self.requests = self.requests.split_off(&number);
-        // The plan of a request from before the log is of no use to anyone.
+        // A plan that was requested before the log began is not made: the controller does not wait for it.
         let result =
             request.map_or_else(|| PlanResult::unwanted(number), |request| again(request, cancelled_at));
         self.plans += 1;
         self.controller.planned(self.now, result);
     }
 
-    /// Takes outputs as the recorded controller's shell did, and compares the digest.
+    /// Takes outputs as the recorded controller's shell did, and compares the digest of all outputs up to now.
     fn compare(&mut self, taken: u8, digest: [u8; 2], observe: &mut ReplayObserver<'_>) {
         let mut lines = Vec::new();
         let mut line = |text: &dyn Fn() -> String| {
@@ -307,7 +307,7 @@ impl Replay {
         self.difference = Some(Difference { input: self.inputs, at: self.now, what, outputs });
     }
 
-    /// What came of it; `at`: number of bytes that were read.
+    /// Returns the report; `at`: number of bytes that were read.
     pub fn report(self, at: usize) -> ReplayReport {
         ReplayReport {
             program: self.header.program,
@@ -325,7 +325,7 @@ impl Replay {
     }
 }
 
-/// Makes a plan again, cancelled at the same question.
+/// Makes a plan again, cancelled at the same check of the planner, counted from 1; 0: not cancelled.
 fn again(request: PlanRequest, cancelled_at: u64) -> PlanResult {
     let asked = core::cell::Cell::new(0);
     request.run_unless(&|| {

@@ -1,13 +1,14 @@
-//! What robots sent last, by topic: the next message of a robot differs from it in a few bytes.
+//! Remembers what robots sent last on each topic, because the next message of a robot differs from it in a few bytes
+//! only.
 
 use super::record::RobotTopic;
 use lightbots_base::RobotId;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
-/// Longest payload that is remembered, bytes.
+/// Longest payload that is remembered, bytes; longer ones are stored whole.
 const PAYLOAD_MAX: usize = 1_024;
-/// Most payloads that are remembered: more than the topics of the most robots that a controller remembers.
+/// Largest number of payloads that are remembered: more than all topics of all robots that a controller remembers.
 const SENDERS_MAX: usize = 100_000;
 
 /// The last payload of each robot on each topic. Writer and reader of a log fill it in the same way.
@@ -17,19 +18,19 @@ pub(crate) struct Senders {
     payloads: Vec<Vec<u8>>,
 }
 
-/// A payload beside an earlier one.
+/// What a payload has in common with an earlier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Likeness {
     /// Number of the earlier payload, counted from 1; 0: none.
     pub like: u32,
-    /// Bytes in common at the front.
+    /// Number of bytes in common at the front.
     pub front: u16,
-    /// Further bytes in common at the back.
+    /// Number of further bytes in common at the back.
     pub back: u16,
 }
 
 impl Senders {
-    /// Compares a payload with the last one of its robot, which it replaces.
+    /// Compares a payload with the last one of its robot on this topic, and remembers it in place of that one.
     pub fn compare(&mut self, topic: RobotTopic, payload: &[u8]) -> Likeness {
         let unlike = Likeness { like: 0, front: 0, back: 0 };
         let Some(number) = self.number(topic, payload) else { return unlike };
@@ -42,12 +43,12 @@ impl Senders {
         Likeness { like: number as u32 + 1, front: front as u16, back: back as u16 }
     }
 
-    /// The payload that was compared; `None`: no writer compares like that.
+    /// Restores a payload from its likeness and its middle, and remembers it. `None` if no writer can have stored them.
     pub fn restore(&mut self, topic: RobotTopic, likeness: Likeness, middle: &[u8]) -> Option<Vec<u8>> {
         let Likeness { like, front, back } = likeness;
         let mut payload = Vec::new();
         if like > 0 {
-            // The payload of a robot that is new is like nothing.
+            // The first payload of a robot is compared with an empty one.
             let nothing = Vec::new();
             let before = self.payloads.get(like as usize - 1).unwrap_or(&nothing);
             payload.extend_from_slice(before.get(..front.into())?);
@@ -62,7 +63,8 @@ impl Senders {
         Some(payload)
     }
 
-    /// The number of the payload of that robot, which may be new; `None`: it is not remembered.
+    /// Returns the index of the remembered payload of a message's robot; a new robot gets an empty one. `None` if the
+    /// message is not remembered.
     fn number(&mut self, topic: RobotTopic, payload: &[u8]) -> Option<usize> {
         if payload.len() > PAYLOAD_MAX {
             return None;

@@ -11,7 +11,7 @@ fn drain(controller: &mut RecordedController) {
     while controller.next_plan_request().is_some() {}
 }
 
-/// The log of a controller that gets messages, operations and time. The fourth input asks for the time.
+/// Returns the log of a controller that gets messages, operations and time. The fourth input is a time question.
 fn log() -> Vec<u8> {
     let mut controller = RecordedController::new(Controller::new(Config::default()));
     assert!(controller.begin_log(Instant(1_000_000), vec![("command".into(), "test".into())]));

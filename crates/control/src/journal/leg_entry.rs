@@ -7,24 +7,24 @@ use lightbots_plan::unsynchronised::StraightDrive;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Longest time of a piece: a day. More would overflow the show clock.
+/// Longest duration of a piece or a leg: a day. More would overflow the show clock.
 const PIECE_MAX: Span = Span::from_millis(86_400_000);
 
-/// A leg without what robots need of it: clearances and neighbours.
+/// A leg as a journal holds it: without clearances and neighbours, which only robots need.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LegEntry {
     pub frame: u32,
     pub round: u32,
     pub pass: u32,
-    /// Number of its routes.
+    /// Number of the routes of this leg.
     pub seq: u32,
     /// Whether robots drive routes, and not by TARGET.
     pub is_routes: bool,
     pub reaches_frame: bool,
     pub duration: Span,
-    /// `[participant]`.
+    /// What each robot does, by participant number.
     pub robots: Vec<RobotEntry>,
-    /// Straight drives: participant, from, to.
+    /// Straight drives: participant, start and end, stage metres.
     pub drives: Vec<(u32, Vec2, Vec2)>,
 }
 
@@ -38,14 +38,14 @@ pub(crate) struct RobotEntry {
     pub path: Option<PathEntry>,
 }
 
-/// A path to the micrometre.
+/// A path with coordinates in single precision, which is about a micrometre.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PathEntry {
     start: [f32; 2],
     pieces: Vec<PieceEntry>,
 }
 
-/// A piece of a path: its time, and its points along x and y, metres.
+/// A piece of a path: its duration and its points c1, c2 and end, each as x and y, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct PieceEntry {
     duration: Span,
@@ -53,7 +53,7 @@ struct PieceEntry {
 }
 
 impl LegEntry {
-    /// What a journal keeps of a leg.
+    /// Returns what a journal holds of a leg.
     pub fn of(leg: &Leg) -> Self {
         let robot = |participant: usize, step: &RobotLeg| RobotEntry {
             goal: step.goal,
@@ -75,7 +75,7 @@ impl LegEntry {
         }
     }
 
-    /// The leg again; `None`: no controller wrote this.
+    /// Restores the leg; `None` if no controller can have written these values.
     pub fn to_leg(&self, participants: usize) -> Option<Leg> {
         if self.robots.len() > participants || self.duration < Span::ZERO || self.duration > PIECE_MAX {
             return None;

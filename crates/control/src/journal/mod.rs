@@ -1,12 +1,12 @@
 //! The journal of a run: what it takes to go on with it after the controller was killed.
 //!
-//! A journal is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]). Each
-//! block is an [`Entry`]: what one step of the controller changed of the [`JournalState`], all or nothing. The first entry
-//! holds the whole state, the show included. A journal that was cut anywhere ends with its last whole entry. A journal that
-//! has become long is begun again, with the state at that moment.
+//! A journal is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]).
+//! Each block is an [`Entry`]: all that one step of the controller changed of the [`JournalState`]. The first entry
+//! holds the whole state, the show included. A journal that was cut anywhere ends with its last whole entry. A journal
+//! that has become long is begun again with the state at that moment.
 //!
-//! [`Journal`] writes the entries of a run, [`UnfinishedRun`] is read from them, and
-//! [`Controller::take_up`](crate::Controller::take_up) goes on with it.
+//! [`Journal`] writes the entries of a run, [`UnfinishedRun`] is the run read from them, and
+//! [`Controller::take_up`](crate::Controller::take_up) goes on with that run.
 
 mod leg_entry;
 mod reading;

@@ -1,4 +1,4 @@
-//! A journal being read.
+//! Reads the run of a journal.
 
 use super::{Change, Entry, JournalState, MAGIC, VERSION};
 use crate::block::Blocks;
@@ -8,7 +8,7 @@ use lightbots_show::Show;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Why bytes are no journal that can be read.
+/// Why bytes cannot be read as a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalError {
     /// They are no journal.
@@ -17,7 +17,7 @@ pub enum JournalError {
     OtherVersion(u16),
     /// Not even the first entry is whole.
     NoEntry,
-    /// An entry makes no sense although its checksum is right.
+    /// An entry is not valid although its checksum is right.
     BadEntry,
 }
 
@@ -30,7 +30,8 @@ pub struct UnfinishedRun {
 }
 
 impl UnfinishedRun {
-    /// The run of a journal, by its last whole entry; `None`: the run was ended. The bytes may come from anywhere.
+    /// Reads the run of a journal up to its last whole entry; `None` if that run had ended. The bytes are untrusted
+    /// input.
     pub fn read(bytes: &[u8]) -> Result<Option<Self>, JournalError> {
         let rest = bytes.strip_prefix(MAGIC).ok_or(JournalError::NoJournal)?;
         let (version, _) = rest.split_first_chunk::<2>().ok_or(JournalError::NoEntry)?;
@@ -50,7 +51,7 @@ impl UnfinishedRun {
         Ok(Some(run).filter(|run| run.state.ended.is_none()))
     }
 
-    /// The run after an entry; `None`: the entry does not fit.
+    /// Returns the run after an entry; `None` if the entry does not fit.
     fn after(before: Option<Self>, entry: Entry) -> Option<Self> {
         let Entry { at, wall_us, changes } = entry;
         let mut changes = changes.into_iter();
@@ -72,28 +73,28 @@ impl UnfinishedRun {
         self.state.is_sound()
     }
 
-    /// The show that is played.
+    /// Returns the show that is played.
     pub fn show(&self) -> &Arc<Show> {
         &self.state.begun.show
     }
 
-    /// The frame that is reached next, counted from 0; the last one where all were reached.
+    /// Returns the frame that is reached next, counted from 0; the last frame if all were reached.
     pub fn frame(&self) -> usize {
         self.state.progress.next.frame.min(self.show().frames.len().saturating_sub(1))
     }
 
-    /// Number of frames that were reached.
+    /// Returns the number of frames that were reached.
     pub fn frames_played(&self) -> usize {
         self.state.progress.frames_played as usize
     }
 
-    /// When its controller wrote last: its show clock, and the time of day in microseconds since 1970.
+    /// Returns when the controller wrote last: its show clock, and the time of day in microseconds since 1970.
     pub fn last_written(&self) -> (Instant, u64) {
         (self.at, self.wall_us)
     }
 
-    /// What its show clock shows at a time of day, microseconds since 1970. Robots that still drive by it must not be led to
-    /// another moment of their paths. If the time of day was set back since, as little as possible has passed.
+    /// Returns what the run's show clock shows at a time of day, microseconds since 1970. Robots may still drive by
+    /// that clock, so it must go on evenly. If the time of day was set back, no time counts as passed.
     pub fn show_clock_at(&self, wall_us: u64) -> Instant {
         Instant(self.at.0.saturating_add(wall_us.saturating_sub(self.wall_us)))
     }

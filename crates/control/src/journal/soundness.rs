@@ -1,12 +1,12 @@
-//! Whether a state is one that a controller can have written. A checksum says that bytes are those that were written, and
-//! not by which program.
+//! Checks whether a controller can have written a state. A checksum shows that bytes were not changed, but not which
+//! program wrote them.
 
 use super::{JournalState, ParticipantEntry, Position};
 use crate::run::{AirTime, PathClock, Probation, StopTimes, Whereabouts};
 use lightbots_base::{Instant, Span, Vec2};
 use std::collections::BTreeSet;
 
-/// Moments and spans have fewer microseconds than this, so that sums of a few of them do not overflow: 36,000 years.
+/// Bound of moments and spans, microseconds, so that sums of a few of them do not overflow: 36,000 years.
 const TIME_MAX: u64 = 1 << 60;
 
 impl JournalState {

@@ -1,4 +1,4 @@
-//! What a journal says of a run, and what changes it.
+//! The state of a run in a journal, and the changes of that state.
 
 use super::LegEntry;
 use crate::frame_cursor::FrameCursor;
@@ -13,46 +13,46 @@ use std::sync::Arc;
 /// What one step of the controller changed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Entry {
-    /// When, show clock.
+    /// When the last of the changes was made, show clock.
     pub at: Instant,
-    /// The shell's clock then, microseconds since 1970: how long the controller was away is measured by it.
+    /// Time of day when the entry was written, microseconds since 1970. It shows how long the controller was away.
     pub wall_us: u64,
-    /// In order; empty: the controller is alive.
+    /// Changes in the order in which they were made.
     pub changes: Vec<Change>,
 }
 
-/// A part of the state that is new.
+/// A change of the [`JournalState`]; most hold the new value of a part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Change {
-    /// Everything.
+    /// The whole state.
     State(Box<JournalState>),
     /// A participant joined, dropped out or came back.
     Participant { number: u32, entry: ParticipantEntry },
-    /// Robots are about to drive this.
+    /// The leg that robots are about to drive.
     Leg(LegEntry),
-    /// What the operator bound.
+    /// All pixels that the operator bound, with their robots.
     Pins(Vec<(u32, RobotId)>),
-    /// Which robot showed a pixel in frames with fixed identity.
+    /// All pixels that robots showed in frames with fixed identity, with these robots.
     Owners(Vec<(u32, RobotId)>),
-    /// What was found on the floor, and what is ignored there.
+    /// Places where something was found on the floor, stage metres, and whether strangers are ignored.
     Obstacles { found: Vec<Vec2>, ignores_strangers: bool },
     /// How far the run is.
     Progress(RunProgress),
-    /// The operator asked for something; a word for it.
+    /// The operator requested an operation; its short name.
     Operated(String),
-    /// The run is over: how it ended, for people.
+    /// The run is over; the text says how it ended, for people.
     Ended(String),
 }
 
 /// How a run began.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RunBegun {
-    /// When; this also names the run.
+    /// When the run began, show clock; this also identifies the run.
     pub at: Instant,
     /// The show that is played.
     #[serde(with = "crate::shared_show")]
     pub show: Arc<Show>,
-    /// Whether all frames are played.
+    /// What the run is for: a show, one frame, the drive home, or a preflight.
     pub purpose: RunPurpose,
     /// What happens to pixels without a robot.
     pub missing: MissingPolicy,
@@ -63,35 +63,36 @@ pub(crate) struct RunBegun {
 pub(crate) struct RunProgress {
     /// The frame that is reached next.
     pub next: FrameCursor,
-    /// The last frame of a loop that GO was given for.
+    /// Last frame of a loop that the show leaves, because GO was given; `None` if there is none.
     pub leaves_loop: Option<FrameCursor>,
-    /// The show starts again after its last frame.
+    /// Whether the show starts again after its last frame.
     pub looping: bool,
-    /// The operator paused.
+    /// Whether the operator paused the run.
     pub paused: bool,
-    /// The run pauses again at the next frame.
+    /// Whether the run pauses again at the next frame.
     pub stepping: bool,
-    /// The frame that was reached last waits for GO.
+    /// Whether the frame that was reached last waits for GO.
     pub waits_for_go: bool,
-    /// Frames reached.
+    /// Number of frames reached.
     pub frames_played: u32,
-    /// Robots that dropped out; a robot that dropped out twice counts twice.
+    /// Number of dropouts; a robot that dropped out twice counts twice.
     pub dropouts: u32,
     /// How often the run was taken up by another controller.
     pub taken_up: u32,
-    /// What robots do.
+    /// What robots do, or did when they were stopped.
     pub position: Position,
 }
 
 /// What robots do, or did when they were stopped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Position {
-    /// They drive the leg, or are about to: a silent robot may stand anywhere along it.
+    /// Path clock of the drive, if robots drive the leg or are about to. A silent robot may then stand anywhere along
+    /// its path.
     pub drive: Option<PathClock>,
-    /// When those on the drive stopped, once it is broken off. It holds until they drive again, through any number of
-    /// outages.
+    /// When robots on the drive stopped, if the drive was broken off. Kept until they drive again, through any number
+    /// of outages.
     pub stops: Option<StopTimes>,
-    /// They stand, in a frame or where a drive was broken off.
+    /// Air time, if robots stand in a frame or where a drive was broken off.
     pub stood: Option<AirTime>,
 }
 
@@ -110,7 +111,7 @@ impl Position {
 /// A participant of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ParticipantEntry {
-    /// The robot.
+    /// Name of the robot.
     pub id: RobotId,
     pub abilities: Abilities,
     /// Where the robot reported to be when this was written, stage metres.
@@ -121,21 +122,21 @@ pub(crate) struct ParticipantEntry {
     pub last_seen: Whereabouts,
 }
 
-/// Everything that a journal says of a run.
+/// The state of a run in a journal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct JournalState {
     pub begun: RunBegun,
-    /// `[participant]`.
+    /// Participants by number.
     pub participants: Vec<ParticipantEntry>,
     /// The leg that is driven, was driven last, or is about to be.
     pub leg: Option<LegEntry>,
-    /// By pixel.
+    /// Pixels that the operator bound, with their robots, sorted by pixel.
     pub pins: Vec<(u32, RobotId)>,
-    /// The oldest first.
+    /// Pixels that robots showed in frames with fixed identity, with these robots; the oldest first.
     pub owners: Vec<(u32, RobotId)>,
-    /// Where robots met something that no robot explains; stage metres.
+    /// Places where robots met something that is no known robot, stage metres.
     pub found: Vec<Vec2>,
-    /// Robots that came during the run are not driven around.
+    /// Whether robots that came during the run are ignored, and not driven around.
     pub ignores_strangers: bool,
     pub progress: RunProgress,
     /// How the run ended; `None`: it has not.
@@ -143,7 +144,7 @@ pub(crate) struct JournalState {
 }
 
 impl JournalState {
-    /// Takes over a change. `None`: it does not fit this state.
+    /// Applies a change; `None` if it does not fit this state.
     pub fn apply(&mut self, change: Change) -> Option<()> {
         match change {
             Change::State(state) => *self = *state,

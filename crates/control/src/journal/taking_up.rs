@@ -1,4 +1,4 @@
-//! A run that is taken up: another controller goes on with it, from where its robots stand.
+//! Takes up a run from its journal: this controller goes on with it, from where its robots stand.
 
 use super::{JournalState, ParticipantEntry, UnfinishedRun};
 use crate::context::Context;
@@ -10,15 +10,16 @@ use crate::run::{Participant, PlayedShow, Roster, Run, RunPurpose, StopTimes};
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// The controller had not heard from a robot for this long at most when it wrote its last entry: then all hold.
+/// Longest silence of a robot on a drive when the controller wrote its last entry. After a longer one the controller
+/// holds all robots.
 const UNHEARD: Span = Span::from_millis(1_500);
-/// Robots stand this long after the last entry at the latest: the next one would have come after 2 s, and 2.5 s later a
-/// robot has stopped by R43 of docs/protocol.md.
+/// Time after the last entry by which all robots stand. The next entry would have come after 2 s, and 2.5 s later a
+/// robot has stopped (R43 of docs/protocol.md).
 const STANDS_AFTER: Span = Span::from_millis(4_500);
-/// Longer than any run.
+/// A time that is longer than any run.
 const FOR_EVER: Span = Span::from_millis(86_400_000_000);
 
-/// What happens to a run that was cut off, once a controller is back.
+/// What happens to a run that was cut off, once a controller is back. A preflight is always over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OnReturn {
     /// It goes on by itself if little time has passed (`WaitBounds::goes_on_within`), otherwise the operator is asked.
@@ -33,8 +34,9 @@ pub enum OnReturn {
 }
 
 impl Controller {
-    /// Takes up a run whose controller is gone. It stands still until its robots report, and is then planned from where they
-    /// stand. Call this before [`connected`](Self::connected), with a show clock that goes on from
+    /// Takes up a run whose controller is gone. The run stands still until its robots report, and is then planned from
+    /// where they stand. If it does not go on, its robots are told to stop. Refused while there is another run. Call
+    /// this before [`connected`](Self::connected), with a show clock that goes on from
     /// [`show_clock_at`](UnfinishedRun::show_clock_at).
     pub fn take_up(
         &mut self,
@@ -49,7 +51,7 @@ impl Controller {
         self.show = Some(state.begun.show.clone());
         self.looping = state.progress.looping;
         restore_mapping(&mut self.context, state);
-        // What a preflight had measured is lost: it is begun again.
+        // The measurements of a preflight are lost, so that it cannot go on.
         let is_preflight = state.begun.purpose == RunPurpose::Preflight;
         let goes_on = on_return != OnReturn::Stop && !is_preflight;
         let robots = state.participants.iter().filter(|entry| !entry.membership.excluded).count();
@@ -79,7 +81,7 @@ fn restore_mapping(context: &mut Context, state: &JournalState) {
 }
 
 impl Run {
-    /// The run of a journal, as if its robots were out of reach until now.
+    /// Returns the run of a journal, interrupted as if its robots had been out of reach until now.
     fn take_up(context: &mut Context, now: Instant, unfinished: &UnfinishedRun, by_itself: Span) -> Self {
         let UnfinishedRun { at, state, .. } = unfinished;
         let (begun, progress) = (&state.begun, &state.progress);
@@ -110,8 +112,8 @@ impl Run {
             });
         }
         let roster = Roster { participants, begun: begun.at, ..Roster::default() };
-        // A robot that died before a hold or stop may be the reason for it, however long ago that was. The journal does
-        // not say when each was heard last.
+        // A robot that failed may be the reason for a hold or stop, even one that began long ago. The journal does not
+        // say when each robot was received last.
         let mut left = progress.position;
         let held = left.drive.and_then(|clock| clock.open_hold().map(|hold| hold.at));
         let stopped = left.stops.map(|stops| stops.began);
@@ -130,7 +132,7 @@ impl Run {
     }
 }
 
-/// Notes of a robot of the fleet what the journal says. A robot that stood is at its `goal` until it reports.
+/// Sets what the journal says of a robot of the fleet. A robot that stood counts as at its `goal` until it reports.
 fn expect(context: &mut Context, robot: usize, entry: &ParticipantEntry, goal: Option<Vec2>) {
     let robot = context.fleet.robot_mut(robot);
     robot.reported.abilities = entry.abilities;

@@ -1,4 +1,4 @@
-//! What a journal holds, in bytes.
+//! Tests of the bytes of journals.
 
 use super::*;
 use crate::frame_cursor::FrameCursor;

@@ -1,4 +1,4 @@
-//! A journal being written.
+//! Writes the journal of a run.
 
 use super::{
     Change, Entry, JournalState, LegEntry, MAGIC, ParticipantEntry, Position, RunBegun, RunProgress, VERSION,
@@ -9,18 +9,18 @@ use crate::mutant::Mutant;
 use crate::run::Run;
 use lightbots_base::{Instant, Span};
 
-/// An entry follows the last one after this time at the latest.
+/// Longest time between two entries.
 const ALIVE: Span = Span::from_millis(2_000);
-/// A journal is begun again once it has this many bytes, and this many times the bytes of its first entry: so that it stays
-/// small while a show loops for days.
+/// A journal is begun again once it has more than this number of bytes, and more than this multiple of its first piece.
+/// It thus stays small while a show loops for days.
 const BEGUN_AGAIN: (usize, usize) = (4 << 20, 8);
 
 /// Bytes for a journal's file, in order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JournalPiece {
-    /// The bytes are a whole journal and take the place of those before; otherwise they are appended.
+    /// Whether the bytes are a whole journal, which replaces the file; otherwise they are appended.
     pub begins: bool,
-    /// The run is over: no more bytes follow.
+    /// Whether the run is over: no more bytes follow.
     pub ends: bool,
     /// The bytes.
     pub bytes: Vec<u8>,
@@ -30,36 +30,36 @@ pub struct JournalPiece {
 #[derive(Debug, Default)]
 pub(crate) struct Journal {
     is_kept: bool,
-    /// What the bytes say that were taken, and the pending changes after them; `None`: no run is written down.
+    /// The state after all changes, taken or pending; `None` if no run is recorded.
     state: Option<JournalState>,
-    /// Changes that were not taken yet, and when the last of them came.
+    /// Changes that were not taken yet.
     pending: Vec<Change>,
     at: Instant,
-    /// The next piece begins the journal again.
+    /// Whether the next piece is a whole journal.
     begins: bool,
-    /// The pins or owners may have changed.
+    /// Whether pins, owners and obstacles were compared with the state since the operator's last operation.
     is_mapping_checked: bool,
-    /// The roster's number of changes that is written down.
+    /// The roster's number of changes when it was last recorded.
     roster_changes: u64,
     alive_at: Instant,
-    /// Bytes since the journal began, and of its first entry.
+    /// Number of bytes since the journal was begun, and of its first piece.
     bytes: usize,
     first_bytes: usize,
 }
 
 impl Journal {
-    /// Runs are written down from the next one on.
+    /// Records runs from now on.
     pub fn keep(&mut self) {
         self.is_kept = true;
     }
 
-    /// Pieces were lost on their way to the disk: the next one begins the journal again.
+    /// Makes the next piece a whole journal, because pieces were lost on their way to the disk.
     pub fn begin_again(&mut self) {
         self.begins = self.state.is_some();
         self.pending.clear();
     }
 
-    /// The operator asks for something; a word for it.
+    /// Records that the operator requested an operation; `what` is its short name.
     pub fn operated(&mut self, now: Instant, what: &str) {
         if self.state.is_some() {
             self.is_mapping_checked = false;
@@ -67,7 +67,7 @@ impl Journal {
         }
     }
 
-    /// The controller has concluded a step of this run.
+    /// Records what the controller's last step changed of this run.
     pub fn note(&mut self, now: Instant, run: &Run, context: &Context) {
         if !self.is_kept {
             return;
@@ -88,14 +88,15 @@ impl Journal {
         }
     }
 
-    /// The run is over.
+    /// Records that the run is over; `how` it ended, for people.
     pub fn end(&mut self, now: Instant, how: &str) {
         if self.state.is_some() {
             self.push(now, Change::Ended(how.to_owned()));
         }
     }
 
-    /// What is to be written since it was asked last. `wall_us`: the time of day, microseconds since 1970.
+    /// Takes what is to be written since the last call; `None` if there is nothing. `wall_us`: the time of day,
+    /// microseconds since 1970.
     pub fn take(&mut self, wall_us: u64) -> Option<JournalPiece> {
         let state = self.state.as_ref()?;
         if self.pending.is_empty() && !self.begins {
@@ -112,7 +113,7 @@ impl Journal {
             bytes.extend_from_slice(&VERSION.to_le_bytes());
             changes = vec![Change::State(Box::new(state.clone()))];
         }
-        // Each type that is written has bytes.
+        // Cannot fail: all types of an entry can be written as bytes.
         let entry = postcard::to_allocvec(&Entry { at: self.at, wall_us, changes }).unwrap_or_default();
         append_block(&mut bytes, &entry);
         self.count(begins, bytes.len());
@@ -135,7 +136,7 @@ impl Journal {
 
     fn push(&mut self, now: Instant, change: Change) {
         if let Some(state) = &mut self.state {
-            // A change that was made for this state fits it.
+            // Cannot fail: the change was made for this state.
             let _ = state.apply(change.clone());
         }
         if !self.begins {
@@ -172,11 +173,12 @@ impl Journal {
         if std::mem::replace(&mut self.roster_changes, run.roster.changes) == run.roster.changes {
             return;
         }
-        // The place of a participant that takes part is not written again: the leg says more.
+        // The place of a participant that takes part is not recorded again, because the leg says more.
         self.note_participants(now, run, context, |known, entry| known.membership != entry.membership);
     }
 
-    /// Writes down where participants stand once that is neither on a drive nor at its goals: no leg says so.
+    /// Records where participants stand once robots are neither on a drive nor at its goals, because then no leg says
+    /// it.
     fn note_places(&mut self, now: Instant, run: &Run, context: &Context, position: Position) {
         let was_in_leg = self.state.as_ref().is_some_and(|state| state.progress.position.is_in_leg());
         if was_in_leg && !position.is_in_leg() {
@@ -184,7 +186,7 @@ impl Journal {
         }
     }
 
-    /// Writes down those who are new or differ from what is written, by this test.
+    /// Records participants that are new, or whose entry `differs` from the recorded one.
     fn note_participants(
         &mut self,
         now: Instant,
@@ -200,7 +202,7 @@ impl Journal {
         }
     }
 
-    /// Whether the run has another leg than before.
+    /// Records the leg of the run if it is new, and returns whether it is.
     fn note_leg(&mut self, now: Instant, run: &Run) -> bool {
         let Some(leg) = run.phase.left_leg(&run.pipeline) else { return false };
         let known = self.state.as_ref().and_then(|state| state.leg.as_ref());
@@ -247,7 +249,7 @@ fn participants(run: &Run, context: &Context) -> Vec<ParticipantEntry> {
 }
 
 impl Run {
-    /// How far the run is.
+    /// Returns how far the run is.
     fn journal_progress(&self) -> RunProgress {
         let (playback, tally) = (&self.playback, &self.tally);
         RunProgress {
