@@ -18,7 +18,7 @@ pub struct Config {
     pub robots_max: usize,
     /// Names of the robots that may take part in runs; `None` admits any. Other robots on the floor are driven around.
     pub admitted: Option<BTreeSet<RobotId>>,
-    /// After which silence robots count as stale, and as gone.
+    /// Durations of silence after which robots are stale, and gone.
     pub ageing: Ageing,
     /// Least time between sending a START and its moment. It grows by 20 µs a robot, on slow links, and after lost
     /// answers.
@@ -60,7 +60,7 @@ pub struct WaitBounds {
     pub goes_on_within: Span,
 }
 
-/// After which silence robots count as stale, and as gone.
+/// Durations of silence after which robots are stale, and gone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ageing {
     /// Silence after which a robot is stale: it takes no part in a new run, but is driven around.

@@ -22,8 +22,8 @@ use std::sync::Arc;
 const PATROL: Span = Span::from_millis(250);
 /// Number of slices: the age of each robot is updated every 2 s.
 const ROUNDS: usize = 8;
-/// How often all robots are asked to report between runs, if some have the original firmware. Such a robot may be
-/// missed when it is switched on, and would be driven into.
+/// How often all robots are asked to report between runs, if some have the original firmware. The first report of such
+/// a robot may be lost, and it would be driven into.
 const ASK_ALL: Span = Span::from_millis(600);
 /// Time added to [`ASK_ALL`] for each robot, because all answers share one link.
 const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
@@ -53,7 +53,7 @@ pub struct Controller {
     /// The frame in which the last run of a show ended early. Kept until the operator dismisses it or begins another
     /// run.
     pub(crate) stopped_in: Option<usize>,
-    /// Whether robots are stopped once a broker is connected. Either their run was cut off and does not go on, or the
+    /// Whether robots are to be stopped once the broker is connected. Their run was cut off and does not go on, or the
     /// broker was lost while they were being stopped.
     pub(crate) stops_when_connected: bool,
     /// What the last preflight found.
@@ -93,8 +93,8 @@ impl Controller {
         }
     }
 
-    /// Handles that the broker is connected and the topics are subscribed (`T/LightBot/UUID`, `Arrival`, `Status`,
-    /// `Time`).
+    /// Handles that the broker is connected. The topics `T/LightBot/UUID`, `Arrival`, `Status` and `Time` must be
+    /// subscribed. Asks all robots to report.
     pub fn connected(&mut self, now: Instant) {
         if self.context.outbox.linked() {
             return;
@@ -298,8 +298,8 @@ impl Controller {
         self.journal.keep();
     }
 
-    /// Returns what to append to the journal's file, or to replace it with, since the last call; `None` if there is
-    /// nothing. `wall_us`: the time of day, microseconds since 1970.
+    /// Returns the next piece for the journal's file; `None` if there is nothing to write. `wall_us`: the time of day,
+    /// microseconds since 1970.
     pub fn take_journal(&mut self, wall_us: u64) -> Option<JournalPiece> {
         self.journal.take(wall_us)
     }

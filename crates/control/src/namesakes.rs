@@ -17,7 +17,8 @@ const JUMPS: u8 = 3;
 const WITHIN: Span = Span::from_millis(10_000);
 /// Time without a jump or a second clock after which one robot has the name again, if it also sent [`CLEAR_MESSAGES`].
 const CLEAR_AFTER: Span = Span::from_millis(30_000);
-/// Least number of messages within [`CLEAR_AFTER`]. Each robot asks for the time every 3 s (R28 of docs/protocol.md).
+/// Least number of messages since the last sign of two robots. Each robot asks for the time every 3 s (R28 of
+/// docs/protocol.md).
 const CLEAR_MESSAGES: u32 = 12;
 /// Largest distance between two reported places of a robot that stands, metres: noise of fixes.
 const SAME_PLACE_M: f64 = 0.03;

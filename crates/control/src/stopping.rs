@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 /// Number of copies of STOP, and the time between two copies.
 const COPIES: (u32, Span) = (6, Span::from_millis(50));
-/// Least time from STOP until all can count as stopped, so that reports from before STOP do not count.
+/// Least time from STOP until stopping can be over, so that reports from before STOP do not count.
 const LEAST: Span = Span::from_millis(300);
 /// Longest time from STOP until stopping ends, even if a robot may still drive.
 const MOST: Span = Span::from_millis(3_000);

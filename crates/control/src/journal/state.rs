@@ -21,7 +21,7 @@ pub(crate) struct Entry {
     pub changes: Vec<Change>,
 }
 
-/// A change of the [`JournalState`]; most hold the new value of a part.
+/// A change of the [`JournalState`]; most changes hold the new value of a part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Change {
     /// The whole state.

@@ -95,7 +95,7 @@ impl Journal {
         }
     }
 
-    /// Takes what is to be written since the last call; `None` if there is nothing. `wall_us`: the time of day,
+    /// Takes the next piece for the journal's file; `None` if there is nothing to write. `wall_us`: the time of day,
     /// microseconds since 1970.
     pub fn take(&mut self, wall_us: u64) -> Option<JournalPiece> {
         let state = self.state.as_ref()?;
