@@ -175,7 +175,7 @@ pub enum Refusal {
         robots: usize,
         /// Number of robots that report but do not know where they are.
         without_place: usize,
-        /// Number of other robots that cannot take part: most are silent or report a fault.
+        /// Number of other known robots that cannot take part, for example because they are silent or report a fault.
         unfit: usize,
     },
     /// Pixels are bound to robots that cannot take part.
