@@ -1,4 +1,4 @@
-//! The simulated robots of `run`: recast when a show is opened that they do not fit.
+//! The simulated robots of the command `run`. They are replaced when the open show needs another stage or more robots.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,35 +15,36 @@ use super::crowd::{Crowd, TOGETHER};
 use crate::stop::Stop;
 use crate::web::Shown;
 
-/// Robots where the show needs no more.
+/// Number of robots if the show needs no more.
 const USUAL: usize = 30;
-/// The most that are simulated because a show asks for them.
+/// Most robots that are simulated because a show needs them.
 const MOST: usize = 5_000;
-/// The robots follow a show once it has not been edited for `SETTLED`.
+/// Time without an edit of the show after which robots are replaced to fit it.
 const SETTLED: Duration = Duration::from_millis(500);
 
-/// What robots to simulate.
+/// Which robots to simulate.
 #[derive(Clone, Debug)]
 pub struct Cast {
-    /// Their broker.
+    /// The broker of the robots.
     pub broker: BrokerUrl,
-    /// How many; `None`: as many as the open show needs.
+    /// Number of robots; `None` for as many as the open show needs.
     pub count: Option<usize>,
-    /// Their seed: robots that are recast have the names of those before.
+    /// Seed of the simulation. Robots that are replaced by others with the same seed keep their names.
     pub seed: u64,
-    /// What they suffer.
+    /// Simulated disturbances.
     pub conditions: Conditions,
-    /// How many there are now.
+    /// Number of robots that are simulated at present.
     pub simulated: Arc<AtomicUsize>,
 }
 
 impl Cast {
-    /// How many robots a show is given.
+    /// Returns the number of robots to simulate for a show.
     pub fn robots(count: Option<usize>, show: &Show) -> usize {
         count.unwrap_or_else(|| robots_needed(show).clamp(USUAL, MOST))
     }
 
-    /// Keeps robots on the broker until `stop` is wanted.
+    /// Keeps robots on the broker until `stop` is wanted. Replaces them when they do not fit the open show. Returns at
+    /// once for 0 robots.
     pub async fn run(self, handle: Handle, mut shown: watch::Receiver<Arc<Shown>>, stop: Stop) {
         while !stop.is_wanted() {
             let show = shown.borrow_and_update().show.clone();
@@ -57,7 +58,7 @@ impl Cast {
             handle.pace().simulates(robots, Some(self.broker.to_string()));
             let crowd = Crowd::start(&self.fleet(&show, robots), &self.broker, TOGETHER, time, &until);
             let names = crowd.ids();
-            // On a thread of its own: thousands of robots keep one busy that others wait for.
+            // On a thread of its own, because thousands of robots would keep a thread busy that other tasks need.
             let runtime = tokio::runtime::Handle::current();
             let going = tokio::task::spawn_blocking(move || runtime.block_on(crowd.run(until)));
             tokio::select! {
@@ -65,14 +66,14 @@ impl Cast {
                 () = self.wait_for_misfit(&handle, &mut shown, &show.stage, robots) => {}
             }
             end.now();
-            // A simulation that failed has ended as well.
+            // A simulation that panicked has ended as well.
             let _ = going.await;
             handle.pace().simulates(0, None);
             for name in names {
                 if stop.is_wanted() {
                     return;
                 }
-                // One that nobody knew needs not be forgotten.
+                // The controller refuses this for a robot that it does not know, which does no harm.
                 let _ = handle.operate(Operation::Forget(name)).await;
             }
         }

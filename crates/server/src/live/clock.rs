@@ -6,9 +6,9 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use lightbots_base::Instant;
 
-/// Microseconds since 1970 at the program's start, from then on counted by a clock that never goes back and goes on while
-/// the computer sleeps: robots' clocks do so too. A controller that is started again goes on close to where the one before
-/// it was. It may be made to stand for a while, together with all its clones.
+/// The show clock. It begins with the microseconds since 1970 at the program's start. It never goes back, and runs
+/// while the computer sleeps, as robots' clocks do. The clock of a restarted controller thus continues close to that of
+/// its predecessor. The clock can be held for a while, together with all its clones.
 #[derive(Clone, Debug)]
 pub struct Clock {
     began: Duration,
@@ -16,14 +16,14 @@ pub struct Clock {
     shared: Arc<Shared>,
 }
 
-/// What clones have in common; microseconds since the start.
+/// State that clones share, in microseconds since the start.
 #[derive(Debug)]
 struct Shared {
-    /// How long it stood.
+    /// How long the clock was held in all.
     withheld_us: AtomicU64,
-    /// It shows no more than this.
+    /// Latest time that the clock may show.
     limit_us: AtomicU64,
-    /// The latest moment it showed.
+    /// Latest time that the clock has shown.
     shown_us: AtomicU64,
 }
 
@@ -43,13 +43,14 @@ impl Clock {
         Self { began: uptime(), offset_us, shared: Arc::new(shared) }
     }
 
-    /// The moment it is.
+    /// Returns the present time.
     pub fn now(&self) -> Instant {
         let us = self.free_us().min(self.shared.limit_us.load(Ordering::Relaxed));
         Instant(self.offset_us + self.shared.shown_us.fetch_max(us, Ordering::Relaxed).max(us))
     }
 
-    /// It may go on until `until` from now on, and stands there. [`Instant::FAR`]: for good. For one task alone.
+    /// Lets the clock run until it shows `until`, where it is held. [`Instant::FAR`] lets it run for good. Only one
+    /// task may call this.
     pub fn grant(&self, until: Instant) {
         let over_us = self.free_us().saturating_sub(self.shared.limit_us.load(Ordering::Relaxed));
         self.shared.withheld_us.fetch_add(over_us, Ordering::Relaxed);
@@ -61,20 +62,21 @@ impl Clock {
         elapsed_us.saturating_sub(self.shared.withheld_us.load(Ordering::Relaxed))
     }
 
-    /// How long it has stood in all.
+    /// Returns how long the clock was held in all, counted up to the last [`grant`](Self::grant).
     pub fn withheld(&self) -> Duration {
         Duration::from_micros(self.shared.withheld_us.load(Ordering::Relaxed))
     }
 
-    /// When the system's clock shows `at`, unless this one stands before; at once for a moment that is over.
+    /// Returns the moment of tokio's clock at which this clock shows `at`, unless it is held before. The present if
+    /// `at` is over. At most a year ahead.
     pub fn deadline(&self, at: Instant) -> tokio::time::Instant {
         let ahead = Duration::from_micros(at.0.saturating_sub(self.now().0));
         tokio::time::Instant::now() + ahead.min(Duration::from_secs(86_400 * 365))
     }
 }
 
-/// Time since a moment that stays the same while the program runs. `std::time::Instant` stands while a computer with Linux
-/// or macOS sleeps.
+/// Returns the time since a fixed moment, with the computer's sleep included. On Linux and macOS, `std::time::Instant`
+/// does not count the sleep.
 #[cfg(unix)]
 fn uptime() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
@@ -86,14 +88,14 @@ fn uptime() -> Duration {
     Duration::new(shown.tv_sec.unsigned_abs(), shown.tv_nsec.unsigned_abs() as u32)
 }
 
-/// Time since a moment that stays the same while the program runs. The counter goes on while the computer sleeps.
+/// Returns the time since the first call. The system's counter runs while the computer sleeps.
 #[cfg(not(unix))]
 fn uptime() -> Duration {
     static FIRST: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
     FIRST.get_or_init(std::time::Instant::now).elapsed()
 }
 
-/// A first route number that no controller started before on this machine has reached.
+/// Returns a first route number that no controller started earlier on this machine has reached.
 pub fn seq_base() -> u32 {
     ((unix_us() / 1_000_000 * 8) as u32).max(1)
 }

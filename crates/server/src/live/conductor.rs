@@ -1,4 +1,5 @@
-//! The task that owns the controller core: the only place where its ways in and out meet clock and broker.
+//! The task that owns the controller core. It alone connects the inputs and outputs of the core to the clock and the
+//! broker.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,16 +28,16 @@ pub use super::handle::Handle;
 pub use super::link_state::{LinkPhase, LinkState};
 pub use super::orders::News;
 
-/// Orders that wait at most; the sender of more orders waits.
+/// Most orders that wait for the conductor. The sender of a further order waits until there is room.
 const ORDERS: usize = 256;
-/// Events a slow listener may be behind before it misses some: one of each of many robots.
+/// Most news that a slow listener may lag behind before it misses the oldest: one event of each robot of a large fleet.
 const EVENTS: usize = 16_384;
-/// Messages taken in before the controller's answers are sent and others get a turn.
+/// Most link events that are handled before the controller's messages are sent and other inputs get a turn.
 const BATCH: usize = 512;
 
 impl Handle {
-    /// Starts a conductor that lives by `clock`, of robots with these lamps. It ends, with its robots at rest if a run was
-    /// on, once `stop` is wanted; wait for the task.
+    /// Starts a conductor with this show clock, for robots with these lamps. Once `stop` is wanted, the conductor stops
+    /// the robots of a run and ends. Wait for the returned task.
     pub fn start(
         recording: RecordingTarget,
         (clock, lamp): (Clock, LampSettings),
@@ -77,12 +78,13 @@ struct Conductor {
     recorder: Recorder,
     clock: Clock,
     pace: Arc<Pace>,
-    /// A plan is being made, and is given up once this is true.
+    /// Set to true to cancel the plan that is being made. `None` while no plan is being made.
     planning: Option<Arc<AtomicBool>>,
-    /// The newest plan that is wanted: one is made after the other, and those that are not wanted any more never.
+    /// The newest plan request, which waits until the plan under way is done or cancelled. Older waiting requests are
+    /// dropped.
     next_job: Option<PlanRequest>,
     link: Option<Link>,
-    /// The broker's addresses, one by one.
+    /// Addresses of the broker, in the order in which the link numbers them.
     nodes: Vec<String>,
     state: LinkState,
     rivals: Rivals,
@@ -113,7 +115,7 @@ impl Conductor {
         self.end().await;
     }
 
-    /// The next input. Cancel-safe.
+    /// Waits for the next input. Cancel-safe.
     async fn input(&mut self) -> Input {
         let speaks = self.state.is_connected().then(|| self.rivals.speak_at());
         let wakes = [self.controller.wake_at(), speaks].into_iter().flatten().min();
@@ -141,7 +143,7 @@ impl Conductor {
         self.drain();
     }
 
-    /// Takes in one event and those right behind it.
+    /// Handles an event of the link and further ones that wait already, `BATCH` in all at most.
     fn take(&mut self, first: LinkEvent) {
         self.hear(first);
         for _ in 1..BATCH {
@@ -181,20 +183,20 @@ impl Conductor {
                 self.pace.reports.hear(1);
                 self.controller.message(now, &topic, &payload);
                 if let Some(reports) = &self.overheard {
-                    // One that is lost comes again.
+                    // A copy that finds no room is dropped: the robot reports again.
                     let _ = reports.try_send(payload);
                 }
             }
         }
     }
 
-    /// Does an operation, and records it.
+    /// Has the controller carry out an operation. If the operation begins a run, begins the log of the run first.
     fn operate(&mut self, now: lightbots_base::Instant, operation: Operation) -> Result<(), Refusal> {
         self.recorder.before(&mut self.controller, now, &operation);
         self.controller.operate(now, operation)
     }
 
-    /// GO came by the broker.
+    /// Carries out GO that came by MQTT. A refusal becomes a warning.
     fn go(&mut self, now: lightbots_base::Instant) {
         if let Err(refusal) = self.operate(now, Operation::Go) {
             let _ = self.news.send(News::Warning(format!("GO by MQTT was refused: {refusal}")));
@@ -205,7 +207,7 @@ impl Conductor {
         match order {
             ConductorOrder::Operate(operation, answer) => {
                 let outcome = self.operate(self.clock.now(), operation);
-                // Whoever asked may have gone.
+                // The task that waits for the answer may have ended.
                 let _ = answer.send(outcome);
             }
             ConductorOrder::Look(answer) => {
@@ -243,7 +245,8 @@ impl Conductor {
         }
     }
 
-    /// Hands on what the controller has to say.
+    /// Passes on the outputs of the controller: messages, events, plan requests, log and journal. Publishes the
+    /// controller's name when it is due.
     fn drain(&mut self) {
         if let Some(link) = &self.link {
             let (sender, now) = (link.sender(), self.clock.now());
@@ -263,7 +266,7 @@ impl Conductor {
         while let Some(event) = self.controller.next_event() {
             tracing::info!("{}", event.kind);
             self.recorder.note(&event);
-            // Nobody listening is no error.
+            // An event without a listener is dropped.
             let _ = self.news.send(News::Event(event));
         }
         self.plan();
@@ -283,7 +286,8 @@ impl Conductor {
         self.pace.commands.say(u64::from(sent && topic != Topic::Broadcast));
     }
 
-    /// Has the newest plan made that is wanted, once the one before is done.
+    /// Cancels the plan under way if there is a newer request. Starts to make the newest plan once no other is under
+    /// way.
     fn plan(&mut self) {
         while let Some(job) = self.controller.next_plan_request() {
             self.next_job = Some(job);
@@ -302,7 +306,7 @@ impl Conductor {
                 || budget.is_some_and(|most| began.elapsed().as_micros() as i64 > most.0)
         };
         tokio::spawn(async move {
-            // One that failed must not keep others from being made.
+            // A plan that panicked must not keep later ones from being made.
             let done = tokio::task::spawn_blocking(move || job.run_unless(&is_over)).await.ok();
             // A conductor that has ended needs no plan.
             let _ = answer.send(done).await;
@@ -329,13 +333,14 @@ impl Conductor {
         link.close().await;
     }
 
-    /// No robot is left driving by a controller that goes: it leaves once the robots have said that they stand, or the
-    /// controller waits for none any more.
+    /// Stops the robots of a run and ends. Waits until the robots have reported that they stand, or until the
+    /// controller waits for them no longer.
     async fn end(mut self) {
         let state = self.controller.state();
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
             let now = self.clock.now();
-            // Without a broker, the run is over all the same: the next start is not to go on with it.
+            // Where robots cannot be stopped, as without a broker, the run is aborted, so that the next start does not
+            // go on with it.
             let stopped = self.controller.operate(now, Operation::StopAll);
             let stopped = stopped.or_else(|_| self.controller.operate(now, Operation::Abort));
             if let Err(refusal) = stopped {
@@ -346,7 +351,7 @@ impl Conductor {
             }
             self.drain();
         }
-        // Orders of others come too late.
+        // No further orders are accepted.
         self.inbox.close();
         while self.controller.state() == ControllerState::Aborting {
             match self.input().await {
@@ -356,7 +361,7 @@ impl Conductor {
         }
         self.leave().await;
         let Self { recorder, mut controller, .. } = self;
-        // The disk may take its time.
+        // On a blocking thread, because the disk may be slow.
         let _ = tokio::task::spawn_blocking(move || recorder.finish(&mut controller)).await;
     }
 }
@@ -375,7 +380,7 @@ async fn sleep_until(alarm: Option<tokio::time::Instant>) {
     }
 }
 
-/// A show as the controller takes it.
+/// Returns the operation that opens a show.
 pub fn open(show: lightbots_show::Show) -> Operation {
     Operation::Open(Arc::new(show))
 }

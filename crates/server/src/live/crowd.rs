@@ -14,30 +14,30 @@ use super::clock::Clock;
 use super::pace::Pace;
 use crate::stop::Stop;
 
-/// Robots that share a connection, unless it is stated otherwise.
+/// Usual number of robots that share a connection.
 pub const TOGETHER: usize = 50;
-/// Messages taken in before the robots get their next step.
+/// Most events of connections that are handled before the robots get their next step.
 const BATCH: usize = 4096;
-/// A step of the robots.
+/// Length of a simulation step.
 const STEP: Span = Span::from_millis(16);
-/// Time waits, where it may, for robots that are `BEHIND` steps behind.
+/// Steps that the robots may be behind the show clock. Where the clock may wait for them, it stands then.
 const BEHIND: i64 = 2;
-/// Whether messages that hold time up have come through is looked at this often, …
+/// Time between two checks whether messages that the clock waits for have arrived.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
-/// … and if none of them comes for `LOST`, they are lost.
+/// Messages under way count as lost if none of them arrives for this time.
 const LOST: Duration = Duration::from_millis(1_000);
 
-/// Something on one of the connections.
+/// An event of a connection, after the index of that connection.
 type Heard = (usize, LinkEvent);
 
-/// A fleet with its connections.
+/// Simulated robots with their connections to the broker.
 pub struct Crowd {
     fleet: Fleet,
     clock: Clock,
     pace: Arc<Pace>,
-    /// When it began, show clock.
+    /// Start of the simulation, show clock.
     began: Instant,
-    /// Since when time waits for messages, and how many had come in.
+    /// While the clock waits for messages: when the last one was noticed, and the number of messages received by then.
     clogged: Option<(std::time::Instant, u64)>,
     robots: usize,
     /// Robots that share a connection.
@@ -48,8 +48,9 @@ pub struct Crowd {
 }
 
 impl Crowd {
-    /// Robots that begin to connect to `broker`, `together` of them on a connection, and go on until `stop` is wanted.
-    /// Their connections begin at its addresses in turn. They live by `clock`, and as `pace` lets them.
+    /// Simulates robots that connect to `broker`, `together` robots on each connection. The connections begin at the
+    /// broker's addresses in turn and last until `stop` is wanted. The robots run by `clock`, which waits for them
+    /// where `pace` allows it.
     pub fn start(
         config: &FleetConfig,
         broker: &BrokerUrl,
@@ -76,12 +77,13 @@ impl Crowd {
         self.fleet.ids()
     }
 
-    /// Its connections.
+    /// The connections of the robots.
     pub fn connections(&self) -> FleetConnections {
         FleetConnections(self.senders.clone())
     }
 
-    /// Drives the robots until `stop` is wanted; then they leave the broker. What went missing meanwhile.
+    /// Simulates the robots until `stop` is wanted, then waits for the end of their connections. Returns the steps and
+    /// messages that were lost.
     pub async fn run(mut self, stop: Stop) -> Losses {
         let mut heard = Vec::new();
         let mut left_out = LeftOut::new(self.clock.withheld());
@@ -110,7 +112,7 @@ impl Crowd {
             dropped: self.senders.iter().map(Sender::dropped).sum(),
         };
         for task in self.tasks {
-            // A connection that failed has ended as well.
+            // A connection whose task panicked has ended as well.
             let _ = task.await;
         }
         losses
@@ -120,7 +122,8 @@ impl Crowd {
         Instant((self.clock.now() - self.began).0.max(0) as u64)
     }
 
-    /// Drives the robots until now. Where time may wait for them it does, and none of their steps is left out.
+    /// Simulates the robots up to the present. Where the clock may wait for them, at most `BEHIND` steps are simulated,
+    /// the clock is held, and no step is left out.
     fn advance(&mut self) {
         if !self.pace.may_slow() {
             self.clogged = None;
@@ -137,7 +140,7 @@ impl Crowd {
         self.clock.grant(self.began + Span(until.0 as i64));
     }
 
-    /// Whether time waits for messages under way. Those that do not come are given up.
+    /// Whether the clock waits for messages under way. Counts them as lost if none has arrived for `LOST`.
     fn is_clogged(&mut self) -> bool {
         if !self.pace.is_clogged() {
             self.clogged = None;
@@ -187,14 +190,14 @@ impl Crowd {
     }
 }
 
-/// What a crowd lost in all because machine or network was too slow for it.
+/// Steps and messages that simulated robots lost in all because the machine or the network was too slow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Losses {
     /// Steps of 16 ms for which all robots stood.
     pub steps: u64,
     /// Messages of robots that were dropped before they reached a connection.
     pub unsaid: u64,
-    /// Messages that connections dropped because a queue was full, either way.
+    /// Messages in either direction that connections dropped because a queue was full.
     pub dropped: u64,
 }
 
@@ -210,7 +213,7 @@ impl fmt::Display for Losses {
     }
 }
 
-/// Says, but not all the time, that the machine is too slow.
+/// Logs that the machine is too slow, at most once in `EVERY`.
 struct LeftOut {
     steps: u64,
     withheld: Duration,
@@ -219,14 +222,15 @@ struct LeftOut {
 
 impl LeftOut {
     const EVERY: Duration = Duration::from_secs(5);
-    /// Time that goes slower by less than this share is not worth a word.
+    /// Smallest slowing of the show clock that is logged, as a share of real time.
     const WORTH: f64 = 0.1;
 
     fn new(withheld: Duration) -> Self {
         Self { steps: 0, withheld, said: std::time::Instant::now() }
     }
 
-    /// `steps`: how many were left out since the start; `withheld`: for how long time has waited.
+    /// Logs what was lost since the last line. `steps`: steps left out since the start. `withheld`: how long the clock
+    /// has stood in all.
     fn notice(&mut self, steps: u64, withheld: Duration) {
         let since = self.said.elapsed();
         if since < Self::EVERY {
@@ -249,21 +253,21 @@ impl LeftOut {
     }
 }
 
-/// The connections of a crowd.
+/// The connections of simulated robots.
 pub struct FleetConnections(Vec<Sender>);
 
 impl FleetConnections {
-    /// Whether all of them stand.
+    /// Whether all connections are up.
     pub fn all(&self) -> bool {
         self.0.iter().all(Sender::is_connected)
     }
 }
 
-/// One connection for a group of robots.
+/// Settings of the connection that a group of robots shares.
 fn link_config(index: usize, group: &[RobotId], broker: &BrokerUrl) -> LinkConfig {
     let mut filters: Vec<String> = group.iter().map(|id| format!("T/LightBot/{id}")).collect();
     filters.push("T/LightBot/Broadcast".into());
-    // A broker that knows robots by their client ids must not take a crowd for one of them.
+    // A broker that recognises robots by their client ids must not take a shared connection for one robot.
     let client_id = match group {
         [id] => robot_client_id(id),
         _ => crowd_client_id(),
@@ -271,7 +275,7 @@ fn link_config(index: usize, group: &[RobotId], broker: &BrokerUrl) -> LinkConfi
     LinkConfig { broker: broker.clone().starting_at(index), client_id, filters, queue: 65_536 }
 }
 
-/// Hands on what happens on a link, and closes it in the end.
+/// Passes on the events of a link until `stop` is wanted, then closes the link.
 async fn forward(mut link: Link, index: usize, news: mpsc::Sender<Heard>, stop: Stop) {
     loop {
         let event = tokio::select! {
@@ -292,7 +296,7 @@ mod tests {
     use lightbots_show::{Stage, front_rows};
     use lightbots_sim::Conditions;
 
-    /// Three robots without a broker, and what holds their time.
+    /// Three robots without a broker, with their clock and pace.
     fn crowd() -> (Crowd, Clock, Arc<Pace>) {
         let stage = Stage::default();
         let (starts, conditions) = (front_rows(&stage, 3), Conditions::ideal());

@@ -1,4 +1,4 @@
-//! A run that was cut off when the program was killed: what is known of it at the next start.
+//! A run that was cut off when the program was killed, as the next start finds it.
 
 use std::path::Path;
 
@@ -17,12 +17,13 @@ use crate::say;
 #[derive(Debug)]
 pub struct CutOffRun {
     pub unfinished: UnfinishedRun,
-    /// What happens to it.
+    /// What happens to the run.
     pub on_return: OnReturn,
 }
 
 impl CutOffRun {
-    /// The run that a killed program left in its data folder, if there is one. A journal that cannot be read is told.
+    /// Finds the run that a killed program left in its data folder; `None` if there is none. Prints an error if its
+    /// journal cannot be read.
     pub fn find(data: &Path, on_return: Option<OnReturnArgument>) -> Option<Self> {
         let unfinished = journal::unfinished_run(data).unwrap_or_else(|line| {
             say::error(&line);
@@ -31,16 +32,17 @@ impl CutOffRun {
         Some(Self { unfinished, on_return: on_return.map_or(OnReturn::GoOrAsk, OnReturn::from) })
     }
 
-    /// The clock that goes on from the run's.
+    /// Returns a show clock that continues the clock of the run.
     pub fn clock(&self) -> Clock {
         Clock::starting_at(self.unfinished.show_clock_at(unix_us()).0)
     }
 
-    /// The show for the screen with its name in the library: the run's, which may have been changed there since.
-    /// `first`: the show that would be opened otherwise.
+    /// Returns the show of the run, for screens, with its name in the library. `first`: name and show that would be
+    /// opened otherwise, which are returned if they are the run's. If they are not, the run's show is added to the
+    /// library, where it may have been changed since.
     pub fn show_on_screen(&self, library: &Library, first: (Option<String>, Show)) -> (Option<String>, Show) {
         let (show, (name, other)) = (self.unfinished.show(), first);
-        // The controller names a show without a name as the library does.
+        // Names are not compared: the controller gives a show without a name its name in the library.
         let same = Show { name: show.name.clone(), ..other.clone() } == **show;
         if same && name.is_some() {
             return (name, other);
@@ -49,7 +51,7 @@ impl CutOffRun {
         (Some(listed), (**show).clone())
     }
 
-    /// Tells the command line of the run at a moment of its clock.
+    /// Prints that the run was cut off and what follows. `now`: the present on the run's clock.
     pub fn tell(&self, now: Instant) {
         let (run, (last, _)) = (&self.unfinished, self.unfinished.last_written());
         let goes_on = "it goes on from where the robots stand";

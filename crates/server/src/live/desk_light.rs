@@ -19,10 +19,10 @@ use crate::web::ScreenLog;
 
 /// Longest patch table, bytes: 20,000 robots with long names and comments.
 const PATCH_MAX: u64 = 4 << 20;
-/// Reports taken in before others get a turn.
+/// Most reports that are handled before other inputs get a turn.
 const BATCH: usize = 256;
 
-/// Desks that may drive lights.
+/// The sockets of lighting desks, and the receiver that makes messages to robots of their packets.
 #[derive(Debug)]
 pub struct DeskLight {
     sockets: DeskSockets,
@@ -30,7 +30,8 @@ pub struct DeskLight {
 }
 
 impl DeskLight {
-    /// Binds the sockets and reads the patch table; `None`: no desk is asked for.
+    /// Binds the sockets and reads the patch table; `None` if no desk is asked for. A patch table without a desk is an
+    /// error.
     pub async fn open(arguments: &DeskArguments, lamp: LampSettings) -> Result<Option<Self>, Failure> {
         let patch = match &arguments.patch {
             Some(file) => patch_table(file)?,
@@ -44,7 +45,7 @@ impl DeskLight {
         Ok(Some(Self { sockets, receiver: DeskReceiver::new(patch, seq_base(), lamp) }))
     }
 
-    /// Receives until `stop` is wanted.
+    /// Receives packets and reports, and publishes live light, until `stop` is wanted.
     pub async fn run(mut self, handle: Handle, log: ScreenLog, stop: Stop) {
         let mut reports = handle.overhear().await;
         let clock = handle.clock();
@@ -61,7 +62,7 @@ impl DeskLight {
         }
     }
 
-    /// Takes in one report and those right behind it.
+    /// Handles a report and further ones that wait already, `BATCH` in all at most.
     fn hear(&mut self, clock: &Clock, first: &[u8], reports: &mut mpsc::Receiver<Vec<u8>>) {
         let now = clock.now();
         let mut take = |payload: &[u8]| {
@@ -81,7 +82,7 @@ impl DeskLight {
         while let Some(message) = self.receiver.next_publish() {
             messages.push(message);
         }
-        // No light changes without a message.
+        // Lights change only with a message.
         if !messages.is_empty() {
             handle.desk_lights().set(self.receiver.lights());
             handle.publish(messages).await;

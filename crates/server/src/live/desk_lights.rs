@@ -16,7 +16,7 @@ impl DeskLights {
         *self.lock() = lights.collect();
     }
 
-    /// Puts the colours over those that the controller told robots to show.
+    /// Replaces the controller's colours in a snapshot by those of the desk, for robots that have one.
     pub fn cover(&self, snapshot: &mut Snapshot) {
         let lights = self.lock();
         if lights.is_empty() {

@@ -7,8 +7,8 @@ use tokio::net::UdpSocket;
 use crate::failure::Failure;
 use crate::say;
 
-/// Binds a socket for a protocol, says where, and `may`: what packets of strangers can do; `None`: no address was asked for.
-/// The failure is one line with a remedy.
+/// Binds a socket for the protocol `name` and prints its address; `None` if there is no address. If other machines can
+/// reach it, prints `may`: what their packets can do. The failure is one line with a remedy.
 pub async fn listen(
     name: &str,
     option: &str,
@@ -27,7 +27,8 @@ pub async fn listen(
     Ok(Some(socket))
 }
 
-/// The length of the next packet and its sender; waits for ever without a socket. Cancel-safe.
+/// Receives the next packet into `bytes` and returns its length and sender. Waits for ever without a socket.
+/// Cancel-safe.
 pub async fn receive(socket: Option<&UdpSocket>, bytes: &mut [u8]) -> std::io::Result<(usize, IpAddr)> {
     match socket {
         Some(socket) => socket.recv_from(bytes).await.map(|(length, from)| (length, from.ip())),

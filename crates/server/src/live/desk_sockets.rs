@@ -16,27 +16,27 @@ use crate::failure::Failure;
 const PACKET_MAX: usize = 1_024;
 /// Packets are counted over this time.
 const WINDOW: Duration = Duration::from_millis(10);
-/// Most packets in a `WINDOW`: the 118 universes of 20,000 robots at once, with a reserve. More are left to the system,
-/// whose queue is bounded.
+/// Most packets that are read in a `WINDOW`: one for each of the 118 universes of 20,000 robots, and a reserve. Further
+/// packets wait in the system's bounded queue.
 const PACKETS: u32 = 200;
-/// What a stranger's packets can do.
+/// What packets of any sender can do, for a note to people.
 const LIGHTS: &str = "drive the lights of robots";
-/// After a failed reading, so that a broken socket does not keep a processor busy.
+/// Pause after a failed reception, so that a broken socket does not keep a processor busy.
 const AFTER_ERROR: Duration = Duration::from_millis(100);
 
-/// The sockets, and how much is still read from them.
+/// The sockets of lighting desks, with a bound on the packets that are read.
 #[derive(Debug)]
 pub struct DeskSockets {
     artnet: Option<UdpSocket>,
     sacn: Option<UdpSocket>,
-    /// Universes whose multicast groups were joined, or cannot be.
+    /// Universes whose multicast groups were joined or could not be joined. Neither are tried again.
     joined: BTreeSet<u16>,
     window_ends: Instant,
     left: u32,
 }
 
 impl DeskSockets {
-    /// Binds what was asked for; `None`: nothing was. The failure is one line with a remedy.
+    /// Binds the sockets that `arguments` ask for; `None` if they ask for none. The failure is one line with a remedy.
     pub async fn bind(arguments: &DeskArguments) -> Result<Option<Self>, Failure> {
         if arguments.artnet.is_none() && arguments.sacn.is_none() {
             return Ok(None);
@@ -50,7 +50,7 @@ impl DeskSockets {
         }))
     }
 
-    /// The next packet with values. Others are dropped. Cancel-safe.
+    /// Waits for the next packet with channel values, and drops other packets. Cancel-safe.
     pub async fn next(&mut self) -> DmxPacket {
         let (mut artnet_bytes, mut sacn_bytes) = ([0; PACKET_MAX], [0; PACKET_MAX]);
         loop {
@@ -78,7 +78,8 @@ impl DeskSockets {
         }
     }
 
-    /// Joins the multicast groups of universes, where sACN is received on all addresses. A warning for the first that fails.
+    /// Joins the multicast groups of universes if sACN is received on all IPv4 addresses. Returns a warning for the
+    /// first universe that fails.
     pub fn join(&mut self, universes: impl Iterator<Item = u16>) -> Option<String> {
         let socket = self.sacn.as_ref()?;
         let is_open = socket.local_addr().is_ok_and(|address| address.ip() == Ipv4Addr::UNSPECIFIED);

@@ -1,4 +1,4 @@
-//! The way from screens and commands to the conductor.
+//! The handle through which screens and commands reach the conductor.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::orders::{ConductorOrder, News};
 use super::pace::Pace;
 use super::run_reports::ReportsUnderWay;
 
-/// Reports that wait for a listener at most: one of each of many robots.
+/// Most reports that wait for a listener: one of each robot of a large fleet.
 const REPORTS: usize = 16_384;
 
 /// A handle to the conductor; clones share it.
@@ -44,7 +44,7 @@ impl Handle {
         &self.reports
     }
 
-    /// Does something with show and fleet.
+    /// Has the controller carry out an operation. `Err` if it refuses, or if the conductor has ended.
     pub async fn operate(&self, operation: Operation) -> Result<(), Refusal> {
         let (answer, answered) = oneshot::channel();
         // A conductor that has ended has no broker any more.
@@ -52,7 +52,7 @@ impl Handle {
         answered.await.unwrap_or(Err(Refusal::NotConnected))
     }
 
-    /// How everything is; `None` once the conductor has ended.
+    /// Returns a snapshot of the controller, with the colours of lighting desks; `None` once the conductor has ended.
     pub async fn look(&self) -> Option<Snapshot> {
         let (answer, answered) = oneshot::channel();
         self.orders.send(ConductorOrder::Look(answer)).await.ok()?;
@@ -66,19 +66,20 @@ impl Handle {
         let _ = self.orders.send(ConductorOrder::Publish(messages)).await;
     }
 
-    /// All reports of robots from now on, as payloads; some are left out where they are not read. For one listener.
+    /// Returns a receiver of the payloads of all later reports of robots. Reports are left out while it is full. Only
+    /// the newest receiver gets reports.
     pub async fn overhear(&self) -> mpsc::Receiver<Vec<u8>> {
         let (reports, overheard) = mpsc::channel(REPORTS);
         let _ = self.orders.send(ConductorOrder::Overhear(reports)).await;
         overheard
     }
 
-    /// The lights that a lighting desk has.
+    /// The colours that robots show for a lighting desk.
     pub fn desk_lights(&self) -> &DeskLights {
         &self.desk_lights
     }
 
-    /// Takes up a run that was cut off. Call it before [`connect`](Self::connect).
+    /// Has the controller take up a run that was cut off. Call this before [`connect`](Self::connect).
     pub async fn take_up(&self, run: UnfinishedRun, on_return: OnReturn) {
         let _ = self.orders.send(ConductorOrder::TakeUp(Box::new(run), on_return)).await;
     }
@@ -98,12 +99,12 @@ impl Handle {
         self.clock.clone()
     }
 
-    /// How fast it may go.
+    /// Decides whether the show clock may wait for simulated robots.
     pub fn pace(&self) -> Arc<Pace> {
         self.pace.clone()
     }
 
-    /// What happens from now on.
+    /// Returns a receiver of later news.
     pub fn news(&self) -> broadcast::Receiver<News> {
         self.news.subscribe()
     }

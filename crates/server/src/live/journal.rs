@@ -14,16 +14,17 @@ use lightbots_control::{JournalPiece, RecordedController, UnfinishedRun};
 use super::clock::unix_us;
 use crate::disk::{self, Readers};
 
-/// The journal of the present run, in the data folder. It is removed when the run has ended.
+/// Path of the journal of the present run in the data folder. The file is removed when the run has ended.
 const FILE: &str = "runs/present.lbjournal";
-/// Most bytes of a journal that is read: many times those after which it begins again.
+/// Longest journal that is read, bytes. A journal is begun again long before.
 const BYTES_MAX: u64 = 256 << 20;
-/// Most pieces that wait for the disk. While there are as many, the controller keeps its changes together.
+/// Most pieces that wait for the disk. While this many wait, the controller collects its changes.
 const WAITING_MAX: usize = 64;
-/// After a failure of the disk, the journal is begun again at most this often.
+/// Pause after a failure of the disk before the journal is written again.
 const TRY_AGAIN: Duration = Duration::from_secs(10);
 
-/// The journal that a killed program left in its data folder: the run that was not ended. `Err`: a line for people.
+/// Reads the unfinished run from the journal that a killed program left in its data folder; `None` if there is none.
+/// `Err`: a line for people.
 pub fn unfinished_run(data: &Path) -> Result<Option<UnfinishedRun>, String> {
     let path = data.join(FILE);
     if let Some(folder) = path.parent() {
@@ -36,7 +37,7 @@ pub fn unfinished_run(data: &Path) -> Result<Option<UnfinishedRun>, String> {
     };
     let run = UnfinishedRun::read(&bytes).map_err(|error| unreadable(&path, &error.to_string()))?;
     if run.is_none() {
-        // Its program was killed after the end of the run and before it removed the file.
+        // The program was killed after the end of the run, before it removed the file.
         disk::remove(&path).map_err(|error| unreadable(&path, &error.to_string()))?;
     }
     Ok(run)
@@ -52,13 +53,13 @@ pub struct JournalFile {
     pieces: SyncSender<JournalPiece>,
     shared: Arc<Shared>,
     thread: JoinHandle<()>,
-    /// When the journal was begun again after a failure.
+    /// Time of the last failure, until the journal is written again.
     tried: Option<Instant>,
-    /// People were told of a failure.
+    /// Whether a failure was reported to people. Only the first one is.
     is_told: bool,
 }
 
-/// What the thread says.
+/// What the writing thread shares: the number of pieces that wait for it, and its last failure.
 #[derive(Debug, Default)]
 struct Shared {
     waiting: AtomicUsize,
@@ -66,7 +67,7 @@ struct Shared {
 }
 
 impl JournalFile {
-    /// The controller's runs are written into this data folder from now on.
+    /// Begins to write the journals of the controller's runs into this data folder.
     pub fn start(data: &Path, controller: &mut RecordedController) -> Self {
         controller.keep_journal();
         let (pieces, inbox) = sync_channel(WAITING_MAX);
@@ -77,7 +78,7 @@ impl JournalFile {
         Self { pieces, shared, thread, tried: None, is_told: false }
     }
 
-    /// Hands on what is new. A line for people, once something went wrong.
+    /// Passes new pieces of the journal to the thread. Returns a line for people at the first failure.
     pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
         let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
         if failure.is_some() || self.tried.is_some_and(|tried| tried.elapsed() > TRY_AGAIN) {
@@ -104,31 +105,32 @@ impl JournalFile {
         }
     }
 
-    /// The run that was found is over: its journal is removed.
+    /// Has the journal of a run that is not taken up removed.
     pub fn discard(&mut self) {
         self.shared.waiting.fetch_add(1, Ordering::Relaxed);
-        // The queue is empty at the start, when runs are found.
+        // There is room, because runs are found at the start, when the queue is empty.
         let _ = self.pieces.try_send(JournalPiece { begins: false, ends: true, bytes: Vec::new() });
     }
 
-    /// The program ends: waits for the disk.
+    /// Passes on the last pieces when the program ends. Waits until everything is written.
     pub fn finish(mut self, controller: &mut RecordedController) {
         self.keep(controller);
         drop(self.pieces);
-        // A failure of the thread was told before, or it came too late to be told.
+        // A failure of the thread was reported before, or came too late.
         let _ = self.thread.join();
     }
 }
 
-/// The file of the thread.
+/// The journal's file, for the writing thread.
 struct Written {
     path: PathBuf,
-    /// `None`: no journal has begun, or writing it failed.
+    /// `None` while no journal is open: none has begun, it has ended, or writing it failed.
     file: Option<File>,
 }
 
 impl Written {
-    /// Writes pieces until there are no more. What is there is written before it is synchronised.
+    /// Writes pieces until their sender is dropped. Writes all waiting pieces before each synchronisation with the
+    /// disk.
     fn write_all(&mut self, inbox: &Receiver<JournalPiece>, shared: &Shared) {
         while let Ok(first) = inbox.recv() {
             let pieces: Vec<JournalPiece> = std::iter::once(first).chain(inbox.try_iter()).collect();

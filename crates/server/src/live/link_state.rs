@@ -1,34 +1,34 @@
-//! How the link to the broker is.
+//! State of the link to the broker.
 
-/// How the link to the broker is.
+/// State of the link to the broker.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinkState {
-    /// The broker's addresses without login; empty: none is wanted.
+    /// The broker's addresses without login; empty if no link is wanted.
     pub address: String,
-    /// How far it is.
+    /// How far the link has come.
     pub phase: LinkPhase,
-    /// Which of the addresses is in use.
+    /// The address that is in use; `None` unless connected.
     pub node: Option<String>,
     /// Why there is no connection, once that is known.
     pub reason: Option<String>,
 }
 
-/// How far a link is.
+/// How far a link has come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinkPhase {
-    /// None is wanted.
+    /// No link is wanted.
     #[default]
     Off,
-    /// The first attempt.
+    /// The first attempt to connect is under way.
     Connecting,
-    /// It stands.
+    /// The link is up.
     Connected,
-    /// It failed, and is tried again and again.
+    /// An attempt failed or the link broke. Further attempts follow.
     Retrying,
 }
 
 impl LinkState {
-    /// Whether messages go to and fro.
+    /// Whether messages can be sent and received.
     pub fn is_connected(&self) -> bool {
         self.phase == LinkPhase::Connected
     }

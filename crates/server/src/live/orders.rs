@@ -1,4 +1,4 @@
-//! What the conductor can be told, and what it says.
+//! Orders to the conductor, and news from it.
 
 use lightbots_control::{Event, OnReturn, Operation, Refusal, Snapshot, UnfinishedRun};
 use lightbots_dmx::LivePublish;
@@ -7,26 +7,26 @@ use tokio::sync::{mpsc, oneshot};
 
 use super::link_state::LinkState;
 
-/// What the conductor can be told.
+/// An order to the conductor.
 pub(super) enum ConductorOrder {
     Operate(Operation, oneshot::Sender<Result<(), Refusal>>),
     Look(oneshot::Sender<Snapshot>),
     TakeUp(Box<UnfinishedRun>, OnReturn),
     Connect(BrokerUrl),
     Disconnect,
-    /// Messages of a lighting desk.
+    /// Publish these messages of a lighting desk.
     Publish(Vec<LivePublish>),
-    /// Copies of all reports go there, as long as there is room.
+    /// Send copies of all later reports to this channel, while it has room.
     Overhear(mpsc::Sender<Vec<u8>>),
 }
 
-/// What happens, for screens and reports.
+/// News from the conductor, for screens and other tasks.
 #[derive(Clone, Debug)]
 pub enum News {
-    /// The controller says so.
+    /// An event of the controller.
     Event(Event),
-    /// The link says why it is not connected.
+    /// The new state of the link.
     Link(LinkState),
-    /// Something is wrong with the broker: one sentence for people.
+    /// A warning: one sentence for people.
     Warning(String),
 }

@@ -21,11 +21,11 @@ use crate::web::ScreenLog;
 
 /// Longest packet that is read, bytes. Longer ones are cut and then refused.
 const PACKET_MAX: usize = 1_024;
-/// The same message within this time is one press: pedals bounce, and senders repeat packets.
+/// Time within which equal messages count as one press, because pedals bounce and senders repeat packets.
 const ONE_PRESS: Duration = Duration::from_millis(250);
-/// After a failed reading or sending, so that a broken socket does not keep a processor busy.
+/// Pause after a failed reception, so that a broken socket does not keep a processor busy.
 const AFTER_ERROR: Duration = Duration::from_millis(100);
-/// Address patterns begin with this.
+/// Beginning of all OSC addresses that are received and sent.
 const PREFIX: &str = "/lightbots/";
 
 /// What a message from a desk asks for.
@@ -35,7 +35,7 @@ enum DeskWish {
     Stop,
 }
 
-/// Sockets of OSC that were asked for.
+/// The OSC sockets that the command line asks for.
 #[derive(Debug)]
 pub struct OscLink {
     input: Option<UdpSocket>,
@@ -44,7 +44,7 @@ pub struct OscLink {
 }
 
 impl OscLink {
-    /// Binds what was asked for; `None`: nothing was. The failure is one line with a remedy.
+    /// Binds the sockets that `arguments` ask for; `None` if they ask for none. The failure is one line with a remedy.
     pub async fn open(arguments: &DeskArguments) -> Result<Option<Self>, Failure> {
         let input = listen("OSC", "--osc", arguments.osc, "give GO and Stop").await?;
         let output = match arguments.osc_out {
@@ -55,7 +55,7 @@ impl OscLink {
         Ok(is_wanted.then(|| Self { input, output, pressed: BTreeMap::new() }))
     }
 
-    /// Receives and sends until `stop` is wanted. `name_of`: the name of a frame of the open show, counted from 0.
+    /// Receives and sends until `stop` is wanted. `name_of` returns the name of a frame of the open show by its index.
     pub async fn run(
         mut self,
         handle: Handle,
@@ -88,7 +88,7 @@ impl OscLink {
         }
     }
 
-    /// What a packet asks for that was not pressed just now.
+    /// Returns what a packet asks for. Leaves out a wish that was returned less than `ONE_PRESS` ago.
     fn wishes(&mut self, packet: &[u8], now: Instant) -> Vec<DeskWish> {
         let mut wishes = wishes_of(packet);
         wishes.retain(|wish| {
@@ -101,7 +101,7 @@ impl OscLink {
         wishes
     }
 
-    /// Says what happened, if a desk listens.
+    /// Sends the OSC message of an event, if there is an output and the event has a message.
     async fn tell(&self, event: &EventKind, name_of: &impl Fn(usize) -> String) {
         let (Some((socket, to)), Some(message)) = (&self.output, message_of(event, name_of)) else { return };
         let sent = match rosc::encoder::encode(&OscPacket::Message(message)) {
@@ -135,7 +135,7 @@ async fn carry_out(wish: DeskWish, handle: &Handle, log: &ScreenLog) {
     }
 }
 
-/// What a packet asks for, each wish once. Packets that are no OSC, and other messages, ask for nothing.
+/// Returns what a packet asks for, each wish once. Other OSC messages, and packets that are not OSC, ask for nothing.
 fn wishes_of(packet: &[u8]) -> Vec<DeskWish> {
     let Ok((rest, packet)) = rosc::decoder::decode_udp(packet) else { return Vec::new() };
     if !rest.is_empty() {
@@ -145,7 +145,7 @@ fn wishes_of(packet: &[u8]) -> Vec<DeskWish> {
     while let Some(packet) = left.pop() {
         match packet {
             OscPacket::Message(message) => wishes.extend(wish_of(&message)),
-            // Time tags are not waited for: what a person presses is meant now.
+            // Time tags are ignored, because what a person presses is meant now.
             OscPacket::Bundle(bundle) => left.extend(bundle.content),
         }
     }
@@ -171,7 +171,7 @@ fn wish_of(message: &OscMessage) -> Option<DeskWish> {
     }
 }
 
-/// The message that tells a desk of an event; `None`: desks do not need to know.
+/// The OSC message about an event; `None` for events that are not sent to desks.
 fn message_of(event: &EventKind, name_of: &impl Fn(usize) -> String) -> Option<OscMessage> {
     let number = |frame: usize| OscType::Int(i32::try_from(frame + 1).unwrap_or(i32::MAX));
     let (address, args) = match event {

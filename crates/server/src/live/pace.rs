@@ -1,27 +1,28 @@
-//! How fast time may go where controller and simulated robots share a machine that is too slow for them.
+//! Decides when the show clock waits for simulated robots, because the machine is too slow for them and the controller.
 //!
-//! Robots that a machine cannot simulate in time, or whose messages it cannot pass on in time, would seem late and
-//! silent, and the show would stop for them again and again. Where all robots are simulated here, the show clock waits
-//! instead: everything goes its way, only slower.
+//! If a machine cannot simulate robots or pass on their messages in time, the robots seem late and silent. The show
+//! would stop for them again and again. If all robots are simulated here, the show clock waits instead, and the show
+//! plays more slowly.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Number of messages that may be under way in one direction without holding time up, …
+/// Number of messages that may be under way in one direction before the show clock waits. `ROBOTS_A_MESSAGE` adds to
+/// it.
 const UNDER_WAY: u64 = 1024;
-/// … plus one message for each `ROBOTS_A_MESSAGE` robots.
+/// Number of simulated robots for which one more message than `UNDER_WAY` may be under way.
 const ROBOTS_A_MESSAGE: u64 = 8;
 
-/// Shared by the task of the controller and that of the simulated robots.
+/// State that the task of the controller and the task of the simulated robots share.
 #[derive(Debug, Default)]
 pub struct Pace {
     parties: Mutex<Parties>,
     may_slow: AtomicBool,
     known: AtomicUsize,
     simulated: AtomicUsize,
-    /// Messages of robots.
+    /// Messages from robots to the controller.
     pub reports: Flow,
-    /// Messages to single robots.
+    /// Messages from the controller to single robots.
     pub commands: Flow,
 }
 
@@ -92,17 +93,18 @@ impl Pace {
     fn settle(&self) {
         let parties = self.parties.lock().unwrap_or_else(PoisonError::into_inner);
         let together = parties.robots_at.is_some() && parties.robots_at == parties.controller_at;
-        // One robot of flesh and blood among them, and time is what its clock says.
+        // A robot that is not simulated here keeps real time, so that the show clock must not wait.
         let only_ours = self.known.load(Ordering::Relaxed) <= self.simulated.load(Ordering::Relaxed);
         self.may_slow.store(together && only_ours, Ordering::Relaxed);
     }
 
-    /// Whether time may wait for the simulated robots, because no other robots use it.
+    /// Whether the show clock may wait for simulated robots. They must share the controller's broker, and the
+    /// controller must know no other robots.
     pub fn may_slow(&self) -> bool {
         self.may_slow.load(Ordering::Relaxed)
     }
 
-    /// Whether more messages are under way than `UNDER_WAY` allows, so that time should wait for them.
+    /// Whether more messages are under way in one direction than are allowed, so that the show clock should wait.
     pub fn is_clogged(&self) -> bool {
         let bound = UNDER_WAY + self.simulated.load(Ordering::Relaxed) as u64 / ROBOTS_A_MESSAGE;
         self.reports.under_way() > bound || self.commands.under_way() > bound

@@ -37,7 +37,7 @@ impl RecordingTarget {
         matches!(self, Self::Runs(_))
     }
 
-    /// Where the journal of runs is written.
+    /// The data folder where the journal of runs is written; `None` if runs are not recorded one by one.
     fn data_folder(&self) -> Option<&Path> {
         match self {
             Self::Runs(data) => Some(data),
@@ -54,7 +54,7 @@ pub struct Recorder {
     /// Threads of logs that ended, which may still write.
     closing: Vec<JoinHandle<()>>,
     journal: Option<JournalFile>,
-    /// The run that is on, also when its log ended before it.
+    /// Notes on the run under way. They stay if the log ends before the run.
     run: Option<RunNotes>,
     reports: ReportsUnderWay,
     /// Most bytes of the log of a run.
@@ -62,7 +62,8 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder for a controller that is new.
+    /// A recorder for a new controller. Begins the log if everything goes into one file, and the journal if each run
+    /// has its own log.
     pub fn new(recording: RecordingTarget, controller: &mut RecordedController, now: Instant) -> Self {
         if matches!(recording, RecordingTarget::File(_)) {
             controller.begin_log(now, notes("play"));
@@ -78,7 +79,8 @@ impl Recorder {
         self.reports.clone()
     }
 
-    /// The operator asks for something: a run may begin.
+    /// Begins the log of a run if the operation begins a run and runs have logs of their own. Call this before the
+    /// operation.
     pub fn before(&mut self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
         let Some(kind) = RunNotes::kind(operation) else { return };
         if self.recording.is_by_run() && !controller.is_recording() && controller.begin_log(now, notes("run"))
@@ -87,14 +89,15 @@ impl Recorder {
         }
     }
 
-    /// Takes in what the controller says.
+    /// Adds an event of the controller to the notes on the run.
     pub fn note(&mut self, event: &Event) {
         if let Some(run) = &mut self.run {
             run.add(event);
         }
     }
 
-    /// Has the controller take up a run that was cut off.
+    /// Has the controller take up a run that was cut off, and begins its log. Removes the journal if there is no run
+    /// afterwards.
     pub fn take_up(
         &mut self,
         controller: &mut RecordedController,
@@ -113,7 +116,8 @@ impl Recorder {
         done
     }
 
-    /// Hands on what is new in log and journal. Lines for people, once something went wrong.
+    /// Passes new bytes of log and journal to the threads that write them. Returns a line for people for each that
+    /// failed.
     pub fn keep(&mut self, controller: &mut RecordedController) -> impl Iterator<Item = String> + use<> {
         let line = self.journal.as_mut().and_then(|journal| journal.keep(controller));
         self.keep_log(controller).into_iter().chain(line)
@@ -137,14 +141,14 @@ impl Recorder {
         if is_over || failure.is_some() {
             failure = self.write(controller.end_log()).or(failure);
         }
-        // A log that ended before its run leaves the writer what is to be said of the run.
+        // If the log of a run ended before the run, the writer stays for the facts at the end of the run.
         if is_over || !self.recording.is_by_run() && failure.is_some() {
             self.end_run();
         }
         failure.map(|line| format!("The run is not recorded any further: {line}."))
     }
 
-    /// Writes what is known of the run at its end, and closes the files.
+    /// Passes the final facts of the run to its writer, and lets the writer close the files.
     fn end_run(&mut self) {
         self.write_facts();
         self.run = None;
@@ -152,15 +156,15 @@ impl Recorder {
         self.closing.extend(self.writer.take().map(|writer| writer.thread));
     }
 
-    /// The program ends: waits for the disk.
+    /// Ends log and journal when the program ends. Waits until everything is written.
     pub fn finish(mut self, controller: &mut RecordedController) {
         let _ = self.write(controller.end_log());
         self.write_facts();
         if let Some(journal) = self.journal {
             journal.finish(controller);
         }
-        // Reports, for which these wait, take longer than the journal. A failure of a thread was told before, or it came
-        // too late to be told.
+        // These threads wait for reports, which take longer than the journal. A failure was reported before, or came
+        // too late.
         for thread in self.closing.into_iter().chain(self.writer.map(|writer| writer.thread)) {
             let _ = thread.join();
         }
@@ -178,16 +182,16 @@ impl Recorder {
         self.writer.as_mut().and_then(|writer| writer.write(bytes))
     }
 
-    /// Hands on the facts of the run as they are now.
+    /// Passes the facts of the run, as they are now, to the writer.
     fn write_facts(&self) {
         if let (Some(writer), Some(run)) = (&self.writer, &self.run) {
-            // A disk that is too slow is told by the log.
+            // If there is no room, the disk is too slow, which writing the log reports.
             let _ = writer.pieces.try_send(Piece::Facts(run.facts().clone()));
         }
     }
 }
 
-/// What people should know of a log of this command.
+/// Notes for people in a log: the command that writes it, and the time.
 fn notes(command: &str) -> Vec<(String, String)> {
     vec![("command".to_owned(), command.to_owned()), ("began_unix_ms".to_owned(), unix_ms().to_string())]
 }
@@ -212,7 +216,7 @@ struct LogWriter {
 }
 
 impl LogWriter {
-    /// `None`: nothing is recorded.
+    /// Starts the thread. `None` if nothing is recorded.
     fn start(recording: RecordingTarget, reports: ReportsUnderWay, run_bytes_max: u64) -> Option<Self> {
         if recording == RecordingTarget::Off {
             return None;
@@ -223,7 +227,7 @@ impl LogWriter {
         let failed = failure.clone();
         let thread = std::thread::spawn(move || {
             if let Err(error) = write_log(&recording, &inbox, &reports) {
-                // The first failure is told.
+                // `LogWriter::write` reports the failure.
                 let _ = failed.set(error.to_string());
             }
         });
@@ -242,7 +246,7 @@ impl LogWriter {
     }
 }
 
-/// Writes pieces into a file until there are no more. That of a run becomes its report meanwhile.
+/// Writes pieces into a file until their sender is dropped. For a run, has the report made meanwhile.
 fn write_log(
     recording: &RecordingTarget,
     inbox: &Receiver<Piece>,
@@ -279,7 +283,7 @@ mod tests {
 
     use super::*;
 
-    /// One robot that stands, a show that leads it away, and its run.
+    /// Begins a run in which a show leads one resting robot away.
     fn run_begun(recorder: &mut Recorder, controller: &mut RecordedController) {
         let pixel = Pixel { at: Vec2::new(0.5, 0.5), ..Pixel::default() };
         let frame = Frame { pixels: vec![pixel], ..Frame::default() };
@@ -287,14 +291,14 @@ mod tests {
         controller.connected(Instant(1_000));
         controller.message(Instant(2_000), "T/LightBot/UUID", b"a 0.5 1.3");
         controller.operate(Instant(3_000), Operation::Open(show)).unwrap();
-        // A log begins with a controller at rest, which has nothing left to say.
+        // A log can begin only when no outputs of the controller wait to be taken.
         listen(recorder, controller);
         let play = Operation::Play { from: 0, missing: MissingPolicy::Refuse };
         recorder.before(controller, Instant(4_000), &play);
         controller.operate(Instant(4_000), play).unwrap();
     }
 
-    /// What the controller says since, to the recorder.
+    /// Passes new events of the controller to the recorder. Returns the recorder's lines for people.
     fn listen(recorder: &mut Recorder, controller: &mut RecordedController) -> Vec<String> {
         while let Some(event) = controller.next_event() {
             recorder.note(&event);

@@ -1,48 +1,50 @@
-//! Other controllers on the same broker. Two of them lead robots by two clocks and two minds, so each says that it is
-//! there and listens: to what others of ours say of themselves, and to commands for all that it did not send itself.
-//! By its own name coming back it also knows that the broker passes on what it says.
+//! Detects other controllers on the same broker, because two controllers command robots by two clocks. Each controller
+//! publishes its name and subscribes to the names and to the commands for all robots. A name or command that it did not
+//! send is from another controller. If its own name stops coming back, the broker has stopped passing on its messages.
 
 use std::collections::VecDeque;
 
 use lightbots_base::{Instant, Span};
 
-/// Where controllers of ours say their names. No robot listens there, and none can be called that.
+/// The topic on which our controllers publish their names. No robot subscribes to it, and no name of a robot can give
+/// this topic.
 pub const NAMES: &str = "T/LightBot/Controller/Here";
-/// Where every controller, an original one as well, speaks to all robots.
+/// The topic of commands to all robots, for every controller, original ones included.
 pub const COMMANDS: &str = "T/LightBot/Broadcast";
-/// How often a controller says that it is there.
+/// Time between two publications of a controller's name.
 const EVERY: Span = Span::from_millis(2_000);
-/// A broker that returned this controller's name before, and then `MUTE` times running did not, is mute, …
+/// Names in a row that may stay without an echo before the broker counts as mute. Counts once the first echo has come.
 const MUTE: u32 = 4;
-/// … with more times after each new connection that did not help, up to `MUTE_MOST` times, …
+/// Upper bound of that number, which doubles each time the broker counts as mute.
 const MUTE_MOST: u32 = 32;
-/// … and one more time for each `MUTE_PER` robots, whose messages may delay the name or crowd it out.
+/// Robots for which one more name may stay without an echo: their messages may delay the name or crowd it out.
 const MUTE_PER: usize = 250;
-/// How long the broker may take to bring back what this controller said.
+/// Time within which the broker must return a command of this controller. Later it counts as a command of another one.
 const ECHO: Span = Span::from_millis(60_000);
-/// Commands whose echo is waited for, at most; the oldest are forgotten.
+/// Most commands whose echo is awaited; the oldest are forgotten.
 const ECHOES: usize = 4_096;
-/// A rival that is still there is spoken of again after this.
+/// Shortest time between two warnings of other controllers.
 const AGAIN: Span = Span::from_millis(60_000);
 
-/// What this controller knows of others.
+/// What this controller has noticed of other controllers and of its own echoes.
 #[derive(Debug)]
 pub struct Rivals {
     name: String,
-    /// When it says its name next.
+    /// When this controller publishes its name next.
     speak_at: Instant,
-    /// How often it said its name since it came back, or since the connection began.
+    /// Names published since the last echo, since the connection began, or since the broker last counted as mute.
     unanswered: u32,
-    /// How often it may; `None` until it came back once: a broker need not grant it.
+    /// Largest `unanswered` of a broker that is not mute. `None` until the first echo, because a broker may forbid the
+    /// topic.
     mute_after: Option<u32>,
-    /// What it told all robots and has not come back, the oldest first. Echoes come in order, so that looking for one
-    /// ends at once.
+    /// Commands to all robots that have not come back, with the time of sending, oldest first. Echoes come in order, so
+    /// that the search for one ends at once.
     unheard: VecDeque<(Instant, Vec<u8>)>,
     told: Option<Instant>,
 }
 
 impl Rivals {
-    /// Of a controller of this name, which differs from all others'.
+    /// State of a controller of this name, which must differ from the names of all other controllers.
     pub fn new(name: String) -> Self {
         Self {
             name,
@@ -54,12 +56,12 @@ impl Rivals {
         }
     }
 
-    /// When [`Self::name_due`] has something to say.
+    /// When [`Self::name_due`] returns the name next.
     pub fn speak_at(&self) -> Instant {
         self.speak_at
     }
 
-    /// The name to say on [`NAMES`], where it is time for that.
+    /// Returns the name to publish on [`NAMES`] if it is due, and counts it as published.
     pub fn name_due(&mut self, now: Instant) -> Option<&str> {
         if now < self.speak_at {
             return None;
@@ -69,8 +71,8 @@ impl Rivals {
         Some(&self.name)
     }
 
-    /// Whether the broker passes on nothing any more of what is said to it. It is to be given another chance before
-    /// this is asked again: the count starts anew. `robots` are on it.
+    /// Whether the broker has stopped passing on this controller's messages. If true, the count starts anew and its
+    /// bound doubles, to give a new connection a chance. `robots`: number of robots on the broker.
     pub fn is_mute(&mut self, robots: usize) -> bool {
         let crowd = u32::try_from(robots / MUTE_PER).unwrap_or(u32::MAX);
         let is_patient = |after: &u32| self.unanswered <= after.saturating_add(crowd);
@@ -80,12 +82,12 @@ impl Rivals {
         true
     }
 
-    /// A connection begins: names said on another one need not come back.
+    /// Starts the count anew with a new connection: names published on an earlier one need not come back.
     pub fn connected(&mut self) {
         self.unanswered = 0;
     }
 
-    /// This controller tells all robots something.
+    /// Records a command that this controller sends to all robots, to recognise its echo.
     pub fn said(&mut self, now: Instant, payload: &[u8]) {
         let old = |(at, _): &(Instant, Vec<u8>)| now - *at > ECHO;
         while self.unheard.front().is_some_and(old) || self.unheard.len() >= ECHOES {
@@ -94,7 +96,8 @@ impl Rivals {
         self.unheard.push_back((now, payload.to_vec()));
     }
 
-    /// A message of a controller came in; a warning where it is not from this one, now and then.
+    /// Handles a message on [`NAMES`] or [`COMMANDS`]. Returns a warning if it is from another controller, at most once
+    /// in `AGAIN`.
     pub fn hear(&mut self, now: Instant, topic: &str, payload: &[u8]) -> Option<String> {
         let own = if topic == NAMES { payload == self.name.as_bytes() } else { self.echoes(payload) };
         if own && topic == NAMES {
@@ -113,7 +116,7 @@ impl Rivals {
         ))
     }
 
-    /// Whether this is what it said itself.
+    /// Whether this is the echo of a command of this controller. That command is then no longer awaited.
     fn echoes(&mut self, payload: &[u8]) -> bool {
         let at = self.unheard.iter().position(|(_, said)| said == payload);
         at.is_some_and(|at| self.unheard.remove(at).is_some())

@@ -1,5 +1,5 @@
-//! What a list says of a recorded run. It is kept in a small file beside the log, because the log of a long run takes long
-//! to read.
+//! Facts of a recorded run, for lists of runs. They are kept in a small file beside the log, because the log of a long
+//! run takes long to read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -17,27 +17,27 @@ use crate::disk::{self, Readers};
 /// Longest file that is read, bytes. Names of shows are shorter.
 const BYTES_MAX: u64 = 64 << 10;
 
-/// The content of the file.
+/// Facts of a run: the content of the file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunFacts {
     pub kind: RunEntryKind,
     /// Name that the author gave the show; may be empty.
     pub show: String,
     pub began_ms: u64,
-    /// `None`: the run is on, or its program ended first.
+    /// End of the run, milliseconds since 1970; `None` if the run is on, or the program ended before it.
     pub ended_ms: Option<u64>,
     pub ok: bool,
-    /// How it ended, in one sentence.
+    /// How the run ended, in one sentence.
     pub outcome: Option<String>,
 }
 
 impl RunFacts {
-    /// The facts in a file; `None`: there is none, or it is damaged.
+    /// Reads the facts from a file; `None` if the file is missing or damaged.
     pub fn read(path: &Path) -> Option<Self> {
         serde_json::from_slice(&disk::read_regular(path, BYTES_MAX).ok()?).ok()
     }
 
-    /// Replaces the file.
+    /// Writes the facts into a file, or replaces it.
     pub fn write(&self, path: &Path) -> std::io::Result<()> {
         disk::replace(path, &serde_json::to_vec(self)?, Readers::All)
     }
@@ -48,19 +48,19 @@ impl RunFacts {
 pub struct RunNotes {
     facts: RunFacts,
     report: ShowReport,
-    /// Frames of the show.
+    /// Number of frames of the show.
     frames: usize,
     frame: usize,
-    /// Frames that stood.
+    /// Indices of the frames that were reached.
     shown: BTreeSet<usize>,
-    /// The operator went to another frame than the next one.
+    /// Whether frames were not played in the order of the show: after a jump, a skipped frame or a loop.
     is_order_changed: bool,
     /// Robots that were lost and are not back.
     lost: BTreeMap<RobotId, Loss>,
 }
 
 impl RunNotes {
-    /// A run that is about to begin.
+    /// Notes on a run that is about to begin.
     pub fn begin(show: Option<&Show>, kind: RunEntryKind) -> Self {
         let facts = RunFacts {
             kind,
@@ -71,7 +71,7 @@ impl RunNotes {
         Self { facts, frames: show.map_or(0, |show| show.frames.len()), ..Self::default() }
     }
 
-    /// What a run of this operation is; `None`: it begins none.
+    /// The kind of run that an operation begins; `None` if it begins none.
     pub fn kind(operation: &Operation) -> Option<RunEntryKind> {
         match operation {
             Operation::Play { .. } => Some(RunEntryKind::Show),
@@ -85,7 +85,7 @@ impl RunNotes {
         &self.facts
     }
 
-    /// Takes in what happened.
+    /// Updates the notes by an event.
     pub fn add(&mut self, event: &Event) {
         match &event.kind {
             EventKind::RunBegun { from, robots } | EventKind::TakenUp { frame: from, robots, .. } => {
@@ -122,7 +122,7 @@ impl RunNotes {
     }
 
     fn end(&mut self, outcome: &RunOutcome, frames_played: usize) {
-        // A frame that was gone back to is one frame.
+        // A frame that was reached several times counts once.
         let frames_played = if self.is_order_changed { self.shown.len() } else { frames_played };
         self.report.frames_played = frames_played;
         self.report.losses = self.lost.values().cloned().collect();

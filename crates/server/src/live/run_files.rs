@@ -12,27 +12,27 @@ const FOLDER: &str = "runs";
 const ENDING: &str = ".lblog";
 /// Most recorded runs that are kept.
 const RUNS_MAX: usize = 20;
-/// Most bytes that all recorded runs may have; older ones are deleted.
+/// Most bytes of all recorded runs together, with room for the next one. Older runs are deleted.
 const BYTES_MAX: u64 = 4 << 30;
-/// Most bytes of one recorded run; what comes later is not recorded. A robot has 9 to 23 KB a minute: this is an hour and
-/// a half of a thousand robots with light.
+/// Most bytes of one recorded run; what comes later is not recorded. A robot takes 9 to 23 KB a minute, so that an hour
+/// and a half of a thousand robots with light fits.
 pub const RUN_BYTES_MAX: u64 = 2 << 30;
-/// The file of a recorded run by its number.
+/// Returns the path of the recorded run with this number.
 pub fn run_file(data: &Path, number: u64) -> PathBuf {
     data.join(FOLDER).join(format!("{number:06}{ENDING}"))
 }
 
-/// The file with the facts of a run, beside its log.
+/// Returns the path of the facts of a run, beside its log.
 pub fn facts_file(log: &Path) -> PathBuf {
     log.with_extension("json")
 }
 
-/// The file with the report of a run, beside its log, once it was asked for.
+/// Returns the path of the report of a run, beside its log. The file exists once the report was made.
 pub fn report_file(log: &Path) -> PathBuf {
     log.with_extension("html")
 }
 
-/// The file of the next run; old ones are deleted.
+/// Returns the path for the next run. Deletes old runs to make room for it.
 pub fn next_run(data: &Path) -> std::io::Result<PathBuf> {
     let folder = data.join(FOLDER);
     disk::create_folder(&folder)?;

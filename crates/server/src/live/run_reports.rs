@@ -1,7 +1,7 @@
 //! Reports of runs, made while the runs are on.
 //!
-//! From its whole log, the report of half an hour with a thousand robots takes minutes. A thread that plays the log again as
-//! it is written is a second behind it, at a fraction of a core.
+//! To make the report of half an hour with a thousand robots from the whole log takes minutes. A thread that replays
+//! the log while it is written stays about a second behind. It needs a fraction of a processor core.
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,7 +23,8 @@ const WAITING_MAX: usize = 256;
 pub struct ReportsUnderWay(Arc<Mutex<BTreeSet<PathBuf>>>);
 
 impl ReportsUnderWay {
-    /// Whether the report of this log is being made: it is there soon after the run, or has to be made from the whole log.
+    /// Whether the report of this log is being made. It is ready soon after the run. If it fails, it must be made from
+    /// the whole log.
     pub fn contains(&self, log: &Path) -> bool {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).contains(log)
     }
@@ -34,7 +35,7 @@ impl ReportsUnderWay {
     }
 }
 
-/// A report that is being made until this is dropped.
+/// Marks the report of a log as being made until the value is dropped.
 struct UnderWay(ReportsUnderWay, PathBuf);
 
 impl Drop for UnderWay {
@@ -43,7 +44,7 @@ impl Drop for UnderWay {
     }
 }
 
-/// What the thread gets.
+/// What the thread receives.
 enum Piece {
     /// The next bytes of the log.
     Log(Vec<u8>),
@@ -51,16 +52,16 @@ enum Piece {
     End,
 }
 
-/// Makes the report of one run. Dropped before the end, there is none.
+/// Makes the report of one run. If the value is dropped without [`end`](Self::end), no report is written.
 pub struct RunReporter {
     pieces: SyncSender<Piece>,
-    /// The run is over: people wait for its report.
+    /// Whether the run is over, so that people wait for its report.
     is_over: Arc<AtomicBool>,
     thread: JoinHandle<()>,
 }
 
 impl RunReporter {
-    /// Of the run with this log; the report goes to `file`.
+    /// Starts the thread that makes the report of the run with this log, and writes it to `file`.
     pub fn start(log: &Path, file: PathBuf, reports: &ReportsUnderWay) -> Self {
         let (pieces, inbox) = sync_channel(WAITING_MAX);
         let under_way = reports.begin(log);
@@ -69,7 +70,7 @@ impl RunReporter {
         let thread = std::thread::spawn(move || {
             let _under_way = under_way;
             set_priority(NICE);
-            // The controller may fail in the run as it failed in the recorded one.
+            // If the recorded controller panicked, the replayed one panics as well.
             let made = catch_unwind(AssertUnwindSafe(|| make(&inbox, &file, &over)));
             match made {
                 Ok(Ok(())) => {}
@@ -80,18 +81,20 @@ impl RunReporter {
         Self { pieces, is_over, thread }
     }
 
-    /// Hands on bytes of the log; `false`: the thread is too slow, and gives up once this is dropped.
+    /// Passes bytes of the log to the thread. `false`: the thread is too slow, and ends without a report once this
+    /// value is dropped.
     pub fn feed(&self, bytes: Vec<u8>) -> bool {
         self.pieces.try_send(Piece::Log(bytes)).is_ok()
     }
 
-    /// The log is whole: waits for the report. A program that ended before it would leave the run without one.
+    /// Marks the log as complete and waits for the report. A program that ended before would leave the run without a
+    /// report.
     pub fn end(self) {
         self.is_over.store(true, Ordering::Relaxed);
-        // A thread that gave up has said why; one that is too slow gives up when this is dropped.
+        // A thread that failed has logged why. A thread that is too slow ends when `pieces` is dropped.
         let _ = self.pieces.try_send(Piece::End);
         drop(self.pieces);
-        // What it failed with was told by itself.
+        // The thread has logged its own failure.
         let _ = self.thread.join();
     }
 }
@@ -116,18 +119,18 @@ fn make(inbox: &Receiver<Piece>, file: &Path, is_over: &AtomicBool) -> Result<()
     disk::replace(file, &page, Readers::All).map_err(|error| error.to_string())
 }
 
-/// How far the report gives way to the show while that plays. As `nice` gives by default: a fifth of the time of a thread
-/// that runs as usual.
+/// Niceness of the thread while the show plays: the default of the command `nice`. Beside a busy usual thread it gets
+/// about a tenth of that thread's time.
 const NICE: i32 = 10;
 
-/// Sets the priority of this thread.
+/// Sets the niceness of this thread on Linux. Does nothing on other systems.
 #[cfg_attr(
     not(target_os = "linux"),
     expect(unused_variables, reason = "other systems have no threads with a priority")
 )]
 fn set_priority(nice: i32) {
-    // On Linux, this is the calling thread alone. Without the right to it, which programs need to take more time again, the
-    // report goes on as it did.
+    // On Linux, this concerns the calling thread alone. To lower the niceness again needs a right; without it the
+    // niceness stays.
     #[cfg(target_os = "linux")]
     let _ = rustix::process::setpriority_process(None, nice);
 }

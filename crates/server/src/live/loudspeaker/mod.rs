@@ -1,7 +1,7 @@
 //! Plays the open show's music on a sound device of this machine, without a browser. Only with the feature `sound`.
 //!
-//! The rule is that of the screen's player: sound that is off by 3 ms or less is left alone, up to 30 ms it is made at most
-//! 0.5 % faster or slower, and beyond that it begins anew at the right place. It stands where the show stands.
+//! The rule is that of the screen's player. Sound that is off by less than 3 ms is left alone. Up to 30 ms, it is
+//! played at most 0.5 % faster or slower. Beyond that it jumps to the right place. It pauses while the show stands.
 
 mod playhead;
 
@@ -19,33 +19,34 @@ use crate::failure::Failure;
 use crate::stop::Stop;
 use playhead::{LoudMusic, Playhead};
 
-/// Time between two looks at where the show is.
+/// Time between two readings of the show's position.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
-/// Where the show is, is believed for this long: a program that hangs must not play on.
+/// Longest time for which a reading of the show's position is used, so that a program that hangs does not play on.
 const BELIEVED: Duration = Duration::from_secs(1);
-/// Longest music, seconds of all channels: 400 MB in memory.
+/// Length after which music is cut, seconds: 400 MB in memory for stereo at 44.1 kHz.
 const LONGEST_S: usize = 1_200;
 
-/// What is to be heard.
+/// The music that is to be heard, and its position.
 #[derive(Debug, Default)]
 struct Wanted {
     music: Option<Arc<LoudMusic>>,
-    /// Where the show was at a moment, while it moves on, seconds of the music.
+    /// Moment of the last reading, and the music's position then, seconds. `None` while the show stands.
     position: Option<(Instant, f64)>,
 }
 
 /// A sound device.
 #[derive(Debug)]
 pub struct Loudspeaker {
-    /// Sounds until it is dropped: streams of some systems must stay in the thread that made them.
+    /// Ends the thread of the sound stream when dropped. Streams of some systems must stay in the thread that made
+    /// them.
     _alive: Sender<()>,
     wanted: Arc<Mutex<Wanted>>,
-    /// Added to where the show is, seconds.
+    /// Added to the show's position, seconds.
     offset_s: f64,
 }
 
 impl Loudspeaker {
-    /// Opens the usual sound device of the machine. With a positive `offset_ms` music is earlier.
+    /// Opens the default sound device of the machine. A positive `offset_ms` makes the music earlier.
     pub fn open(offset_ms: f64) -> Result<Self, Failure> {
         let wanted = Arc::new(Mutex::new(Wanted::default()));
         let (alive, until) = channel();
@@ -54,7 +55,7 @@ impl Loudspeaker {
         std::thread::spawn(move || {
             let stream = stream(heard);
             let failure = stream.as_ref().err().cloned();
-            // The one that asked waits for the answer, and then drops its side when the program ends.
+            // `open` waits for this answer. `recv` below returns when the `Loudspeaker` is dropped.
             let _ = opened.send(failure);
             let _ = until.recv();
         });
@@ -65,7 +66,8 @@ impl Loudspeaker {
         }
     }
 
-    /// Follows the run until `stop` is wanted. `music_of` gives a key and the file of the open show's music.
+    /// Plays music in step with the run until `stop` is wanted. `music_of` returns the file of the open show's music,
+    /// with a key that changes with the file.
     pub async fn run(
         self,
         handle: Handle,
@@ -105,7 +107,7 @@ fn no_sound(what: &dyn std::fmt::Display) -> Failure {
     Failure::problem(format!("--sound: {what}; choose a sound device in the system's settings"))
 }
 
-/// A stream that plays what is wanted.
+/// Opens a stream on the default sound device that plays what `wanted` holds.
 fn stream(wanted: Arc<Mutex<Wanted>>) -> Result<Stream, Failure> {
     let device = cpal::default_host().default_output_device();
     let device = device.ok_or_else(|| no_sound(&"this machine has no sound device"))?;
@@ -127,7 +129,7 @@ fn stream(wanted: Arc<Mutex<Wanted>>) -> Result<Stream, Failure> {
 }
 
 impl Wanted {
-    /// Where the music is to be at a moment; `None`: it stands.
+    /// Returns the position of the music at a moment, seconds; `None` if nothing is to be heard.
     fn position_at(&self, moment: Instant) -> Option<f64> {
         let (since, at_s) = self.position?;
         let later = moment.saturating_duration_since(since);
@@ -135,7 +137,7 @@ impl Wanted {
     }
 }
 
-/// The samples of a file; `None`: it is no music that is known, which the log says.
+/// Decodes a file, up to `LONGEST_S`; `None` if its format is unknown, which is logged.
 fn decoded(file: Arc<[u8]>) -> Option<LoudMusic> {
     let decoder = match Decoder::try_from(Cursor::new(file)) {
         Ok(decoder) => decoder,

@@ -1,4 +1,4 @@
-//! Where music is played, and how it keeps to the show.
+//! The position at which music is played, and how it follows the show.
 
 /// Decoded music.
 #[derive(Debug, Default)]
@@ -9,17 +9,18 @@ pub(super) struct LoudMusic {
     pub rate_hz: f64,
 }
 
-/// Sound that is off by less is left alone, seconds.
+/// Error of the position below which sound is left alone, seconds.
 const NEAR_S: f64 = 0.003;
-/// Sound that is off by more begins anew, seconds.
+/// Error of the position above which sound jumps to the right place, seconds.
 const FAR_S: f64 = 0.03;
-/// Sound is made faster or slower by at most this share: the change of pitch is too small to be heard.
+/// Largest change of the playing speed, as a share: the change of pitch is too small to be heard.
 const RATE_MAX: f64 = 0.005;
-/// Time in which an error is to be gone, seconds.
+/// Time in which an error is corrected where `RATE_MAX` allows it, seconds.
 const GONE_IN_S: f64 = 2.0;
 
 impl LoudMusic {
-    /// A sample of a channel between two frames. Beyond its ends there is silence.
+    /// Returns the sample of a channel at a position, interpolated between two frames. Beyond both ends of the music it
+    /// is silence.
     fn at(&self, position_s: f64, channel: usize) -> f32 {
         let frame = position_s * self.rate_hz;
         if frame < 0.0 {
@@ -35,13 +36,13 @@ impl LoudMusic {
 /// The position in the music that is played.
 #[derive(Debug, Default)]
 pub(super) struct Playhead {
-    /// Seconds of the music; `None`: nothing is played.
+    /// Seconds from the start of the music; `None` if nothing is played.
     position_s: Option<f64>,
 }
 
 impl Playhead {
-    /// Fills samples for a device, a frame for all channels after another. `target_s`: where the music is to be when the
-    /// first of them is heard.
+    /// Fills a device's buffer, in which each frame has a sample for every channel. `target_s`: where the music is to
+    /// be when the first sample is heard; `None` for silence.
     pub fn fill(
         &mut self,
         samples: &mut [f32],
@@ -73,7 +74,7 @@ impl Playhead {
 mod tests {
     use super::*;
 
-    /// A ramp in which each sample is its own second, on two channels.
+    /// A ramp on two channels: the first holds the position in seconds, the second its negative.
     fn ramp() -> LoudMusic {
         let samples = (0..1_000).flat_map(|frame| [frame as f32 / 100.0, -(frame as f32) / 100.0]).collect();
         LoudMusic { samples, channels: 2, rate_hz: 100.0 }
