@@ -39,7 +39,7 @@ impl CutOffRun {
 
     /// Returns the show of the run, for screens, with its name in the library. `first`: name and show that would be
     /// opened otherwise, which are returned if they are the run's. If they are not, the run's show is added to the
-    /// library, where it may have been changed since.
+    /// library, because the show there may have changed.
     pub fn show_on_screen(&self, library: &Library, first: (Option<String>, Show)) -> (Option<String>, Show) {
         let (show, (name, other)) = (self.unfinished.show(), first);
         // Names are not compared: the controller gives a show without a name its name in the library.

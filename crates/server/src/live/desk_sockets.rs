@@ -29,7 +29,7 @@ const AFTER_ERROR: Duration = Duration::from_millis(100);
 pub struct DeskSockets {
     artnet: Option<UdpSocket>,
     sacn: Option<UdpSocket>,
-    /// Universes whose multicast groups were joined or could not be joined. Neither are tried again.
+    /// Universes whose multicast groups were joined or could not be joined. None of them is tried again.
     joined: BTreeSet<u16>,
     window_ends: Instant,
     left: u32,

@@ -1,12 +1,12 @@
 //! Connections whose clients have logged in.
-// Only on Linux connections without a login are found.
+// Connections without a login are found only on Linux.
 #![cfg_attr(not(target_os = "linux"), allow(dead_code))]
 
 use std::collections::BTreeSet;
 use std::net::SocketAddr;
 use std::sync::{Mutex, PoisonError};
 
-/// By the address at the other end of the connection.
+/// Logged-in connections by the address of the client.
 #[derive(Debug)]
 pub struct Admitted {
     most: usize,
@@ -24,18 +24,18 @@ impl Admitted {
         self.most
     }
 
-    /// Adds one; false where there are as many as there may be.
+    /// Adds a connection. False if there is no room for it.
     pub fn add(&self, peer: SocketAddr) -> bool {
         let mut peers = self.lock();
         peers.contains(&peer) || (peers.len() < self.most && peers.insert(peer))
     }
 
-    /// The connection has ended.
+    /// Removes a connection that has ended.
     pub fn remove(&self, peer: SocketAddr) {
         self.lock().remove(&peer);
     }
 
-    /// Whether the client there has logged in.
+    /// Whether the client at this address has logged in.
     pub fn contains(&self, peer: SocketAddr) -> bool {
         self.lock().contains(&peer)
     }

@@ -21,26 +21,26 @@ use super::sessions::is_of_another;
 use super::takeovers::Takeovers;
 use super::users::{Role, Users};
 
-/// Judges everything clients ask for.
+/// Decides about the logins, messages and subscriptions of all clients.
 #[derive(Clone)]
 pub struct Door {
     /// Known users; without any, all clients may connect.
     pub users: Arc<Users>,
     pub notices: Arc<Notices>,
-    /// Connections that came through the TLS gate, and where that hands them over.
+    /// Connections that came through the TLS gate, and the listener to which the gate hands them over.
     pub peers: Arc<Peers>,
     /// Connections that have logged in.
     pub admitted: Arc<Admitted>,
     /// Connections that were taken over.
     pub takeovers: Arc<Takeovers>,
-    /// How much clients have published.
+    /// Counts of messages that clients have published.
     pub floods: Arc<Floods>,
-    /// Knows the subscriptions of all clients.
+    /// rmqtt's state, with the sessions and subscriptions of all clients.
     pub context: ServerContext,
 }
 
 impl Door {
-    /// Puts it up.
+    /// Registers the hooks with rmqtt.
     pub async fn hang(&self, context: &ServerContext) {
         let register = context.extends.hook_mgr().register();
         let kinds = [
@@ -81,7 +81,7 @@ impl Door {
         if let Who::Robot(robot) = who {
             self.watch_takeover(id, robot, entry.online().await);
         }
-        // A last will is published without being asked about again.
+        // The last will is checked at the login, because rmqtt publishes it without a further check.
         let will = match &will {
             Some(LastWill::V3(will)) => Some((&will.topic, &will.message)),
             Some(LastWill::V5(will)) => Some((&will.topic, &will.message)),
@@ -96,7 +96,7 @@ impl Door {
         if has_room { Ok(()) } else { Err(Refused::Rights(full("connections", self.admitted.most()))) }
     }
 
-    /// Names robots that take the connection of one name from each other.
+    /// Notes the login of a robot. Reports two robots of one name that take the connection from each other.
     fn watch_takeover(&self, id: &Id, robot: RobotId, is_online: bool) {
         let now = Instant::now();
         if is_online && self.takeovers.taken_over(&id.client_id, now) {
@@ -109,7 +109,7 @@ impl Door {
         self.takeovers.active(&id.client_id, now);
     }
 
-    /// Why a client may not subscribe to this, if so.
+    /// Checks whether a client may subscribe to a filter. `Err`: why not.
     async fn subscription(&self, id: &Id, filter: &str) -> Result<(), String> {
         short_enough(filter)?;
         let there_are = self.context.extends.router().await.routes().count();
@@ -119,7 +119,7 @@ impl Door {
         self.who(id)?.may_subscribe(filter)
     }
 
-    /// Why a client may not publish this, if so, and whether it is cut off for it.
+    /// Checks whether a client may publish a message. `Err`: why not, and whether its connection is ended.
     fn message(&self, id: &Id, topic: &str, payload: &[u8]) -> Result<(), (String, bool)> {
         let who = self.who(id).map_err(|why| (why, false))?;
         let now = Instant::now();
@@ -136,7 +136,7 @@ impl Door {
         short_enough(topic).and_then(|()| who.may_publish(topic, payload)).map_err(|why| (why, false))
     }
 
-    /// Says in one line which client was refused what, and why.
+    /// Reports in one line which client was refused what, and why.
     fn refuse(&self, id: &Id, what: &str, why: &str) {
         let client: String = id.client_id.chars().take(80).collect();
         let user = id.username.as_deref().unwrap_or("(none)");
@@ -189,7 +189,7 @@ impl Handler for Door {
                 (false, Some(HookResult::PublishAclResult(answer)))
             }
             Parameter::ClientSubscribeCheckAcl(session, subscribe) => {
-                // rmqtt has taken the group of a shared subscription off its filter.
+                // rmqtt has removed the group of a shared subscription from its filter.
                 let filter = match subscribe.opts.shared_group() {
                     Some(group) => format!("$share/{group}/{}", subscribe.topic_filter),
                     None => subscribe.topic_filter.to_string(),
@@ -219,7 +219,7 @@ impl Handler for Door {
     }
 }
 
-/// Refuses topics and filters of a length that only an attack has.
+/// Checks the levels and bytes of a topic or filter. `Err`: it has more than only an attack would have.
 fn short_enough(topic: &str) -> Result<(), String> {
     let levels = topic.split('/').count();
     if levels > limits::TOPIC_LEVELS {
@@ -242,7 +242,7 @@ fn is_too_long(reason: &Reason) -> bool {
     text.contains("MaxSizeExceeded") || text.contains("Max size exceeded")
 }
 
-/// A topic fit for a line.
+/// Returns the first 100 characters of a topic, escaped, for a line of text.
 fn shortened(topic: &str) -> String {
     topic.chars().take(100).collect::<String>().escape_debug().to_string()
 }

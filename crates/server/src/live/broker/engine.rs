@@ -1,4 +1,4 @@
-//! The embedded broker in this process: rmqtt in a runtime of its own, because it has no way to stop but to lose it.
+//! The embedded broker in this process. rmqtt has a runtime of its own, because only the end of the runtime stops it.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::num::NonZeroU16;
@@ -32,7 +32,8 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Starts to listen. Where other machines can reach it, users or client certificates must be wanted.
+    /// Starts to listen. If other machines can reach the broker, `options` must name users or require client
+    /// certificates.
     pub fn start(options: BrokerOptions) -> Result<Self, Failure> {
         options.check_exposure()?;
         let acceptor = options.tls.as_ref().map(TlsOptions::acceptor).transpose()?;
@@ -43,7 +44,8 @@ impl Engine {
             .build()
             .map_err(|error| Failure::problem(format!("the system gives the broker no threads: {error}")))?;
         let (notices, lines) = Notices::new();
-        // From here on it is stopped as a broker is: a runtime must not be dropped where others run.
+        // From here on, `Engine::drop` stops the runtime after an error: a runtime must not be dropped within another
+        // one.
         let mut engine =
             Self { runtime: Some(runtime), address: options.listen, tls_address: None, notices: Some(lines) };
         let Some(runtime) = &engine.runtime else { return Ok(engine) };
@@ -68,17 +70,17 @@ impl Engine {
         Ok(engine)
     }
 
-    /// Where it speaks MQTT without TLS.
+    /// Address for MQTT without TLS.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// Where it speaks TLS.
+    /// Address for MQTT with TLS; `None` without TLS.
     pub fn tls_address(&self) -> Option<SocketAddr> {
         self.tls_address
     }
 
-    /// What it refuses from now on, a line each; once.
+    /// Returns the receiver of lines about refused clients. `None` after the first call.
     pub fn notices(&mut self) -> Option<mpsc::Receiver<String>> {
         self.notices.take()
     }
@@ -116,7 +118,7 @@ fn bind(listen: SocketAddr, robots: usize) -> Result<Listener, Failure> {
         .session_expiry_interval(limits::SESSION_EXPIRY)
         .max_session_expiry_interval(limits::SESSION_EXPIRY)
         .max_topic_aliases(limits::TOPIC_ALIASES)
-        // A message expires only where its publisher says so.
+        // A message expires only if its publisher sets an expiry.
         .message_expiry_interval(Duration::ZERO)
         .max_inflight(inflight)
         .max_mqueue_len((robots * 2).max(100_000));
@@ -126,7 +128,7 @@ fn bind(listen: SocketAddr, robots: usize) -> Result<Listener, Failure> {
         .map_err(|error| cannot_listen(listen, &error.to_string(), PLAIN_OPTION))
 }
 
-/// The socket before the gate.
+/// Binds the socket of the TLS gate.
 fn listen(address: SocketAddr) -> Result<tokio::net::TcpListener, Failure> {
     let socket =
         if address.is_ipv4() { tokio::net::TcpSocket::new_v4() } else { tokio::net::TcpSocket::new_v6() };
@@ -139,7 +141,7 @@ fn listen(address: SocketAddr) -> Result<tokio::net::TcpListener, Failure> {
         .map_err(|error| cannot_listen(address, &error.to_string(), TLS_OPTION))
 }
 
-/// One line for an address that cannot be listened on.
+/// Returns the failure, one line, for an address on which the broker cannot listen.
 fn cannot_listen(listen: SocketAddr, why: &str, option: &str) -> Failure {
     let why = why.to_ascii_lowercase();
     if why.contains("in use") {
@@ -151,7 +153,7 @@ fn cannot_listen(listen: SocketAddr, why: &str, option: &str) -> Failure {
 }
 
 async fn serve(listeners: Vec<Listener>, options: BrokerOptions, notices: Arc<Notices>, peers: Arc<Peers>) {
-    // Whether it thinks the machine busy must not turn robots away: a noisy neighbour is no reason to lose a show.
+    // rmqtt must not refuse robots because the machine is busy: the load of other programs is no reason to lose a show.
     let context =
         ServerContext::new().busy_check_enable(false).mqtt_max_sessions(limits::SESSIONS).build().await;
     BoundedShared::install(&context, notices.clone(), !options.users.is_empty()).await;
@@ -179,7 +181,7 @@ async fn serve(listeners: Vec<Listener>, options: BrokerOptions, notices: Arc<No
     }
 }
 
-/// Connections beside those of robots: controllers and tools.
+/// Number of connections beside those of robots: controllers and tools.
 const SPARE: usize = 10;
 
 fn too_few_files(most: usize, robots: usize) -> String {

@@ -1,5 +1,5 @@
-//! Bounds the rate at which a client publishes. A client above it loses its connection, and may not come back for a while:
-//! what it sends would otherwise delay the reports of all others.
+//! Bounds the rate at which a client publishes. A client above it loses its connection, and may not connect for a
+//! while, because its messages would delay the reports of all others.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -13,14 +13,15 @@ pub struct Floods(Mutex<BTreeMap<String, Account>>);
 
 #[derive(Clone, Copy, Debug)]
 struct Account {
-    /// When all counted messages would have been sent at the allowed rate.
+    /// Time at which all counted messages would have been sent at the allowed rate.
     paid_until: Instant,
-    /// Until when the client may not connect.
+    /// End of the time in which the client may not connect.
     banned_until: Option<Instant>,
 }
 
 impl Floods {
-    /// Counts a message of a client; false where it has sent too many, and is to be cut off.
+    /// Counts a message of a client. False if the client has sent too many: it may then not connect for a while, and
+    /// the caller cuts it off.
     pub fn count(&self, client: &str, rate: Rate, now: Instant) -> bool {
         let mut accounts = self.lock();
         if !accounts.contains_key(client) {
@@ -37,7 +38,7 @@ impl Floods {
         false
     }
 
-    /// Whether a client was cut off a moment ago.
+    /// Whether a client may not connect, because it was cut off less than [`limits::FLOOD_BAN`] ago.
     pub fn is_banned(&self, client: &str, now: Instant) -> bool {
         self.lock().get(client).and_then(|account| account.banned_until).is_some_and(|until| now < until)
     }
@@ -47,7 +48,7 @@ impl Floods {
     }
 }
 
-/// Bounds the memory: accounts of clients that owe nothing are as good as none.
+/// Bounds the memory: with many accounts, removes those of clients without messages to count and without a ban.
 fn forget_idle(accounts: &mut BTreeMap<String, Account>, now: Instant) {
     if accounts.len() >= 2 * limits::CONNECTIONS {
         accounts.retain(|_, account| {

@@ -1,8 +1,8 @@
-//! TLS before the embedded broker: takes connections, opens them, and hands them over to a listener on loopback that
-//! refuses all other clients.
+//! TLS in front of the embedded broker. The gate accepts connections, decrypts them, and hands them over to a listener
+//! on loopback that refuses all other clients.
 //!
-//! The broker's own TLS would bring a second set of cryptography that is built from C for minutes, and says less about
-//! why a client was refused.
+//! rmqtt's own TLS would bring a second library of cryptography, whose C code takes minutes to build. It also says less
+//! about why a client was refused.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -21,30 +21,30 @@ use super::notices::Notices;
 use crate::failure::Failure;
 use crate::tls;
 
-/// A client that has not finished its handshake after `PATIENCE` is dropped.
+/// Longest wait for a client's first byte, and then for the end of its TLS handshake. After that the client is dropped.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// A refused client may go on sending for `LINGER`, so that it receives the reason.
 const LINGER: Duration = Duration::from_secs(1);
-/// Connections at once; more wait.
+/// Most TLS connections at once; further ones wait.
 const CONNECTIONS: usize = 20_000;
 /// First byte of MQTT without TLS.
 const MQTT: u8 = 0x10;
 
-/// Where TLS is spoken, and with which certificates (PEM files).
+/// Address and certificates (PEM files) for TLS.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TlsOptions {
-    /// The address.
+    /// Address on which TLS is spoken.
     pub listen: SocketAddr,
-    /// Our certificate with its chain.
+    /// The broker's certificate with its chain.
     pub cert: PathBuf,
-    /// Its key.
+    /// Private key of the certificate.
     pub key: PathBuf,
-    /// The authority whose certificates clients must show; `None`: they need none.
+    /// The authority whose certificates clients must show; `None` if clients need no certificate.
     pub client_ca: Option<PathBuf>,
 }
 
 impl TlsOptions {
-    /// Certificates read and checked; one line where they cannot be used.
+    /// Reads and checks the certificates. The failure is one line with a remedy.
     pub fn acceptor(&self) -> Result<TlsAcceptor, Failure> {
         let config = tls::server_config(&self.cert, &self.key, self.client_ca.as_deref());
         let remedy = "`lightbots certs` makes certificates";
@@ -52,37 +52,37 @@ impl TlsOptions {
     }
 }
 
-/// Connections that were handed over: which address at the inner listener is which client.
+/// Connections that were handed over. Maps the address that the inner listener sees to the client's own address.
 #[derive(Debug, Default)]
 pub struct Peers {
-    /// Number of the inner listener; 0: there is none.
+    /// Port of the inner listener; 0 if there is none.
     inner: Mutex<u16>,
     clients: Mutex<BTreeMap<SocketAddr, SocketAddr>>,
 }
 
 impl Peers {
-    /// Names the listener that only the gate may use.
+    /// Sets the port of the listener that only the gate may use.
     pub fn expect_on(&self, listener: u16) {
         *lock(&self.inner) = listener;
     }
 
-    /// Whether a connection came in on that listener.
+    /// Whether this is the port of the listener that only the gate may use.
     pub fn is_inner(&self, listener: u16) -> bool {
         listener != 0 && *lock(&self.inner) == listener
     }
 
-    /// The client behind an address at the inner listener.
+    /// Returns the client's own address for an address that the inner listener sees.
     pub fn of(&self, from: Option<SocketAddr>) -> Option<SocketAddr> {
         lock(&self.clients).get(&from?).copied()
     }
 }
 
-/// What is inside is replaced in one step: a panic elsewhere leaves it whole.
+/// Locks a mutex, also after a panic of another task: each change is one step, so that the value is whole.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Forgets a client when its connection ends, however it ends.
+/// Removes a client from [`Peers`] when dropped, which is when its connection ends, however it ends.
 struct Guest {
     peers: Arc<Peers>,
     at: SocketAddr,
@@ -94,17 +94,17 @@ impl Drop for Guest {
     }
 }
 
-/// The gate.
+/// Accepts TLS connections and hands them over to the broker.
 pub struct Gate {
     pub acceptor: TlsAcceptor,
-    /// Where connections are handed over.
+    /// Address of the listener to which connections are handed over.
     pub inner: SocketAddr,
     pub peers: Arc<Peers>,
     pub notices: Arc<Notices>,
 }
 
 impl Gate {
-    /// Takes connections until the task is dropped.
+    /// Accepts connections until the task is dropped.
     pub async fn run(self, listener: TcpListener) {
         let (gate, room) = (Arc::new(self), Arc::new(Semaphore::new(CONNECTIONS)));
         loop {
@@ -118,7 +118,7 @@ impl Gate {
                     });
                 }
                 Err(error) => {
-                    // Such as too many open files: others may leave meanwhile.
+                    // For example too many open files: other connections may end meanwhile.
                     tracing::warn!("the broker cannot take a TLS connection: {error}");
                     tokio::time::sleep(Duration::from_secs(1)).await;
                 }
@@ -127,11 +127,11 @@ impl Gate {
     }
 
     async fn serve(&self, stream: TcpStream, client: SocketAddr) {
-        // Without it answers may wait for the ones before them to be acknowledged.
+        // Without this, an answer may wait until the answer before it is acknowledged.
         let _ = stream.set_nodelay(true);
         match self.open(stream, client).await {
             Ok(Some((mut outer, mut inner, _guest))) => {
-                // Either side may simply go.
+                // Either side may end the connection without notice, which is no error.
                 let _ = tokio::io::copy_bidirectional(&mut outer, &mut inner).await;
             }
             Ok(None) => {}
@@ -143,7 +143,8 @@ impl Gate {
         }
     }
 
-    /// A client and the broker behind the gate; `None`: it went without a word.
+    /// Does the handshake with a client and connects to the broker behind the gate. `None` if the client sent nothing.
+    /// `Err`: why it is refused.
     async fn open(&self, stream: TcpStream, client: SocketAddr) -> Result<Option<Opened>, String> {
         let mut first = [0];
         let peeked = tokio::time::timeout(PATIENCE, stream.peek(&mut first)).await;
@@ -172,13 +173,14 @@ impl Gate {
             TcpStream::connect(self.inner).await.map_err(|error| format!("the broker is away: {error}"))?;
         let _ = inner.set_nodelay(true);
         let at = inner.local_addr().map_err(|error| error.to_string())?;
-        // Before a byte goes through: the broker asks who it is with the first.
+        // Before the first byte goes through, because the broker then looks the client up.
         lock(&self.peers.clients).insert(at, client);
         Ok(Some((outer, inner, Guest { peers: self.peers.clone(), at })))
     }
 }
 
-/// Hears a client out that was told why it is refused: closing on what it still says would lose that on its way.
+/// Reads what a refused client still sends, for up to `LINGER`. To close with unread bytes would lose the reason on its
+/// way to the client.
 async fn linger(mut stream: TcpStream) {
     let _ = stream.shutdown().await;
     let rest = async {

@@ -20,7 +20,8 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// The index of the client whose turn it is among clients of which each is connected or not, and whether it is.
+    /// Returns the index of the client whose turn it is, and whether it is connected. `None` for a group without
+    /// clients.
     fn next(&self, are_online: &[bool]) -> Option<(usize, bool)> {
         let turn = self.turn.fetch_add(1, Ordering::Relaxed);
         let online: Vec<usize> = (0..are_online.len()).filter(|index| are_online[*index]).collect();

@@ -1,5 +1,5 @@
-//! Closes connections that do not log in. rmqtt waits for the first byte of a connection for ever, and gives no hold of its
-//! sockets; so they are found among the open files of this process.
+//! Closes connections that do not log in. rmqtt waits for ever for the first byte of a connection, and gives no access
+//! to its sockets. They are therefore found among the open files of this process.
 
 #[cfg(target_os = "linux")]
 use std::net::SocketAddr;
@@ -20,7 +20,7 @@ pub async fn close_idle(ports: Vec<u16>, admitted: Arc<Admitted>, notices: Arc<N
     }
 }
 
-/// Where a process cannot look at its own sockets, a connection that does not log in stays.
+/// Does nothing: on other systems connections that do not log in are not found, and stay.
 #[cfg(not(target_os = "linux"))]
 pub async fn close_idle(_: Vec<u16>, _: Arc<Admitted>, _: Arc<Notices>) {}
 
@@ -44,13 +44,13 @@ mod linux {
     use super::super::limits;
     use super::Admitted;
 
-    /// How often sockets are looked at. One look at ten thousand costs some 10 ms.
+    /// Time between two checks of all sockets. A check of ten thousand sockets takes some 10 ms.
     pub const EVERY: Duration = Duration::from_secs(1);
 
-    /// A socket's number in the system: unlike its file number it is not used again at once.
+    /// Inode number of a socket. Unlike its file descriptor, the system does not use it again at once.
     type Inode = u64;
 
-    /// Sockets of this process that were seen.
+    /// Watches the sockets of this process for connections that do not log in.
     pub struct Watch {
         ports: Vec<u16>,
         admitted: Arc<Admitted>,
@@ -58,11 +58,11 @@ mod linux {
     }
 
     enum Socket {
-        /// It is no client's.
+        /// The socket belongs to no client.
         Other,
-        /// Its client has logged in.
+        /// The client has logged in.
         Admitted { peer: SocketAddr },
-        /// Its client has not logged in.
+        /// The client has not logged in; `since`: when the socket was first seen.
         Pending { peer: SocketAddr, since: Instant },
     }
 
@@ -71,7 +71,7 @@ mod linux {
             Self { ports, admitted, seen: BTreeMap::new() }
         }
 
-        /// Closes what has not logged in in time; the other ends' addresses.
+        /// Closes connections that have not logged in in time. Returns the addresses of their clients.
         pub fn look(&mut self, now: Instant) -> Vec<SocketAddr> {
             let open = open_sockets();
             self.forget_closed(&open);
@@ -112,7 +112,7 @@ mod linux {
             client.map_or(Socket::Other, |peer| Socket::Pending { peer, since: now })
         }
 
-        /// Connections whose time to log in is over, oldest first.
+        /// Returns the connections whose time to log in is over, oldest first.
         fn late(&self, now: Instant) -> Vec<(Inode, SocketAddr)> {
             let mut pending: Vec<_> = self
                 .seen
@@ -133,7 +133,7 @@ mod linux {
         }
     }
 
-    /// The sockets among the open files of this process, with their file numbers.
+    /// Returns the sockets among the open files of this process, with their file descriptors.
     fn open_sockets() -> BTreeMap<Inode, i32> {
         let Ok(files) = std::fs::read_dir("/proc/self/fd") else { return BTreeMap::new() };
         let socket = |file: std::fs::DirEntry| {
@@ -144,13 +144,15 @@ mod linux {
         files.flatten().filter_map(socket).collect()
     }
 
-    /// A handle of our own on a socket that belongs to other code. The number may be another file's by now: callers check.
+    /// Duplicates the descriptor of a socket that belongs to other code. The descriptor may belong to another file by
+    /// now, which callers check.
     fn own(file: i32) -> Option<OwnedFd> {
         let process = pidfd_open(getpid(), PidfdFlags::empty()).ok()?;
         pidfd_getfd(&process, file, PidfdGetfdFlags::empty()).ok()
     }
 
-    /// Ends the connection with this peer; its owner sees that the client has gone.
+    /// Ends the connection if its client still is `peer`. Its owner then sees that the client has gone. Returns whether
+    /// it was ended.
     fn close(file: i32, peer: SocketAddr) -> bool {
         let Some(socket) = own(file) else { return false };
         let is_same =

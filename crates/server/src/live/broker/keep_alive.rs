@@ -1,4 +1,4 @@
-//! The keep-alive that the broker grants.
+//! Bounds the keep-alive of clients of MQTT 5.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use rmqtt::types::{ConnectInfo, FitterType, Id, ListenerConfig};
 
 use super::limits;
 
-/// rmqtt's rules, with a longest keep-alive for clients of version 5. rmqtt's own setting would also refuse clients of
-/// version 3 with a longer one.
+/// rmqtt's rules, with a longest keep-alive for clients of MQTT 5. rmqtt's own setting would also refuse clients of
+/// MQTT 3 with a longer keep-alive.
 pub struct KeepAlive;
 
 impl FitterManager for KeepAlive {

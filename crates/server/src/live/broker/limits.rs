@@ -1,11 +1,11 @@
-//! What the embedded broker takes from a client at most. Beyond a limit the client loses a message or its connection;
+//! Limits on what the embedded broker takes from clients. Beyond a limit the client loses a message or its connection;
 //! the broker and its other clients go on.
-// Only on Linux connections without a login are found.
+// Connections without a login are found only on Linux.
 #![cfg_attr(not(target_os = "linux"), allow(dead_code))]
 
 use std::time::Duration;
 
-/// Messages that a client may publish.
+/// The rate at which a client may publish messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rate {
     /// Messages per second in the long run.
@@ -19,59 +19,62 @@ pub struct Rate {
 /// is not complete, so that this bounds memory together with [`CONNECTIONS`].
 pub const PACKET_BYTES: u32 = 64 << 10;
 
-/// Levels of a topic or filter. The protocol's topics have three. The broker's tree of topics is walked by recursion:
-/// some thousands of levels overflow the stack.
+/// Most levels of a topic or filter. The protocol's topics have three. The broker walks its tree of topics by
+/// recursion: some thousands of levels overflow the stack.
 pub const TOPIC_LEVELS: usize = 16;
 
-/// Length of a topic or filter, in bytes. The protocol's longest has 47.
+/// Longest topic or filter, in bytes. The protocol's longest has 47.
 pub const TOPIC_BYTES: usize = 512;
 
-/// Length of a client id, in bytes. Ours have at most 50.
+/// Longest client id, in bytes. Ours have at most 50.
 pub const CLIENT_ID_BYTES: usize = 256;
 
-/// Subscriptions of one client. A connection that simulated robots share has one per robot, at most 1,000, and one more.
+/// Most subscriptions of one client. A connection that simulated robots share has one for each robot, at most 1,000,
+/// and one more.
 pub const SUBSCRIPTIONS: usize = 2_048;
 
-/// Subscriptions of all clients together: ten thousand robots and their controller have 20,004.
+/// Most subscriptions of all clients together: ten thousand robots and their controller have 20,004.
 pub const SUBSCRIPTIONS_TOTAL: usize = 50_000;
 
-/// Clients that are logged in: ten thousand robots, their controllers and tools.
+/// Most clients that are logged in: ten thousand robots, their controllers and tools.
 pub const CONNECTIONS: usize = 12_000;
 
-/// Open files of the broker that are no connection of a client that has logged in: those that are about to, and its own.
+/// Open files of the broker beside the connections of logged-in clients: connections that have not logged in, and its
+/// own files.
 const OTHER_FILES: usize = PENDING + 100;
 
-/// Sockets of a client behind the TLS gate: the client's, and both ends of the gate's connection to the broker.
+/// Sockets for a client behind the TLS gate: the client's, and both ends of the gate's connection to the broker.
 const TLS_SOCKETS: usize = 3;
 
-/// Clients that may be logged in where the system grants `open_files`: at most [`CONNECTIONS`], and at least those for which
-/// half of the files are enough.
+/// Returns the most clients that may be logged in if the system grants `open_files`, at most [`CONNECTIONS`]. At least
+/// half of the files are for clients.
 pub fn connections(open_files: usize, has_tls: bool) -> usize {
     let sockets = if has_tls { TLS_SOCKETS } else { 1 };
     let files = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);
     CONNECTIONS.min(files / sockets)
 }
 
-/// Longest report of a robot, bytes. The longest of ours has 400 (R10 with every field).
+/// Longest report of a robot, in bytes. The longest of ours has 400 (R10 with every field).
 pub const REPORT_BYTES: usize = 4_096;
 
-/// Messages of one robot. It reports ten times a second at most, and acknowledges each part of its routes: 100 parts at
-/// once where a robot comes back to a long show.
+/// Rate limit of one robot. A robot reports at most ten times a second, and acknowledges each part of its routes. That
+/// is 100 parts at once if a robot comes back to a long show.
 pub const ROBOT_RATE: Rate = Rate { per_second: 100, burst: 1_000 };
 
-/// Messages of a connection that robots share, at most 1,000: each answers a frame with some twenty messages.
+/// Rate limit of a connection that robots share, at most 1,000: each robot answers a frame with some twenty messages.
 pub const SHARED_RATE: Rate = Rate { per_second: 30_000, burst: 60_000 };
 
 /// How long a client that was cut off for a flood may not connect.
 pub const FLOOD_BAN: Duration = Duration::from_secs(30);
 
-/// Sessions, those of clients that are away for a while included.
+/// Most sessions, those of clients that are away for a while included.
 pub const SESSIONS: isize = 16_000;
 
 /// How long the session of a client that is away is kept, at most.
 pub const SESSION_EXPIRY: Duration = Duration::from_secs(15 * 60);
 
-/// Connections that have not sent a CONNECT packet yet. Beyond it those older than [`PENDING_GRACE`] are closed early.
+/// Number of connections without a complete CONNECT packet. Beyond it, those older than [`PENDING_GRACE`] are closed
+/// early.
 pub const PENDING: usize = 500;
 
 /// How long a connection may stay without a CONNECT packet while there are more than [`PENDING`] of them.
@@ -80,43 +83,46 @@ pub const PENDING_GRACE: Duration = Duration::from_secs(1);
 /// How long a connection may stay without a complete CONNECT packet. A robot on a poor radio link needs two seconds.
 pub const CONNECT_WITHIN: Duration = Duration::from_secs(10);
 
-/// A client that takes nothing for this long while messages wait loses its connection.
+/// Time after which a client that takes nothing while messages wait loses its connection.
 pub const SEND_WITHIN: Duration = Duration::from_secs(10);
 
-/// Bytes that wait for one client, [`MESSAGE_OVERHEAD_BYTES`] of each message included. When ten thousand robots answer a
-/// frame at once, 20,000 messages of 150 bytes wait for the controller: 29 MB. Further messages to the client are dropped.
+/// Most bytes that wait for one client, [`MESSAGE_OVERHEAD_BYTES`] of each message included. When ten thousand robots
+/// answer a frame at once, 20,000 messages of 150 bytes wait for the controller: 29 MB. Further messages to the client
+/// are dropped.
 pub const QUEUE_BYTES: usize = 48 << 20;
 
-/// Bytes that wait for all clients together. Further messages are dropped for clients whose own queue is above
+/// Most bytes that wait for all clients together. Further messages are dropped for clients whose own queue is above
 /// [`QUEUE_SHARE_BYTES`].
 pub const QUEUE_BYTES_TOTAL: usize = 128 << 20;
 
-/// Bytes that may wait for a client whatever waits for the others: slow readers cannot take a robot's commands from it.
+/// Bytes that may wait for a client however much waits for the others: slow readers cannot take a robot's commands from
+/// it.
 pub const QUEUE_SHARE_BYTES: usize = 32 << 10;
 
 /// Bytes that a waiting message takes in the broker beside payload and topic. Measured 2026-11-23 on x86-64 with 21,760
 /// empty messages that waited for a subscriber that did not read: 1,280 bytes each.
 pub const MESSAGE_OVERHEAD_BYTES: usize = 1_280;
 
-/// Retained messages that are kept. The protocol has none; tools have some.
+/// Most retained messages. The protocol has none; tools have some.
 pub const RETAINED: usize = 256;
 
-/// Bytes of all retained messages. rmqtt copies those that match a subscription.
+/// Most bytes of all retained messages. rmqtt copies those that match a subscription.
 pub const RETAINED_BYTES: usize = 1 << 20;
 
-/// Subscriptions that wait for their retained messages: those of four full clients. Further ones get none.
+/// Most subscriptions that wait for their retained messages: those of four clients with all [`SUBSCRIPTIONS`]. Further
+/// subscriptions get none.
 pub const RETAINED_WAITING: usize = 4 * SUBSCRIPTIONS;
 
-/// Topics that a client of version 5 may abbreviate, and that the broker abbreviates towards it. Each costs the broker up
-/// to [`TOPIC_BYTES`]; the protocol has six topics per robot.
+/// Most topic aliases of a client of MQTT 5, in each direction. Each costs the broker up to [`TOPIC_BYTES`]; the
+/// protocol has six topics per robot.
 pub const TOPIC_ALIASES: u16 = 8;
 
-/// Longest keep-alive of a client of version 5, in seconds; a longer one is shortened (3.2.2.3.14), so that a connection
-/// that died without a word is noticed after 90 s. Clients of version 3 choose theirs: the standard gives the broker no
-/// way to shorten it.
+/// Longest keep-alive of a client of MQTT 5, in seconds. A longer one is shortened (section 3.2.2.3.14), so that a
+/// connection that died without a word is noticed after 90 s. Clients of MQTT 3 choose theirs: the standard gives the
+/// broker no way to shorten it.
 pub const KEEP_ALIVE_S: u16 = 60;
 
-/// Bytes of data that the broker's process may have, where the system can bound it. Above it the process ends and is
+/// Most bytes of data of the broker's process, where the system can bound them. Above it the process ends and is
 /// started again; the limits above keep it far below.
 pub const PROCESS_BYTES: u64 = 1 << 30;
 

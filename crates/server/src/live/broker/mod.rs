@@ -1,11 +1,11 @@
 //! The embedded broker. It runs in a process of its own, because a stack overflow or an exhausted memory ends a whole
 //! process: `process` starts it, watches it and starts it again; `engine` is what runs there.
 //!
-//! `users` says which users there are, `rights` what each may publish and subscribe to, `door` asks both for every
-//! client; `gate` speaks TLS before it. `limits` names every limit; `queues` bounds the bytes that wait for clients,
-//! `routing` puts each message into them, `idle` ends connections that do not log in, `flood` those that publish too much;
-//! `sessions` keeps each session for its login, `takeovers` finds robots that share a name. `retained`, `groups` and
-//! `keep_alive` are parts of MQTT that rmqtt leaves to its embedder.
+//! `users` holds the users, `rights` decides what each may publish and subscribe to, and `door` applies both to every
+//! client. `gate` handles TLS in front of it. `limits` holds every limit. `queues` bounds the bytes that wait for
+//! clients, and `routing` puts each message into these queues. `idle` ends connections that do not log in, `flood`
+//! those that publish too much. `sessions` keeps each session for its login, `takeovers` finds robots that share a
+//! name. `retained`, `groups` and `keep_alive` are parts of MQTT that rmqtt leaves to its embedder.
 
 mod admitted;
 mod door;
@@ -38,21 +38,21 @@ pub use users::Users;
 
 use crate::failure::Failure;
 
-/// What a broker needs to know.
+/// Settings of a broker.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BrokerOptions {
-    /// Where it speaks MQTT without TLS.
+    /// Address for MQTT without TLS.
     pub listen: SocketAddr,
-    /// Where it speaks TLS, if anywhere.
+    /// Address and certificates for MQTT with TLS; `None` without TLS.
     pub tls: Option<TlsOptions>,
-    /// The users it lets in; with none, every client on this machine.
+    /// Users that may log in. If there are none, every client on this machine may connect.
     pub users: Users,
-    /// How many robots there may be: queues are sized for them.
+    /// Expected number of robots, for the size of queues.
     pub robots: usize,
 }
 
 impl BrokerOptions {
-    /// Refuses to be open to every machine that can reach it.
+    /// Checks that clients on other machines need a user or a certificate.
     fn check_exposure(&self) -> Result<(), Failure> {
         let open = |listen: SocketAddr| {
             let line = "name who may use it with --mqtt-user USER:PASSWORD or --mqtt-users FILE";

@@ -1,4 +1,4 @@
-//! What the embedded broker refused, for log and screen: each client is heard of now and then, not all the time.
+//! Lines about what the embedded broker refused, for log and screen. Each client gets a bounded number of lines.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::mpsc;
 
-/// A client that goes on is named again after `EVERY`.
+/// Shortest time between two lines about a client.
 const EVERY: Duration = Duration::from_secs(5);
-/// Clients remembered at most; of more of them nothing is said until the first are forgotten.
+/// Most clients that are remembered. Lines about further clients are dropped until earlier clients are forgotten.
 const CLIENTS: usize = 1000;
-/// Lines that wait at most; more are only logged.
+/// Most lines that wait for the screen; further ones are only logged.
 const WAITING: usize = 64;
 
 /// Takes lines about clients.
@@ -23,28 +23,28 @@ pub struct Notices {
 #[derive(Debug)]
 struct Said {
     at: Instant,
-    /// Lines kept back since.
+    /// Number of lines that were kept back since then.
     more: u64,
 }
 
 impl Notices {
-    /// Notices, and where they come out.
+    /// Returns notices and the receiver of their lines.
     pub fn new() -> (Self, mpsc::Receiver<String>) {
         let (sender, lines) = mpsc::channel(WAITING);
         (Self { sender, said: Mutex::default() }, lines)
     }
 
-    /// Says a line about a client, unless one was said about it a moment ago.
+    /// Logs a line about a client and sends it, unless the last one was less than `EVERY` ago.
     pub fn say(&self, client: &str, line: &str) {
         let Some(kept_back) = self.due(client, Instant::now()) else { return };
         let more = if kept_back > 0 { format!(" ({kept_back} more like this)") } else { String::new() };
         let line = format!("{line}{more}");
         tracing::warn!("{line}");
-        // Nobody listening is no error.
+        // A line without a listener is only logged.
         let _ = self.sender.try_send(line);
     }
 
-    /// How many lines about it were kept back; `None` where this one is, too.
+    /// Returns the number of lines about a client that were kept back; `None` if this line is kept back as well.
     fn due(&self, client: &str, now: Instant) -> Option<u64> {
         let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(last) = said.get_mut(client) {

@@ -1,8 +1,9 @@
 //! The embedded broker as a child process: started, watched, and started again when it dies.
 //!
-//! The parent writes one line of JSON, [`ChildSettings`], to the child's stdin and keeps that open: when the parent ends,
-//! however it ends, the child's stdin ends, and so does the child. The child writes a [`ChildMessage`] per line to stdout.
-//! Passwords never stand on a command line, where every user of the machine could read them.
+//! The parent writes one line of JSON, [`ChildSettings`], to the child's stdin and keeps the stdin open. When the
+//! parent ends, however it ends, the child's stdin ends, and the child ends with it. The child writes a
+//! [`ChildMessage`] per line to stdout. Passwords never stand on a command line, where every user of the machine could
+//! read them.
 
 use std::net::{IpAddr, SocketAddr};
 use std::process::{ExitStatus, Stdio};
@@ -22,26 +23,27 @@ use crate::own_program::own_program;
 /// How long the child may take to listen or to say why it cannot.
 const START_WITHIN: Duration = Duration::from_secs(20);
 /// The pause before the child is started again, doubled up to [`LONGEST_PAUSE`] while it keeps dying. Together with the
-/// child's start (some 10 ms) the longest stays within one second.
+/// child's start (some 10 ms) the longest pause stays within one second.
 const FIRST_PAUSE: Duration = Duration::from_millis(50);
 const LONGEST_PAUSE: Duration = Duration::from_millis(800);
-/// A child that lived this long died of something new: the next pause is short again.
+/// Lifetime of a child after which the next pause is `FIRST_PAUSE` again: a child that lived longer died of something
+/// new.
 const STABLE: Duration = Duration::from_secs(10);
-/// Lines that wait to be shown; more are dropped.
+/// Most lines that wait to be shown; further ones are dropped.
 const NOTICES: usize = 64;
-/// The command of the child process, and what tells it that it is one.
+/// Arguments of the child process: the command, and the option by which it knows that it is the child.
 const COMMAND: [&str; 2] = ["broker", "--child"];
 
-/// What the parent tells the child.
+/// Settings that the parent sends to the child.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct ChildSettings(pub BrokerOptions);
 
-/// What the child tells the parent.
+/// A message from the child to the parent.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum ChildMessage {
-    /// It takes connections.
+    /// The broker listens on these addresses.
     Listening { plain: SocketAddr, tls: Option<SocketAddr> },
-    /// It cannot start.
+    /// The broker cannot start: a line for people and the exit code.
     Failed { line: String, code: i32 },
     /// A line for the screen's log.
     Notice(String),
@@ -52,7 +54,7 @@ pub enum ChildMessage {
 pub struct EmbeddedBroker {
     address: SocketAddr,
     tls_address: Option<SocketAddr>,
-    /// How this program itself logs in; `None`: it need not.
+    /// User and password of this program itself; `None` if the broker has no users.
     login: Option<(String, String)>,
     notices: Option<mpsc::Receiver<String>>,
     watch: tokio::task::JoinHandle<()>,
@@ -64,7 +66,7 @@ impl EmbeddedBroker {
         let (users, login) = with_this_program(options.users);
         let mut options = BrokerOptions { users, ..options };
         let (running, address, tls_address) = Running::start(&options).await?;
-        // Another start must find the same ports.
+        // A child that is started again must use the same ports.
         options.listen = address;
         if let (Some(tls), Some(address)) = (&mut options.tls, tls_address) {
             tls.listen = address;
@@ -74,7 +76,7 @@ impl EmbeddedBroker {
         Ok(Self { address, tls_address, login, notices: Some(notices), watch })
     }
 
-    /// How this program's own parts reach it.
+    /// Address and login of the broker for this program's own connections.
     pub fn url(&self) -> BrokerUrl {
         let ip = match self.address.ip() {
             ip if !ip.is_unspecified() => ip.to_string(),
@@ -85,12 +87,12 @@ impl EmbeddedBroker {
         BrokerUrl::new(ip, self.address.port()).with_login(user, password)
     }
 
-    /// Where it speaks TLS.
+    /// Address for MQTT with TLS; `None` without TLS.
     pub fn tls_address(&self) -> Option<SocketAddr> {
         self.tls_address
     }
 
-    /// What it refuses and how it fares from now on, a line each; once.
+    /// Returns the receiver of lines about refused clients and restarts of the broker. `None` after the first call.
     pub fn notices(&mut self) -> Option<mpsc::Receiver<String>> {
         self.notices.take()
     }
@@ -103,7 +105,7 @@ impl Drop for EmbeddedBroker {
     }
 }
 
-/// Where users are named, this program is one of them.
+/// Adds this program to the users if there are any. Returns all users, and the program's name and password.
 fn with_this_program(users: Users) -> (Users, Option<(String, String)>) {
     if users.is_empty() {
         return (users, None);
@@ -112,7 +114,7 @@ fn with_this_program(users: Users) -> (Users, Option<(String, String)>) {
     (users.with(&name, &password, Role::Controller), Some((name, password)))
 }
 
-/// Passes on what the child says, and starts it again whenever it has died.
+/// Passes on the child's notices, and starts it again whenever it has died.
 async fn watch(mut running: Running, options: BrokerOptions, notices: mpsc::Sender<String>) {
     let mut pause = FIRST_PAUSE;
     loop {
@@ -174,7 +176,7 @@ impl Running {
         }
     }
 
-    /// Passes on notices until the child dies; how it did.
+    /// Passes on notices until the child's output ends, then ends the child. Returns how it ended.
     async fn relay(&mut self, notices: &mpsc::Sender<String>) -> String {
         while let Some(word) = self.word().await {
             if let ChildMessage::Notice(line) = word {
@@ -196,7 +198,7 @@ impl Running {
     }
 
     async fn end(&mut self) -> String {
-        // Where only its output ended, it is of no use either.
+        // A child whose output has ended is of no use, even if it still runs.
         let _ = self.child.start_kill();
         self.child.wait().await.map_or_else(|error| error.to_string(), ending)
     }
@@ -210,7 +212,7 @@ fn ending(status: ExitStatus) -> String {
     status.code().map_or_else(|| "ended".into(), |code| format!("ended with code {code}"))
 }
 
-/// What the child process does: reads its order, serves until its stdin ends.
+/// Runs the child process: reads its settings, then serves until its stdin ends.
 pub async fn child() -> Outcome {
     let mut orders = BufReader::new(tokio::io::stdin()).lines();
     let order = orders.next_line().await.ok().flatten().unwrap_or_default();

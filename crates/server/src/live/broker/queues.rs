@@ -1,6 +1,6 @@
 //! Bounds the bytes that wait for clients. rmqtt counts waiting messages, not their bytes, and counts none while the
-//! client's socket is full. So each message is charged to its receiver when it is forwarded, and the charge ends with
-//! the payload, wherever rmqtt drops that: when it was sent, when it expired, or with the session.
+//! client's socket is full. Therefore each message is charged to its receiver when it is forwarded. The charge ends
+//! when rmqtt drops the payload: after sending, at its expiry, or with the session.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -47,7 +47,8 @@ impl Queues {
         Self { total: Arc::default(), clients: Mutex::default(), notices }
     }
 
-    /// The message with its payload charged to its receiver; `None` where the receiver's queue is full.
+    /// Returns a copy of a message whose payload is charged to its receiver. `None` if the receiver's queue is full,
+    /// which is reported.
     pub fn charged(&self, publish: &Publish, client: &ClientId) -> Option<Publish> {
         let Some(charge) = self.charge(client, size(publish) + limits::MESSAGE_OVERHEAD_BYTES) else {
             self.notices.say(client, &full_queue(client));
@@ -56,13 +57,13 @@ impl Queues {
         let mut publish = publish.clone();
         let payload = std::mem::take(&mut publish.inner.payload);
         publish.inner.payload = Bytes::from_owner(Charged { payload, _charge: charge });
-        // A topic alias, a subscription identifier and the rest of an expiry are properties also of a message that came
-        // over version 3, without any.
+        // rmqtt adds a topic alias, a subscription identifier and the rest of an expiry to the properties. A message
+        // that came over version 3 has none.
         publish.inner.properties.get_or_insert_default();
         Some(publish)
     }
 
-    /// Charges a message of `bytes` to a client; `None` where its queue is full.
+    /// Charges a message of `bytes` to a client; `None` if its queue or the total is full.
     fn charge(&self, client: &ClientId, bytes: usize) -> Option<Charge> {
         let queue = self.queue(client);
         let waiting = queue.load(Ordering::Relaxed) + bytes;
@@ -82,7 +83,7 @@ impl Queues {
             return queue.clone();
         }
         if clients.len() >= 2 * limits::CONNECTIONS {
-            // Counters that no waiting message holds are of clients with an empty queue.
+            // A counter that no waiting message holds belongs to a client with an empty queue.
             clients.retain(|_, queue| Arc::strong_count(queue) > 1);
         }
         clients.entry(client.clone()).or_default().clone()
@@ -96,7 +97,7 @@ impl Drop for Charge {
     }
 }
 
-/// Bytes of a message: topic, payload and properties.
+/// Returns the bytes of a message: topic, payload and properties.
 pub fn size(publish: &Publish) -> usize {
     let of_text = |text: Option<&str>| text.map_or(0, str::len);
     let properties = publish.inner.properties.as_ref().map_or(0, |properties| {

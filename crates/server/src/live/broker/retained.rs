@@ -1,7 +1,7 @@
 //! Retained messages (MQTT 5, section 3.3.1.3): the last message of a topic that was published with the retain flag, for
 //! clients that subscribe later. They are lost when the broker ends.
 //!
-//! Messages of the protocol are not kept: each robot that connects later would obey a command that was meant for a moment
+//! Messages of the protocol are not kept. A robot that connects later would obey a command that was meant for a moment
 //! long ago.
 
 use std::num::NonZeroU32;
@@ -35,7 +35,7 @@ struct Kept {
 }
 
 impl Retained {
-    /// None yet.
+    /// A store without messages.
     pub fn new(notices: Arc<Notices>) -> Self {
         Self { kept: Mutex::default(), notices }
     }
@@ -46,7 +46,8 @@ impl Retained {
 }
 
 impl Kept {
-    /// Takes the place of the message with the same topic; an empty one only removes that. False where there is no room.
+    /// Stores a message in place of the earlier one with the same topic, which is removed in any case. An empty message
+    /// is not stored. False if there is no room.
     fn set(&mut self, topic: &Topic, mut retain: Retain) -> bool {
         if let Some(old) = self.tree.remove(topic) {
             self.count -= 1;
@@ -62,7 +63,7 @@ impl Kept {
                 return false;
             }
         }
-        // The payload is a part of all that was read with it.
+        // A copy, because the payload is a slice of a buffer with everything that was read together with it.
         retain.publish.inner.payload = Bytes::copy_from_slice(&retain.publish.inner.payload);
         let properties = retain.publish.inner.properties.as_ref();
         let expiry = properties.and_then(|properties| properties.message_expiry_interval);
@@ -90,7 +91,7 @@ impl Kept {
         (self.count, self.bytes) = (count, bytes);
     }
 
-    /// The messages that match a filter, each with the time that is left to it.
+    /// Returns the messages that match a filter, each with the time until it expires.
     fn matching(&self, filter: &Topic) -> Vec<(TopicName, Retain)> {
         let found = self.tree.matches(filter).into_iter().filter(|(_, message)| !message.is_expired());
         found

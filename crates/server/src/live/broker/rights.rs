@@ -7,11 +7,11 @@ use super::limits::{self, Rate};
 use super::users::Role;
 use crate::live::cue_topic::CUE;
 
-/// What stands before a robot's name in its client id.
+/// Prefix of a robot's client id, before the robot's name.
 const ROBOT: &str = "LightBot/";
-/// What stands before a controller's name in its client id.
+/// Prefix of a controller's client id, before the controller's name.
 const CONTROLLER: &str = "BotControl/";
-/// What stands before all topics of the protocol.
+/// Prefix of all topics of the protocol.
 const PROTOCOL: &str = "T/LightBot/";
 
 /// Whether a topic belongs to the protocol between controllers and robots.
@@ -19,21 +19,21 @@ pub fn is_protocol(topic: &str) -> bool {
     topic.starts_with(PROTOCOL)
 }
 
-/// The client of a connection.
+/// The kind of client that a connection belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
     /// One robot.
     Robot(RobotId),
     /// A controller: everything is allowed.
     Controller,
-    /// A pedal or a desk: it may say GO and nothing else.
+    /// A pedal or a desk: it may publish on [`CUE`], the topic of GO, and nothing else.
     Cue,
     /// A tool, or a connection that many robots share: everything but commands is allowed.
     Shared,
 }
 
 impl Who {
-    /// The client that role, user and client id name, or why they contradict each other.
+    /// Returns the kind of client by role, user and client id. `Err`: how they contradict each other.
     pub fn of(role: Role, user: &str, client_id: &str) -> Result<Self, String> {
         let named = client_id.strip_prefix(ROBOT);
         let robot = named.and_then(RobotId::new);
@@ -54,7 +54,7 @@ impl Who {
         }
     }
 
-    /// Whether it may publish this; the reason where not.
+    /// Checks whether the client may publish a message. `Err`: why not.
     pub fn may_publish(&self, topic: &str, payload: &[u8]) -> Result<(), String> {
         let is_report =
             matches!(Topic::parse(topic), Some(Topic::Uuid | Topic::Arrival | Topic::Status | Topic::Time));
@@ -85,18 +85,19 @@ impl Who {
         Err(format!("it says it is '{}'", name.escape_debug()))
     }
 
-    /// Messages that it may publish; `None`: as many as it likes.
+    /// Returns the rate at which the client may publish; `None` if there is no limit.
     pub fn rate(&self) -> Option<Rate> {
         match self {
             Self::Robot(_) => Some(limits::ROBOT_RATE),
             Self::Shared => Some(limits::SHARED_RATE),
             Self::Cue => Some(limits::ROBOT_RATE),
-            // A controller sends the routes of ten thousand robots at once, and waits for their answers by itself.
+            // No limit: a controller sends the routes of ten thousand robots at once, and waits for their answers by
+            // itself.
             Self::Controller => None,
         }
     }
 
-    /// Whether it may subscribe to this filter; the reason where not.
+    /// Checks whether the client may subscribe to a filter. `Err`: why not.
     pub fn may_subscribe(&self, filter: &str) -> Result<(), String> {
         let own = match self {
             Self::Robot(own) => own,

@@ -1,4 +1,4 @@
-//! The way of messages to their receivers: rmqtt's, with a bounded queue before each receiver.
+//! Forwards messages to their receivers as rmqtt does, with a bounded queue before each receiver.
 
 use std::sync::Arc;
 
@@ -18,23 +18,23 @@ use super::notices::Notices;
 use super::queues::Queues;
 use super::sessions::GuardedEntry;
 
-/// Messages that could not be handed over, and to which client.
+/// Messages that could not be handed over: receiver, sender, message and reason.
 type Failed = Vec<(To, From, Publish, Reason)>;
 
-/// rmqtt's way from a message to its receivers, with [`Queues`] before each of them.
+/// rmqtt's forwarding of messages, with [`Queues`] before each receiver.
 pub struct BoundedShared {
     inner: DefaultShared,
     context: ServerContext,
     queues: Arc<Queues>,
-    /// Bounds the subscriptions that wait for their retained messages; one of them at a time gets them.
+    /// Bounds the subscriptions that wait for their retained messages. They get them one after the other.
     waiting: Semaphore,
     turn: tokio::sync::Mutex<()>,
-    /// Whether clients log in, so that sessions belong to logins.
+    /// Whether clients log in as users, so that each session belongs to one login.
     has_users: bool,
 }
 
 impl BoundedShared {
-    /// Takes the place of the context's own.
+    /// Replaces the forwarding of `context` by this one.
     pub async fn install(context: &ServerContext, notices: Arc<Notices>, has_users: bool) {
         let inner = DefaultShared::new(Some(context.clone()));
         let bounded = Self {
@@ -137,7 +137,8 @@ impl Shared for BoundedShared {
         self.inner.subscriptions_count().await
     }
 
-    /// rmqtt calls this in a task of its own for each subscription, and copies all messages that match.
+    /// Delivers retained messages to a new subscription, one subscription at a time. rmqtt calls this in a task of its
+    /// own for each subscription, and copies all messages that match.
     async fn retain_load_with(
         &self,
         filter: &TopicFilter,

@@ -1,7 +1,7 @@
-//! Sessions belong to the login that began them: another login neither takes over the connection of a client id, nor goes
-//! on with its session. And a session that is to end with its connection is never resumed, also where rmqtt has not yet
-//! noticed that the connection has ended. Both are checked while rmqtt holds the lock of the client id, so that no login
-//! slips in between.
+//! Sessions belong to the login that began them: another login neither takes over the connection of a client id, nor
+//! goes on with its session. A session that is to end with its connection is never resumed, even if rmqtt has not yet
+//! noticed the end of the connection. Both are checked while rmqtt holds the lock of the client id, so that no other
+//! login comes in between.
 
 use std::sync::Arc;
 
@@ -21,8 +21,8 @@ pub fn is_of_another(session: Option<&Session>, id: &Id) -> bool {
     session.is_some_and(|session| session.id.username != id.username)
 }
 
-/// Whether a session ends with its connection: a clean session of version 3 (3.1.2.4), a session of version 5 without an
-/// expiry interval (3.1.2.11.2).
+/// Whether a session ends with its connection. That is a clean session of MQTT 3 (section 3.1.2.4), or a session of
+/// MQTT 5 without an expiry interval (section 3.1.2.11.2).
 async fn ends_with_connection(session: &Session) -> bool {
     let Ok(connect) = session.connect_info().await else { return true };
     if let ConnectInfo::V3(_, connect) = connect.as_ref() {
@@ -32,16 +32,16 @@ async fn ends_with_connection(session: &Session) -> bool {
     session.fitter.session_expiry_interval(disconnect.as_ref()).is_zero()
 }
 
-/// A client id's entry among the sessions.
+/// The entry of a client id in rmqtt's table of sessions, with the rules of this module.
 pub struct GuardedEntry {
     entry: Box<dyn Entry>,
     queues: Arc<Queues>,
-    /// Whether only the session's own login takes it over.
+    /// Whether only the login that began a session may take it over.
     is_owned: bool,
 }
 
 impl GuardedEntry {
-    /// rmqtt's entry with those rules.
+    /// Puts the rules of this module around rmqtt's entry.
     pub fn new(entry: Box<dyn Entry>, queues: Arc<Queues>, is_owned: bool) -> Self {
         Self { entry, queues, is_owned }
     }
@@ -90,7 +90,7 @@ impl Entry for GuardedEntry {
         };
         let (clean_start, clear_subscriptions) = (clean_start || has_ended, clear_subscriptions || has_ended);
         match self.entry.kick(clean_start, clear_subscriptions, is_admin).await {
-            // The session ended by itself before it could answer: the second time nothing answers for it any more.
+            // The session ended by itself before it answered. At the second attempt no session has to answer.
             Err(_) => self.entry.kick(clean_start, clear_subscriptions, is_admin).await,
             kicked => kicked,
         }
@@ -129,7 +129,7 @@ impl Entry for GuardedEntry {
         from: From,
         publish: Publish,
     ) -> std::result::Result<(), (From, Publish, Reason)> {
-        // Retained messages come this way. One for which the queue has no room is dropped.
+        // Retained messages come this way. A message for which the queue has no room is dropped.
         let Some(charged) = self.queues.charged(&publish, &self.entry.id().client_id) else { return Ok(()) };
         self.entry.publish(from, charged).await
     }

@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use super::limits;
 
-/// Take-overs after which two robots share the name, …
+/// Number of take-overs that shows that two robots share a name.
 const TAKEOVERS: u32 = 3;
-/// … within this time, …
+/// Time within which these take-overs must happen.
 const WITHIN: Duration = Duration::from_secs(10);
-/// … each of a connection that sent a packet this long before at most.
+/// A take-over counts only if the old connection sent a packet within this time before.
 const ALIVE: Duration = Duration::from_secs(1);
 
 /// Connections that were taken over, by client id.
@@ -20,15 +20,15 @@ pub struct Takeovers(Mutex<BTreeMap<String, Contest>>);
 
 #[derive(Clone, Copy, Debug)]
 struct Contest {
-    /// When the client sent its last packet.
+    /// Time of the client's last packet.
     active: Instant,
-    /// When the first of the counted take-overs was.
+    /// Time of the first of the counted take-overs.
     since: Instant,
     count: u32,
 }
 
 impl Takeovers {
-    /// A client sent a packet.
+    /// Notes that a client sent a packet.
     pub fn active(&self, client: &str, now: Instant) {
         let mut contests = self.lock();
         if let Some(contest) = contests.get_mut(client) {
@@ -41,7 +41,7 @@ impl Takeovers {
         contests.insert(client.to_owned(), Contest { active: now, since: now, count: 0 });
     }
 
-    /// A connection takes over the one that its client id has. Whether that shows that two robots share it.
+    /// Counts a connection that takes over that of the same client id. Returns whether two robots share the client id.
     pub fn taken_over(&self, client: &str, now: Instant) -> bool {
         let mut contests = self.lock();
         let Some(contest) = contests.get_mut(client) else { return false };

@@ -18,21 +18,21 @@ struct User {
     role: Role,
 }
 
-/// What a user may be.
+/// The role of a user: which clients the user may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Role {
     /// A robot or a controller where the client id says so (`LightBot/<name>`, `BotControl/<name>`), else [`Role::Fleet`].
     #[default]
     ByClientId,
-    /// Everything, among it commands such as STOP.
+    /// A controller: may publish and receive everything, commands such as STOP included.
     Controller,
-    /// Everything but commands: connections that many robots share, tools that watch.
+    /// May do everything but publish commands: for connections that many robots share, and for tools that watch.
     Fleet,
-    /// GO for frames that wait for it, and nothing else: a pedal, a desk.
+    /// May publish GO for frames that wait for it, and do nothing else: for a pedal or a desk.
     Cue,
-    /// The one robot that has the user's name.
+    /// The robot with the user's name, and no other.
     Robot,
-    /// Any robot, one a connection, named by its client id: for robots that share a password.
+    /// Any robot, which the client id names, one on each connection: for robots that share a password.
     AnyRobot,
 }
 
@@ -45,7 +45,8 @@ const ROLES: [(&str, Role); 5] = [
 ];
 
 impl Users {
-    /// Users as options (`user:password[:role]`) and a file (the same, one a line; `#` begins a remark) state them.
+    /// Reads users from options (`user:password[:role]`) and from a file of such lines, in which `#` begins a remark.
+    /// The failure is one line that repeats no password.
     pub fn read(options: &[String], file: Option<&Path>) -> Result<Self, Failure> {
         let mut users = Self::default();
         for text in options {
@@ -72,29 +73,29 @@ impl Users {
         Ok(users)
     }
 
-    /// The same with one more, for this program itself.
+    /// Adds a user, for this program itself.
     pub fn with(mut self, name: &str, password: &str, role: Role) -> Self {
         self.0.insert(name.to_owned(), User { password: password.to_owned(), role });
         self
     }
 
-    /// Whether anybody is named.
+    /// Whether there are no users.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What the user may be; `None` where name or password are wrong.
+    /// Returns the role of a user; `None` if name or password is wrong.
     pub fn login(&self, name: &str, password: &[u8]) -> Option<Role> {
         let user = self.0.get(name)?;
         is_same(user.password.as_bytes(), password).then_some(user.role)
     }
 
-    /// The role of a user that has logged in.
+    /// Returns the role of a user that has logged in; the default role for an unknown name.
     pub fn role(&self, name: &str) -> Role {
         self.0.get(name).map_or(Role::default(), |user| user.role)
     }
 
-    /// The line says what is wrong without repeating a password.
+    /// Adds the user of a text `user:password[:role]`. `Err`: a line that says what is wrong and repeats no password.
     fn add(&mut self, text: &str) -> Result<(), String> {
         let wrong = || "say user:password or user:password:role, user and password not empty".to_owned();
         let (name, rest) = text.split_once(':').ok_or_else(wrong)?;
@@ -115,12 +116,12 @@ impl Users {
     }
 }
 
-/// Takes as long for every wrong password of the same length.
+/// Whether two passwords are equal. Takes the same time for every wrong password of the right length.
 fn is_same(one: &[u8], other: &[u8]) -> bool {
     one.len() == other.len() && one.iter().zip(other).fold(0, |differs, (a, b)| differs | (a ^ b)) == 0
 }
 
-/// Passwords that others on this machine can read are worth a line.
+/// Logs a warning if other users of this machine can read the passwords in a file.
 fn warn_if_open(path: &Path) {
     #[cfg(unix)]
     {
