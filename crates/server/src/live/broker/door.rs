@@ -219,7 +219,8 @@ impl Handler for Door {
     }
 }
 
-/// Checks the levels and bytes of a topic or filter. `Err`: it has more than only an attack would have.
+/// Checks the levels and bytes of a topic or filter against limits that only an attack exceeds. `Err`: what is too
+/// long.
 fn short_enough(topic: &str) -> Result<(), String> {
     let levels = topic.split('/').count();
     if levels > limits::TOPIC_LEVELS {
