@@ -1,24 +1,25 @@
-//! Which role may do what. The table in SECURITY.md says the same, and a test tries each of its cells.
+//! The role that each request and operation needs. The table in SECURITY.md says the same, and a test tries each of its
+//! cells.
 
 use axum::http::Method;
 use lightbots_api::{AccountRole, Operation};
 
-/// What a request needs.
+/// What a request needs to be carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// Nothing: it is answered before sign-in.
+    /// Nothing: the request is answered before sign-in.
     Nothing,
     /// This role or a greater one.
     Role(AccountRole),
 }
 
-/// What a request to a route needs. A route that is not listed needs the greatest role.
+/// Returns what a request to a route needs. A route that is not listed needs the greatest role.
 pub fn of_route(route: &str, method: &Method) -> Need {
     let is_read = matches!(*method, Method::GET | Method::HEAD);
     match route {
         "/api/session" if *method == Method::POST => Need::Nothing,
         "/api/first" if *method == Method::POST => Need::Nothing,
-        // The operation says which role it needs.
+        // The operation in the message or body decides which role it needs.
         "/ws" | "/api/operate" | "/api/session" => Need::Role(AccountRole::Viewer),
         "/api/playlist" if is_read => Need::Role(AccountRole::Viewer),
         "/api/check" | "/api/convert" => Need::Role(AccountRole::Editor),
@@ -37,7 +38,8 @@ pub fn of_route(route: &str, method: &Method) -> Need {
     }
 }
 
-/// The role that an operation needs. Stop needs the least role, because any witness of danger must be able to stop.
+/// Returns the least role that may carry out an operation. Stop needs the least role of all, because any witness of
+/// danger must be able to stop.
 pub fn of_operation(operation: &Operation) -> AccountRole {
     match operation {
         Operation::StopAll => AccountRole::Viewer,

@@ -1,17 +1,18 @@
-//! The address of the web app, as people open it.
+//! The address at which people open the web app.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 
 use super::scheme::Scheme;
 
-/// An address of another network (RFC 5737). Nothing is sent there.
+/// An address outside this network (RFC 5737), to find the own address on the way there. Nothing is sent there.
 const ELSEWHERE: (Ipv4Addr, u16) = (Ipv4Addr::new(192, 0, 2, 1), 9);
 
-/// The address for other machines, of a name that the user gave or of this machine's own address.
+/// Returns the URL of the web app for other machines. Its host is the name that the user gave, or this machine's own
+/// address.
 pub fn url(scheme: Scheme, listen: SocketAddr, host_name: Option<&str>) -> String {
     let port = listen.port();
     let authority = match host_name {
-        // A name may bring its own port.
+        // A name may have a port of its own.
         Some(name) if name.rsplit_once(':').is_some_and(|(_, port)| port.parse::<u16>().is_ok()) => {
             name.to_owned()
         }
@@ -21,7 +22,8 @@ pub fn url(scheme: Scheme, listen: SocketAddr, host_name: Option<&str>) -> Strin
     format!("{}://{authority}", scheme.name())
 }
 
-/// An address at which other machines reach this one: on all addresses, the one that leads to other networks.
+/// Returns an address at which other machines reach this one. If the server listens on all addresses, that is the one
+/// that leads to other networks, or loopback without a network.
 pub fn reachable(listen: IpAddr) -> IpAddr {
     if !listen.is_unspecified() {
         return listen;

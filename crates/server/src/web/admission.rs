@@ -1,4 +1,5 @@
-//! Admits requests: on another address than loopback, only those of signed-in people and of programs with a token.
+//! Decides which requests are admitted. Where sign-in is required, these are requests of signed-in people and of
+//! programs with a token.
 
 use std::net::IpAddr;
 use std::path::Path;
@@ -18,60 +19,61 @@ use crate::accounts::{
     Accounts, HashThread, Person, Secret, Sessions, SignInTries, TriesLeft, hash_password, is_password,
 };
 
-/// The cookie of a session.
+/// Name of the cookie that holds the token of a session.
 pub const COOKIE: &str = "lightbots";
-/// What a request is told whose password could not be hashed.
+/// Refusal of a request whose password could not be hashed.
 const HASHING_FAILED: &str = "the server failed at the password: try again, and report its log";
 /// Longest body of a request before sign-in, bytes: name, password and token fit.
 const BODY_MAX: usize = 4 << 10;
 
-/// The person or program that a request is of.
+/// The person or program that sent a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Caller {
-    /// Name of the person or the token; `None` on loopback, where sign-in is not asked for.
+    /// Name of the person or the token; `None` where sign-in is not required.
     pub name: Option<String>,
     pub role: AccountRole,
 }
 
-/// What a request shows to be admitted.
+/// What a request presents to be admitted.
 #[derive(Clone, Debug)]
 pub enum Ticket {
-    /// Nothing, where nothing is needed.
+    /// Nothing, where sign-in is not required.
     Loopback,
-    /// The hash of the token of a session.
+    /// Hash of the token of a person's session.
     Session(Secret),
-    /// The hash of the token of a program.
+    /// Hash of the token of a program.
     Token(Secret),
 }
 
-/// How a sign-in ends without a session.
+/// Why a sign-in led to no session.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SignInError {
     /// Name or password is wrong.
     Wrong(TriesLeft),
-    /// No try now, but after this time.
+    /// Too many tries: the next one is possible after this time.
     Wait(Duration),
-    /// The server failed.
+    /// The server failed: a line for people.
     Failed(String),
 }
 
-/// Accounts, sessions and tries of one server.
+/// Accounts, sessions and counted sign-in tries of one server.
 #[derive(Debug)]
 pub struct Admission {
     is_required: bool,
     pub accounts: Accounts,
     pub sessions: Sessions,
     tries: Mutex<SignInTries>,
-    /// The hash of the token with which the first operator is made.
+    /// Hash of the token with which the first operator is made; `None` if the server began with people or without
+    /// sign-in.
     first: Option<Secret>,
-    /// A hash that no password has: an unknown name takes as long as a known one.
+    /// A hash that no password has. It is checked for an unknown name, so that this takes as long as for a known one.
     unknown_hash: String,
     hashing: HashThread,
 }
 
 impl Admission {
-    /// The admission of a server, and the token for its first operator if there are no people yet. `is_required`: whether
-    /// requests must be signed in.
+    /// Returns the admission of a server, and the token for its first operator if there are no people yet.
+    /// `is_required`: whether requests need a sign-in. Without it there is no such token.
     pub fn new(data: &Path, is_required: bool) -> Result<(Self, Option<String>), String> {
         let accounts = Accounts::of(data);
         let (mut token, mut first, mut unknown_hash) = (None, None, String::new());
@@ -87,7 +89,7 @@ impl Admission {
         Ok((Self { is_required, accounts, sessions, tries, first, unknown_hash, hashing }, token))
     }
 
-    /// The person or program of a ticket, as the accounts are now.
+    /// Returns the person or program of a ticket by the present accounts. `None` if the session or token is not valid.
     pub fn caller(&self, ticket: &Ticket) -> Option<Caller> {
         match ticket {
             Ticket::Loopback => {
@@ -107,7 +109,7 @@ impl Admission {
         }
     }
 
-    /// The person of a ticket: of a token, its maker. `None`: no person is known.
+    /// Returns the name of a session's person or of a token's maker. `None` if no person is known.
     pub fn person(&self, ticket: &Ticket) -> Option<String> {
         match ticket {
             Ticket::Loopback => None,
@@ -120,7 +122,7 @@ impl Admission {
         self.accounts.read().inspect_err(|line| tracing::error!("{line}")).ok()
     }
 
-    /// What the headers of a request show.
+    /// Returns what the headers of a request present; `None` if they hold no token.
     fn ticket(&self, headers: &HeaderMap) -> Option<Ticket> {
         if !self.is_required {
             return Some(Ticket::Loopback);
@@ -135,10 +137,10 @@ impl Admission {
         token.map(|token| Ticket::Session(Secret::of(token)))
     }
 
-    /// Signs a person in; the token of the session.
+    /// Signs a person in. Returns the token of the session.
     pub async fn sign_in(&self, name: &str, password: &str, address: IpAddr) -> Result<String, SignInError> {
         let failed = |line: String| SignInError::Failed(line);
-        // One at a time, so that tries in parallel cannot pass the bound before they are counted.
+        // One try at a time, so that parallel tries cannot pass the bound before they are counted.
         let turn = self.hashing.turn().await;
         self.tries().may_try(name, address, Instant::now()).map_err(SignInError::Wait)?;
         let person = self.accounts.read().map_err(failed)?.people.remove(name);
@@ -155,7 +157,7 @@ impl Admission {
         }
     }
 
-    /// Makes the first operator and signs them in; the token of the session.
+    /// Makes the first operator and signs them in. Returns the token of the session.
     pub async fn begin_first(
         &self,
         token: &str,
@@ -188,7 +190,8 @@ impl Admission {
         self.sessions.begin(name, &hash, Instant::now()).map_err(failed)
     }
 
-    /// The hash of a new password, if it is long enough.
+    /// Returns the hash of a new password. `Err`: status and line of the refusal if the password is too weak or hashing
+    /// fails.
     pub async fn hash(&self, password: &str) -> Result<String, (StatusCode, String)> {
         crate::accounts::check_password(password).map_err(|line| (StatusCode::UNPROCESSABLE_ENTITY, line))?;
         let turn = self.hashing.turn().await;
@@ -203,7 +206,8 @@ impl Admission {
     }
 }
 
-/// Refuses requests that are not signed in, and those that the role does not allow.
+/// Passes on requests that are admitted. A request for a page without sign-in gets the sign-in page. Other requests
+/// without sign-in, or beyond the caller's role, are refused.
 pub async fn guard(State(admission): State<Arc<Admission>>, mut request: Request, next: Next) -> Response {
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
     let ticket = admission.ticket(request.headers());
@@ -234,12 +238,12 @@ fn unknown() -> Refused {
     refuse(StatusCode::UNAUTHORIZED, "sign in first, or send the header Authorization: Bearer TOKEN")
 }
 
-/// Why a role is not enough.
+/// Returns the line that says why a role is not enough.
 pub fn not_allowed(needed: AccountRole, role: AccountRole) -> String {
     format!("This needs the role {needed}; you are signed in as {role}. An operator can change that.")
 }
 
-/// Whether a body before sign-in is short. Its length must be stated.
+/// Whether a body is short enough before sign-in. False without a Content-Length header.
 fn is_short(headers: &HeaderMap) -> bool {
     let length =
         headers.get(header::CONTENT_LENGTH).and_then(|length| length.to_str().ok()?.parse::<usize>().ok());

@@ -20,7 +20,7 @@ use super::state::Shared;
 use crate::library::{Condition, Kept, LibraryError};
 use crate::show_plan;
 
-/// An answer, or the refusal of the request.
+/// The answer to a request, or its refusal.
 type Answer<T> = Result<T, Refused>;
 
 /// Largest body that is read, bytes. The longest show file fits.
@@ -56,7 +56,7 @@ fn body(body: Result<Bytes, BytesRejection>) -> Answer<Bytes> {
     })
 }
 
-/// The refusal of a body over [`BODY_MAX`].
+/// Returns the refusal of a body that is longer than [`BODY_MAX`].
 pub fn too_long() -> Refused {
     let line =
         format!("this is too long for a show: at most {} MB; split it into several", BODY_MAX / 1_000_000);
@@ -73,19 +73,19 @@ fn condition(headers: &HeaderMap) -> Answer<Condition> {
     }
 }
 
-/// `GET /api/shows`
+/// `GET /api/shows`: lists the shows of the library.
 pub async fn list(State(shared): State<Arc<Shared>>) -> Answer<Json<Vec<ShowEntry>>> {
     let library = shared.library.clone();
     beside(move || library.list()).await.map(Json)
 }
 
-/// `GET /api/shows/{name}`
+/// `GET /api/shows/{name}`: returns the document of a show.
 pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Answer<Response> {
     let library = shared.library.clone();
     Ok(document(beside(move || library.get(&name)).await?.map_err(library_problem)?))
 }
 
-/// A show's document and its version.
+/// Returns the response with a show's document, whose version is its ETag.
 fn document(kept: Kept) -> Response {
     let about = [
         (header::CONTENT_TYPE, "application/json"),
@@ -95,7 +95,7 @@ fn document(kept: Kept) -> Response {
     (about, kept.bytes).into_response()
 }
 
-/// `GET /api/shows/{name}/states`
+/// `GET /api/shows/{name}/states`: lists the saved states of a show, the newest first.
 pub async fn states(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -104,7 +104,7 @@ pub async fn states(
     beside(move || library.states(&name)).await?.map(Json).map_err(library_problem)
 }
 
-/// `GET /api/shows/{name}/states/{number}`
+/// `GET /api/shows/{name}/states/{number}`: returns the document of an earlier state of a show.
 pub async fn state(
     State(shared): State<Arc<Shared>>,
     Path((name, number)): Path<(String, u32)>,
@@ -113,7 +113,7 @@ pub async fn state(
     Ok(document(beside(move || library.state(&name, number)).await?.map_err(library_problem)?))
 }
 
-/// `GET /api/shows/{name}/file`
+/// `GET /api/shows/{name}/file`: returns the file of a show as the library keeps it.
 pub async fn file(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Answer<Response> {
     let library = shared.library.clone();
     let (bytes, format) = beside(move || library.file(&name)).await?.map_err(library_problem)?;
@@ -121,8 +121,8 @@ pub async fn file(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -
     Ok((about, bytes).into_response())
 }
 
-/// `PUT /api/shows/{name}`. Screens that show this show get the new version. A copy of a read-only show is not opened
-/// on screens, because its author may not want that.
+/// `PUT /api/shows/{name}`: saves a show. Screens on which this show is open get the new version. A copy of a read-only
+/// show is not opened on screens, because its author may not want that.
 pub async fn put(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -145,7 +145,7 @@ pub async fn put(
     Ok(([(header::ETAG, etag)], Json(entry)).into_response())
 }
 
-/// `GET /api/assets/{hash}`. The kind of file is not told, so that no browser runs what a drawing holds.
+/// `GET /api/assets/{hash}`: returns an asset. Its media type is hidden, so that no browser runs what a drawing holds.
 pub async fn asset(State(shared): State<Arc<Shared>>, Path(hash): Path<String>) -> Answer<Response> {
     let library = shared.library.clone();
     let content = beside(move || library.asset(&hash)).await?.map_err(library_problem)?;
@@ -157,7 +157,7 @@ pub async fn asset(State(shared): State<Arc<Shared>>, Path(hash): Path<String>) 
     Ok((about, content.to_vec()).into_response())
 }
 
-/// `PUT /api/assets/{hash}`
+/// `PUT /api/assets/{hash}`: stores an asset.
 pub async fn put_asset(
     State(shared): State<Arc<Shared>>,
     Path(hash): Path<String>,
@@ -168,14 +168,14 @@ pub async fn put_asset(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// The query of `delete`.
+/// The query parameters of `delete`.
 #[derive(Debug, serde::Deserialize)]
 pub struct Renamed {
-    /// The show under its new name.
+    /// If the show was renamed: its new name, under which the earlier states are kept.
     renamed_to: Option<String>,
 }
 
-/// `DELETE /api/shows/{name}?renamed_to=NAME`
+/// `DELETE /api/shows/{name}?renamed_to=NAME`: deletes a show. With `renamed_to`, that show gets the earlier states.
 pub async fn delete(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -189,7 +189,8 @@ pub async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// `POST /api/check`. Each client has one plan at a time: a newer request cancels the older one.
+/// `POST /api/check`: plans the show of the body and returns the plan with its issues. Each client has one plan at a
+/// time: a newer request cancels the older one.
 pub async fn check(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -220,15 +221,15 @@ pub async fn check(
     }
 }
 
-/// The query of `convert`.
+/// The query parameters of `convert`.
 #[derive(Debug, serde::Deserialize)]
 pub struct To {
     /// Name of the wanted format in [`FORMATS`].
     to: String,
 }
 
-/// `POST /api/convert?to=FORMAT`: the show of the body as a file of a format of [`FORMATS`], with the files of the library
-/// that it names. A show for a format with timed paths is planned, as for `POST /api/check`.
+/// `POST /api/convert?to=FORMAT`: returns the show of the body as a file of a format of [`FORMATS`]. Files of the
+/// library that the show names are added. A show for a format with timed paths is planned, as for `POST /api/check`.
 pub async fn convert(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -260,7 +261,7 @@ pub async fn convert(
     }
 }
 
-/// The file of a show that is planned first.
+/// Plans a show and writes it in a format.
 async fn planned_file(
     shared: &Shared,
     ends: Ends,
@@ -293,7 +294,7 @@ fn failed() -> Refused {
     refuse(StatusCode::INTERNAL_SERVER_ERROR, line)
 }
 
-/// `GET /api/plan`
+/// `GET /api/plan`: returns the plan of the open show, with paths.
 pub async fn plan(State(shared): State<Arc<Shared>>) -> Answer<Response> {
     let plan = shared.desk.plan();
     let text = beside(move || serde_json::to_string(&*plan)).await?;
@@ -302,7 +303,7 @@ pub async fn plan(State(shared): State<Arc<Shared>>) -> Answer<Response> {
         .into_response())
 }
 
-/// Any other address below `/api`.
+/// Refuses a request to any other address below `/api`.
 pub async fn unknown() -> Refused {
     refuse(StatusCode::NOT_FOUND, "the API has no such address")
 }

@@ -8,7 +8,7 @@ use lightbots_api::BrokerSettings;
 
 use super::state::Shared;
 
-/// `GET /api/broker`
+/// `GET /api/broker`: returns the broker settings without secrets.
 pub async fn settings(State(shared): State<Arc<Shared>>) -> Json<BrokerSettings> {
     Json(shared.broker.shown())
 }

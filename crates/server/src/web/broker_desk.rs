@@ -19,17 +19,17 @@ pub struct BrokerDesk {
 }
 
 impl BrokerDesk {
-    /// Takes the settings in use, and the folder that keeps changed ones.
+    /// Holds the settings in use. Changed settings are kept in `folder`.
     pub fn new(folder: PathBuf, settings: Settings, embedded: Option<BrokerUrl>) -> Self {
         Self { folder, settings: Mutex::new(settings), embedded }
     }
 
-    /// The settings for a form.
+    /// Returns the settings for a form, without secrets.
     pub fn shown(&self) -> BrokerSettings {
         self.lock().shown(self.embedded.as_ref())
     }
 
-    /// Connects with other settings and keeps them. The error is one line that says why they cannot be right.
+    /// Connects with other settings and keeps them. `Err`: one line that says why they cannot be right.
     pub async fn connect(&self, wanted: Settings, handle: &Handle) -> Result<(), String> {
         let wanted = self.completed(wanted);
         let (settings, broker) = if wanted.is_embedded() {
@@ -49,7 +49,7 @@ impl BrokerDesk {
         Ok(())
     }
 
-    /// Disconnects. The settings are kept.
+    /// Disconnects from the broker. The settings are kept.
     pub async fn disconnect(&self, handle: &Handle) {
         let settings = Settings { connect: false, ..self.lock().clone() };
         self.keep(settings);

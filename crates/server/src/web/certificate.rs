@@ -14,9 +14,9 @@ use crate::disk::{self, Readers};
 use crate::failure::Failure;
 use crate::tls::{self, OWN_NAMES};
 
-/// Folder in the data folder. `lightbots certs --out` may write there, too: then its certificate is used.
+/// Name of the folder in the data folder. `lightbots certs --out` may write there, too: then its certificate is used.
 const FOLDER: &str = "certs";
-/// Validity of a certificate that the program makes by itself, days: the most that browsers accept of an authority that
+/// Validity of a certificate that the program makes by itself, days. Browsers accept no more of an authority that
 /// people installed (Apple's rule of 2019).
 const DAYS: u32 = 825;
 
@@ -25,16 +25,17 @@ pub struct WebCertificate {
     pub acceptor: TlsAcceptor,
     /// SHA-256 of the certificate as browsers show it, such as `AB:01:…`.
     pub fingerprint: String,
-    /// Its file.
+    /// Path of the certificate's file.
     pub file: PathBuf,
-    /// Names of the server that it does not hold: browsers warn of them.
+    /// Names of the server that the certificate does not hold: browsers warn of them.
     pub missing: Vec<String>,
-    /// A line for people if other users of the machine could read its key.
+    /// A line for people if other users of the machine could read the private key.
     pub key_note: Option<String>,
 }
 
 impl WebCertificate {
-    /// The certificate in the data folder, for a server of these names; a new one where neither certificate nor key is.
+    /// Reads the certificate in the data folder, for a server of these names. Makes a new one if there is neither
+    /// certificate nor key. The failure is one line with a remedy.
     pub fn take(data: &Path, names: &[String]) -> Result<Self, Failure> {
         let folder = data.join(FOLDER);
         let (file, key) = (folder.join("server.pem"), folder.join("server.key"));
@@ -56,14 +57,14 @@ impl WebCertificate {
         Ok(Self { acceptor: tls::acceptor(config), fingerprint, file, missing, key_note })
     }
 
-    /// What makes a certificate that holds the missing names.
+    /// Returns the command that makes a certificate with the missing names.
     pub fn remedy(&self) -> String {
         let folder = self.file.parent().unwrap_or(Path::new("."));
         format!("lightbots certs --out {} --name {}", folder.display(), self.missing.join(" "))
     }
 }
 
-/// Makes a certificate that no authority signed.
+/// Makes a self-signed certificate and its key, and writes their files.
 fn make(file: &Path, key: &Path, names: &[String]) -> Result<(), Failure> {
     let all: Vec<String> = OWN_NAMES.iter().map(ToString::to_string).chain(names.iter().cloned()).collect();
     let common = names.first().map_or("LightBots", String::as_str);
@@ -83,8 +84,8 @@ fn make(file: &Path, key: &Path, names: &[String]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a certificate whose time is over or has not come. It may be of any authority: that clients trust it is for
-/// them to decide.
+/// Checks that a certificate is valid now. It may be of any authority: whether clients trust it is for them to decide.
+/// `Err`: what is wrong with the time.
 fn check_time(certificate: &ParsedCertificate<'_>) -> Result<(), &'static str> {
     use CertificateError::{Expired, ExpiredContext, NotValidYet, NotValidYetContext};
     let algorithms = ring::default_provider().signature_verification_algorithms.all;
@@ -108,7 +109,8 @@ fn fingerprint(certificate: &CertificateDer<'_>) -> String {
     digest.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(":")
 }
 
-/// A key without its certificate is never replaced: it may be one that an authority has signed.
+/// Returns the failure for a key without its certificate. That key is not replaced, because an authority may have
+/// signed it.
 fn without_certificate(file: &Path, key: &Path) -> Failure {
     let (file, key) = (file.display(), key.display());
     Failure::input(format!(

@@ -1,4 +1,4 @@
-//! Connections of browsers with the addresses of both ends.
+//! Connections to the web app, with the addresses of both ends.
 
 use std::io;
 use std::net::SocketAddr;
@@ -16,14 +16,14 @@ use super::log::ScreenLog;
 use super::stream::Stream;
 use crate::open_files;
 
-/// The most connections of screens and scripts: a screen has one for its pictures and up to six for requests.
+/// Most connections of screens and scripts. A screen has one for its pictures and up to six for requests.
 const MOST: usize = 1_000;
-/// Shortest time between two lines that say that connections are refused.
+/// Shortest time between two lines about refused connections.
 const SAY_EVERY: Duration = Duration::from_secs(10);
-/// Time until the next attempt after the system refused a connection.
+/// Pause after the system refused a connection.
 const AGAIN_IN: Duration = Duration::from_millis(100);
 
-/// Addresses of a connection.
+/// Addresses of both ends of a connection.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
     /// Address of the client.
@@ -37,25 +37,25 @@ pub struct Ends {
 /// Accepts a bounded number of connections and adds their addresses.
 pub struct Connections {
     listener: TcpListener,
-    /// Speaks TLS; `None`: the web app is served without.
+    /// Does TLS handshakes; `None` if the web app is served without TLS.
     acceptor: Option<TlsAcceptor>,
-    /// Connections in their handshakes, as many as there is room for.
+    /// Connections in their TLS handshakes. They have places among `guests`, which bound their number.
     handshakes: JoinSet<Option<(Stream, Ends)>>,
     guests: Guests,
     log: ScreenLog,
-    /// When a refusal was last said.
+    /// Time of the last line about refused connections.
     said: Option<Instant>,
 }
 
 impl Connections {
-    /// Accepts what comes to the listener. At most half of the open files that the system grants become connections, so
-    /// that the library and the link to the broker have room. Refusals are said in the log.
+    /// Accepts connections of the listener. At most half of the open files that the system grants become connections,
+    /// so that the library and the link to the broker have room. Refusals are written to the log.
     pub fn new(listener: TcpListener, acceptor: Option<TlsAcceptor>, log: ScreenLog) -> Self {
         let guests = Guests::new(MOST.min(open_files::limit() / 2));
         Self { listener, acceptor, handshakes: JoinSet::new(), guests, log, said: None }
     }
 
-    /// The connection in its place; `None`: it is closed, because there is no room.
+    /// Gives a connection a place. `None` if there is no room: the connection is then closed.
     fn admit(&mut self, stream: TcpStream) -> Option<Guest> {
         let place = self.guests.admit(Instant::now());
         if place.is_none() {
@@ -68,7 +68,8 @@ impl Connections {
         Some(Guest::new(stream, place?))
     }
 
-    /// Waits after an error of the system, and says what it means.
+    /// Logs an error of the system with a remedy, and waits for `AGAIN_IN`. Ignores connections that broke off by
+    /// themselves.
     async fn failed(&mut self, error: &io::Error) {
         use io::ErrorKind::{ConnectionAborted, ConnectionReset, Interrupted};
         if matches!(error.kind(), ConnectionAborted | ConnectionReset | Interrupted) {
@@ -117,14 +118,14 @@ impl Listener for Connections {
                     continue;
                 }
             };
-            // Without it the kernel may hold a snapshot back until the one before is acknowledged.
+            // Without this, the kernel may hold a snapshot back until the one before is acknowledged.
             let _ = stream.set_nodelay(true);
             // A closed connection has no address.
             let Ok(local) = stream.local_addr() else { continue };
             let Some(guest) = self.admit(stream) else { continue };
             let ends = move |is_secure| Ends { remote, local, is_secure };
             let Some(acceptor) = self.acceptor.clone() else { return (Stream::Plain(guest), ends(false)) };
-            // Beside the others, so that a slow handshake holds nothing up.
+            // In a task of its own, so that a slow handshake delays no other connection.
             self.handshakes.spawn(async move {
                 let stream = Stream::open(acceptor, guest).await?;
                 let ends = ends(stream.is_secure());

@@ -15,7 +15,7 @@ use crate::show_plan;
 
 use super::planner::GiveUp;
 
-/// The open show. Clones share it.
+/// The open show and its plan. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Desk {
     handle: Handle,
@@ -24,14 +24,14 @@ pub struct Desk {
     /// Cancels the running plan when it is replaced by the next one.
     planning: Arc<std::sync::Mutex<GiveUp>>,
     last_plan: Arc<show_plan::LastPlan>,
-    /// Revision that the controller has. Locked while the controller gets another.
+    /// Revision of the show that the controller has. Locked while the controller gets another revision.
     given: Arc<Mutex<u32>>,
 }
 
-/// The open show with its messages.
+/// The open show with its message to screens.
 #[derive(Debug)]
 pub struct Shown {
-    /// Number of the document's state, increased with every change; 0: no show was opened yet.
+    /// Number of the document's state, increased with every change; 0 before a show is opened.
     pub revision: u32,
     /// Name of the show in the library.
     pub name: Option<String>,
@@ -39,7 +39,7 @@ pub struct Shown {
     pub show: Arc<Show>,
     /// The message to screens, ready to send.
     pub message: Utf8Bytes,
-    /// [`show_plan::drives_hash`] of the show, once it was asked for.
+    /// [`show_plan::drives_hash`] of the show, once it was computed.
     drives: OnceLock<u64>,
 }
 
@@ -97,27 +97,28 @@ impl Desk {
         self.shown.borrow().clone()
     }
 
-    /// The open show and its changes.
+    /// A receiver of the open show and its changes.
     pub fn watch(&self) -> watch::Receiver<Arc<Shown>> {
         self.shown.subscribe()
     }
 
-    /// The plan with paths.
+    /// The plan of the open show, with paths.
     pub fn plan(&self) -> Arc<api::Plan> {
         self.plan.borrow().clone()
     }
 
-    /// The plan and its changes.
+    /// A receiver of the plan and its changes.
     pub fn watch_plan(&self) -> watch::Receiver<Arc<api::Plan>> {
         self.plan.subscribe()
     }
 
-    /// Gives the controller a show that was opened during a run once the run is over. Ends with the conductor.
+    /// Gives the controller a show that was opened during a run, once that run is over. Returns when the conductor
+    /// ends.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         loop {
             match news.recv().await {
                 Ok(News::Event(event)) if event.kind == EventKind::StateChanged(ControllerState::Ready) => {
-                    // If another run has begun already, its end brings this again.
+                    // If another run has begun already, the event comes again at its end.
                     let _ = self.hand_over().await;
                 }
                 Err(broadcast::error::RecvError::Closed) => return,
@@ -130,7 +131,7 @@ impl Desk {
         let (sender, last_plan) = (self.plan.clone(), self.last_plan.clone());
         let give_up = GiveUp::default();
         let is_given_up = give_up.asked();
-        // Nothing needs the plan of the show before.
+        // Cancels the plan of the previous show, which nothing needs.
         *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
         let shown = self.shown();
         tokio::task::spawn_blocking(move || {
@@ -156,12 +157,12 @@ impl Shown {
         *self.drives.get_or_init(|| show_plan::drives_hash(&self.show))
     }
 
-    /// The same, if it was computed: soon after the show was opened.
+    /// [`Self::drives`] if it was computed already, which is soon after the show was opened.
     pub fn known_drives(&self) -> Option<u64> {
         self.drives.get().copied()
     }
 
-    /// The show with a name: without one from its author it gets its name in the library.
+    /// Returns the show with a name. If its author gave it none, it gets its name in the library.
     fn named(&self) -> Arc<Show> {
         match &self.name {
             Some(name) if self.show.name.trim().is_empty() => {

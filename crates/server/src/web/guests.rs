@@ -1,5 +1,5 @@
-//! A bounded number of connections to the web app. When it is reached, the connection that was silent for the longest
-//! time makes room: files, broker and robots of this program need sockets, too.
+//! Bounds the number of connections to the web app. When the bound is reached, the connection that was silent for the
+//! longest time makes room. Files, broker and robots of this program need sockets, too.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -12,11 +12,11 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::oneshot;
 
-/// A connection without a byte in either direction for this long may be closed to make room. Above the time that a plan
-/// may take, during which its client waits in silence.
+/// Time without a byte in either direction after which a connection may be closed to make room. It is longer than a
+/// plan may take, during which its client waits in silence.
 const SILENT: Duration = Duration::from_secs(40);
 
-/// The connections there are.
+/// The open connections, at most `most`.
 #[derive(Debug)]
 pub struct Guests {
     most: usize,
@@ -26,13 +26,13 @@ pub struct Guests {
 
 #[derive(Debug)]
 struct Line {
-    /// When a byte last went through it.
+    /// Time of the last byte in either direction.
     alive: Arc<Mutex<Instant>>,
     /// Dropped to end the connection.
     _end: oneshot::Sender<()>,
 }
 
-/// The place of one connection, free again when it is dropped.
+/// The place of one connection among [`Guests`]. Dropping it frees the place.
 #[derive(Debug)]
 pub struct GuestPlace {
     number: u64,
@@ -47,12 +47,13 @@ impl Guests {
         Self { most, next: 0, lines: Arc::default() }
     }
 
-    /// The most connections there may be.
+    /// The most connections that may be open.
     pub fn most(&self) -> usize {
         self.most
     }
 
-    /// A place for a further connection; `None` where there is none, and no other connection is silent for long.
+    /// Returns a place for a further connection. If all are taken, closes the connection that was silent for longest.
+    /// `None` if no connection was silent for `SILENT`.
     pub fn admit(&mut self, now: Instant) -> Option<GuestPlace> {
         if lock(&self.lines).len() >= self.most && !self.close_silent(now) {
             return None;
@@ -65,7 +66,8 @@ impl Guests {
         Some(GuestPlace { number, alive, ended, lines: self.lines.clone() })
     }
 
-    /// Ends the connection that was silent for the longest time, if any was for long.
+    /// Ends the connection that was silent for the longest time, if that is at least `SILENT`. Returns whether one was
+    /// ended.
     pub fn close_silent(&self, now: Instant) -> bool {
         let mut lines = lock(&self.lines);
         let oldest = lines.iter().map(|(number, line)| (*lock(&line.alive), *number)).min();
@@ -84,7 +86,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A connection in its place.
+/// A connection that holds its place among [`Guests`].
 #[derive(Debug)]
 pub struct Guest {
     stream: TcpStream,
@@ -92,12 +94,12 @@ pub struct Guest {
 }
 
 impl Guest {
-    /// The connection that has this place.
+    /// Puts a connection into its place.
     pub fn new(stream: TcpStream, place: GuestPlace) -> Self {
         Self { stream, place }
     }
 
-    /// The first byte that the client sends; it stays to be read.
+    /// Waits for the first byte that the client sends and returns it. The byte stays to be read.
     pub async fn first_byte(&self) -> io::Result<u8> {
         let mut first = [0];
         match self.stream.peek(&mut first).await? {

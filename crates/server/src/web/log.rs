@@ -1,4 +1,4 @@
-//! The log that screens show. Equal events of many robots are one line, which is replaced while it grows.
+//! The log that screens show. Equal events of many robots make one line, which is replaced while more robots join it.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,9 +14,9 @@ use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
 use crate::sentences::sentence;
 
-/// Lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
+/// Number of lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
 const KEPT: usize = 300;
-/// Shortest time between two versions of a growing line: five a second read like one change. Shorter times would send
+/// Shortest time between two versions of a growing line: five a second look like one change. Shorter times would send
 /// one message per robot of a large fleet.
 const GROWS: Duration = Duration::from_millis(200);
 
@@ -101,7 +101,7 @@ impl ScreenLog {
                     due.get_or_insert(Instant::now() + GROWS);
                 }
                 Ok(news) => {
-                    // Sums first, because their events came before this one.
+                    // Sums are written first, because their events came before this one.
                     sums.each_grown(|sum| self.sum(sum));
                     sums.close_run();
                     self.write(news);

@@ -58,7 +58,8 @@ use crate::playlist::PlaylistStore;
 use connection::{Connections, Ends};
 use runs::Runs;
 
-/// Binds the address. The failure is one line with a remedy.
+/// Binds the address of the web app. Returns the listener and the names of this server. The failure is one line with a
+/// remedy.
 pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure> {
     let address = exposure.listen();
     let listener = TcpListener::bind(address).await.map_err(|error| {
@@ -72,7 +73,7 @@ pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure
     Ok((listener, exposure.names(port)?))
 }
 
-/// Serves until the task is dropped; with an acceptor over TLS.
+/// Serves the web app until the task is dropped, over TLS if there is an acceptor.
 pub async fn serve(listener: TcpListener, acceptor: Option<TlsAcceptor>, shared: Arc<Shared>) {
     let connections = Connections::new(listener, acceptor, shared.log.clone());
     let routes = Router::new()
@@ -105,7 +106,7 @@ pub async fn serve(listener: TcpListener, acceptor: Option<TlsAcceptor>, shared:
     }
 }
 
-/// Routes of sign-in, people and tokens.
+/// Returns the routes of sign-in, people and tokens.
 fn accounts(admission: Arc<Admission>) -> Router<Arc<Shared>> {
     Router::new()
         .route("/api/session", get(sign_in::session).post(sign_in::sign_in).delete(sign_in::sign_out))
@@ -117,7 +118,7 @@ fn accounts(admission: Arc<Admission>) -> Router<Arc<Shared>> {
         .with_state(admission)
 }
 
-/// Routes of the recorded runs.
+/// Returns the routes of the recorded runs.
 fn recorded(runs: Runs) -> Router<Arc<Shared>> {
     Router::new()
         .route("/api/runs", get(runs::list))
@@ -125,7 +126,7 @@ fn recorded(runs: Runs) -> Router<Arc<Shared>> {
         .with_state(runs)
 }
 
-/// Routes of the playlist.
+/// Returns the routes of the playlist.
 fn scheduled(playlist: PlaylistStore) -> Router<Arc<Shared>> {
     Router::new()
         .route("/api/playlist", get(playlist::read).put(playlist::change))

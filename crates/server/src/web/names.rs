@@ -7,7 +7,7 @@ use super::address::reachable;
 use super::scheme::Scheme;
 use crate::failure::Failure;
 
-/// Where the web app is served: on this machine only, or on the network.
+/// Where and how the web app is served: on this machine only, or on the network.
 #[derive(Clone, Debug)]
 pub struct Exposure {
     listen: SocketAddr,
@@ -39,16 +39,16 @@ pub struct Names {
 }
 
 impl Exposure {
-    /// Serves on `listen`: on a loopback address without TLS, on any other address with TLS unless `plain_http` is set.
-    /// `host_names` are further names of this machine: DNS names or IP addresses, with a port if it differs from that of
-    /// `listen`. The failure is one line, exit code 2.
+    /// Settings for a server on `listen`. A loopback address is served without TLS, any other address with TLS unless
+    /// `plain_http` is set. `host_names` are further names of this machine: DNS names or IP addresses, with a port if
+    /// it differs from that of `listen`. The failure is one line, exit code 2.
     pub fn new(listen: SocketAddr, plain_http: bool, host_names: Vec<String>) -> Result<Self, Failure> {
         let exposure = Self { listen, plain_http, host_names };
         exposure.names(listen.port())?;
         Ok(exposure)
     }
 
-    /// Address that the server listens on; port 0: any.
+    /// Address that the server listens on. With port 0 the system chooses the port.
     pub fn listen(&self) -> SocketAddr {
         self.listen
     }
@@ -63,7 +63,8 @@ impl Exposure {
         if self.is_open() && !self.plain_http { Scheme::Https } else { Scheme::Http }
     }
 
-    /// The names under which other machines reach the web app, for a certificate: those that the user gave, and an address.
+    /// Returns the names under which other machines reach the web app, for a certificate: those that the user gave, and
+    /// an address.
     pub fn hosts(&self) -> Vec<String> {
         let given = self.host_names.iter().filter_map(|text| Authority::read(text, 0));
         let mut hosts: Vec<String> = given.map(|authority| authority.host.to_string()).collect();
@@ -71,7 +72,7 @@ impl Exposure {
         hosts
     }
 
-    /// The names, once `port` is known. The failure is one line, exit code 2.
+    /// Returns the names under which requests are answered, once `port` is known. The failure is one line, exit code 2.
     pub fn names(&self, port: u16) -> Result<Names, Failure> {
         let others = self.host_names.iter().map(|text| {
             Authority::read(text, port).ok_or_else(|| {
@@ -95,20 +96,21 @@ impl Names {
         self.scheme
     }
 
-    /// Reads the value of a `Host` header of a request over `scheme`.
+    /// Reads the value of a `Host` header of a request over `scheme`. `None` if it is no host.
     pub fn host(scheme: Scheme, text: &str) -> Option<Authority> {
         Authority::read(text, scheme.usual_port())
     }
 
-    /// Reads the value of an `Origin` header. `None` also for pages that another scheme served.
+    /// Reads the value of an `Origin` header. `None` if it is no origin, or for pages of another scheme.
     pub fn origin(&self, text: &str) -> Option<Authority> {
         let (scheme, rest) = text.split_once("://")?;
         let is_ours = scheme.eq_ignore_ascii_case(self.scheme.name());
         is_ours.then(|| Authority::read(rest, self.scheme.usual_port()))?
     }
 
-    /// Whether a request to `host` is for this server; `local` is the server's end of the connection. A DNS name counts
-    /// only if the user gave it, because anyone can point other names at this address (DNS rebinding).
+    /// Whether a request to `authority` is for this server. `local` is the server's end of the connection. A DNS name
+    /// other than localhost counts only if the user gave it, because anyone can point other names at this address (DNS
+    /// rebinding).
     pub fn hold(&self, authority: &Authority, local: IpAddr) -> bool {
         let is_own = match &authority.host {
             Host::Address(ip) => ip.is_loopback() || self.is_open && *ip == local.to_canonical(),
@@ -119,7 +121,7 @@ impl Names {
 }
 
 impl Authority {
-    /// Reads `HOST` or `HOST:PORT`. An IPv6 address is in brackets.
+    /// Reads `HOST` or `HOST:PORT`. An IPv6 address is in brackets. `None` for other text.
     fn read(text: &str, usual_port: u16) -> Option<Self> {
         let (host, port) = match text.strip_prefix('[') {
             Some(rest) => {

@@ -18,13 +18,13 @@ use super::state::Shared;
 use crate::broker_settings::Settings;
 use crate::sentences::capitalised;
 
-/// Longest operation with what is around it, bytes: certificates of `connect` fit. Bounds memory for hostile clients.
+/// Longest message with an operation, bytes: the certificates of `connect` fit. Bounds memory for hostile clients.
 pub const LONGEST: usize = 64 << 10;
 
-/// Why an operation was refused, and another that would be carried out.
+/// Why an operation was refused, and another operation that the screen may offer instead.
 type Refused = (String, Option<api::Choice>);
 
-/// Carries out an operation and gives the answer for the screen.
+/// Carries out an operation and returns the answer for the screen.
 pub async fn operate(shared: &Shared, request: api::Request) -> api::Answer {
     let api::Request { id, operation } = request;
     match act(shared, operation).await {
@@ -33,7 +33,7 @@ pub async fn operate(shared: &Shared, request: api::Request) -> api::Answer {
     }
 }
 
-/// `POST /api/operate`
+/// `POST /api/operate`: carries out the operation of the body, if the caller's role allows it.
 pub async fn post(
     State(shared): State<Arc<Shared>>,
     Extension(caller): Extension<Caller>,
@@ -118,7 +118,7 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), None))
 }
 
-/// Lets an interrupted show go on; without one, the playlist that a stop holds.
+/// Lets an interrupted show go on. If the controller refuses, lets the playlist go on that a stop holds.
 async fn go_on(shared: &Shared) -> Result<(), String> {
     match shared.handle.operate(Operation::GoOn).await {
         Err(refusal) if !shared.playlist.release() => Err(refusal.to_string()),
@@ -126,7 +126,7 @@ async fn go_on(shared: &Shared) -> Result<(), String> {
     }
 }
 
-/// Switches on or off that only listed robots take part.
+/// Sets whether only listed robots take part. Returns the operation that the controller needs for it.
 async fn only_listed(shared: &Shared, on: bool) -> Result<Operation, String> {
     let present = shared.handle.look().await.map(|snapshot| snapshot.robots).unwrap_or_default();
     let present: Vec<RobotId> = present.iter().map(|robot| robot.id).collect();
@@ -134,14 +134,14 @@ async fn only_listed(shared: &Shared, on: bool) -> Result<Operation, String> {
     Ok(Operation::Admit(shared.book.admitted()))
 }
 
-/// Reads a layer of live light.
+/// Reads a layer of live light and returns its operation. `Err`: a sentence for people.
 fn live_light(name: String, layer: Option<serde_json::Value>) -> Result<Operation, String> {
     let layer = layer.map(|layer| read_layer(layer.to_string().as_bytes())).transpose();
     let layer = layer.map_err(|fault| format!("This light cannot be shown: {fault}."))?;
     Ok(Operation::LiveLight { name, layer })
 }
 
-/// Plays or previews, unless the plan has errors.
+/// Plays or previews the open show, unless its plan has errors.
 async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
     let plan = shared.desk.plan();
     let red = plan.issues.iter().find(|issue| issue.severity == api::Severity::Error);
@@ -163,7 +163,7 @@ async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused>
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), choice(&refusal, operation)))
 }
 
-/// The operation that the server offers after a refusal.
+/// Returns the operation that screens may offer after a refusal; `None` if there is none.
 fn choice(refusal: &Refusal, operation: api::Operation) -> Option<api::Choice> {
     let missing = api::Missing::LeaveOut;
     let operation = match operation {

@@ -1,4 +1,5 @@
-//! Answers only requests to a name of this server and from pages of this server, within a bounded time.
+//! Guard of requests: passes on only requests to a name of this server and from pages of this server, and bounds their
+//! time.
 
 use std::net::IpAddr;
 use std::sync::Arc;
@@ -20,8 +21,8 @@ use super::state::Shared;
 /// a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Refuses requests to other names (DNS rebinding) and requests that pages of other servers send through a visitor's
-/// browser (cross-site request forgery).
+/// Passes on requests that are for this server. Refuses requests to other names (DNS rebinding) and requests that pages
+/// of other servers send through a visitor's browser (cross-site request forgery).
 pub async fn guard(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -44,8 +45,8 @@ pub async fn guard(
     }
 }
 
-/// Sends a page that was asked for without TLS to its address with TLS. Any other request is refused: a program that sends
-/// its token without TLS must not go on.
+/// Redirects a request for a page without TLS to its address with TLS. Any other request is refused: a program that
+/// sends its token without TLS must not go on.
 fn elsewhere(names: &Names, local: IpAddr, request: &Request) -> Response {
     let host = only(request.headers(), header::HOST).flatten();
     let own = host.filter(|host| {
@@ -67,8 +68,8 @@ fn elsewhere(names: &Names, local: IpAddr, request: &Request) -> Response {
     }
 }
 
-/// Whether a request on a connection to the address `local` is for this server and from one of its pages. Programs other
-/// than browsers send no origin and are allowed.
+/// Checks that a request on a connection to the address `local` is for this server and from one of its pages. Programs
+/// other than browsers send no origin and are allowed. `Err`: the refusal.
 fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result<(), Refused> {
     let unclear = || refuse(StatusCode::BAD_REQUEST, "a request needs one Host header with host and port");
     let host = only(headers, header::HOST).ok_or_else(unclear)?;
@@ -93,7 +94,8 @@ fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result
     }
 }
 
-/// The value of a header that may occur once. `Some(None)`: it is missing. `None`: it occurs twice or is not text.
+/// Returns the value of a header that may occur once. `Some(None)` if it is missing. `None` if it occurs twice or is
+/// not text.
 fn only(headers: &HeaderMap, name: HeaderName) -> Option<Option<&str>> {
     let mut values = headers.get_all(name).iter();
     let Some(value) = values.next() else { return Some(None) };

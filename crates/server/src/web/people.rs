@@ -1,4 +1,4 @@
-//! People are added, changed and removed over HTTP.
+//! Adds, changes and removes people over HTTP.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::admission::Admission;
 use super::refused::{Refused, refuse};
 use crate::accounts::{AccountList, Person, check_name};
 
-/// `POST /api/people`
+/// `POST /api/people`: adds a person.
 pub async fn add(
     State(admission): State<Arc<Admission>>,
     Json(NewPerson { name, role, password }): Json<NewPerson>,
@@ -28,7 +28,7 @@ pub async fn add(
     })
 }
 
-/// `PUT /api/people/{name}`
+/// `PUT /api/people/{name}`: changes the role or the password of a person.
 pub async fn change(
     State(admission): State<Arc<Admission>>,
     Path(name): Path<String>,
@@ -51,7 +51,7 @@ pub async fn change(
     })
 }
 
-/// `DELETE /api/people/{name}`: the person's sessions and tokens end.
+/// `DELETE /api/people/{name}`: removes a person, whose sessions and tokens end.
 pub async fn remove(
     State(admission): State<Arc<Admission>>,
     Path(name): Path<String>,
@@ -62,7 +62,7 @@ pub async fn remove(
     })
 }
 
-/// Changes the accounts, unless `change` refuses.
+/// Changes the accounts by `change`, unless it refuses. Returns the status of the answer.
 fn change_list(
     admission: &Admission,
     change: impl FnOnce(&mut AccountList) -> Result<(), Refused>,

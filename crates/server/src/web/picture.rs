@@ -1,4 +1,5 @@
-//! Snapshots for screens: made once for all screens, and only while a screen is connected.
+//! Pictures for screens: the state of run, broker and fleet. Each is made once for all screens, and only while a screen
+//! is connected.
 
 use std::time::Duration;
 
@@ -21,17 +22,17 @@ use crate::fleet_book::FleetBook;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 use crate::played_shows::{Played, PlayedShows};
 
-/// Time between two pictures: 20 a second, which screens interpolate. More cost bandwidth; fewer make dots lag.
+/// Time between two pictures: 20 a second, between which screens interpolate. More need bandwidth; fewer make dots lag.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// The newest state and fleet table, ready to send. A slow screen skips some. Clones share them.
+/// The newest picture and fleet table, ready to send. A slow screen skips some. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Pictures {
     states: watch::Sender<Picture>,
     fleets: watch::Sender<Utf8Bytes>,
 }
 
-/// A binary message and the state that belongs to it.
+/// Two messages about one moment: robots in binary form, and the state in JSON.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
     /// The bytes of [`api::Robots`].
@@ -40,7 +41,7 @@ pub struct Picture {
     pub state: Utf8Bytes,
 }
 
-/// What a picture needs besides the snapshot.
+/// What is needed to make a picture, besides the snapshot.
 struct Painter {
     desk: Desk,
     book: FleetBook,
@@ -55,7 +56,7 @@ struct Painter {
     pace: PaceMeter,
 }
 
-/// Measures the rate of the show clock over the last seconds.
+/// Measures the rate of the show clock, as a share of real time, over the last seconds.
 #[derive(Debug, Default)]
 struct PaceMeter {
     /// Real time and show time at the start of the measurement.
@@ -66,16 +67,16 @@ struct PaceMeter {
 impl PaceMeter {
     /// Time over which the rate is measured. Shorter times show jitter; longer ones hide pauses.
     const OVER: Duration = Duration::from_secs(2);
-    /// Largest deviation from real time that counts as real time. Covers the jitter of timers.
+    /// Largest deviation of the rate, as a share, that counts as real time. Covers the jitter of timers.
     const LEAST: f64 = 0.03;
 
-    /// The rate of the show clock, at most 1 (real time).
+    /// Returns the rate of the show clock as last measured, at most 1 (real time).
     fn look(&mut self, real: std::time::Instant, show: lightbots_base::Instant) -> f64 {
         let (since, shown) = *self.before.get_or_insert((real, show));
         let passed = real - since;
         if passed >= Self::OVER {
             self.before = Some((real, show));
-            // After a pause without screens the old measurement means nothing, so a new one is awaited.
+            // After a pause without screens the measurement means nothing, so that a new one is awaited.
             let lately = passed < Self::OVER * 2;
             self.share = lately.then(|| (show - shown).as_secs() / passed.as_secs_f64());
         }
@@ -85,17 +86,17 @@ impl PaceMeter {
 }
 
 impl Pictures {
-    /// Without a picture.
+    /// Empty pictures.
     pub fn new() -> Self {
         Self { states: watch::channel(Picture::default()).0, fleets: watch::channel(Utf8Bytes::default()).0 }
     }
 
-    /// A receiver of later pictures.
+    /// Returns a receiver of later pictures.
     pub fn states(&self) -> watch::Receiver<Picture> {
         self.states.subscribe()
     }
 
-    /// A receiver of fleet tables. It begins with the last one if another screen is connected.
+    /// Returns a receiver of fleet tables. It begins with the last table if another screen is connected.
     pub fn fleets(&self) -> watch::Receiver<Utf8Bytes> {
         let mut fleets = self.fleets.subscribe();
         if !fleets.borrow().is_empty() {
@@ -171,7 +172,8 @@ impl Pictures {
 }
 
 impl Painter {
-    /// Whether the robots that are there have never played the open show to its end.
+    /// Whether the known robots have never played the open show to its end. False for a show without frames, and until
+    /// its drives are known.
     fn is_first_run(&self, snapshot: &Snapshot) -> bool {
         let shown = self.desk.shown();
         let played = shown.known_drives().map(|drives| Played::of(drives, &snapshot.robots));
@@ -223,8 +225,8 @@ impl Painter {
         }
     }
 
-    /// Planned time to the end of the show, seconds: the rest of the transition or air time, and all later ones. `None` for
-    /// a preview.
+    /// Returns the planned time to the end of the show, seconds: the rest of the transition or air time, and all later
+    /// ones. `None` for a preview, a preflight, or a loop that waits for GO.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
         let is_of_show =
             |run: &&RunView| snapshot.state != ControllerState::Preview && run.preflight.is_none();

@@ -1,4 +1,4 @@
-//! Plans that clients ask for: one at a time for each client, for a bounded time, and only while the client waits.
+//! Runs plan requests of clients: one at a time for each client, for a bounded time, and only while the client waits.
 //!
 //! A newer request of a client cancels the older one, because an editor's older document is of no use. No client can make
 //! others wait. A client is an IP address.
@@ -22,7 +22,7 @@ pub enum CutOff {
     Failed,
 }
 
-/// Cancels work on another thread, at the latest when this is dropped.
+/// Cancels work on another thread, at the latest when the value is dropped.
 #[derive(Debug, Default)]
 pub struct GiveUp(Arc<AtomicBool>);
 
@@ -30,7 +30,7 @@ pub struct GiveUp(Arc<AtomicBool>);
 #[derive(Clone, Debug)]
 pub struct IsGivenUp(Arc<AtomicBool>);
 
-/// Runs the requests of all clients.
+/// Runs the plan requests of all clients.
 #[derive(Debug)]
 pub struct Planner {
     budget: Duration,
@@ -47,7 +47,7 @@ struct Client {
 }
 
 impl GiveUp {
-    /// A view of the flag for the other thread.
+    /// Returns the flag for the working thread.
     pub fn asked(&self) -> IsGivenUp {
         IsGivenUp(self.0.clone())
     }
@@ -77,14 +77,14 @@ impl Planner {
         Self { budget, clients: Mutex::default() }
     }
 
-    /// Longest time of a request.
+    /// Returns the longest time of a request.
     pub fn budget(&self) -> Duration {
         self.budget
     }
 
-    /// Runs `work` for a client on a thread of its own. `work` must ask often whether it is still wanted, and end soon if
-    /// it is not. That is so when the budget is used up or the client sent a newer request. It is so too when this
-    /// future is dropped because the client disconnected. The client's next request begins when `work` has ended.
+    /// Runs `work` for a client on a thread of its own. `work` must check often whether it is cancelled, which its
+    /// argument returns, and then end soon. It is cancelled when the budget is used up, when the client sends a newer
+    /// request, or when this future is dropped. The client's next request begins when `work` has ended.
     pub async fn work<T: Send + 'static>(
         &self,
         client: IpAddr,
@@ -118,7 +118,7 @@ impl Planner {
         }
     }
 
-    /// The client of an address. Removes clients without work, which bounds the map.
+    /// Returns the client of an address. Removes clients without work, which bounds the map.
     fn client(&self, address: IpAddr) -> Arc<Client> {
         // Entries are inserted in one step, so that a panic of another thread leaves no half-made ones.
         let mut clients = self.clients.lock().unwrap_or_else(PoisonError::into_inner);

@@ -43,7 +43,7 @@ async fn a_newer_request_of_the_same_client_takes_the_place_of_the_older() {
     let told_in_turn = tell.clone();
     let second = planner.work(CLIENT, move |_| told_in_turn.send("second").unwrap()).await;
     assert_eq!((first.await.unwrap(), second), (Err(CutOff::Superseded), Ok(())));
-    // The second began only once the first had ended.
+    // The second request began only once the first had ended.
     hears(&mut told, "ends").await;
     hears(&mut told, "second").await;
     assert!(told_other.try_recv().is_err(), "other clients are not disturbed");

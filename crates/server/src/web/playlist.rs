@@ -8,15 +8,15 @@ use lightbots_api::{PlaylistChange, PlaylistState};
 use super::refused::{Refused, refuse};
 use crate::playlist::{ChangeRefused, PlaylistStore};
 
-/// Longest body, bytes: the most entries fit twice.
+/// Longest body of a change, bytes: twice the length of the longest playlist.
 pub const LONGEST: usize = 128 << 10;
 
-/// `GET /api/playlist`
+/// `GET /api/playlist`: returns the playlist and its state.
 pub async fn read(State(playlist): State<PlaylistStore>) -> Json<PlaylistState> {
     Json(playlist.state())
 }
 
-/// `PUT /api/playlist`
+/// `PUT /api/playlist`: changes the playlist. Returns its new state.
 pub async fn change(
     State(playlist): State<PlaylistStore>,
     Json(change): Json<PlaylistChange>,

@@ -1,4 +1,4 @@
-//! What a preflight does and found, for screens.
+//! State and results of a preflight, for screens.
 
 use std::collections::HashMap;
 
@@ -7,13 +7,13 @@ use lightbots_api::rounded;
 use lightbots_base::RobotId;
 use lightbots_control::{PreflightFinding, PreflightProgress, PreflightRobot, Snapshot};
 
-/// What the last preflight found, by robot.
+/// Returns the results of the last preflight by robot.
 pub fn results(snapshot: &Snapshot) -> HashMap<RobotId, &PreflightRobot> {
     let robots = snapshot.preflight.iter().flat_map(|report| &report.robots);
     robots.map(|robot| (robot.id, robot)).collect()
 }
 
-/// What was found of one robot, for screens.
+/// Converts the result of one robot for screens.
 pub fn result(robot: &PreflightRobot) -> api::PreflightResult {
     let fault = |finding: &PreflightFinding| api::PreflightFault {
         cause: finding.to_string(),
@@ -27,7 +27,7 @@ pub fn result(robot: &PreflightRobot) -> api::PreflightResult {
     }
 }
 
-/// The preflight that is under way, or the last one.
+/// Returns the state of the preflight that is under way, or of the last one. `None` if there was none.
 pub fn state(snapshot: &Snapshot) -> Option<api::PreflightState> {
     if let Some(progress) = snapshot.run.as_ref().and_then(|run| run.preflight) {
         let PreflightProgress { round, rounds, doing } = progress;

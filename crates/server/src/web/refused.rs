@@ -1,4 +1,4 @@
-//! Refusals of requests.
+//! Refusals of requests, with a line for people in each.
 
 use axum::Json;
 use axum::body::to_bytes;
@@ -8,7 +8,7 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use lightbots_api::Problem;
 
-/// Longest line of the web framework that is passed on, bytes.
+/// Longest text of a refusal by the web framework that is passed on, bytes.
 const LINE_MAX: usize = 4 << 10;
 
 /// A refusal: HTTP status and one line for people.
@@ -21,13 +21,13 @@ impl IntoResponse for Refused {
     }
 }
 
-/// A refusal with a line for people.
+/// Returns a refusal with a line for people.
 pub fn refuse(status: StatusCode, line: &str) -> Refused {
     Refused(status, line.to_owned())
 }
 
-/// Gives the web framework's refusals under `/api/` (a body that is no JSON, a wrong method), which are plain text or
-/// empty, the form of all others.
+/// Gives the web framework's refusals under `/api/` the form of all others. They are plain text or empty, for example
+/// for a body that is no JSON or a wrong method.
 pub async fn uniform(request: Request, next: Next) -> Response {
     let is_api = request.uri().path().starts_with("/api/");
     let answer = next.run(request).await;

@@ -1,7 +1,7 @@
 //! The recorded runs and their reports over HTTP.
 //!
-//! A report is made while its run is on, or from the recorded inputs when it is first asked for, and kept beside them. Of
-//! the latter one is made at a time, on a thread of its own, because it takes a processor and the whole log in memory.
+//! A report is made while its run is on, or from the recorded inputs at the first request, and is kept beside them.
+//! Reports on request are made one at a time, on a thread of its own, because each takes a processor for a while.
 
 use std::fs::File;
 use std::io::Read;
@@ -25,13 +25,13 @@ use crate::live::conductor::Handle;
 use crate::live::run_facts::RunFacts;
 use crate::live::run_files::{facts_file, recorded_runs, report_file, run_file};
 
-/// Longest page that is read, bytes. A report bounds its samples and robots to less.
+/// Longest page of a report that is read, bytes. A report bounds its samples and robots to less.
 const PAGE_MAX: u64 = 64 << 20;
-/// Longest wait for a report. It is made on, and the next request finds it.
+/// Longest wait of a request for a report. The report is still made after that, and a later request finds it.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Time between two looks at whether a report has been made.
+/// Time between two checks whether a report has been made.
 const POLL: Duration = Duration::from_millis(20);
-/// Content security policy of a report: it needs nothing, and its script gets nothing of this server.
+/// Content security policy of a report: it loads nothing, and its script has no access to this server.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
                       sandbox allow-scripts allow-downloads; frame-ancestors 'none'";
 
@@ -40,12 +40,12 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 pub struct Runs {
     data: Arc<Path>,
     handle: Handle,
-    /// One report is made at a time.
+    /// Lets one report be made at a time.
     turn: Arc<Semaphore>,
 }
 
 impl Runs {
-    /// The runs of this data folder, of which the newest may be on.
+    /// The runs of this data folder. The newest may be on.
     pub fn of(data: &Path, handle: Handle) -> Self {
         Self { data: data.into(), handle, turn: Arc::new(Semaphore::new(1)) }
     }
@@ -55,14 +55,14 @@ impl Runs {
         Ok(runs.into_iter().map(|(number, _)| entry(&self.data, number)).collect())
     }
 
-    /// The page of a run; it is made if there is none. `is_running`: the newest run is on.
+    /// Returns the page of a run's report, and makes it if there is none. `is_running`: whether the newest run is on.
     async fn report(&self, number: u64, is_running: bool) -> Result<Vec<u8>, Refused> {
         let failed = |line: String| refuse(StatusCode::INTERNAL_SERVER_ERROR, &line);
         let (data, turn) = (self.data.clone(), self.turn.clone());
         let (log, reports) = (run_file(&self.data, number), self.handle.reports().clone());
-        // A task of its own: a client that leaves, or waits no longer, does not stop it.
+        // In a task of its own, so that a client that leaves or waits no longer does not stop it.
         let made = tokio::spawn(async move {
-            // That of a run that has just ended is nearly made.
+            // The report of a run that has just ended is nearly ready.
             while !is_running && reports.contains(&log) {
                 tokio::time::sleep(POLL).await;
             }
@@ -83,7 +83,7 @@ impl Runs {
     }
 }
 
-/// What a list says of a run.
+/// Returns the entry of a run in the list.
 fn entry(data: &Path, number: u64) -> RunEntry {
     let log = run_file(data, number);
     let facts = RunFacts::read(&facts_file(&log)).unwrap_or_else(|| of_file(&log));
@@ -99,7 +99,7 @@ fn entry(data: &Path, number: u64) -> RunEntry {
     }
 }
 
-/// The facts of a log without facts: only when it was written.
+/// Returns facts for a log whose facts are missing: only the time of its last change, as the begin.
 fn of_file(log: &Path) -> RunFacts {
     let modified = std::fs::metadata(log).and_then(|file| file.modified()).ok();
     let since = modified.and_then(|modified| modified.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
@@ -126,7 +126,7 @@ fn report(data: &Path, number: u64, is_running: bool) -> Result<Vec<u8>, Refused
     let file = disk::open_regular(&log).map_err(|_| none(number))?;
     let unfit =
         |why: String| refuse(StatusCode::UNPROCESSABLE_ENTITY, &format!("run {number} has no report: {why}"));
-    // The log may come from a program that failed: then the core fails again.
+    // If the recorded controller panicked, the replayed one panics as well.
     let made = catch_unwind(|| report_of_file(file));
     let (report, scrub) =
         made.map_err(|_| unfit("the controller failed in this run".into()))?.map_err(unfit)?;
@@ -137,7 +137,7 @@ fn report(data: &Path, number: u64, is_running: bool) -> Result<Vec<u8>, Refused
     Ok(page)
 }
 
-/// The report of a log, which is not held in memory as a whole.
+/// Makes the report of a log, which is read in pieces.
 fn report_of_file(mut log: File) -> Result<(ShowReport, Scrub), String> {
     let (mut report, mut piece) = (GrowingReport::default(), vec![0; 1 << 20]);
     loop {
@@ -153,7 +153,7 @@ fn none(number: u64) -> Refused {
     refuse(StatusCode::NOT_FOUND, &format!("there is no recorded run {number}"))
 }
 
-/// `GET /api/runs`
+/// `GET /api/runs`: lists the recorded runs, the newest first.
 pub async fn list(State(runs): State<Runs>) -> Result<Json<Vec<RunEntry>>, Refused> {
     let listed = tokio::task::spawn_blocking(move || runs.list()).await;
     let failed = |error: String| {
@@ -162,7 +162,7 @@ pub async fn list(State(runs): State<Runs>) -> Result<Json<Vec<RunEntry>>, Refus
     listed.map_err(|error| failed(error.to_string()))?.map(Json).map_err(|error| failed(error.to_string()))
 }
 
-/// `GET /api/runs/{number}/report`
+/// `GET /api/runs/{number}/report`: returns the report of a recorded run as a page.
 pub async fn read_report(
     State(runs): State<Runs>,
     UrlPath(number): UrlPath<u64>,

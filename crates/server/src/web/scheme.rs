@@ -1,6 +1,6 @@
 //! Whether the web app is served with TLS.
 
-/// How the web app is served.
+/// The URL scheme of the web app.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
     /// Without TLS.
@@ -10,7 +10,7 @@ pub enum Scheme {
 }
 
 impl Scheme {
-    /// As in a URL.
+    /// Returns the scheme as in a URL.
     pub fn name(self) -> &'static str {
         match self {
             Self::Http => "http",
@@ -18,7 +18,7 @@ impl Scheme {
         }
     }
 
-    /// Port of a URL or `Host` header without a port: RFC 9110, sections 4.2.1 and 4.2.2.
+    /// Returns the port of a URL or `Host` header that names none: RFC 9110, sections 4.2.1 and 4.2.2.
     pub(super) fn usual_port(self) -> u16 {
         match self {
             Self::Http => 80,

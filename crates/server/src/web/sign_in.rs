@@ -1,4 +1,4 @@
-//! Sign-in, sign-out, people and tokens over HTTP, and the page of the sign-in.
+//! Sign-in, sign-out, and lists of people and tokens over HTTP.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use super::connection::Ends;
 use super::refused::{Refused, refuse};
 use crate::accounts::{ApiToken, SESSION_LASTS, Secret, TriesLeft, check_name};
 
-/// `POST /api/session`
+/// `POST /api/session`: signs a person in. The answer sets the cookie of the session.
 pub async fn sign_in(
     State(admission): State<Arc<Admission>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -32,7 +32,7 @@ pub async fn sign_in(
     }
 }
 
-/// `POST /api/first`
+/// `POST /api/first`: makes the first operator and signs them in.
 pub async fn first(
     State(admission): State<Arc<Admission>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -44,12 +44,12 @@ pub async fn first(
     }
 }
 
-/// `GET /api/session`
+/// `GET /api/session`: returns name and role of the caller.
 pub async fn session(Extension(caller): Extension<Caller>) -> Json<Whoami> {
     Json(Whoami { name: caller.name, role: caller.role })
 }
 
-/// `DELETE /api/session`
+/// `DELETE /api/session`: signs a person out, and removes the cookie of the session.
 pub async fn sign_out(
     State(admission): State<Arc<Admission>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -61,19 +61,19 @@ pub async fn sign_out(
     cookie("", Duration::ZERO, ends)
 }
 
-/// `GET /api/people`
+/// `GET /api/people`: lists all people with their roles.
 pub async fn people(State(admission): State<Arc<Admission>>) -> Result<Json<Vec<AccountEntry>>, Refused> {
     let people = admission.accounts.read().map_err(failed)?.people;
     Ok(Json(people.into_iter().map(|(name, person)| AccountEntry { name, role: person.role }).collect()))
 }
 
-/// `GET /api/tokens`
+/// `GET /api/tokens`: lists all tokens with their roles, without their text.
 pub async fn tokens(State(admission): State<Arc<Admission>>) -> Result<Json<Vec<AccountEntry>>, Refused> {
     let tokens = admission.accounts.read().map_err(failed)?.tokens;
     Ok(Json(tokens.into_iter().map(|(name, token)| AccountEntry { name, role: token.role }).collect()))
 }
 
-/// `POST /api/tokens`: makes a token. This answer alone holds it.
+/// `POST /api/tokens`: makes a token. Only this answer holds its text.
 pub async fn make_token(
     State(admission): State<Arc<Admission>>,
     Extension(ticket): Extension<Ticket>,
@@ -97,7 +97,7 @@ pub async fn make_token(
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(token)).into_response())
 }
 
-/// `DELETE /api/tokens/{name}`
+/// `DELETE /api/tokens/{name}`: revokes a token.
 pub async fn revoke_token(
     State(admission): State<Arc<Admission>>,
     Path(name): Path<String>,
@@ -115,7 +115,7 @@ fn failed(line: String) -> Refused {
 
 fn cookie(token: &str, lasts: Duration, ends: Ends) -> Response {
     let seconds = lasts.as_secs();
-    // Browsers send it back over TLS only, and take it over TLS only.
+    // With `Secure`, browsers take and send the cookie over TLS only.
     let secure = if ends.is_secure { "; Secure" } else { "" };
     let value = format!("{COOKIE}={token}; Path=/; HttpOnly; SameSite=Strict{secure}; Max-Age={seconds}");
     ([(header::SET_COOKIE, value)], StatusCode::NO_CONTENT).into_response()
@@ -134,7 +134,7 @@ fn wrong(left: TriesLeft) -> String {
     }
 }
 
-/// A time for people, rounded up.
+/// Returns a time in words for people, rounded up.
 fn in_words(time: Duration) -> String {
     match time.as_secs_f64().ceil() as u64 {
         0..=1 => "one second".into(),

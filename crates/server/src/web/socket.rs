@@ -19,16 +19,16 @@ use super::picture::Picture;
 use super::scheme::Scheme;
 use super::state::Shared;
 
-/// Longest time to send one message. A screen that takes longer is disconnected, and connects again by itself.
+/// Longest time to send one message. A screen that takes longer is disconnected; its page connects again by itself.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Pictures that a screen may have without acknowledging them: one on its way while the screen draws another. With 1 it
-/// would idle for a round trip; with more a slow screen would lag behind.
+/// Most pictures that a screen has not acknowledged: one on its way while the screen draws another. With 1 it would
+/// idle for a round trip; with more a slow screen would lag behind.
 const AHEAD: usize = 2;
-/// Time between two checks that the session or token of a screen is still good. It bounds how long a screen sees the show
-/// after its sign-out; its operations are checked one by one.
+/// Time between two checks that the session or token of a screen is still valid. It bounds how long a screen sees the
+/// show after its sign-out. Operations are checked one by one.
 const CHECK_EVERY: Duration = Duration::from_secs(1);
 
-/// `/ws`
+/// `/ws`: opens the WebSocket of a screen and serves it.
 pub async fn open(
     State(shared): State<Arc<Shared>>,
     Extension(ticket): Extension<Ticket>,
@@ -43,13 +43,13 @@ pub async fn open(
     )
 }
 
-/// The screen disconnected or is too slow.
+/// The connection ends: the screen has gone, is too slow, is no longer signed in, or sent what cannot be read.
 struct Gone;
 
 struct Screen {
     socket: WebSocket,
     shared: Arc<Shared>,
-    /// What admitted the screen.
+    /// The session or token with which the screen was admitted.
     ticket: Ticket,
     /// Number of pictures that the screen has not acknowledged.
     ahead: usize,
@@ -147,7 +147,8 @@ impl Screen {
         }
     }
 
-    /// The person or program at this screen; the connection ends if they are no longer signed in.
+    /// Returns the person or program at this screen. `Err` if the session or token is no longer valid, which ends the
+    /// connection.
     fn caller(&self) -> Result<Caller, Gone> {
         self.shared.admission.caller(&self.ticket).ok_or(Gone)
     }

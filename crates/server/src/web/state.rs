@@ -1,4 +1,4 @@
-//! The state that requests share.
+//! State of the web server that all requests share.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicUsize};
@@ -18,12 +18,12 @@ use crate::live::conductor::Handle;
 use crate::played_shows::PlayedShows;
 use crate::playlist::PlaylistStore;
 
-/// State that requests share.
+/// State of the web server that all requests share.
 #[derive(Debug)]
 pub struct Shared {
     pub handle: Handle,
     pub library: Library,
-    /// What people say of robots.
+    /// Names that people gave robots, and the list of robots that may take part.
     pub book: FleetBook,
     pub desk: Desk,
     pub log: ScreenLog,
@@ -34,7 +34,7 @@ pub struct Shared {
     pub playlist: PlaylistStore,
     /// The planner for requests of clients.
     pub planner: Planner,
-    /// People and programs that may use this server.
+    /// Accounts, sessions and tokens for this server.
     pub admission: Arc<Admission>,
     /// Names of this server.
     pub names: Names,
@@ -44,7 +44,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// The state, and the tasks that follow the conductor.
+    /// Creates the state, and starts the tasks that follow the conductor's news.
     pub fn new(
         handle: Handle,
         library: Library,

@@ -12,7 +12,7 @@ use tokio_rustls::server::TlsStream;
 use super::guests::Guest;
 use crate::tls;
 
-/// Longest time from the connection to the end of the TLS handshake.
+/// Longest time from the connection to the end of the TLS handshake, or to the first byte without TLS.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A connection that is ready for HTTP.
@@ -25,8 +25,8 @@ pub enum Stream {
 }
 
 impl Stream {
-    /// A connection whose client speaks TLS, or HTTP by mistake, which the server answers with the right address. `None`:
-    /// the handshake failed or took too long.
+    /// Opens a connection whose client speaks TLS, or plain HTTP by mistake, which the server answers with the right
+    /// address. `None` if the handshake failed or took too long.
     pub async fn open(acceptor: TlsAcceptor, guest: Guest) -> Option<Self> {
         let opening = async {
             if guest.first_byte().await? != tls::FIRST_BYTE {

@@ -7,7 +7,7 @@ use lightbots_base::RobotId;
 use lightbots_control::{EventKind, Trouble};
 use lightbots_show::Severity;
 
-/// Robot names that a sum keeps. Bounds the message; the line counts all robots.
+/// Most robot names that a sum keeps, which bounds the message. The line counts all robots.
 const NAMED: usize = 200;
 /// A sum without a new event for this time is closed, and a later event begins a new line. Robots of one fleet are
 /// switched on within seconds of each other.
@@ -15,7 +15,7 @@ const QUIET: Duration = Duration::from_secs(4);
 /// A sum is closed after this time even if events go on, so that lines stay near the time of their events.
 const LONGEST: Duration = Duration::from_secs(60);
 
-/// One kind of event, and the robots it concerns.
+/// Equal events of one or more robots, which make one line.
 #[derive(Debug)]
 pub struct Sum {
     /// Number of the sum's line in the log; `None`: not yet written.
@@ -28,12 +28,12 @@ pub struct Sum {
     last: Instant,
 }
 
-/// The open sums.
+/// The sums that further events may still join.
 #[derive(Debug, Default)]
 pub struct Sums(Vec<Sum>);
 
 impl Sums {
-    /// Adds the event of a robot. `false`: events of this kind are not summed up.
+    /// Adds the event of a robot to its sum. `false` if events of this kind are not summed up.
     pub fn take(&mut self, now: Instant, kind: &EventKind) -> bool {
         let Some(robot) = robot_of(kind) else { return false };
         self.0.retain(|sum| sum.grown || now - sum.last < QUIET && now - sum.began < LONGEST);
@@ -62,30 +62,30 @@ impl Sums {
         }
     }
 
-    /// Closes the sums of the run, because another event of the run came between.
+    /// Closes the sums of events of a run, because another event came between.
     pub fn close_run(&mut self) {
         self.0.retain(|sum| is_presence(&sum.first));
     }
 }
 
 impl Sum {
-    /// Severity of the event.
+    /// Severity of the sum's events.
     pub fn severity(&self) -> Severity {
         self.first.severity()
     }
 
-    /// Number of robots, or 0 for a single robot, which the line names.
+    /// Number of events, or 0 for a single one, whose robot the line names.
     pub fn count(&self) -> usize {
         if self.count > 1 { self.count } else { 0 }
     }
 
-    /// Names of the first robots, if there are several.
+    /// Names of the robots, at most `NAMED`. Empty for a single one, which the line names.
     pub fn names(&self) -> Vec<String> {
         let named = if self.count > 1 { self.robots.as_slice() } else { &[] };
         named.iter().map(ToString::to_string).collect()
     }
 
-    /// One line for people.
+    /// The line for people.
     pub fn text(&self) -> String {
         let count = self.count;
         if count == 1 {
@@ -109,7 +109,7 @@ impl Sum {
     }
 }
 
-/// The robot of an event that many robots may have at once.
+/// Returns the robot of an event that many robots may have at once; `None` for other events.
 fn robot_of(kind: &EventKind) -> Option<RobotId> {
     use EventKind::*;
     match kind {
@@ -120,7 +120,7 @@ fn robot_of(kind: &EventKind) -> Option<RobotId> {
     }
 }
 
-/// Events with equal keys share a sum.
+/// Returns the key of an event: events with equal keys share a sum.
 fn key(kind: &EventKind) -> (Discriminant<EventKind>, Option<Trouble>) {
     let why = match kind {
         EventKind::Waiting { why, .. } | EventKind::Dropout { why, .. } => Some(*why),

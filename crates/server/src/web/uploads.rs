@@ -14,24 +14,25 @@ use tokio::sync::Semaphore;
 use super::api::{BODY_MAX, too_long};
 use super::refused::refuse;
 
-/// Longest short body, bytes: a usual show (1,000 robots in 16 frames). Long bodies cannot make short ones wait.
+/// Longest body that counts as short, bytes: a usual show (1,000 robots in 16 frames). Long bodies do not make short
+/// ones wait.
 const SHORT: usize = 1 << 20;
-/// Most bytes of short bodies at once: 32 of the longest.
+/// Most bytes of short bodies at once: 32 bodies of greatest length.
 const SHORT_AT_ONCE: usize = 32 << 20;
-/// Most bytes of long bodies at once: one of the longest.
+/// Most bytes of long bodies at once: one body of greatest length.
 const LONG_AT_ONCE: usize = BODY_MAX;
 /// Bytes per permit of a semaphore, which counts in 32 bits.
 const PERMIT_BYTES: usize = 1 << 10;
-/// Longest time that a request waits for earlier ones. Longer than a short body may take, so that one slow
-/// body ahead does not lead to a refusal.
+/// Longest time that a request waits for room. It is longer than a short body may take to arrive, so that one slow body
+/// ahead does not lead to a refusal.
 const TURN_WITHIN: Duration = Duration::from_secs(20);
-/// Longest time for a body to arrive. A long body also gets [`BODY_WITHIN_MORE`] for each [`SHORT`], because a poor radio
-/// link carries 1 MB/s.
+/// Longest time for a body to arrive. A long body also gets [`BODY_WITHIN_MORE`] for each [`SHORT`] bytes, because a
+/// poor radio link carries 1 MB/s.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
-/// Further time for each [`SHORT`] of a long body.
+/// Further time for each [`SHORT`] bytes of a body.
 const BODY_WITHIN_MORE: Duration = Duration::from_secs(1);
 
-/// Bytes that further bodies may take.
+/// The bytes that further bodies may take. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Uploads {
     short: Arc<Semaphore>,
@@ -39,7 +40,7 @@ pub struct Uploads {
 }
 
 impl Uploads {
-    /// The whole budget.
+    /// The whole budget of bytes.
     pub fn new() -> Self {
         let room = |bytes| Arc::new(Semaphore::new(bytes / PERMIT_BYTES));
         Self { short: room(SHORT_AT_ONCE), long: room(LONG_AT_ONCE) }
@@ -50,7 +51,7 @@ impl Uploads {
     }
 }
 
-/// Reads the body within the bounds, then handles the request. The bytes count until the answer is made.
+/// Reads the body within the bounds, then passes the request on. The body's bytes count until the answer is made.
 pub async fn bound(State(uploads): State<Uploads>, request: Request, next: Next) -> Response {
     if request.body().is_end_stream() {
         return next.run(request).await;

@@ -1,4 +1,4 @@
-//! The cards of events that are an incident by themselves.
+//! The cards of events each of which is an incident by itself.
 
 use lightbots_api::IncidentTone::{self, Failed, Information, Look};
 use lightbots_base::RobotId;
@@ -7,15 +7,15 @@ use lightbots_control::{EventKind, RunOutcome};
 use super::subject::Subject;
 use super::words::{self, Card};
 
-/// A card, and the robots that it is about.
+/// Subject, tone and card of a new incident, and the robots that it is about.
 type FirstCard = (Subject, IncidentTone, Card, Vec<RobotId>);
 
-/// The card of an event that is an incident by itself; `None`: it is none.
+/// Returns the card of an event that is an incident by itself; `None` for other events.
 pub fn card_of(kind: &EventKind) -> Option<FirstCard> {
     of_link(kind).or_else(|| of_robot(kind)).or_else(|| of_run(kind))
 }
 
-/// Broker and link.
+/// Cards about the broker and the link.
 fn of_link(kind: &EventKind) -> Option<FirstCard> {
     use EventKind as E;
     Some(match kind {
@@ -48,7 +48,7 @@ fn of_link(kind: &EventKind) -> Option<FirstCard> {
     })
 }
 
-/// One robot.
+/// Cards about one robot.
 fn of_robot(kind: &EventKind) -> Option<FirstCard> {
     use EventKind as E;
     Some(match kind {
@@ -80,7 +80,7 @@ fn of_robot(kind: &EventKind) -> Option<FirstCard> {
     })
 }
 
-/// The run, its controller and its fleet.
+/// Cards about the run, its controller and its fleet.
 fn of_run(kind: &EventKind) -> Option<FirstCard> {
     use EventKind as E;
     Some(match kind {

@@ -1,4 +1,5 @@
-//! What went wrong, as cards: one cause is one card, which grows while more robots have the same trouble.
+//! Incidents: what went wrong, as cards for people. One cause makes one card, which grows while more robots have the
+//! same trouble.
 
 mod cards;
 mod subject;
@@ -19,18 +20,20 @@ use cards::card_of;
 use subject::Subject;
 use words::Card;
 
-/// Incidents that are kept. A screen shows the unread ones; older ones are dropped, read ones first.
+/// Most incidents that are kept. A screen shows the unread ones. The oldest read one is dropped first, or the oldest of
+/// all if none is read.
 const KEPT: usize = 40;
-/// Names that an incident keeps.
+/// Most robot names that an incident keeps.
 const NAMED: usize = 50;
-/// Robots that drop out for one reason within this time of each other, milliseconds, are one incident.
+/// Time within which robots that drop out for one reason make one incident, milliseconds. It counts from the last of
+/// them.
 const TOGETHER_MS: u64 = 4_000;
 
 #[derive(Debug)]
 struct Entry {
     subject: Subject,
     incident: Incident,
-    /// All its robots, not only those that the card names.
+    /// All robots of the incident, not only those that the card names.
     robots: Vec<RobotId>,
     last_ms: u64,
 }
@@ -39,7 +42,7 @@ struct Entry {
 struct Book {
     entries: Vec<Entry>,
     last_id: u32,
-    /// The frame that is to be reached or stands, counted from 0.
+    /// The frame that robots drive to or have reached, counted from 0.
     frame: Option<usize>,
 }
 
@@ -51,18 +54,18 @@ pub struct IncidentBoard {
 }
 
 impl IncidentBoard {
-    /// No incidents.
+    /// A board without incidents.
     pub fn new() -> Self {
         let message = text(&ToScreen::Incidents(Incidents::default()));
         Self { book: Arc::default(), message: watch::channel(message).0 }
     }
 
-    /// The message with all incidents, and each later one.
+    /// Returns a receiver of the message with all incidents. It changes with them.
     pub fn watch(&self) -> watch::Receiver<Utf8Bytes> {
         self.message.subscribe()
     }
 
-    /// The operator has read an incident.
+    /// Marks an incident as read by the operator.
     pub fn read(&self, id: u32) {
         self.change(|book| {
             let entry = book.entries.iter_mut().find(|entry| entry.incident.id == id && !entry.incident.read);
@@ -70,7 +73,7 @@ impl IncidentBoard {
         });
     }
 
-    /// Robots were listed: they do not want to join any more.
+    /// Removes robots that were listed from incidents about joining, because they do not want to join any more.
     pub fn joined(&self, robots: &[RobotId]) {
         self.change(|book| {
             let mut changed = false;
@@ -81,7 +84,7 @@ impl IncidentBoard {
         });
     }
 
-    /// An entry of the playlist was not played, or not to its end.
+    /// Opens an incident: an entry of the playlist was not played, or not to its end.
     pub fn playlist_failed(&self, entry: u32, title: &str, why: &str) {
         self.change(|book| {
             let card = Card::new(title, why, "The playlist goes on with the next show.");
@@ -90,12 +93,12 @@ impl IncidentBoard {
         });
     }
 
-    /// An entry of the playlist plays: what was wrong with it is over.
+    /// Ends the incident of a playlist entry, because the entry plays.
     pub fn playlist_goes_on(&self, entry: u32) {
         self.change(|book| book.end(|subject| *subject == Subject::Playlist(entry)));
     }
 
-    /// Notes the conductor's events until it ends.
+    /// Updates incidents by the conductor's events until the conductor ends.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         loop {
             match news.recv().await {
@@ -106,7 +109,7 @@ impl IncidentBoard {
         }
     }
 
-    /// Changes the book; if that changed anything, screens are told.
+    /// Changes the book. If `act` returns true, screens get the new incidents.
     fn change(&self, act: impl FnOnce(&mut Book) -> bool) {
         let mut book = self.book.lock().unwrap_or_else(PoisonError::into_inner);
         if act(&mut book) {
@@ -117,7 +120,7 @@ impl IncidentBoard {
 }
 
 impl Entry {
-    /// It is about one more robot.
+    /// Adds a robot to the incident.
     fn grow(&mut self, robot: RobotId, now_ms: u64) {
         self.robots.push(robot);
         self.last_ms = now_ms;
@@ -129,7 +132,7 @@ impl Entry {
 }
 
 impl Book {
-    /// Notes an event; whether that changed an incident.
+    /// Updates the incidents by an event. Returns whether that changed one.
     fn note(&mut self, kind: &EventKind, now_ms: u64) -> bool {
         use EventKind as E;
         match kind {
@@ -181,7 +184,8 @@ impl Book {
         (incident.title, incident.done, incident.advice) = (card.title, card.done, card.advice);
     }
 
-    /// Incidents of some subject are no longer about a robot; they are over without robots. Whether one is now.
+    /// Removes a robot from the incidents whose subject `of` accepts. An incident that loses its last robot is over.
+    /// Returns whether any is over by this.
     fn leave(&mut self, robot: RobotId, of: impl Fn(&Subject) -> bool) -> bool {
         let mut changed = false;
         for entry in self.entries.iter_mut().filter(|entry| of(&entry.subject)) {
@@ -195,7 +199,8 @@ impl Book {
         changed
     }
 
-    /// Robots that want to join are one incident until the operator has read it or they have joined.
+    /// Notes that a robot wants to join. Robots that want to join make one incident until the operator has read it or
+    /// they have joined.
     fn want_to_join(&mut self, robot: RobotId, now_ms: u64) {
         let holds = |entry: &&mut Entry| {
             entry.subject == Subject::Joining && !entry.incident.over && !entry.incident.read
@@ -219,7 +224,8 @@ impl Book {
         changed
     }
 
-    /// A new incident, or a new state of one that holds.
+    /// Opens an incident. If one with the same subject is not over, it gets the new state instead, except for dropouts
+    /// and joining.
     fn open(&mut self, subject: Subject, tone: IncidentTone, card: Card, robots: Vec<RobotId>, now_ms: u64) {
         let Card { title, done, advice } = card;
         let holds = |entry: &&mut Entry| entry.subject == subject && !entry.incident.over;

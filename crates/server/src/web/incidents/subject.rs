@@ -21,6 +21,6 @@ pub enum Subject {
     Run,
     Place(RobotId),
     Music,
-    /// By the number of the entry.
+    /// The entry of the playlist with this number.
     Playlist(u32),
 }

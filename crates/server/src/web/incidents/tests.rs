@@ -78,7 +78,7 @@ fn a_growing_card_names_a_bounded_number_of_robots() {
     assert!(incident.title.starts_with("1000 robots fell silent"), "{}", incident.title);
 }
 
-/// Warnings and errors that are no incident: what they say is shown elsewhere, or leads to an incident if it matters.
+/// Whether a warning or error is no incident: it is shown elsewhere, or leads to an incident if it matters.
 fn is_shown_elsewhere(kind: &EventKind) -> bool {
     use EventKind as E;
     matches!(

@@ -16,8 +16,8 @@ impl Card {
     }
 }
 
-/// Robots dropped out for one reason. `names`: the first of `count`. `frame`: the one that is to be reached or shown,
-/// counted from 0.
+/// Returns the card for robots that dropped out for one reason. `names`: the first of the `count` robots. `frame`: the
+/// frame that is to be reached or is shown, counted from 0.
 pub fn dropped(why: Trouble, names: &[String], count: usize, frame: Option<usize>) -> Card {
     let place = frame.map_or(String::new(), |frame| format!(" in frame {}", frame + 1));
     let pixels = if count == 1 { "its pixel is left dark" } else { "their pixels are left dark" };
@@ -30,14 +30,14 @@ pub fn dropped(why: Trouble, names: &[String], count: usize, frame: Option<usize
     Card::new(title, done, advice(why))
 }
 
-/// Robots that are not listed want to join. `names`: the first of `count`.
+/// Returns the card for robots that are not listed and want to join. `names`: the first of the `count` robots.
 pub fn joining(names: &[String], count: usize) -> Card {
     let wants = if count == 1 { "is new and wants to join" } else { "are new and want to join" };
     let title = format!("{} {wants}.", subject(names, count));
     Card::new(title, "Listed robots take part; others are driven around.", "Let it join if it is yours.")
 }
 
-/// `Robot 7`, `Robots 7, 9 and 12`, `24 robots`.
+/// Returns the robots as the subject of a sentence: `Robot 7`, `Robots 7, 9 and 12`, `24 robots`.
 pub fn subject(names: &[String], count: usize) -> String {
     let short: Vec<&str> = names.iter().map(|name| short(name)).collect();
     match short.as_slice() {
@@ -48,7 +48,7 @@ pub fn subject(names: &[String], count: usize) -> String {
     }
 }
 
-/// What people see of a robot's name: a long one is random, and its beginning identifies it.
+/// Shortens a robot's name for people. A long name is random, and its beginning identifies it.
 fn short(name: &str) -> &str {
     if name.len() > 12 && name.is_ascii() { &name[..8] } else { name }
 }
