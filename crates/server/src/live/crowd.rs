@@ -1,4 +1,4 @@
-//! Simulated robots on a real broker, in real time.
+//! Simulated robots on a real broker, in real time where the machine is fast enough.
 
 use std::fmt;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub const TOGETHER: usize = 50;
 const BATCH: usize = 4096;
 /// Length of a simulation step.
 const STEP: Span = Span::from_millis(16);
-/// Steps that the robots may be behind the show clock. Where the clock may wait for them, it stands then.
+/// Steps that the robots may lag behind the show clock. At this lag the clock stands, where it may wait for the robots.
 const BEHIND: i64 = 2;
 /// Time between two checks whether messages that the clock waits for have arrived.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
@@ -48,9 +48,9 @@ pub struct Crowd {
 }
 
 impl Crowd {
-    /// Simulates robots that connect to `broker`, `together` robots on each connection. The connections begin at the
-    /// broker's addresses in turn and last until `stop` is wanted. The robots run by `clock`, which waits for them
-    /// where `pace` allows it.
+    /// Creates robots and begins to connect them to `broker`, `together` robots on each connection. The connections
+    /// begin at the broker's addresses in turn and last until `stop` is wanted. The robots run by `clock`, which waits
+    /// for them where `pace` allows it.
     pub fn start(
         config: &FleetConfig,
         broker: &BrokerUrl,

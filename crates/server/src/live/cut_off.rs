@@ -42,7 +42,8 @@ impl CutOffRun {
     /// library, because the show there may have changed.
     pub fn show_on_screen(&self, library: &Library, first: (Option<String>, Show)) -> (Option<String>, Show) {
         let (show, (name, other)) = (self.unfinished.show(), first);
-        // Names are not compared: the controller gives a show without a name its name in the library.
+        // Names are not compared, because a show without a name has its name in the library as its name in the
+        // controller.
         let same = Show { name: show.name.clone(), ..other.clone() } == **show;
         if same && name.is_some() {
             return (name, other);

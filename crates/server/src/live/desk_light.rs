@@ -1,4 +1,4 @@
-//! The task between lighting desks and robots: packets and reports into the receiver, live light to the broker.
+//! The task between lighting desks and robots: gives packets and reports to the receiver, and publishes its live light.
 
 use std::path::Path;
 

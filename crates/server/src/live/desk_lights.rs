@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use lightbots_base::{Rgb, RobotId};
 use lightbots_control::Snapshot;
 
-/// Colours by robot. Clones share them.
+/// Colours from a lighting desk, by robot. Clones share them.
 #[derive(Clone, Debug, Default)]
 pub struct DeskLights(Arc<Mutex<BTreeMap<RobotId, Rgb>>>);
 

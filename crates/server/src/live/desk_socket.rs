@@ -1,4 +1,4 @@
-//! A UDP socket that desks send to.
+//! UDP sockets on which packets of desks are received.
 
 use std::net::{IpAddr, SocketAddr};
 

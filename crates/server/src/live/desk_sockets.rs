@@ -12,9 +12,10 @@ use super::desk_socket::{listen, receive};
 use crate::cli::DeskArguments;
 use crate::failure::Failure;
 
-/// Longest packet that is read, bytes: those of Art-Net and sACN have at most 638. Longer ones are cut and then refused.
+/// Longest packet that is read, bytes: those of Art-Net and sACN have at most 638. Longer ones are cut and then
+/// refused.
 const PACKET_MAX: usize = 1_024;
-/// Packets are counted over this time.
+/// Time over which packets are counted.
 const WINDOW: Duration = Duration::from_millis(10);
 /// Most packets that are read in a `WINDOW`: one for each of the 118 universes of 20,000 robots, and a reserve. Further
 /// packets wait in the system's bounded queue.

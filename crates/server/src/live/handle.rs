@@ -47,7 +47,7 @@ impl Handle {
     /// Has the controller carry out an operation. `Err` if it refuses, or if the conductor has ended.
     pub async fn operate(&self, operation: Operation) -> Result<(), Refusal> {
         let (answer, answered) = oneshot::channel();
-        // A conductor that has ended has no broker any more.
+        // The answer is missing only if the conductor has ended, which has no broker any more.
         let _ = self.orders.send(ConductorOrder::Operate(operation, answer)).await;
         answered.await.unwrap_or(Err(Refusal::NotConnected))
     }
@@ -84,17 +84,17 @@ impl Handle {
         let _ = self.orders.send(ConductorOrder::TakeUp(Box::new(run), on_return)).await;
     }
 
-    /// Uses this broker from now on.
+    /// Has the conductor use this broker from now on.
     pub async fn connect(&self, broker: BrokerUrl) {
         let _ = self.orders.send(ConductorOrder::Connect(broker)).await;
     }
 
-    /// Uses no broker any more.
+    /// Has the conductor leave its broker.
     pub async fn disconnect(&self) {
         let _ = self.orders.send(ConductorOrder::Disconnect).await;
     }
 
-    /// The show clock.
+    /// Returns the show clock.
     pub fn clock(&self) -> Clock {
         self.clock.clone()
     }

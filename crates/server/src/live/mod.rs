@@ -27,7 +27,7 @@ pub mod run_reports;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};
 
-/// The link of a controller: everything robots say.
+/// Returns the settings of a controller's link, which receives all reports of robots.
 pub fn controller_link(broker: BrokerUrl) -> LinkConfig {
     let filters = ["UUID", "Arrival", "Status", "Time"].map(|name| format!("T/LightBot/{name}"));
     LinkConfig { broker, client_id: controller_client_id(), filters: filters.into(), queue: 65_536 }

@@ -1,4 +1,5 @@
-//! Open Sound Control 1.0 from and to sound desks: GO and Stop in, frames and cues out. docs/sound-desk.md has the messages.
+//! Open Sound Control 1.0 from and to sound desks: GO and Stop in, frames and cues out. docs/sound-desk.md has the
+//! messages.
 
 use std::collections::BTreeMap;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};

@@ -46,7 +46,7 @@ impl RecordingTarget {
     }
 }
 
-/// Keeps the log of a controller, and the journal of its runs.
+/// Records the log of a controller, and the journal of its runs.
 #[derive(Debug)]
 pub struct Recorder {
     recording: RecordingTarget,
@@ -132,7 +132,7 @@ impl Recorder {
             return None;
         }
         if is_over && self.writer.is_none() {
-            // The run was refused.
+            // No log was written before, so that the run was refused.
             self.run = None;
             controller.end_log();
             return None;
@@ -201,7 +201,7 @@ fn notes(command: &str) -> Vec<(String, String)> {
 enum Piece {
     /// The next bytes of the log.
     Log(Vec<u8>),
-    /// The facts beside it.
+    /// Facts of the run, for the file beside the log.
     Facts(RunFacts),
 }
 

@@ -43,7 +43,7 @@ impl RunFacts {
     }
 }
 
-/// The facts of a run while it is on.
+/// Collects the facts of a run while it is on.
 #[derive(Clone, Debug, Default)]
 pub struct RunNotes {
     facts: RunFacts,

@@ -8,7 +8,7 @@ use crate::disk;
 
 /// Folder of recorded runs in the data folder.
 const FOLDER: &str = "runs";
-/// Ending of a recorded run.
+/// File name ending of a recorded run.
 const ENDING: &str = ".lblog";
 /// Most recorded runs that are kept.
 const RUNS_MAX: usize = 20;
@@ -58,7 +58,7 @@ fn remove_run(data: &Path, number: u64) -> std::io::Result<()> {
     disk::remove(&log)
 }
 
-/// Numbers and lengths of the recorded runs, the newest first.
+/// Returns numbers and lengths (bytes) of the recorded runs, the newest first.
 pub fn recorded_runs(data: &Path) -> std::io::Result<Vec<(u64, u64)>> {
     let folder = match std::fs::read_dir(data.join(FOLDER)) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
@@ -69,7 +69,7 @@ pub fn recorded_runs(data: &Path) -> std::io::Result<Vec<(u64, u64)>> {
     Ok(runs)
 }
 
-/// Number and length of a recorded run.
+/// Returns number and length (bytes) of a recorded run; `None` for other files.
 fn run_of_entry(entry: DirEntry) -> Option<(u64, u64)> {
     let name = entry.file_name();
     let number = name.to_str()?.strip_suffix(ENDING)?.parse().ok()?;

@@ -48,7 +48,7 @@ impl Drop for UnderWay {
 enum Piece {
     /// The next bytes of the log.
     Log(Vec<u8>),
-    /// The run is over, and its log is whole.
+    /// The log is complete.
     End,
 }
 

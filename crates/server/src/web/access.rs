@@ -9,7 +9,7 @@ use lightbots_api::{AccountRole, Operation};
 pub enum Need {
     /// Nothing: the request is answered before sign-in.
     Nothing,
-    /// This role or a greater one.
+    /// The caller must have this role or a greater one.
     Role(AccountRole),
 }
 

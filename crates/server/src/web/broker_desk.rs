@@ -40,7 +40,7 @@ impl BrokerDesk {
             )
         } else {
             let mut wanted = wanted;
-            // Certificates may be files.
+            // On a blocking thread, because certificates may be read from files.
             let read = tokio::task::spawn_blocking(move || wanted.broker().map(|broker| (wanted, broker)));
             read.await.map_err(|error| error.to_string())??
         };
@@ -56,7 +56,8 @@ impl BrokerDesk {
         handle.disconnect().await;
     }
 
-    /// Adds the kept password and key where a form leaves them out: forms never get them.
+    /// Adds the kept password and key if a form leaves them out for the same user and broker, or the same certificate.
+    /// Forms never get these secrets.
     fn completed(&self, mut wanted: Settings) -> Settings {
         let kept = self.lock();
         let address = BrokerUrl::parse(&wanted.address).map(|url| url.to_string()).unwrap_or_default();

@@ -72,7 +72,7 @@ fn make(file: &Path, key: &Path, names: &[String]) -> Result<(), Failure> {
     let (certificate, secret) = made.map_err(|error| {
         Failure::problem(format!("no certificate of {} can be made: {error}", all.join(", ")))
     })?;
-    // The key first: a certificate without its key would be an error at the next start.
+    // The key is written first, because a certificate without its key would be an error at the next start.
     for (path, text, readers) in [(key, secret, Readers::Owner), (file, certificate, Readers::All)] {
         disk::replace(path, text.as_bytes(), readers).map_err(|error| {
             Failure::problem(format!(
@@ -90,7 +90,7 @@ fn check_time(certificate: &ParsedCertificate<'_>) -> Result<(), &'static str> {
     use CertificateError::{Expired, ExpiredContext, NotValidYet, NotValidYetContext};
     let algorithms = ring::default_provider().signature_verification_algorithms.all;
     let (roots, now) = (RootCertStore::empty(), UnixTime::now());
-    // The times are compared before the issuer is looked for, which nothing here knows.
+    // The library checks the times before it looks for the issuer, which is unknown here.
     match verify_server_cert_signed_by_trust_anchor(certificate, &roots, &[], now, algorithms) {
         Err(Error::InvalidCertificate(Expired | ExpiredContext { .. })) => Err("has expired"),
         Err(Error::InvalidCertificate(NotValidYet | NotValidYetContext { .. })) => {

@@ -44,7 +44,7 @@ pub struct Shown {
 }
 
 impl Desk {
-    /// A desk without a show.
+    /// A state without an open show.
     pub fn new(handle: Handle) -> Self {
         let nothing = Shown::new(api::OpenShow::default(), Arc::default());
         let (shown, _) = watch::channel(Arc::new(nothing));

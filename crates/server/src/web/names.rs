@@ -233,7 +233,7 @@ mod tests {
             ("localhost:80", false, false),
             ("localhost:8421", false, false),
             ("stage.local", false, false),
-            // Names that a stranger may point at this address.
+            // Names that anyone may point at this address.
             ("evil.example:8420", false, false),
             ("localhost.:8420", false, false),
             ("a.localhost:8420", false, false),

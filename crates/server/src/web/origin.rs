@@ -75,7 +75,7 @@ fn check(names: &Names, local: IpAddr, uri: &Uri, headers: &HeaderMap) -> Result
     let host = only(headers, header::HOST).ok_or_else(unclear)?;
     let read = |host: &str| Names::host(names.scheme(), host);
     let host = host.and_then(read).ok_or_else(unclear)?;
-    // A request line may name the host too.
+    // The request line may name the host, too.
     if uri.authority().is_some_and(|named| read(named.as_str()).as_ref() != Some(&host)) {
         return Err(unclear());
     }

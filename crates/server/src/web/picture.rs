@@ -50,7 +50,7 @@ struct Painter {
     /// The robots of the last fleet table, in order.
     names: Vec<RobotId>,
     revision: u32,
-    /// Number of pictures since the last fleet table.
+    /// Number of pictures sent since the last fleet table.
     since_fleet: usize,
     looked: bool,
     pace: PaceMeter,
@@ -59,7 +59,7 @@ struct Painter {
 /// Measures the rate of the show clock, as a share of real time, over the last seconds.
 #[derive(Debug, Default)]
 struct PaceMeter {
-    /// Real time and show time at the start of the measurement.
+    /// Real time and show clock at the start of the measurement.
     before: Option<(std::time::Instant, lightbots_base::Instant)>,
     share: Option<f64>,
 }
@@ -236,7 +236,7 @@ impl Painter {
         let air_s = frames.get(run.frame)?.air_time_s;
         let now_s = if is_showing { air_s } else { run.progress.drive_s };
         let then_s = if is_showing { 0.0 } else { air_s };
-        // A loop lasts until GO.
+        // A loop has no planned end, because it lasts until GO.
         if run.repeats.is_some_and(|repeats| !repeats.leaves) {
             return None;
         }

@@ -1,7 +1,7 @@
 //! Runs plan requests of clients: one at a time for each client, for a bounded time, and only while the client waits.
 //!
-//! A newer request of a client cancels the older one, because an editor's older document is of no use. No client can make
-//! others wait. A client is an IP address.
+//! A newer request of a client cancels the older one, because an editor's older document is of no use. No client can
+//! make others wait. A client is an IP address.
 
 use std::collections::BTreeMap;
 use std::net::IpAddr;
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use tokio::sync::watch;
 
-/// Why a request has no answer.
+/// Why the work on a request gave no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CutOff {
     /// The work took longer than the budget.

@@ -32,11 +32,11 @@ pub struct Shared {
     pub broker: BrokerDesk,
     pub runs: Runs,
     pub playlist: PlaylistStore,
-    /// The planner for requests of clients.
+    /// Plans shows that clients send.
     pub planner: Planner,
     /// Accounts, sessions and tokens for this server.
     pub admission: Arc<Admission>,
-    /// Names of this server.
+    /// Names under which this server answers requests.
     pub names: Names,
     /// Number of simulated robots.
     pub simulated: Arc<AtomicUsize>,

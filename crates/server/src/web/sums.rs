@@ -18,7 +18,7 @@ const LONGEST: Duration = Duration::from_secs(60);
 /// Equal events of one or more robots, which make one line.
 #[derive(Debug)]
 pub struct Sum {
-    /// Number of the sum's line in the log; `None`: not yet written.
+    /// Number of the sum's line in the log; `None` if the line is not written yet.
     pub line: Option<u32>,
     first: EventKind,
     robots: Vec<RobotId>,

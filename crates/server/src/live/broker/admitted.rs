@@ -19,7 +19,7 @@ impl Admitted {
         Self { most, peers: Mutex::default() }
     }
 
-    /// The most connections there may be.
+    /// The most connections that may be logged in.
     pub fn most(&self) -> usize {
         self.most
     }

@@ -1,5 +1,5 @@
-//! Shared subscriptions (MQTT 5, section 4.8.2): each message goes to one client of a group. rmqtt leaves the choice of that
-//! client to its embedder.
+//! Shared subscriptions (MQTT 5, section 4.8.2): each message goes to one client of a group. rmqtt leaves the choice of
+//! that client to its embedder.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

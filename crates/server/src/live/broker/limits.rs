@@ -10,13 +10,13 @@ use std::time::Duration;
 pub struct Rate {
     /// Messages per second in the long run.
     pub per_second: u32,
-    /// Messages at once, before the rate counts.
+    /// Messages that may come at once, above the rate.
     pub burst: u32,
 }
 
 /// Longest packet, in bytes: four times the longest message of the protocol (docs/brokers.md, "What matters in any
-/// broker"). A longer packet costs its sender the connection. Each connection may make the broker hold one packet that
-/// is not complete, so that this bounds memory together with [`CONNECTIONS`].
+/// broker"). A longer packet costs its sender the connection. Each connection may make the broker hold one incomplete
+/// packet, so that this and [`CONNECTIONS`] together bound memory.
 pub const PACKET_BYTES: u32 = 64 << 10;
 
 /// Most levels of a topic or filter. The protocol's topics have three. The broker walks its tree of topics by
@@ -70,7 +70,7 @@ pub const FLOOD_BAN: Duration = Duration::from_secs(30);
 /// Most sessions, those of clients that are away for a while included.
 pub const SESSIONS: isize = 16_000;
 
-/// How long the session of a client that is away is kept, at most.
+/// Longest time for which the session of a client that is away is kept.
 pub const SESSION_EXPIRY: Duration = Duration::from_secs(15 * 60);
 
 /// Number of connections without a complete CONNECT packet. Beyond it, those older than [`PENDING_GRACE`] are closed

@@ -13,7 +13,7 @@ const CLIENTS: usize = 1000;
 /// Most lines that wait for the screen; further ones are only logged.
 const WAITING: usize = 64;
 
-/// Takes lines about clients.
+/// Passes lines about clients to log and screen, not too often for each client.
 #[derive(Debug)]
 pub struct Notices {
     sender: mpsc::Sender<String>,

@@ -20,7 +20,7 @@ use super::{BrokerOptions, Engine};
 use crate::failure::{Failure, Outcome};
 use crate::own_program::own_program;
 
-/// How long the child may take to listen or to say why it cannot.
+/// Longest time for the child to listen, or to report why it cannot.
 const START_WITHIN: Duration = Duration::from_secs(20);
 /// The pause before the child is started again, doubled up to [`LONGEST_PAUSE`] while it keeps dying. Together with the
 /// child's start (some 10 ms) the longest pause stays within one second.

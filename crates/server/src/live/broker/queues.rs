@@ -132,7 +132,7 @@ mod tests {
         Queues::new(Arc::new(Notices::new().0))
     }
 
-    /// Charges messages of 64 KiB until the queue is full; how many fitted.
+    /// Charges messages of 64 KiB until the queue is full. Returns the number that fitted.
     fn fill(queues: &Queues, client: &str, charges: &mut Vec<Charge>) -> usize {
         let before = charges.len();
         charges.extend(std::iter::from_fn(|| queues.charge(&client.into(), 64 << 10)));

@@ -1,5 +1,5 @@
-//! Retained messages (MQTT 5, section 3.3.1.3): the last message of a topic that was published with the retain flag, for
-//! clients that subscribe later. They are lost when the broker ends.
+//! Retained messages (MQTT 5, section 3.3.1.3): the last message of a topic that was published with the retain flag,
+//! for clients that subscribe later. They are lost when the broker ends.
 //!
 //! Messages of the protocol are not kept. A robot that connects later would obey a command that was meant for a moment
 //! long ago.

@@ -1,4 +1,5 @@
-//! The topics that a client may publish and subscribe. A robot publishes its own messages and receives those for it.
+//! The topics on which a client may publish, and to which it may subscribe. A robot may publish its own reports, and
+//! receive messages to itself and to all robots.
 
 use lightbots_base::RobotId;
 use lightbots_wire::Topic;

@@ -1,5 +1,5 @@
-//! Finds out that two robots share a name: each takes the connection of that client id from the other. A robot that
-//! reconnects after its connection died does so once, and its old connection was silent.
+//! Detects that two robots share a name, because each takes the connection of that client id from the other. A robot
+//! that reconnects after its connection died does so once, and its old connection was silent.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -21,7 +21,8 @@ struct User {
 /// The role of a user: which clients the user may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Role {
-    /// A robot or a controller where the client id says so (`LightBot/<name>`, `BotControl/<name>`), else [`Role::Fleet`].
+    /// A robot or a controller where the client id says so (`LightBot/<name>`, `BotControl/<name>`), else
+    /// [`Role::Fleet`].
     #[default]
     ByClientId,
     /// A controller: may publish and receive everything, commands such as STOP included.
@@ -45,8 +46,8 @@ const ROLES: [(&str, Role); 5] = [
 ];
 
 impl Users {
-    /// Reads users from options (`user:password[:role]`) and from a file of such lines, in which `#` begins a remark.
-    /// The failure is one line that repeats no password.
+    /// Reads users from options (`user:password[:role]`), and from a file with one user a line. Lines that begin with
+    /// `#` are remarks. The failure is one line that repeats no password.
     pub fn read(options: &[String], file: Option<&Path>) -> Result<Self, Failure> {
         let mut users = Self::default();
         for text in options {

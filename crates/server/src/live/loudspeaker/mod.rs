@@ -34,7 +34,7 @@ struct Wanted {
     position: Option<(Instant, f64)>,
 }
 
-/// A sound device.
+/// A sound device, and the music that it is to play.
 #[derive(Debug)]
 pub struct Loudspeaker {
     /// Ends the thread of the sound stream when dropped. Streams of some systems must stay in the thread that made

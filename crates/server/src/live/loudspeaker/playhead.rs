@@ -3,7 +3,7 @@
 /// Decoded music.
 #[derive(Debug, Default)]
 pub(super) struct LoudMusic {
-    /// Frames one after another, each with one sample for each channel; 1 is full scale.
+    /// Interleaved samples: frame after frame, each with one sample for each channel; 1 is full scale.
     pub samples: Vec<f32>,
     pub channels: usize,
     pub rate_hz: f64,
