@@ -1,5 +1,5 @@
 //! The embedded broker. It runs in a process of its own, because a stack overflow or an exhausted memory ends a whole
-//! process: `process` starts it, watches it and starts it again; `engine` is what runs there.
+//! process. `process` starts, watches and restarts this process, in which `engine` runs.
 //!
 //! `users` holds the users, `rights` decides what each may publish and subscribe to, and `door` applies both to every
 //! client. `gate` handles TLS in front of it. `limits` holds every limit. `queues` bounds the bytes that wait for

@@ -63,7 +63,8 @@ impl Queues {
         Some(publish)
     }
 
-    /// Charges a message of `bytes` to a client; `None` if its queue or the total is full.
+    /// Charges a message of `bytes` to a client. `None` if its queue or the total is full, unless its queue stays
+    /// within [`limits::QUEUE_SHARE_BYTES`].
     fn charge(&self, client: &ClientId, bytes: usize) -> Option<Charge> {
         let queue = self.queue(client);
         let waiting = queue.load(Ordering::Relaxed) + bytes;
