@@ -24,7 +24,7 @@ impl BrokerAddress {
     }
 }
 
-/// Host and port; `None` if the port is invalid.
+/// Splits an address into its host and, if it has one, its port. `None` if the port or the brackets are invalid.
 fn split_port(address: &str) -> Option<(&str, Option<u16>)> {
     if let Some(rest) = address.strip_prefix('[') {
         let (host, after) = rest.split_once(']')?;

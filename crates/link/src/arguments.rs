@@ -7,9 +7,9 @@ use clap::Args;
 
 use crate::{BrokerUrl, TlsTrust};
 
-/// Environment variable with the user, if neither address nor option states one.
+/// Name of the environment variable with the user, which is read if neither address nor option names a user.
 const USER: &str = "LIGHTBOTS_BROKER_USER";
-/// Environment variable with the password, if neither address nor option states one.
+/// Name of the environment variable with the password, which is read if neither address nor option has a password.
 const PASSWORD: &str = "LIGHTBOTS_BROKER_PASSWORD";
 
 /// Login and certificates for a broker.
@@ -50,8 +50,8 @@ fn wrong(option: &str, why: &dyn fmt::Display) -> ArgumentsError {
 }
 
 impl BrokerArguments {
-    /// The broker at all of `addresses`, with login and certificates. The addresses are parsed here and not by the command
-    /// line's parser, because its error messages would repeat a password.
+    /// Returns the broker at all of `addresses`, with login and certificates. The addresses are parsed here and not by
+    /// the parser of the command line, because its error messages would repeat a password.
     pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, ArgumentsError> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
         self.broker_given(addresses, set(USER), set(PASSWORD))
@@ -92,7 +92,7 @@ impl BrokerArguments {
     }
 }
 
-/// The first line of a password file.
+/// Reads the first line of a password file. An empty line is an error.
 fn read_password(path: &Path) -> Result<String, ArgumentsError> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         ArgumentsError(format!("the password in {} cannot be read: {error}", path.display()))

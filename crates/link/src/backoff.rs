@@ -25,7 +25,7 @@ impl Backoff {
         self.next = Self::FIRST;
     }
 
-    /// Time until the next attempt; `jitter` is a random number.
+    /// Returns the time until the next attempt. `jitter` is a random number from the whole range of `u32`.
     pub(crate) fn wait(&mut self, jitter: u32) -> Duration {
         let full = self.next;
         self.next = (full * 2).min(Self::LONGEST);

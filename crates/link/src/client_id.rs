@@ -1,8 +1,8 @@
-//! Client ids in the form of the original's programs, and random numbers for them.
+//! MQTT client ids, named as the programs of the original protocol name theirs, and random numbers for them.
 
 use lightbots_base::RobotId;
 
-/// A new random UUID.
+/// Returns a new random UUID. Panics if the system gives no random numbers.
 pub fn random_id() -> RobotId {
     let mut bytes = [0; 16];
     // Without random numbers, ids would collide on the broker, so the program stops here.

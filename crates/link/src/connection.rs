@@ -143,7 +143,7 @@ impl ConnectionTask {
         }
     }
 
-    /// Replaces a connection that does not deliver messages.
+    /// Replaces a connection that does not deliver messages. Returns `false` if the link was closed meanwhile.
     async fn renew(&mut self) -> bool {
         if !self.status.connected.load(Ordering::Acquire) {
             return true;
@@ -183,7 +183,8 @@ impl ConnectionTask {
         }
     }
 
-    /// Handles the answer to a subscription; answers come in the order of the packets.
+    /// Handles the answer to a subscription; answers come in the order of the packets. Returns `false` if the link was
+    /// closed meanwhile.
     async fn confirmed(&mut self, answer: SubAck) -> bool {
         let packets = self.config.filters.len().div_ceil(FILTERS_PER_PACKET);
         let first = (packets - self.unconfirmed.min(packets)) * FILTERS_PER_PACKET;
@@ -214,7 +215,8 @@ impl ConnectionTask {
         self.events.send(LinkEvent::Connected).await.is_ok()
     }
 
-    /// Reports a failure if its reason is new, then waits for the next attempt, at the next address.
+    /// Reports a failure if its reason is new, then waits for the next attempt, at the next address. Returns `false` if
+    /// the link was closed meanwhile.
     async fn failed(&mut self, reason: String) -> bool {
         let was_connected = self.status.connected.swap(false, Ordering::AcqRel);
         self.accepted = false;

@@ -10,7 +10,7 @@ use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt, BufReader};
 use tokio::net::TcpStream;
 use tokio::task::JoinHandle;
 
-/// Bytes of output that may wait: 1,600 for each of ten thousand robots. Beyond it, the client blocks.
+/// Most bytes of output that may wait: 1,600 for each of ten thousand robots. Beyond it, the client blocks.
 const WAITING_BYTES_MAX: usize = 16 << 20;
 /// Largest single write, bytes. Smaller: more system calls. A usual size of socket buffers, not measured.
 const WRITE_BYTES_MAX: usize = 64 << 10;

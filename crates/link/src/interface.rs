@@ -1,4 +1,4 @@
-//! What a link takes and gives, and what it shares with its task.
+//! Configuration and events of a link, and the state that it shares with its task.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize};
 
@@ -9,13 +9,13 @@ use crate::BrokerUrl;
 /// Configuration of a link.
 #[derive(Clone, Debug)]
 pub struct LinkConfig {
-    /// Broker; its addresses are tried in turn, and the next one when the one in use fails.
+    /// Broker to connect to. If one of its addresses fails, the next one is tried.
     pub broker: BrokerUrl,
     /// MQTT client id of this program.
     pub client_id: String,
     /// Topic filters to subscribe to, all at QoS 0.
     pub filters: Vec<String>,
-    /// Most queued messages in each direction; further messages are dropped.
+    /// Most queued messages in each direction, at least 16; further messages are dropped.
     pub queue: usize,
 }
 
@@ -35,7 +35,7 @@ pub enum LinkEvent {
         topic: String,
         /// Payload of the message.
         payload: Vec<u8>,
-        /// The broker kept it from before this subscription.
+        /// Whether the broker had stored the message before this subscription (an MQTT retained message).
         retained: bool,
     },
 }

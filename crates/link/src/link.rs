@@ -34,7 +34,7 @@ impl Link {
         Self { sender: Sender { client, status }, events, stop: Some(stop), task: Some(task) }
     }
 
-    /// The sending half.
+    /// Returns a sending half of this link.
     pub fn sender(&self) -> Sender {
         self.sender.clone()
     }

@@ -28,7 +28,8 @@ pub struct Pem<'a> {
 }
 
 impl TlsTrust {
-    /// `ca`: trusted authorities instead of the system's. `client`: our certificate with its chain, and its key.
+    /// Builds the TLS settings. `ca` holds trusted authorities that replace the system's. `client` is our certificate
+    /// with its chain, and its key.
     pub fn new(ca: Option<Pem<'_>>, client: Option<(Pem<'_>, Pem<'_>)>) -> Result<Self, TlsTrustError> {
         let roots = match ca {
             Some(pem) => roots_from(pem)?,
@@ -62,7 +63,7 @@ impl TlsTrust {
         Self::new(ca.as_ref().map(PemFile::pem), client)
     }
 
-    /// The authorities of the system, read once.
+    /// Returns the trust in the authorities of the system, which are read once.
     pub(crate) fn of_system() -> Result<Self, TlsTrustError> {
         static SYSTEM: OnceLock<Result<TlsTrust, TlsTrustError>> = OnceLock::new();
         SYSTEM.get_or_init(|| Self::new(None, None)).clone()

@@ -45,7 +45,7 @@ impl BrokerUrl {
     }
 
     fn parse_one(text: &str, tls_by_default: Option<bool>) -> Result<Self, UrlError> {
-        // Not printed, because the text may hold a password.
+        // Error messages show only the part after `@`, because the part before it may hold a password.
         let shown = text.rsplit_once('@').map_or(text, |(_, address)| address);
         let fail =
             |why: &str| UrlError(format!("'{shown}' is no broker address: {why}; say mqtt://HOST:1883"));
@@ -72,7 +72,7 @@ impl BrokerUrl {
         Ok(Self { addresses: vec![address], user, password, trust: None })
     }
 
-    /// The same broker with more addresses. The first stated login counts for all.
+    /// Adds the addresses of `more`. The login of either counts for all addresses; two different logins are an error.
     pub fn and(mut self, more: Self) -> Result<Self, UrlError> {
         if self.user.is_none() {
             (self.user, self.password) = (more.user, more.password);
@@ -85,7 +85,7 @@ impl BrokerUrl {
         Ok(self)
     }
 
-    /// The same broker with this login; `None` changes nothing.
+    /// Returns the same broker with this login. If `user` is `None`, nothing changes.
     pub fn with_login(self, user: Option<String>, password: Option<String>) -> Self {
         if user.is_none() {
             return self;

@@ -1,4 +1,4 @@
-//! The broker that was chosen on the screen, kept in a file that only its owner reads.
+//! Settings of the broker that was chosen on the screen, kept in a file that only its owner can read.
 
 use std::path::{Path, PathBuf};
 
@@ -9,17 +9,17 @@ use serde::{Deserialize, Serialize};
 use crate::disk::{self, Readers};
 use crate::failure::Failure;
 
-/// What stands for the server's own broker.
+/// Address in the settings that means the server's own broker.
 pub const EMBEDDED: &str = "embedded";
 const FILE: &str = "broker.json";
-/// The longest text of a setting, bytes: a chain of certificates.
+/// Longest text of a certificate or key in the settings, bytes; a chain of certificates fits.
 const LONGEST: usize = 32 << 10;
-/// The longest file of certificates, bytes: all authorities of a system (0.2 MB) fit.
+/// Longest file of certificates, bytes; all authorities of a system (0.2 MB) fit.
 const PEM_MAX: u64 = 1 << 20;
-/// The longest file of settings, bytes: seven texts, each escaped twice as long.
+/// Longest file of settings, bytes: seven texts, each twice as long when escaped.
 const FILE_MAX: u64 = 14 * LONGEST as u64;
 
-/// Address, login and certificates as they were stated.
+/// Address, login and certificates as they were entered.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Addresses without login, or [`EMBEDDED`].
@@ -28,24 +28,24 @@ pub struct Settings {
     pub user: Option<String>,
     /// Password.
     pub password: Option<String>,
-    /// Authority: PEM or a file.
+    /// Trusted authority: PEM text, or the path of a file.
     pub ca: Option<String>,
-    /// Our certificate: PEM or a file.
+    /// Client certificate: PEM text, or the path of a file.
     pub client_cert: Option<String>,
-    /// Its key: PEM or a file.
+    /// Key of the client certificate: PEM text, or the path of a file.
     pub client_key: Option<String>,
-    /// Whether it is wanted at the next start.
+    /// Whether to connect to this broker at the next start.
     #[serde(default)]
     pub connect: bool,
 }
 
 impl Settings {
-    /// The server's own broker.
+    /// Returns the settings of the server's own broker.
     pub fn embedded() -> Self {
         Self { address: EMBEDDED.into(), connect: true, ..Self::default() }
     }
 
-    /// A broker that the command line names.
+    /// Returns the settings of a broker that the command line names.
     pub fn of(broker: &BrokerUrl, login: &BrokerArguments) -> Self {
         let file = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
         Self {
@@ -59,12 +59,13 @@ impl Settings {
         }
     }
 
-    /// Whether they name the server's own broker.
+    /// Whether the settings name the server's own broker.
     pub fn is_embedded(&self) -> bool {
         self.address == EMBEDDED
     }
 
-    /// The broker they name; one line where they cannot be right. A login in the address is moved to its own fields.
+    /// Returns the broker that the settings describe, or one line for people if they are invalid. A login in the
+    /// address is moved to its own fields.
     pub fn broker(&mut self) -> Result<BrokerUrl, String> {
         for text in [&self.ca, &self.client_cert, &self.client_key].into_iter().flatten() {
             if text.len() > LONGEST {
@@ -96,7 +97,7 @@ impl Settings {
         TlsTrust::new(ca.as_ref().map(Text::pem), client).map(Some).map_err(|error| error.to_string())
     }
 
-    /// What a screen may know of them.
+    /// Returns what a screen may show of the settings: everything but the password and the key.
     pub fn shown(&self, embedded: Option<&BrokerUrl>) -> BrokerSettings {
         BrokerSettings {
             address: self.address.clone(),
@@ -109,7 +110,7 @@ impl Settings {
         }
     }
 
-    /// The settings kept in a folder of data; `None` where there are none, or none that can be read.
+    /// Reads the settings from the data folder; `None` if the file is missing or unreadable.
     pub fn load(folder: &Path) -> Option<Self> {
         let path = folder.join(FILE);
         let bytes = disk::read_regular(&path, FILE_MAX).ok()?;
@@ -118,7 +119,7 @@ impl Settings {
             .ok()
     }
 
-    /// Keeps them there, readable for the owner only. All or nothing.
+    /// Writes the settings to the data folder, readable for the owner only, all or nothing.
     pub fn save(&self, folder: &Path) -> Result<(), String> {
         let path = folder.join(FILE);
         let text = serde_json::to_vec_pretty(self).map_err(|error| error.to_string())?;
@@ -127,7 +128,7 @@ impl Settings {
     }
 }
 
-/// The broker of others that `run` is told to use; `None`: its own.
+/// Returns the external broker that the command line of `run` names; `None` if it is to use its own.
 pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Option<BrokerUrl>, Failure> {
     let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
     if embedded == addresses.len() {
@@ -139,7 +140,7 @@ pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Opt
     Ok(Some(login.broker(addresses)?))
 }
 
-/// A PEM text, or what a file holds.
+/// A PEM text with its name for error messages.
 struct Text {
     name: String,
     bytes: Vec<u8>,

@@ -6,31 +6,31 @@ use std::sync::mpsc::{Sender, channel};
 
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 
-/// What the thread does next.
+/// Work for the thread: one hash.
 type Job = Box<dyn FnOnce() + Send>;
 
-/// Hashes passwords on one thread, so that connections go on. A hash takes a processor and 19 MiB, some of which the
-/// allocator keeps for later: one test left up to 78 MB on the threads of the runtime, and 59 MB on this one (2026-11-27,
-/// glibc).
+/// A thread that hashes passwords, so that hashing does not delay connections. A hash takes a processor and 19 MiB,
+/// some of which the allocator keeps. One test left up to 78 MB on the threads of the runtime, and 59 MB on this one
+/// (2026-11-27, glibc).
 #[derive(Debug)]
 pub struct HashThread {
     jobs: Sender<Job>,
     turns: Arc<Semaphore>,
 }
 
-/// The turn of one request: no other one hashes while it lives.
+/// The right of one request to hash. No other request hashes while this value exists.
 #[derive(Debug)]
 pub struct HashTurn {
     _permit: Option<OwnedSemaphorePermit>,
 }
 
 impl HashThread {
-    /// Starts the thread. It ends with the value.
+    /// Starts the thread, which ends when this value is dropped. Error if the system gives no thread.
     pub fn start() -> Result<Self, String> {
         let (jobs, inbox) = channel::<Job>();
         let thread = std::thread::Builder::new().name("passwords".into()).spawn(move || {
             for job in inbox {
-                // A panic is the failure of one request, which gets no answer from here.
+                // A panic fails only its own request, for which `run` returns `None`.
                 let _ = catch_unwind(AssertUnwindSafe(job));
             }
         });
@@ -38,14 +38,14 @@ impl HashThread {
         Ok(Self { jobs, turns: Arc::new(Semaphore::new(1)) })
     }
 
-    /// Waits for a turn. A request that is given up meanwhile leaves nothing behind.
+    /// Waits until no other request hashes. A request that is cancelled while it waits leaves nothing behind.
     pub async fn turn(&self) -> HashTurn {
         // The semaphore is never closed.
         HashTurn { _permit: self.turns.clone().acquire_owned().await.ok() }
     }
 
-    /// Hashes, and gives the turn back. The turn lasts until the hashing is over, also if the request is given up: otherwise
-    /// such requests would queue up here. `None`: the hashing failed.
+    /// Runs `hash` on the thread, and returns its result and the turn. The turn is held until the hashing is over, even
+    /// if the request is cancelled, so that cancelled requests do not queue up here. `None` if the hashing panicked.
     pub async fn run<T: Send + 'static>(
         &self,
         turn: HashTurn,

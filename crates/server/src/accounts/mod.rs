@@ -1,5 +1,5 @@
-//! People and programs that may use the web app, in one file of the data folder. The file is read anew each time, because
-//! `lightbots passwd` changes it while a server runs.
+//! People and programs that may use the web app, kept in one file of the data folder. The file is read anew each time,
+//! because `lightbots passwd` changes it while a server runs.
 
 mod hash_thread;
 mod secret;
@@ -22,9 +22,9 @@ pub use tries::{SignInTries, TriesLeft};
 use crate::disk::{self, Readers};
 
 const FILE: &str = "accounts.json";
-/// Held locked while the file is changed, so that no change of another process is lost.
+/// Name of the file that is locked while the accounts are changed, so that no change of another process is lost.
 const LOCK: &str = ".accounts-lock";
-/// Longest file that is read, bytes: thousands of people.
+/// Longest file that is read, bytes; enough for thousands of people.
 const FILE_MAX: u64 = 1 << 20;
 /// Longest name of a person or a token, letters.
 const NAME_MAX: usize = 32;
@@ -47,13 +47,13 @@ pub struct ApiToken {
     pub role: AccountRole,
     /// The hash of the token.
     pub hash: Secret,
-    /// Its maker, a person. It ends with that person, and never allows more than that person may do; `None`: it was made
-    /// where sign-in is not asked for.
+    /// Name of the person that made the token. The token ends with that person's account, and never allows more than
+    /// the person's role. `None` if it was made while no sign-in was required.
     #[serde(default)]
     pub maker: Option<String>,
 }
 
-/// The content of the file, by name.
+/// Content of the accounts file: people and tokens by their names.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AccountList {
     pub people: BTreeMap<String, Person>,
@@ -62,7 +62,7 @@ pub struct AccountList {
 }
 
 impl AccountList {
-    /// The role of a token now; `None`: its maker is no longer there.
+    /// Returns the role that a token has at present. `None` if its maker has no account any more.
     pub fn role_of(&self, token: &ApiToken) -> Option<AccountRole> {
         let Some(maker) = &token.maker else { return Some(token.role) };
         self.people.get(maker).map(|person| person.role.min(token.role))
@@ -74,7 +74,7 @@ impl AccountList {
         operators.next().is_some_and(|(only, _)| only == name) && operators.next().is_none()
     }
 
-    /// Removes a person and the tokens that the person made; whether there was one.
+    /// Removes a person and the tokens that the person made. Returns whether the person existed.
     pub fn remove(&mut self, name: &str) -> bool {
         self.tokens.retain(|_, token| token.maker.as_deref() != Some(name));
         self.people.remove(name).is_some()
@@ -93,8 +93,8 @@ impl Accounts {
         Self { data: data.to_owned() }
     }
 
-    /// What is in the file; empty where there is none. A file that cannot be read is a failure, never an empty list: an
-    /// empty list would let the next start hand out a first operator.
+    /// Reads the file; a missing file gives an empty list. A file that cannot be read is an error, because an empty
+    /// list would let the next start invite a first operator.
     pub fn read(&self) -> Result<AccountList, String> {
         let path = self.data.join(FILE);
         let failed = |error: &dyn std::fmt::Display| {
@@ -110,7 +110,8 @@ impl Accounts {
         }
     }
 
-    /// Changes the file, unless `change` refuses.
+    /// Reads the file, applies `change` and writes the file, under a lock. If `change` returns an error, the file stays
+    /// as it was.
     pub fn change<T>(&self, change: impl FnOnce(&mut AccountList) -> Result<T, String>) -> Result<T, String> {
         let failed = |error: std::io::Error| {
             format!("accounts cannot be kept in {}: {error}; free or repair the disk", self.data.display())
@@ -127,7 +128,7 @@ impl Accounts {
     }
 }
 
-/// Refuses names that cannot be told apart or written in a line.
+/// Returns an error for people unless a name has 1 to [`NAME_MAX`] letters, digits, `-`, `_` or `.`.
 pub fn check_name(name: &str) -> Result<(), String> {
     let fits = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
     if (1..=NAME_MAX).contains(&name.chars().count()) && name.chars().all(fits) {
@@ -136,7 +137,7 @@ pub fn check_name(name: &str) -> Result<(), String> {
     Err(format!("A name has 1 to {NAME_MAX} letters, digits and - _ . without spaces."))
 }
 
-/// Refuses passwords that are too short or too long.
+/// Returns an error for people if a password is too short or too long.
 pub fn check_password(password: &str) -> Result<(), String> {
     if password.chars().count() < PASSWORD_MIN {
         return Err(format!("A password has at least {PASSWORD_MIN} characters."));

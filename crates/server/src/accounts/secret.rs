@@ -5,9 +5,9 @@ use argon2::password_hash::{PasswordHash, PasswordHasher, PasswordVerifier, Salt
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Random bytes of a token: nothing can guess 256 bits.
+/// Random bytes of a token: 256 bits, which cannot be guessed.
 const TOKEN_BYTES: usize = 32;
-/// Random bytes of a salt: RFC 9106, section 3.1.
+/// Random bytes of a salt (RFC 9106, section 3.1).
 const SALT_BYTES: usize = 16;
 
 /// The hash of a random token. A fast hash is enough, because a token of 256 random bits cannot be guessed.
@@ -20,7 +20,7 @@ impl Secret {
         Self(hex(&Sha256::digest(token.as_bytes())))
     }
 
-    /// A new token and its hash.
+    /// Makes a random token. Returns the token and its hash.
     pub fn fresh() -> Result<(String, Self), String> {
         let mut bytes = [0; TOKEN_BYTES];
         random(&mut bytes)?;
@@ -30,7 +30,8 @@ impl Secret {
     }
 }
 
-/// The hash of a password by Argon2id with the parameters of the crate (19 MiB, two passes: OWASP's least).
+/// Hashes a password by Argon2id with the default parameters of the crate: 19 MiB and two passes, the least that OWASP
+/// recommends.
 pub fn hash_password(password: &str) -> Result<String, String> {
     let mut salt = [0; SALT_BYTES];
     random(&mut salt)?;

@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 
 use super::Secret;
 
-/// A session ends this long after its sign-in: a long day of rehearsal and show.
+/// Time from sign-in to the end of a session: a long day of rehearsal and show.
 pub const SESSION_LASTS: Duration = Duration::from_secs(12 * 3600);
 /// Most sessions at once. A further sign-in ends the oldest one.
 const MOST: usize = 1_000;
 
-/// The sessions there are, by the hash of their tokens.
+/// Sessions by the hash of their tokens.
 #[derive(Debug, Default)]
 pub struct Sessions(Mutex<BTreeMap<Secret, Session>>);
 
@@ -24,7 +24,8 @@ struct Session {
 }
 
 impl Sessions {
-    /// Begins a session; its token.
+    /// Begins a session and returns its token. `password` is the hash of the person's password. If there are [`MOST`]
+    /// sessions, the oldest one ends.
     pub fn begin(&self, person: &str, password: &str, now: Instant) -> Result<String, String> {
         let (token, hash) = Secret::fresh()?;
         let mut sessions = self.lock();
@@ -39,7 +40,7 @@ impl Sessions {
         Ok(token)
     }
 
-    /// Person and password hash of a session that has not ended.
+    /// Returns the person and the password hash of a session that has not ended.
     pub fn find(&self, session: &Secret, now: Instant) -> Option<(String, String)> {
         let sessions = self.lock();
         let found = sessions.get(session).filter(|session| now < session.ends)?;

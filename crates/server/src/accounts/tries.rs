@@ -1,8 +1,9 @@
-//! Bounds how often passwords can be guessed, without a stranger keeping an operator out for ever.
+//! Limits how often passwords can be guessed. Strangers cannot lock an operator out for ever.
 //!
-//! Three bounds hold at once. Per name and network address: after [`TRIES`] wrong passwords a pause, doubled after each
-//! further [`TRIES`]. Per name, and in whole: a bucket of wrong passwords that refills slowly. The two buckets do not hold
-//! for this machine, and not for an address from which that name has signed in before: strangers cannot use those.
+//! Three limits hold at once. For each pair of name and network address: a pause after [`TRIES`] wrong passwords,
+//! doubled after each further [`TRIES`]. For each name, and for all names together: a token bucket of wrong passwords
+//! that refills slowly. The two buckets do not hold for this machine, nor for an address from which that name has
+//! signed in before. Strangers cannot use those addresses, so they cannot lock the name out there.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::net::{IpAddr, Ipv6Addr};
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use super::NAME_MAX;
 
-/// Wrong passwords until a pause.
+/// Number of wrong passwords that leads to a pause.
 pub const TRIES: u32 = 5;
 /// The first pause.
 const PAUSE: Duration = Duration::from_secs(60);
@@ -18,30 +19,32 @@ const PAUSE: Duration = Duration::from_secs(60);
 const PAUSE_MAX: Duration = Duration::from_secs(3600);
 /// After this time without a wrong password, the next pause is the first one again.
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(2 * 3600);
-/// Wrong passwords per name, all addresses together: at once, and the time for each further one.
+/// Token bucket for the wrong passwords of one name from all addresses together.
 const OF_NAME: Bucket = Bucket { most: 20, refill: Duration::from_secs(60) };
-/// Wrong passwords of all names and addresses: at once, and the time for each further one.
+/// Token bucket for the wrong passwords of all names from all addresses.
 const IN_WHOLE: Bucket = Bucket { most: 60, refill: Duration::from_secs(10) };
-/// Pairs of name and address whose wrong passwords are remembered. Bounds the memory for strangers on this machine: the
-/// buckets do not hold for them. Above it the pair whose pause ended first is forgotten: to push one out takes as many wrong
-/// passwords, each of which is hashed, and so more time than the first pauses.
+/// Most pairs of name and address whose wrong passwords are remembered. Bounds the memory, because the buckets do not
+/// limit attempts from this machine. Beyond it, the pair whose pause ended first is forgotten. Pushing a pair out takes
+/// this number of wrong passwords. Each of them is hashed, which together takes longer than the first pauses.
 const PAIRS_MAX: usize = 10_000;
-/// Letters of a name that are remembered: one more than a name of a person may have. Bounds the memory for long names.
+/// Longest part of a name that is remembered, letters: one more than a name of a person may have. Bounds the memory for
+/// long names.
 const LETTERS_MAX: usize = NAME_MAX + 1;
-/// Addresses that are remembered for the names that signed in there. Above it the first of the set is forgotten.
+/// Most pairs of name and address with a successful sign-in that are remembered. Beyond it, the pair that sorts first
+/// is forgotten.
 const KNOWN_MAX: usize = 1_000;
 
-/// A bound: `most` at once, one more each `refill`.
+/// Token bucket: it allows `most` wrong passwords at once, and one more after each `refill`.
 struct Bucket {
     most: u32,
     refill: Duration,
 }
 
-/// How far a bucket is used: when it is full again.
+/// State of a bucket: the moment at which it is full again. `None`: it is full.
 type FullAt = Option<Instant>;
 
 impl Bucket {
-    /// How long the next one waits.
+    /// Returns how long the next attempt has to wait.
     fn wait(&self, full_at: FullAt, now: Instant) -> Duration {
         let debt = full_at.map_or(Duration::ZERO, |full| full.saturating_duration_since(now));
         debt.saturating_sub(self.refill * (self.most - 1))
@@ -59,16 +62,16 @@ struct Pair {
     paused_until: Instant,
 }
 
-/// What is left after a wrong password.
+/// Tries that are left after a wrong password.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriesLeft {
     /// Tries until the next pause; 0: the pause has begun.
     pub tries: u32,
-    /// How long that pause lasts.
+    /// Length of the next pause, or of the pause that has begun.
     pub pause: Duration,
 }
 
-/// The wrong passwords that count.
+/// Wrong passwords that are remembered, and addresses from which names have signed in.
 #[derive(Debug, Default)]
 pub struct SignInTries {
     pairs: BTreeMap<(String, IpAddr), Pair>,
@@ -78,7 +81,7 @@ pub struct SignInTries {
 }
 
 impl SignInTries {
-    /// Whether a password may be tried now; else how long to wait.
+    /// Returns `Ok` if a password may be tried at `now`, else how long to wait.
     pub fn may_try(&self, name: &str, address: IpAddr, now: Instant) -> Result<(), Duration> {
         let key = key(name, address);
         let pause = self
@@ -91,7 +94,7 @@ impl SignInTries {
         if wait.is_zero() { Ok(()) } else { Err(wait) }
     }
 
-    /// Counts a wrong password.
+    /// Counts a wrong password and returns the tries that are left.
     pub fn wrong(&mut self, name: &str, address: IpAddr, now: Instant) -> TriesLeft {
         self.pairs.retain(|_, pair| now < pair.paused_until + FORGOTTEN_AFTER);
         self.names.retain(|_, full_at| full_at.is_some_and(|full| now < full));
@@ -115,7 +118,7 @@ impl SignInTries {
         TriesLeft { tries, pause }
     }
 
-    /// Forgets the wrong passwords of a name from an address where the right one was given.
+    /// Notes a right password: forgets the wrong ones of this name and address, and exempts the pair from the buckets.
     pub fn right(&mut self, name: &str, address: IpAddr) {
         let key = key(name, address);
         self.pairs.remove(&key);
@@ -130,12 +133,13 @@ impl SignInTries {
     }
 }
 
-/// By what wrong passwords are counted.
+/// Returns the name and the address by which wrong passwords are counted.
 fn key(name: &str, address: IpAddr) -> (String, IpAddr) {
     (name.chars().take(LETTERS_MAX).collect(), network(address))
 }
 
-/// The address by which a client counts. One machine has a whole /64 of IPv6 addresses.
+/// Returns the address by which a client is counted. For IPv6 it is the /64 network, because one machine can use all
+/// addresses of it.
 fn network(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
         IpAddr::V6(address) if !address.is_loopback() => {
@@ -161,7 +165,7 @@ mod tests {
         let mut pauses = Vec::new();
         for _ in 0..8 {
             for left_over in (0..TRIES).rev() {
-                // The buckets are not the subject here: this address is the machine's own.
+                // The buckets are not tested here, because they do not hold for the machine's own address.
                 assert_eq!(tries.may_try("ann", IpAddr::from([127, 0, 0, 1]), now), Ok(()));
                 let left = tries.wrong("ann", IpAddr::from([127, 0, 0, 1]), now);
                 assert_eq!(left.tries, left_over);

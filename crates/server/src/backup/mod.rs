@@ -1,4 +1,4 @@
-//! The data folder in one file, a zip with a list of its files, and back.
+//! Saves the data folder in one file, a zip with a list of its files, and restores it.
 
 mod paths;
 mod restore;
@@ -11,21 +11,21 @@ use serde::{Deserialize, Serialize};
 pub use restore::restore;
 pub use save::save;
 
-/// The list of files in a backup.
+/// Name of the zip entry that lists the files of a backup.
 const LIST: &str = "lightbots-backup.json";
 /// Version of backups that this program writes, and the newest that it reads.
 const VERSION: u32 = 1;
-/// Most files of a backup: ten times those of 200 shows with 50 earlier states each. Bounds the memory for names.
+/// Most files of a backup: ten times the files of 200 shows with 50 earlier states each. Bounds the memory for names.
 const FILES_MAX: usize = 100_000;
 
-/// What a backup holds. It is the last file of the zip, because it says what became of the others.
+/// List of what a backup holds. It is the last entry of the zip, because it describes the files as they were saved.
 #[derive(Debug, Serialize, Deserialize)]
 struct BackupList {
     /// [`VERSION`].
     lightbots_backup: u32,
     /// Version of the program that made it.
     program: String,
-    /// When it was begun, milliseconds since 1970.
+    /// Time at which the backup was begun, milliseconds since 1970.
     began_ms: u64,
     /// The files by their paths in the data folder, with `/` between folders.
     files: BTreeMap<String, BackupFile>,
@@ -35,8 +35,8 @@ struct BackupList {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct BackupFile {
     bytes: u64,
-    /// When it was changed, milliseconds since 1970.
+    /// Time of the last change of the file, milliseconds since 1970.
     modified_ms: u64,
-    /// Only its owner may read it.
+    /// Whether only its owner may read the file.
     is_private: bool,
 }

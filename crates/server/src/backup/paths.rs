@@ -5,27 +5,28 @@ use std::path::{Path, PathBuf};
 
 use super::LIST;
 
-/// Deepest folder in a data folder: `history/NAME/NUMBER.lightbots.json` has two.
+/// Deepest nesting of folders that is looked through. The program needs two: `history/NAME/NUMBER.lightbots.json`.
 const DEPTH_MAX: usize = 16;
-/// Longest path in a backup, bytes: as long as Linux allows names of files.
+/// Longest path in a backup, bytes: the limit of Linux for paths.
 const PATH_MAX: usize = 4096;
-/// Files of a running program, which say nothing once it has ended. The journal, too: a folder that is brought back must
-/// not take up a run that robots drove on another day. The switch of the playlist, too: no show may start by itself then.
+/// Files that only a running program uses; backups leave them out. Without the journal, a restored folder does not
+/// resume a run that robots drove on another day. Without the playlist's switch, no show starts by itself after a
+/// restore.
 pub const OF_A_RUNNING_PROGRAM: [&str; 4] =
     [".lock", ".accounts-lock", "runs/present.lbjournal", "playlist-day.json"];
-/// The ending of files that take the place of others once they are complete.
+/// Ending of files that are still being written, before they replace other files.
 const DRAFT: &str = ".saving";
 
-/// What is found in a data folder.
+/// Content of a data folder.
 #[derive(Debug, Default)]
 pub struct Found {
     /// Paths of regular files, with `/` between folders.
     pub files: BTreeSet<String>,
-    /// What cannot be kept: links, pipes, names that are no text, folders that are too deep.
+    /// Paths that cannot be saved: links, pipes, names that are no text, folders that are too deep.
     pub odd: BTreeSet<PathBuf>,
 }
 
-/// Looks through a folder. The failure names the folder that cannot be read.
+/// Finds the files in a folder and its subfolders. The error names the folder or file that cannot be read.
 pub fn find(data: &Path) -> Result<Found, (PathBuf, std::io::Error)> {
     let mut found = Found::default();
     look(data, "", 0, &mut found)?;
@@ -43,7 +44,7 @@ fn look(
         let entry = entry.map_err(failed)?;
         let kind = match entry.file_type() {
             Ok(kind) => kind,
-            // It was removed a moment ago.
+            // The entry was removed after the folder was listed.
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
             Err(error) => return Err((entry.path(), error)),
         };
@@ -69,12 +70,13 @@ fn look(
     Ok(())
 }
 
-/// Whether a file belongs to no backup.
+/// Whether backups leave a file out.
 fn is_left_out(path: &str) -> bool {
     path == LIST || path.ends_with(DRAFT) || OF_A_RUNNING_PROGRAM.contains(&path)
 }
 
-/// Refuses paths that lead out of the folder, that mean something else on another system, or that a running program uses.
+/// Returns an error for paths that are too long, that lead out of the folder, or that mean something else on another
+/// system.
 pub fn check(path: &str) -> Result<(), &'static str> {
     let parts = || path.split('/');
     if path.len() > PATH_MAX || parts().count() > DEPTH_MAX + 1 {
@@ -89,7 +91,7 @@ pub fn check(path: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Refuses a path of a backup that no backup has.
+/// As [`check`], and returns an error for files that no backup holds.
 pub fn check_restored(path: &str) -> Result<(), &'static str> {
     check(path)?;
     if is_left_out(path) { Err("a backup never holds that file") } else { Ok(()) }

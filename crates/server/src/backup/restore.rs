@@ -1,4 +1,5 @@
-//! From a backup to a data folder, all or nothing: files are unpacked beside the folder, which then takes its name.
+//! Restores a data folder from a backup, all or nothing. Files are unpacked into a folder beside it, which then takes
+//! its name.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -13,7 +14,7 @@ use crate::data_folder::DataFolder;
 use crate::disk::{self, Readers};
 use crate::failure::Failure;
 
-/// Longest list of files that is read, bytes: [`FILES_MAX`] of them with long names.
+/// Longest list of files that is read, bytes; enough for [`FILES_MAX`] files with long names.
 const LIST_MAX: u64 = 64 << 20;
 
 /// What was restored.
@@ -21,7 +22,7 @@ const LIST_MAX: u64 = 64 << 20;
 pub struct Restored {
     pub files: usize,
     pub bytes: u64,
-    /// Where the files are that were in the folder before; `None`: there were none.
+    /// New path of the files that the folder held before; `None` if it held none.
     pub before: Option<PathBuf>,
 }
 
@@ -32,7 +33,8 @@ struct Backup {
     list: BackupList,
 }
 
-/// Makes a data folder of a backup. A folder that holds something is refused, or with `replace` moved aside.
+/// Restores a backup as the data folder `data`. A folder that holds files is an error, or with `replace` is moved
+/// aside.
 pub fn restore(file: &Path, data: &Path, replace: bool) -> Result<Restored, Failure> {
     let mut backup = Backup::open(file)?;
     let folder = if fs::symlink_metadata(data).is_ok() { Some(DataFolder::take(data)?) } else { None };
@@ -103,7 +105,7 @@ impl Backup {
             }
             copied?;
             let modified = UNIX_EPOCH.checked_add(Duration::from_millis(about.modified_ms));
-            // Some file systems keep no such times.
+            // Some file systems do not keep times of changes.
             let _ = modified.map(|time| file.set_modified(time));
             Ok::<(), io::Error>(())
         });
@@ -118,7 +120,7 @@ impl Backup {
     }
 }
 
-/// Reads an entry and remembers that the entry, and not the disk that it is written to, failed.
+/// Reads an entry and keeps its read error, to tell it from an error of the disk that the entry is written to.
 struct Counted<R> {
     entry: R,
     failure: Option<io::Error>,
@@ -134,7 +136,7 @@ impl<R: Read> Read for Counted<R> {
     }
 }
 
-/// Refuses a list with other files than the archive, and paths that lead elsewhere.
+/// Returns an error if the list and the archive name different files, or if a path is not allowed.
 fn check(archive: &ZipArchive<BufReader<File>>, list: &BackupList) -> Result<(), String> {
     let shown = |path: &str| path.chars().filter(|letter| !letter.is_control()).take(100).collect::<String>();
     let mut names = BTreeSet::new();
@@ -155,7 +157,7 @@ fn check(archive: &ZipArchive<BufReader<File>>, list: &BackupList) -> Result<(),
     }
 }
 
-/// Whether a folder holds more than what a program leaves in an empty one.
+/// Whether a folder holds more than the files that a program leaves in an empty one.
 fn holds_files(data: &Path) -> Result<bool, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(
@@ -172,7 +174,8 @@ fn holds_files(data: &Path) -> Result<bool, Failure> {
     Ok(false)
 }
 
-/// Gives the folder `staging` the name `data`. What `data` held is moved aside first; its new place.
+/// Gives the folder `staging` the name `data`. What `data` held is moved aside first. Returns the path of the moved
+/// folder, if there is one.
 fn put_in_place(staging: &Path, data: &Path, holds_files: bool) -> Result<Option<PathBuf>, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(
@@ -194,21 +197,21 @@ fn put_in_place(staging: &Path, data: &Path, holds_files: bool) -> Result<Option
     let before = before.unwrap_or_else(|| beside(data, "before"));
     disk::rename(data, &before).map_err(failed)?;
     if let Err(error) = disk::rename(staging, data) {
-        // Back to what was there.
+        // Restore the folder that was there before.
         let _ = disk::rename(&before, data);
         return Err(failed(error));
     }
     Ok(Some(before))
 }
 
-/// A path beside a folder: its name and an ending.
+/// Returns a path beside a folder: the folder's name, a dot and `ending`.
 fn beside(folder: &Path, ending: &str) -> PathBuf {
     let mut name = folder.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{ending}"));
     folder.with_file_name(name)
 }
 
-/// A folder that is not complete. Dropped, it is removed; after it was renamed there is none.
+/// An incomplete folder, which is removed when this value is dropped. After a rename there is nothing to remove.
 struct Staging(PathBuf);
 
 impl Staging {
@@ -218,7 +221,7 @@ impl Staging {
             return Err(Failure::input(format!("{} has no name of its own: {name_it}", data.display())));
         }
         let path = beside(data, &format!("restoring-{}", std::process::id()));
-        // A process of this number may have been killed.
+        // An earlier process with the same id may have been killed and have left the folder behind.
         let _ = fs::remove_dir_all(&path);
         disk::create_folder(&path).map_err(|error| {
             Failure::problem(format!("{} cannot be made: {error}; {name_it} elsewhere", path.display()))
@@ -229,7 +232,7 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // It is usually gone: renamed.
+        // Fails if the folder was renamed, which is usual.
         let _ = fs::remove_dir_all(&self.0);
     }
 }

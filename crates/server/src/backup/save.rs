@@ -1,7 +1,7 @@
-//! From a data folder to a backup, also while a program uses the folder.
+//! Saves a data folder as a backup, also while a program uses the folder.
 //!
-//! Files of the folder are replaced whole or only grow, so each that is opened is consistent: the old or the new one, or the
-//! beginning of a log. Files that come while others are copied are found by looking again.
+//! Files of the folder are replaced whole or only grow. Each file that is opened is thus consistent: the old or the new
+//! version, or the beginning of a log. Files that are created during the copying are found by looking again.
 
 use std::collections::BTreeMap;
 use std::fs::{File, Metadata};
@@ -16,10 +16,11 @@ use super::{BackupFile, BackupList, FILES_MAX, LIST, VERSION, paths};
 use crate::disk::{self, Readers};
 use crate::failure::Failure;
 
-/// How often the folder is looked through again for files that came in between.
+/// Most times that the folder is looked through. Each further round finds files that were created during the round
+/// before.
 const ROUNDS_MAX: usize = 5;
-/// Files of at least this length need wider numbers in a zip, bytes. Half of what narrow ones hold, because compressed
-/// bytes may be more.
+/// Length from which on a file is stored with 64-bit sizes in the zip, bytes. Half of what 32-bit sizes hold, because
+/// compressed data may be longer.
 const LARGE: u64 = 2 << 30;
 
 /// What was saved.
@@ -27,7 +28,7 @@ const LARGE: u64 = 2 << 30;
 pub struct Saved {
     pub files: usize,
     pub bytes: u64,
-    /// What is in the folder and cannot be kept, such as links.
+    /// Paths in the folder that cannot be saved, such as links.
     pub left_out: Vec<PathBuf>,
 }
 
@@ -71,7 +72,7 @@ pub fn save(data: &Path, out: &Path) -> Result<Saved, Failure> {
     Ok(saved)
 }
 
-/// Refuses a data folder that is none, and a file in it: each backup would hold the one before.
+/// Returns an error if `data` is no folder, or if `out` lies in it: each backup would then hold the one before.
 fn check_places(data: &Path, out: &Path) -> Result<(), Failure> {
     let folder = data.canonicalize().ok().filter(|folder| folder.is_dir()).ok_or_else(|| {
         Failure::input(format!("there is no data folder {}: name it with --data DIR", data.display()))
@@ -126,7 +127,7 @@ fn options(bytes: u64) -> SimpleFileOptions {
     options.large_file(bytes >= LARGE).unix_permissions(0o600)
 }
 
-/// Adds a file as it is now; `None`: it is no longer there.
+/// Adds a file with its present content. `None` if it no longer exists.
 fn add(
     archive: &mut ZipWriter<impl Write + Seek>,
     data: &Path,
@@ -143,7 +144,7 @@ fn add(
     archive.start_file(path, options(about.len())).map_err(io::Error::from)?;
     let mut bytes = 0;
     let mut buffer = vec![0; 1 << 16];
-    // A log that grows meanwhile ends where it was when it was opened.
+    // Of a log that grows meanwhile, only the part is saved that existed when it was opened.
     while bytes < about.len() {
         let most = usize::try_from(about.len() - bytes).unwrap_or(usize::MAX).min(buffer.len());
         let count = match file.read(&mut buffer[..most]) {

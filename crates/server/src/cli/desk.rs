@@ -7,12 +7,13 @@ use clap::Args;
 
 use crate::numbers::address;
 
-/// Where Art-Net is received without an address: this machine alone.
+/// Address for Art-Net if the option has no value: this machine only.
 const ARTNET: &str = "127.0.0.1:6454";
-/// Where sACN is received without an address: this machine alone.
+/// Address for sACN if the option has no value: this machine only.
 const SACN: &str = "127.0.0.1:5568";
 
-/// Where OSC is received without an address: this machine alone. 53000 is the port of a widespread sound program itself.
+/// Address for OSC if the option has no value: this machine only. The port is not 53000, which a widespread sound
+/// program uses itself.
 const OSC: &str = "127.0.0.1:53100";
 
 /// Lighting and sound desks, of `run`

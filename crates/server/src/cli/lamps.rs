@@ -23,12 +23,12 @@ pub struct LampArguments {
     pub lamp_standby_ma: f64,
 }
 
-/// Shares of red, green and blue.
+/// Shares of red, green and blue that together look white, each 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct White([f64; 3]);
 
 impl LampArguments {
-    /// The settings that they stand for.
+    /// Returns these arguments as lamp settings.
     pub fn settings(&self) -> LampSettings {
         LampSettings {
             gamma: self.lamp_gamma,

@@ -19,7 +19,7 @@ pub struct PasswdArguments {
     pub data: Option<PathBuf>,
 }
 
-/// Reads a role; `--help` lists them.
+/// Returns a parser of role names, which `--help` then lists.
 fn roles() -> impl TypedValueParser<Value = AccountRole> {
     PossibleValuesParser::new(AccountRole::ALL.map(AccountRole::name))
         .try_map(|text| text.parse::<AccountRole>())

@@ -1,4 +1,4 @@
-//! How commands read a show.
+//! The arguments that say how commands read a show.
 
 use clap::{Args, ValueEnum};
 use lightbots_exchange::formats_in_words;
@@ -35,7 +35,7 @@ impl From<IdentityArgument> for Identity {
     }
 }
 
-/// The help for a show file, with the endings of all formats.
+/// Returns the help text for a show file, with the endings of all formats.
 pub(super) fn show_help() -> String {
     format!("The {}", formats_in_words())
 }

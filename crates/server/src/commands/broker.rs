@@ -7,8 +7,8 @@ use crate::stop::Stop;
 use crate::{open_files, say};
 
 pub async fn run(arguments: BrokerOnlyArguments, stop: Stop) -> Outcome {
-    // Ctrl-C at the terminal goes to parent and child. The child ends with its parent's pipe instead, so that robots still
-    // receive STOP.
+    // Ctrl-C at the terminal reaches parent and child. The child ignores it and ends when the pipe of its parent
+    // closes, so that robots still receive STOP.
     stop.take_over();
     open_files::raise_limit();
     open_files::limit_memory();
@@ -20,14 +20,14 @@ pub async fn run(arguments: BrokerOnlyArguments, stop: Stop) -> Outcome {
     if let Some(tls) = engine.tls_address() {
         say::line(&format!("Broker with TLS mqtts://{tls}"));
     }
-    // Each line is logged too.
+    // The receiver is kept but not read, because each notice is logged too.
     let notices = engine.notices();
     stop.wait().await;
     drop(notices);
     Ok(true)
 }
 
-/// The settings of the embedded broker on the command line.
+/// Reads the settings of the embedded broker from the command line.
 pub fn options(arguments: &MqttArguments, robots: usize) -> Result<BrokerOptions, Failure> {
     let users = Users::read(&arguments.mqtt_user, arguments.mqtt_users.as_deref())?;
     Ok(BrokerOptions { listen: arguments.mqtt_listen, tls: tls_options(arguments), users, robots })

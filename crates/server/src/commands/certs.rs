@@ -22,7 +22,7 @@ use crate::tls::{self, OWN_NAMES};
 /// Validity of the authority, days: ten years, so that it outlives the certificates that it signs.
 const AUTHORITY_DAYS: u32 = 3650;
 
-/// A certificate authority that signs.
+/// A certificate authority with its key, which signs certificates.
 type Authority = Issuer<'static, KeyPair>;
 
 pub fn run(arguments: &CertsArguments) -> Outcome {
@@ -52,7 +52,7 @@ pub fn run(arguments: &CertsArguments) -> Outcome {
     Ok(true)
 }
 
-/// The authority in the folder `out`, or a new one that is saved there.
+/// Reads the authority in the folder `out`, or makes a new one and saves it there.
 fn authority(out: &Path) -> Result<Authority, Failure> {
     let (certificate, key) = (out.join("ca.pem"), out.join("ca.key"));
     let mut params = params(&[], "LightBots authority", AUTHORITY_DAYS)?;
@@ -87,7 +87,7 @@ fn check(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes `<stem>.pem` and `<stem>.key`.
+/// Makes a key and a certificate for `names`, and writes them to `<stem>.key` and `<stem>.pem`.
 fn issue(
     out: &Path,
     stem: &str,
@@ -113,7 +113,7 @@ fn params(names: &[String], common: &str, days: u32) -> Result<CertificateParams
         .map_err(|error| Failure::input(format!("a name that certificates cannot hold: {error}")))
 }
 
-/// The name of a client for file names.
+/// Returns the name of a client if it can be part of a file name.
 fn file_name(client: &str) -> Result<&str, Failure> {
     let fits = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
     if (1..=64).contains(&client.len()) && client.chars().all(fits) && !client.starts_with('.') {

@@ -40,7 +40,7 @@ pub(super) struct Summary<'a> {
 #[derive(Debug, Serialize)]
 struct Pair {
     distance_m: f64,
-    /// The frame of the transition's end, counted from 0.
+    /// The frame that the transition leads to, counted from 0.
     to: usize,
     /// Time after the start of the transition, and after the start of the show, seconds.
     at_s: f64,

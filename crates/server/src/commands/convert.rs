@@ -17,7 +17,7 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     let output = &arguments.output;
     let format = show_file::format_of(output)?;
     let mut loaded = loaded(arguments)?;
-    // Fitting draws the files in the show.
+    // Fitting a show to another fleet reads the files inside the show, which are untrusted.
     let draws_files = arguments.robots.is_some() && !loaded.show.assets.is_empty();
     if let Some(outcome) = guard::child_outcome(draws_files) {
         return outcome;
@@ -45,7 +45,7 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     Ok(fine)
 }
 
-/// The show of the input, or the show that its colours are put onto.
+/// Reads the input show. With `--onto`, reads that show and puts the colours of the input onto it.
 fn loaded(arguments: &ConvertArguments) -> Result<Loaded, Failure> {
     let input = &arguments.input;
     let Some(onto) = &arguments.onto else { return show_file::load(input) };
@@ -57,7 +57,7 @@ fn loaded(arguments: &ConvertArguments) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// The file of a show, which is planned where the format needs that.
+/// Writes a show in a format, and plans it first if the format needs a plan.
 fn written(format: &Format, loaded: &mut Loaded) -> Written {
     if !format.needs_plan || loaded.plan.is_some() {
         return format.write(&loaded.show, loaded.plan.as_ref());
@@ -70,13 +70,13 @@ fn written(format: &Format, loaded: &mut Loaded) -> Written {
     written
 }
 
-/// Whether two paths lead to one file.
+/// Whether two paths lead to the same existing file.
 fn is_same_file(input: &Path, output: &Path) -> bool {
     let (input, output) = (input.canonicalize(), output.canonicalize());
     matches!((input, output), (Ok(input), Ok(output)) if input == output)
 }
 
-/// Fits the show to the robots that are asked for; what is different then.
+/// Fits the show to the number of robots in `--robots`. Returns warnings about what changed.
 fn fitted(show: &mut Show, arguments: &ConvertArguments) -> Result<Issues, Failure> {
     let Some(robots) = arguments.robots else { return Ok(Issues::new()) };
     let notes = fit_show(show, robots as usize).map_err(|error| {

@@ -1,4 +1,4 @@
-//! Asks the person at the terminal to press Enter: for GO, or because an interrupted show is to go on.
+//! Asks the person at the terminal to press Enter, for GO or to resume an interrupted show.
 
 use std::io::BufRead;
 
@@ -15,12 +15,12 @@ pub enum EnterFor {
     GoOn,
 }
 
-/// The question that is asked, and its answer: a line on stdin.
+/// The question that waits for an answer, and the receiver of its answer: a line on stdin.
 #[derive(Debug, Default)]
 pub struct EnterKey(Option<(EnterFor, oneshot::Receiver<bool>)>);
 
 impl EnterKey {
-    /// Asks, unless that is asked already. It takes the place of another question.
+    /// Prints a question, unless the same question is waiting for an answer. It replaces another waiting question.
     pub fn ask(&mut self, question: EnterFor) {
         match &mut self.0 {
             Some((asked, _)) if *asked == question => return,
@@ -33,8 +33,8 @@ impl EnterKey {
         });
     }
 
-    /// Waits for the answer: the question, and whether Enter was pressed; false: there is no terminal. Never ends where
-    /// nothing was asked.
+    /// Waits for the answer. Returns the question, and whether Enter was pressed: `false` if there is no terminal.
+    /// Never returns if there is no question.
     pub async fn answer(&mut self) -> (EnterFor, bool) {
         let Some((question, receiver)) = &mut self.0 else { return std::future::pending().await };
         let answer = (*question, receiver.await.unwrap_or(false));
@@ -45,10 +45,10 @@ impl EnterKey {
 
 fn read_line() -> oneshot::Receiver<bool> {
     let (sender, receiver) = oneshot::channel();
-    // A thread of its own: a program that ends does not wait for it, as it would for a task that reads.
+    // A separate thread, because a program that ends waits for a blocking task but not for a thread.
     std::thread::spawn(move || {
         let read = std::io::stdin().lock().read_line(&mut String::new());
-        // The show may be over by now.
+        // The receiver is gone if the show is over.
         let _ = sender.send(read.is_ok_and(|bytes| bytes > 0));
     });
     receiver

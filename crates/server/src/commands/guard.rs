@@ -1,4 +1,5 @@
-//! Files of others are read in a child process with limits on memory and time: a file of a few bytes can ask for gigabytes.
+//! Reads untrusted files in a child process with limits on memory and time, because a file of a few bytes can need
+//! gigabytes.
 
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Arc;
@@ -9,16 +10,16 @@ use crate::failure::{Failure, Outcome};
 use crate::own_program::own_program;
 use crate::say;
 
-/// Set for the child, so that it does not start another one.
+/// Name of the environment variable that marks the child, so that it does not start another one.
 const CHILD: &str = "LIGHTBOTS_READING_CHILD";
 
 /// Most memory of the child, bytes.
 const MEMORY_MAX: u64 = 400 << 20;
 
-/// How long reading the sources may take.
+/// Longest time for reading the sources.
 const READING_MAX: Duration = Duration::from_secs(10);
 
-/// Exit code of a child that took too long; other than all codes of commands.
+/// Exit code of a child that took too long. No command uses this code.
 const TOO_LONG: i32 = 75;
 
 /// Whether this process is the child.
@@ -26,8 +27,8 @@ fn is_child() -> bool {
     std::env::var_os(CHILD).is_some()
 }
 
-/// Where files of others are to be read, the outcome of a child that runs the same command. `None`: there are none, or this
-/// process is the child; its memory is limited from now on.
+/// Runs the same command in a child process if untrusted files are to be read, and returns its outcome. `None` if there
+/// are no such files. Also `None` in the child itself, whose memory is limited here.
 pub fn child_outcome(reads_foreign_files: bool) -> Option<Outcome> {
     if is_child() {
         limit_memory();
@@ -36,14 +37,15 @@ pub fn child_outcome(reads_foreign_files: bool) -> Option<Outcome> {
     reads_foreign_files.then(run_in_child)
 }
 
-/// This program as a child that reads what is not to be trusted.
+/// Returns the command that starts this program as a child for reading untrusted files.
 pub fn reading_child() -> Command {
     let mut child = Command::new(own_program());
     child.env(CHILD, "1").stdin(Stdio::null());
     child
 }
 
-/// Why a child could not read, and what to do; `None`: it has said why.
+/// Returns why a child could not read and what to do, for a message. `None` if the child ended by itself, after
+/// printing the reason of any failure.
 pub fn reading_failure(status: ExitStatus) -> Option<String> {
     match status.code() {
         Some(TOO_LONG) => {
@@ -54,7 +56,8 @@ pub fn reading_failure(status: ExitStatus) -> Option<String> {
     }
 }
 
-/// Runs the same command in a child process and ends as it does.
+/// Runs the same command in a child process and returns its outcome. A child over its limit of time or memory becomes
+/// an error that says so. If the child ends with an error of its own, this process exits with the same code.
 fn run_in_child() -> Outcome {
     let status = reading_child()
         .args(std::env::args_os().skip(1))
@@ -64,16 +67,16 @@ fn run_in_child() -> Outcome {
         (_, Some(why)) => Err(Failure::input(format!("a source {why}"))),
         (Some(0), None) => Ok(true),
         (Some(1), None) => Ok(false),
-        // It has said why.
+        // The child has printed the reason.
         (code, None) => std::process::exit(code.unwrap_or(2)),
     }
 }
 
-/// Ends the child if reading takes too long.
+/// Time limit for reading: ends the child process if reading takes longer than `READING_MAX`.
 pub struct ReadingTime(Arc<AtomicBool>);
 
 impl ReadingTime {
-    /// Limits time until [`ReadingTime::decoded`], if this process is the child.
+    /// Starts the time limit if this process is the child. It holds until [`ReadingTime::decoded`] is called.
     pub fn start() -> Self {
         let done = Arc::new(AtomicBool::new(false));
         if is_child() {
@@ -88,7 +91,7 @@ impl ReadingTime {
         Self(done)
     }
 
-    /// Everything foreign has been read.
+    /// Ends the time limit: all untrusted files have been read.
     pub fn decoded(&self) {
         self.0.store(true, Ordering::Release);
     }

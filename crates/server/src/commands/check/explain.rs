@@ -10,7 +10,7 @@ use super::show_places::frame_name;
 /// One transition.
 #[derive(Debug, Serialize)]
 pub(super) struct Explained {
-    /// The frame it leads to, counted from 0.
+    /// The frame that the transition leads to, counted from 0.
     to: usize,
     /// Index of the row whose plan was chosen; null: there is no plan.
     chosen: Option<usize>,
@@ -22,7 +22,7 @@ pub(super) struct Explained {
 #[derive(Debug, Serialize)]
 struct Row {
     solver: String,
-    /// A few words; the numbers in it follow.
+    /// Outcome in a few words. The fields below repeat its numbers.
     outcome: String,
     duration_s: Option<f64>,
     stop_safe_percent: Option<u8>,

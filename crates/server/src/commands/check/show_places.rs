@@ -1,9 +1,9 @@
-//! Frame, pixel and moment of a place in a plan, for the texts of `check`.
+//! Finds frame names, pixels and times in a plan, for the texts of `check`.
 
 use lightbots_plan::ShowPlan;
 use lightbots_show::{Show, frame_label};
 
-/// The pixel that a robot drives to in a transition.
+/// Returns the id of the pixel that a robot drives to in a transition; `None` if it has none.
 pub fn pixel(made: &ShowPlan, transition: usize, robot: usize) -> Option<u32> {
     made.mapping.get(transition)?.get(robot).copied().flatten()
 }

@@ -29,7 +29,7 @@ struct Worst {
     /// The robot that would touch it, and that robot's pixel.
     by: usize,
     by_pixel: Option<u32>,
-    /// The frame of the transition's end, counted from 0.
+    /// The frame that the transition leads to, counted from 0.
     frame: usize,
     /// Seconds after the start of the transition, and after the start of the show.
     moment: f64,
@@ -58,7 +58,8 @@ impl StopSafe {
         Self { share: plan.ok.then_some(plan.stop_safe), worst, less }
     }
 
-    /// The lines for people: the share, the worst moment, and the frames that are too tight.
+    /// Returns the lines for people: the share, the worst moment, and the frames whose transitions have a share below
+    /// 1. Empty if the plan must not be played.
     pub fn lines(&self, show: &Show) -> Vec<String> {
         let Some(share) = self.share else { return Vec::new() };
         let Some(worst) = &self.worst else {
@@ -86,7 +87,7 @@ impl StopSafe {
     }
 }
 
-/// Rounded down, so that 100 % means all.
+/// Formats a share as percent, rounded down, so that 100 % means all.
 fn percent(share: f64) -> String {
     format!("{:.2} %", (share * 1e4 + 1e-6).floor() / 1e2)
 }

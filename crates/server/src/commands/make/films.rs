@@ -1,4 +1,4 @@
-//! Animations of the command line become frames.
+//! Makes frames of the animations on the command line.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use lightbots_make::{Content, FilmFrame, Material, film, picture_floor};
 use super::wanted::{Wanted, asset, recipe, stage};
 use crate::cli::MakeArguments;
 
-/// The frames of an animation: moments between which robots have time to move.
+/// Makes the frames of an animation, at moments between which robots have time to move.
 pub fn frames(
     path: &Path,
     bytes: &[u8],

@@ -1,4 +1,4 @@
-//! `make`: words, shapes, drawings, pictures and lists become frames of a show.
+//! `make`: makes a show's frames from words, shapes, drawings, pictures and lists.
 
 mod films;
 mod sources;
@@ -39,7 +39,7 @@ struct Picture {
     closest_m: Option<f64>,
     correlation: Option<f64>,
     symmetry: Option<f64>,
-    /// The number of robots that would do, where these are too few.
+    /// Number of robots that would be enough, if these are too few.
     enough: Option<usize>,
 }
 
@@ -95,7 +95,7 @@ fn title(arguments: &MakeArguments) -> String {
     lightbots_exchange::stem(&name).to_owned()
 }
 
-/// Adds a frame to the show.
+/// Adds a frame to the show. Returns its row of the summary, and its issues.
 fn place(wanted: Wanted, show: &mut Show, arguments: &MakeArguments) -> Result<(Picture, Issues), DrawError> {
     let floor = picture_floor(&show.stage);
     let robots = arguments.robots as usize;
@@ -131,7 +131,7 @@ fn picture(made: &MadeFrame, enough: Option<usize>) -> Picture {
     }
 }
 
-/// What is missing or different, as issues of a frame.
+/// Returns the notes of a frame as issues, and one more if the frame is hard to read.
 fn issues(made: &MadeFrame, index: usize, enough: Option<usize>) -> Issues {
     let label = lightbots_show::frame_label(index, &made.frame.name);
     let warning = |note: &Note| Issue::warning(note.code, format!("{label}: {}", note.message));
