@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use crate::disk;
 use crate::failure::Failure;
 
-/// The file whose lock, held by the operating system, says that a program uses the folder. The file stays: to remove it
-/// could remove the file of a program that starts at this moment.
+/// Name of the file whose lock shows that a program uses the folder. The operating system holds the lock. The file is
+/// never removed, because another program may open it at that moment.
 const LOCK: &str = ".lock";
-/// Longest text that is read of a lock file, bytes.
+/// Longest text that is read from a lock file, bytes.
 const LONGEST: u64 = 200;
 
-/// A folder that this program has for itself as long as the value lives. It ends with the process, however that ends.
+/// A data folder that only this program uses while the value exists. The lock ends with the process, however the
+/// process ends.
 #[derive(Debug)]
 pub struct DataFolder {
     path: PathBuf,
@@ -21,7 +22,7 @@ pub struct DataFolder {
 }
 
 impl DataFolder {
-    /// The folder the user's data belongs in on this system.
+    /// Returns the default data folder of the user on this system.
     pub fn usual() -> PathBuf {
         let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let data = set("XDG_DATA_HOME")
@@ -30,8 +31,8 @@ impl DataFolder {
         data.map_or_else(|| PathBuf::from("lightbots-data"), |data| data.join("lightbots"))
     }
 
-    /// Makes the folder and takes it. The failure says what to do: which process uses the folder, or that the disk
-    /// cannot be written.
+    /// Makes the folder, if it is missing, and locks it. The error says what to do: which process uses the folder, or
+    /// that the disk cannot be written.
     pub fn take(path: &Path) -> Result<Self, Failure> {
         let lock = open(path).map_err(|error| {
             let path = path.display();
@@ -52,7 +53,8 @@ impl DataFolder {
         Ok(folder)
     }
 
-    /// Tells a program that wants the folder where this one is found.
+    /// Writes the address of this program to the lock file, for the error message of a second program that wants the
+    /// folder.
     pub fn tell_address(&self, url: &str) {
         self.note(&format!("process {} ({url})", std::process::id()));
     }
@@ -79,7 +81,7 @@ impl DataFolder {
     }
 }
 
-/// The lock file. That another file can be made, too, says that shows can be saved.
+/// Opens the lock file. Before that it writes and removes another file, to check that shows can be saved.
 fn open(folder: &Path) -> std::io::Result<File> {
     disk::create_folder(folder)?;
     let path = folder.join(LOCK);
@@ -88,7 +90,7 @@ fn open(folder: &Path) -> std::io::Result<File> {
     }
     let probe = folder.join(format!(".probe-{}.saving", std::process::id()));
     std::fs::write(&probe, b"")?;
-    // A program that has just taken the folder may have removed it as a draft.
+    // The file may be gone, because a program that has just taken the folder removes drafts.
     disk::remove(&probe)?;
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
 }

@@ -12,19 +12,19 @@ pub mod power_cut;
 #[cfg(test)]
 use power_cut::{Operation, note};
 
-/// The ending of drafts: files that take the place of others once they are complete.
+/// Ending of drafts: temporary files that replace other files once they are complete.
 const DRAFT: &str = ".saving";
 
-/// Who may read a file.
+/// Users that may read a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Readers {
-    /// Every user that the system's mask admits.
+    /// Every user that the system's file mode mask admits.
     All,
     /// The user that runs this program.
     Owner,
 }
 
-/// Makes a folder with the folders above it; those that were missing are on the disk afterwards.
+/// Makes a folder and the folders above it. Folders that were missing are on the disk when this returns.
 pub fn create_folder(folder: &Path) -> io::Result<()> {
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
@@ -41,13 +41,13 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a file, all or nothing, and makes its folder where that is missing. After a crash there is the old file or the
-/// new one; after a failure the old one, and no draft.
+/// Writes a file, all or nothing, and makes its folder if that is missing. After a crash, the old or the new file
+/// exists. After an error, the old file exists, and no draft.
 pub fn replace(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<()> {
     replace_with(path, readers, |file| file.write_all(bytes))
 }
 
-/// The same with a function that writes the new file.
+/// As [`replace`], with a function that writes the new file.
 pub fn replace_with<E: From<io::Error>>(
     path: &Path,
     readers: Readers,
@@ -78,7 +78,7 @@ pub fn link(from: &Path, to: &Path) -> io::Result<()> {
     sync_folder(folder_of(to))
 }
 
-/// Removes a file that may not be there.
+/// Removes a file. A missing file is no error.
 pub fn remove(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Ok(()) => {
@@ -91,13 +91,13 @@ pub fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The bytes of a regular file of at most `most` bytes. A pipe or a device is refused before it is opened, because it may
-/// wait for ever or never end.
+/// Reads a regular file; more than `most` bytes are an error. A pipe or a device is refused before it is opened,
+/// because it may wait for ever or never end.
 pub fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     open_regular(path).and_then(|file| read_to_end(file, most))
 }
 
-/// A regular file, opened.
+/// Opens a regular file; anything else is an error.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
@@ -105,7 +105,7 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// The bytes of a file of any kind, of at most `most` bytes.
+/// Reads a file of any kind; more than `most` bytes are an error.
 pub fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     read_to_end(File::open(path)?, most)
 }
@@ -131,11 +131,11 @@ pub fn remove_drafts(folder: &Path) {
     }
 }
 
-/// A file that is not complete. Dropped, it is removed; after it was renamed there is none.
+/// A temporary file, which is removed when this value is dropped. After a rename there is nothing to remove.
 pub struct Draft(PathBuf);
 
 impl Draft {
-    /// The draft of a file, under a name that no other save of this program uses.
+    /// Returns the draft of a file, under a name that no other save of this program uses. Nothing is written yet.
     pub fn beside(path: &Path) -> Self {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -143,16 +143,16 @@ impl Draft {
         Self(folder_of(path).join(format!(".{name}.{number}{DRAFT}")))
     }
 
-    /// Where the draft is.
+    /// Path of the draft.
     pub fn path(&self) -> &Path {
         &self.0
     }
 
-    /// The draft becomes the file.
+    /// Synchronises the draft to the disk and renames it to `path`.
     pub fn finish(self, path: &Path) -> io::Result<()> {
         #[cfg(test)]
         note(|| Operation::Wrote(self.0.clone(), fs::read(&self.0).unwrap_or_default()));
-        // Some systems bring only files that may be written to the disk.
+        // The file is opened for writing, because some systems synchronise only such files.
         OpenOptions::new().write(true).open(&self.0)?.sync_all()?;
         #[cfg(test)]
         note(|| Operation::SyncedFile(self.0.clone()));
@@ -176,7 +176,7 @@ impl Draft {
 
 impl Drop for Draft {
     fn drop(&mut self) {
-        // It is usually gone: renamed.
+        // Fails if the draft was renamed, which is usual.
         let _ = fs::remove_file(&self.0);
     }
 }
@@ -185,7 +185,8 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Brings the names in a folder to the disk. Without it a crash may undo a rename whose file is on the disk.
+/// Synchronises the names in a folder to the disk, on Unix. Otherwise a crash may undo a rename whose file is on the
+/// disk.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;

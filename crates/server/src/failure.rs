@@ -3,12 +3,12 @@
 use std::fmt::Display;
 use std::path::Path;
 
-/// One line for people, and the exit code.
+/// Error of a command: one line for people, and the exit code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     /// What is wrong and what to do.
     pub line: String,
-    /// 1 or 2.
+    /// Exit code: 1 for a problem, 2 for wrong use or unreadable input, 130 after a cancellation.
     pub code: i32,
 }
 
@@ -16,17 +16,17 @@ pub struct Failure {
 pub type Outcome = Result<bool, Failure>;
 
 impl Failure {
-    /// Wrong use or unreadable input.
+    /// Makes an error for wrong use or unreadable input, exit code 2.
     pub fn input(line: impl Into<String>) -> Self {
         Self { line: line.into(), code: 2 }
     }
 
-    /// A file that was asked for cannot be written.
+    /// Makes an error for a file that cannot be written, exit code 2.
     pub fn unwritable(path: &Path, error: &dyn Display) -> Self {
         Self::input(format!("{}: cannot be written: {error}", path.display()))
     }
 
-    /// It was asked for rightly, but could not be done.
+    /// Makes an error for a correct command that could not be done, exit code 1.
     pub fn problem(line: impl Into<String>) -> Self {
         Self { line: line.into(), code: 1 }
     }

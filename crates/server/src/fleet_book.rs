@@ -1,4 +1,4 @@
-//! What people say of robots, kept in a file: what each is called, and which take part in runs.
+//! What people set for single robots, kept in a file: display names, and which robots may take part in runs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 use crate::disk::{self, Readers};
 
 const FILE: &str = "robots.json";
-/// The longest name that people give a robot, characters: a row of the table shows it.
+/// Longest display name of a robot, characters. A row of the screen's table shows it.
 const CALLED_MAX: usize = 40;
 /// The most robots that are kept: twice the largest fleet.
 const ROBOTS_MAX: usize = 20_000;
-/// The longest file, bytes: each robot has two names.
+/// Longest file, bytes: each robot has two names.
 const FILE_MAX: u64 = 8 << 20;
 
-/// The robots that people said something of. Clones share it.
+/// Display names of robots, and the list of robots that may take part in runs. Clones share the content.
 #[derive(Clone, Debug)]
 pub struct FleetBook {
     path: PathBuf,
@@ -26,10 +26,10 @@ pub struct FleetBook {
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Kept {
-    /// Only listed robots take part in runs.
+    /// Whether only listed robots take part in runs.
     #[serde(default)]
     only_listed: bool,
-    /// By their names in messages.
+    /// Settings of robots, by their names in messages.
     #[serde(default)]
     robots: BTreeMap<String, About>,
 }
@@ -43,7 +43,8 @@ struct About {
 }
 
 impl FleetBook {
-    /// The book of a folder of data; empty where there is none that can be read, which is kept aside.
+    /// Reads the file in the data folder. The result is empty if the file is missing or invalid; an invalid file is
+    /// renamed and kept.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
         let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
@@ -56,7 +57,7 @@ impl FleetBook {
         Self { path, kept: Arc::new(Mutex::new(kept)) }
     }
 
-    /// Names a robot; an empty name: none any more. Why not, for people.
+    /// Gives a robot a display name; an empty text removes it. The error is a line for people.
     pub fn call(&self, robot: RobotId, called: &str) -> Result<(), String> {
         let called: String = called.split_whitespace().collect::<Vec<_>>().join(" ");
         if called.chars().count() > CALLED_MAX || called.chars().any(char::is_control) {
@@ -76,7 +77,7 @@ impl FleetBook {
         })
     }
 
-    /// Puts robots on the list, or takes them off it.
+    /// Puts robots on the list of those that may take part, or takes them off it.
     pub fn list(&self, robots: &[RobotId], listed: bool) -> Result<(), String> {
         self.change(|kept| {
             for robot in robots {
@@ -86,7 +87,7 @@ impl FleetBook {
         })
     }
 
-    /// Only listed robots take part, or any. `present`: robots that are there, which are listed then.
+    /// Sets whether only listed robots take part in runs. If `on`, the robots in `present` are listed too.
     pub fn only_listed(&self, on: bool, present: &[RobotId]) -> Result<(), String> {
         self.change(|kept| {
             kept.only_listed = on;
@@ -102,14 +103,14 @@ impl FleetBook {
         self.lock().only_listed
     }
 
-    /// The robots that may take part; `None`: any.
+    /// Returns the robots that may take part in runs; `None` if all may.
     pub fn admitted(&self) -> Option<BTreeSet<RobotId>> {
         let kept = self.lock();
         let listed = kept.robots.iter().filter(|(_, about)| about.listed);
         kept.only_listed.then(|| listed.filter_map(|(id, _)| RobotId::new(id)).collect())
     }
 
-    /// What a robot is called by people.
+    /// Returns the display name of a robot, if it has one.
     pub fn called(&self, robot: RobotId) -> Option<String> {
         self.lock().robots.get(robot.as_str()).and_then(|about| about.called.clone())
     }
@@ -118,7 +119,7 @@ impl FleetBook {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes the book on disk and here, or neither.
+    /// Changes the content in memory and on the disk, or neither.
     fn change(&self, act: impl FnOnce(&mut Kept) -> Result<(), String>) -> Result<(), String> {
         let mut kept = self.lock();
         let mut changed = kept.clone();

@@ -5,34 +5,34 @@ use std::path::Path;
 
 use crate::failure::Failure;
 
-/// A file that is written while a rehearsal or replay goes on. What it held before stays until the first byte is written, so
-/// that input which cannot be used costs nothing.
+/// A file that is written during a rehearsal or replay. Its old content stays until the first write, so that unusable
+/// input does not destroy it.
 #[derive(Debug)]
 pub struct GrowingFile<'a> {
     path: &'a Path,
     file: BufWriter<std::fs::File>,
-    /// What it held before is gone.
+    /// Whether the old content was removed.
     is_begun: bool,
-    /// The first failure, after which nothing is written.
+    /// The first error, after which nothing is written.
     failure: Option<std::io::Error>,
 }
 
 impl<'a> GrowingFile<'a> {
-    /// A file at a path, which must be writable.
+    /// Opens the file at `path`, or makes it. Error if it cannot be written.
     pub fn create(path: &'a Path) -> Result<Self, Failure> {
         let options = std::fs::OpenOptions::new().write(true).create(true).truncate(false).open(path);
         let file = options.map_err(|error| Failure::unwritable(path, &error))?;
         Ok(Self { path, file: BufWriter::new(file), is_begun: false, failure: None })
     }
 
-    /// Writes on, unless writing failed before.
+    /// Appends bytes, unless writing failed before.
     pub fn append(&mut self, bytes: &[u8]) {
         if self.failure.is_none() {
             self.failure = self.begin().and_then(|()| self.file.write_all(bytes)).err();
         }
     }
 
-    /// Waits for the disk; an error if any of it was not written.
+    /// Writes what is still buffered. Error if any bytes could not be written.
     pub fn finish(mut self) -> Result<(), Failure> {
         if self.failure.is_none() {
             self.failure = self.begin().and_then(|()| self.file.flush()).err();
@@ -49,7 +49,7 @@ impl<'a> GrowingFile<'a> {
     }
 }
 
-/// Empties a file. What is no regular file (a pipe, `/dev/null`) has nothing to lose and cannot be cut.
+/// Empties a regular file. A pipe or `/dev/null` is left as it is, because it cannot be cut.
 fn empty(file: &std::fs::File) -> std::io::Result<()> {
     if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }

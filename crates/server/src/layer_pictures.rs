@@ -1,5 +1,5 @@
-//! Pictures that layers project on the floor, decoded in a child process, so that the program that plays a show reads no
-//! foreign file.
+//! Pictures that layers project on the floor, decoded in a child process, so that the program that plays a show reads
+//! no untrusted file.
 //!
 //! The parent writes the file to the stdin of `lightbots picture`. The child answers on stdout with a line of JSON,
 //! [`Head`], and the codes of the small picture.
@@ -19,32 +19,33 @@ use crate::commands::guard;
 pub const FILE_MAX: u64 = 64 << 20;
 /// Longest line of [`Head`], bytes.
 const HEAD_MAX: u64 = 4096;
-/// Most bytes of a small picture: more than `make::layer_picture` ever gives.
+/// Most bytes of a decoded picture: more than `make::layer_picture` ever returns.
 const CODES_MAX: u64 = 4 << 20;
-/// Most answers that are remembered, and most pixels of their pictures: twice those of a show.
+/// Most results that are remembered, and most pixels of their pictures together: twice those of a show.
 const KNOWN_MAX: (usize, usize) = (256, 8_000_000);
 
-/// What the child says before the codes.
+/// The line that the child writes before the codes.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Head {
     /// Pixels in a row.
     pub width: u32,
     /// Number of rows.
     pub height: u32,
-    /// What is wrong with the file, and what to do.
+    /// What is wrong with the file, and what to do; `None` if it was decoded.
     pub error: Option<String>,
 }
 
-/// A decoded file, or what is wrong with it and what to do.
+/// A decoded picture, or what is wrong with its file and what to do.
 type Decoded = Result<Arc<LayerPicture>, String>;
 
-/// Decodes pictures, one at a time, and remembers the last ones: a show is opened again with each of its changes. Clones
-/// share what is remembered.
+/// Decodes pictures, one at a time, and remembers the latest results, because a show is opened again after each change.
+/// Clones share the results.
 #[derive(Clone, Debug, Default)]
 pub struct LayerPictures(Arc<Mutex<VecDeque<(AssetHash, Decoded)>>>);
 
 impl LayerPictures {
-    /// Gives a show the decoded pictures of its layers. `content` has the bytes of its files.
+    /// Decodes the pictures of a show's layers and stores them in the show. `content` returns the bytes of a file.
+    /// Returns an issue for each layer whose picture cannot be decoded.
     pub fn attach(
         &self,
         show: &mut Show,
@@ -62,7 +63,7 @@ impl LayerPictures {
         let missing = "its file is not in the show: choose the picture again, or open the show's archive";
         let file = content().ok_or(missing)?;
         let decoded = if lightbots_exchange::is_sequence(&file) {
-            // As a show file, a sequence is read by code of ours that bounds memory and time.
+            // A sequence is read in this process, as a show file is, by our own code with bounds on memory and time.
             lightbots_exchange::sequence_picture(&file).map(Arc::new)
         } else {
             by_child(&file).map_err(|error| format!("no process reads it: {error}; try again"))?
@@ -102,7 +103,7 @@ fn by_child(file: &[u8]) -> io::Result<Decoded> {
     answer.unwrap_or_else(|| Err(io::ErrorKind::BrokenPipe.into()))
 }
 
-/// What the child wrote.
+/// Reads the child's result from its output.
 fn answer(output: ChildStdout) -> io::Result<Decoded> {
     let mut output = BufReader::new(output);
     let (mut line, mut codes) = (String::new(), Vec::new());

@@ -1,15 +1,19 @@
-//! The library: a folder of shows, and the shows that are given with the program.
+//! The library: a folder of shows, and the built-in shows.
 //!
-//! Given shows are the examples, and the file `run` was started with. They are read-only and in no folder:
-//! - Saving one makes a copy in the folder under a free name of its own, such as "heart 2".
-//! - Deleting one is refused. Renaming is saving under another name and deleting, so that it is refused too.
-//! - A file of which only a part is understood (see `Loaded::unread`) is kept byte for byte. It is never replaced; it can
+//! Built-in shows (`Given` in the code) are the examples, and the file that `run` was started with. They are read-only
+//! and in no folder:
+//! - Saving one makes a copy in the folder under a free name, such as "heart 2".
+//! - Deleting one is refused. Renaming one is refused too, because it means saving under another name and deleting.
+//!
+//! Shows in the folder:
+//! - A file that is only partly understood (see `Loaded::unread`) is kept byte for byte. It is never replaced; it can
 //!   be deleted, and read with [`Library::file`].
-//! - Documents are kept as `NAME.lightbots.json`, the files that belong to them once in `assets`. A `NAME.lightbots.zip`
-//!   that lies in the folder is read too, and becomes a document when it is saved.
-//! - Each save keeps the file that it replaces as an earlier state (`states`), so that any of the last saves can come back.
-//! - A file of the folder always keeps its name. Where it has the name of a given show, such as one that an older version
-//!   saved, the given show is listed under another: "heart (example)" or "my show (file)".
+//! - Documents are kept as `NAME.lightbots.json`, and the files that belong to them in `assets`, each once. A
+//!   `NAME.lightbots.zip` in the folder is read too, and becomes a document when it is saved.
+//! - Each save keeps the file that it replaces as an earlier state (`states`), so that any of the last saves can come
+//!   back.
+//! - A file in the folder always keeps its name. If a built-in show has the same name, the built-in show is listed
+//!   under another, such as "heart (example)" or "my show (file)".
 
 mod asset_store;
 mod facts;
@@ -44,32 +48,32 @@ use show_files::ShowFiles;
 use states::States;
 use version::{etag, modified_ms};
 
-/// The file that names the show that was open last.
+/// Name of the file that holds the name of the show that was open last.
 const OPEN: &str = ".open";
-/// The most bytes of the file that names it: more than any name has.
+/// Most bytes that are read from that file: more than any name has.
 const NAME_BYTES_MAX: u64 = 1_000;
 /// The most shows that are listed and kept.
 const SHOWS_MAX: usize = 10_000;
 
-/// Shows by name. Clones share it.
+/// The library of shows. Clones share its content.
 #[derive(Clone, Debug)]
 pub struct Library {
     files: ShowFiles,
     /// Earlier states of the files.
     states: States,
-    /// What lists say of the files.
+    /// Facts about the files that lists display.
     facts: FileFacts,
-    /// Shows that are in no folder, by the name they are listed under.
+    /// Built-in shows, which are in no folder, by the name they are listed under.
     given: GivenShows,
-    /// Held while a file is compared and replaced.
+    /// Lock that is held while a file is compared and replaced.
     writing: Arc<Mutex<()>>,
-    /// Files that belong to the shows.
+    /// Assets: files that belong to the shows.
     assets: AssetStore,
     pictures: LayerPictures,
 }
 
 impl Library {
-    /// The library in a folder, with the examples; the folder is made when the first show is saved.
+    /// Returns the library in a folder, with the examples. The folder is made when the first show is saved.
     pub fn new(folder: PathBuf) -> Self {
         let library = Self::without_examples(folder);
         for (name, bytes) in examples::all() {
@@ -83,7 +87,7 @@ impl Library {
         library
     }
 
-    /// Its folder.
+    /// Folder of the library.
     pub fn folder(&self) -> &Path {
         self.files.folder()
     }
@@ -100,7 +104,8 @@ impl Library {
         }
     }
 
-    /// Removes what a crash left behind, and what no show needs any more. No other program may use the folder.
+    /// Removes drafts that a crash left, states of shows that were deleted long ago, and assets that no show names any
+    /// more. No other program may use the folder.
     pub fn tidy_up(&self) {
         disk::remove_drafts(self.files.folder());
         self.assets.remove_drafts();
@@ -111,15 +116,15 @@ impl Library {
         self.sweep();
     }
 
-    /// Adds a read-only show that is in no folder; answers the name it is listed under, as close to `name` as it may be.
-    /// The file of the command line takes its name from an example, which is then listed under another. `unread`: why the
-    /// show's file holds more than the show.
+    /// Adds a built-in show and returns the name that it is listed under, as close to `name` as possible. The file of
+    /// the command line takes the name of an example, which is then listed under another. `unread` says why the show's
+    /// file holds more than the show.
     pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show, unread: Option<String>) -> String {
         self.assets.give(show);
         self.given.add(Given::new(tidy_name(name), origin, show, unread), &self.files.names())
     }
 
-    /// Remembers which show is open, for the next start. A disk that does not want to is no reason to fail.
+    /// Saves the name of the open show for the next start. A failure is only logged.
     pub fn remember(&self, name: &str) {
         let folder = self.files.folder();
         let kept = disk::replace(&folder.join(OPEN), name.as_bytes(), Readers::All);
@@ -128,33 +133,33 @@ impl Library {
         }
     }
 
-    /// The show that was open last, if it is still there.
+    /// Returns the name of the show that was open last, if that show still exists.
     pub fn remembered(&self) -> Option<String> {
         let name = disk::read_regular(&self.files.folder().join(OPEN), NAME_BYTES_MAX).ok()?;
         let name = String::from_utf8(name).ok()?;
         self.get(&name).is_ok().then_some(name)
     }
 
-    /// Every show, by name.
+    /// Returns the entries of all readable shows, sorted by name.
     pub fn list(&self) -> Vec<ShowEntry> {
         let names = self.files.names().into_iter().take(SHOWS_MAX).chain(self.given.names());
         let entries = names.filter_map(|name| Some((name.clone(), self.entry(&name).ok()?)));
         entries.collect::<BTreeMap<_, _>>().into_values().collect()
     }
 
-    /// A show by its name: the file of that name, else the given show.
+    /// Reads a show by its name: the file of that name, else the built-in show.
     pub fn get(&self, name: &str) -> Result<Kept, LibraryError> {
         let name = checked(name)?;
         let (bytes, unread) = self.stored(name)?;
         self.kept(name, bytes, unread)
     }
 
-    /// The show in a file's bytes. `unread`: why the file of a given show holds more.
+    /// Reads the show in a file's bytes. `unread` says why the file of a built-in show holds more than the show.
     fn kept(&self, name: &str, bytes: Vec<u8>, unread: Option<String>) -> Result<Kept, LibraryError> {
         let loaded = read(&bytes, None)
             .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?;
         let Loaded { mut show, unread: unread_fields, .. } = loaded;
-        // What an archive in the folder holds is needed when a screen saves its document.
+        // The files in an archive are kept, because they are needed when a screen saves the document.
         if sniff(&bytes) == Some(&ARCHIVE)
             && let Err(error) = self.assets.keep(&show)
         {
@@ -169,7 +174,7 @@ impl Library {
         Ok(Kept { etag, bytes, show, read_only, issues: Issues::new() })
     }
 
-    /// The saved states of a show, the newest first: the present one, and earlier ones.
+    /// Returns the saved states of a show, the newest first: the present one, and earlier ones.
     pub fn states(&self, name: &str) -> Result<Vec<ShowState>, LibraryError> {
         let name = checked(name)?;
         let now = self.entry(name)?;
@@ -194,7 +199,7 @@ impl Library {
         Ok(states)
     }
 
-    /// An earlier state of a show.
+    /// Reads an earlier state of a show.
     pub fn state(&self, name: &str, number: u32) -> Result<Kept, LibraryError> {
         let name = checked(name)?;
         let missing = || LibraryError::Missing(format!("\"{name}\" has no state {number} any more"));
@@ -203,36 +208,36 @@ impl Library {
         self.kept(name, bytes, None)
     }
 
-    /// The file of a show as it is kept, and its format. Of a given show, the document.
+    /// Returns the bytes of a show's file as it is kept, and its format. For a built-in show that is the document.
     pub fn file(&self, name: &str) -> Result<(Vec<u8>, &'static Format), LibraryError> {
         let (bytes, _) = self.stored(checked(name)?)?;
         let format = sniff(&bytes).unwrap_or(&LIGHTBOTS);
         Ok((bytes, format))
     }
 
-    /// Gives a show the files that it names, as far as the library has them.
+    /// Fills in the content of the assets that a show names, as far as the library has it.
     pub fn attach(&self, show: &mut Show) {
         self.assets.attach(show);
     }
 
-    /// Gives a show the decoded pictures that its layers project; says which layers stay dark.
+    /// Decodes the pictures of a show's layers and stores them in the show. Returns issues for layers that stay dark.
     pub fn attach_pictures(&self, show: &mut Show) -> Issues {
         self.pictures.attach(show, |hash, asset| self.assets.of(hash, asset))
     }
 
-    /// A show as robots play it: with the decoded pictures of its layers.
+    /// Adds the decoded pictures of the layers to a show, as robots play it.
     pub fn with_pictures(&self, mut kept: Kept) -> Kept {
         kept.issues = self.attach_pictures(&mut kept.show);
         kept
     }
 
-    /// A file that a show may name by its hash.
+    /// Returns an asset by its hash.
     pub fn asset(&self, hash: &str) -> Result<Arc<[u8]>, LibraryError> {
         let content = self.assets.get(asset_hash(hash)?);
         content.ok_or_else(|| LibraryError::Missing(format!("there is no file {hash} in the library")))
     }
 
-    /// Adds a file that shows can name by its hash.
+    /// Adds an asset, which shows can then name by its hash. Error if the content has another hash.
     pub fn put_asset(&self, hash: &str, content: &[u8]) -> Result<(), LibraryError> {
         let stated = asset_hash(hash)?;
         let found = hash_of(content);
@@ -244,7 +249,7 @@ impl Library {
         kept.map_err(|error| LibraryError::Disk(format!("the file {hash} cannot be saved: {error}")))
     }
 
-    /// The bytes of a show, and for a given show why its file holds more.
+    /// Returns the bytes of a show, and for a built-in show why its file holds more than the show.
     fn stored(&self, name: &str) -> Result<(Vec<u8>, Option<String>), LibraryError> {
         match self.files.read(name) {
             Ok(bytes) => Ok((bytes, None)),
@@ -256,9 +261,9 @@ impl Library {
         }
     }
 
-    /// Deletes files that no show of the folder names any more.
+    /// Deletes old assets that no show of the folder names any more.
     fn sweep(&self) {
-        // Shows are many and large: they are read only where there is something to delete.
+        // Shows are many and large, so they are read only if there is something to delete.
         if !self.assets.has_old() {
             return;
         }
@@ -275,7 +280,7 @@ impl Library {
         }
     }
 
-    /// The given show of that name, unless a file has the name.
+    /// Returns the built-in show of this name, unless a file has the name.
     fn given_show(&self, name: &str) -> Option<Given> {
         self.given.get(name).filter(|_| !self.files.present(name).exists())
     }
@@ -306,7 +311,7 @@ impl Library {
     }
 }
 
-/// Why a show cannot be replaced, with the remedy.
+/// Says why a show cannot be replaced, with the remedy.
 fn read_only_line(name: &str, reason: &str) -> String {
     format!(
         "\"{name}\" is read-only, because {reason}: update LightBots, or save a copy under another name, which will be \

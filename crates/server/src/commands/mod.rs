@@ -27,7 +27,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::say;
 
-/// One JSON object on stdout.
+/// Prints a value as one JSON object on stdout.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string(value)
         .map_err(|error| Failure::problem(format!("the answer cannot be written as JSON: {error}")))?;
@@ -35,7 +35,7 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The issues for people, one line each.
+/// Prints issues for people, one line each.
 pub(crate) fn print_issues(issues: &[api::Issue]) {
     for issue in issues {
         let level = match issue.severity {
@@ -47,7 +47,7 @@ pub(crate) fn print_issues(issues: &[api::Issue]) {
     }
 }
 
-/// `1 robot`, `2 robots`.
+/// Formats a number with its noun: `1 robot`, `2 robots`.
 fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
 }

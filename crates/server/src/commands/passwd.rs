@@ -1,4 +1,4 @@
-//! `passwd`: sets a password on the machine.
+//! `passwd`: sets a person's password on this machine.
 
 use std::io::{BufRead, IsTerminal};
 
@@ -31,7 +31,7 @@ pub fn run(arguments: &PasswdArguments) -> Outcome {
     Ok(true)
 }
 
-/// The password: from the terminal without echo, twice, or the first line of the input.
+/// Reads the password: from the terminal, twice and without echo, or from the first line of the input.
 fn ask(user: &str) -> std::io::Result<String> {
     if std::io::stdin().is_terminal() {
         let first = rpassword::prompt_password(format!("New password for {user}: "))?;

@@ -24,14 +24,14 @@ use crate::{open_files, say, show_file};
 /// Without `--wait`: if no further robot becomes ready for this time, the show starts with fewer robots than pixels. A
 /// shorter time would leave out robots that start slowly.
 const SETTLED: Duration = Duration::from_secs(10);
-/// A run without any event for this time is given up, because a fault must have gone unnoticed. Longer than any usual
+/// A run without any event for this time is aborted, because a fault must have gone unnoticed. Longer than any usual
 /// air time.
 const NOTHING: Duration = Duration::from_secs(900);
 
-/// How often a frame that waits for GO is looked at where GO is given by itself.
+/// Without a terminal: interval at which the run is checked for a frame to which GO must be given.
 const LOOK_AT_CUE: Duration = Duration::from_millis(250);
 
-/// Longest time for disconnecting and for the disk after a run.
+/// Longest time for disconnecting and for writing to the disk after a run.
 const SAVED: Duration = Duration::from_secs(10);
 
 pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
@@ -82,10 +82,10 @@ fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outco
     played.map(|()| ok)
 }
 
-/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. If a stop is wanted, it stops
-/// the robots first.
+/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. If a stop is wanted, the
+/// conductor stops the robots before that.
 async fn finish(stop: &Stop, task: tokio::task::JoinHandle<()>) {
-    // A broker or a disk that hangs is not waited for.
+    // The wait is limited, because a broker or a disk may hang.
     let patience = if stop.is_wanted() { GOODBYE } else { SAVED };
     let _ = tokio::time::timeout(patience, task).await;
 }
@@ -116,7 +116,7 @@ async fn play(
     follow(report, handle, news).await
 }
 
-/// Waits until there are enough robots.
+/// Waits until enough robots are ready. Returns what to do about missing robots. Error if too few are ready in time.
 async fn gather(
     arguments: &PlayArguments,
     pixels: usize,
@@ -160,7 +160,7 @@ fn is_ready(robot: &RobotView) -> bool {
     robot.contact.age == Age::Active && robot.reported.at.is_some() && fit
 }
 
-/// The failure of a wait that ended with too few robots.
+/// Returns the error for a wait that ended with too few robots.
 fn too_few(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted: usize) -> Failure {
     // The address was valid before. It is shown without its login.
     let broker =
@@ -183,11 +183,11 @@ fn too_few(arguments: &PlayArguments, snapshot: &Snapshot, ready: usize, wanted:
     ))
 }
 
-/// Said where GO would be given by Enter.
+/// Note that is printed if GO is due and there is no terminal to press Enter on.
 const NO_TERMINAL: &str = "there is no terminal to press Enter on: GO is given after each air time, and frames that \
                            repeat are played once";
 
-/// Follows the run to its end.
+/// Follows the run to its end and adds its events to the report.
 async fn follow(
     report: &mut RunReport,
     handle: &Handle,
@@ -231,7 +231,7 @@ async fn follow(
     }
 }
 
-/// The next event; warnings before it go into the report.
+/// Waits for the next event and returns it. Warnings before the event go into the report.
 async fn next_event(
     report: &mut RunReport,
     handle: &Handle,
@@ -253,18 +253,18 @@ async fn next_event(
     }
 }
 
-/// Whether a frame waits for GO, or frames repeat until it.
+/// Whether a frame waits for GO, or frames repeat until GO.
 async fn waits_for_go(handle: &Handle) -> bool {
     let waits = |run: RunView| run.wait.cue.is_some() || is_repeating(&run);
     handle.look().await.and_then(|snapshot| snapshot.run).is_some_and(waits)
 }
 
-/// Whether frames repeat until GO, and it was not given.
+/// Whether frames repeat until GO, and GO was not given.
 fn is_repeating(run: &RunView) -> bool {
     run.repeats.is_some_and(|repeats| !repeats.leaves)
 }
 
-/// Ends when a frame that waits for GO has stood for its air time, or frames repeat that were played once.
+/// Waits until GO is due without a terminal: a frame has stood for its air time at a cue, or frames repeat until GO.
 async fn air_time_over(handle: &Handle) {
     let is_due = |run: RunView| {
         let is_cue_due = run.wait.cue.is_some() && run.progress.share >= 1.0;
@@ -276,20 +276,20 @@ async fn air_time_over(handle: &Handle) {
     }
 }
 
-/// Gives GO. It is refused where the frame was left meanwhile.
+/// Gives GO. Prints the refusal if the frame was left meanwhile.
 async fn go(handle: &Handle) {
     if let Err(refusal) = handle.operate(Operation::Go).await {
         say::note(&refusal.to_string());
     }
 }
 
-/// The interrupted show goes on, or ends because there is no terminal to ask at.
+/// Resumes the interrupted show. Error if there is no terminal to ask at.
 async fn go_on(handle: &Handle, goes_on: bool) -> Result<(), Failure> {
     if !goes_on {
         let why = "robots were out of reach for more than 30 s, and there is no terminal to press Enter on: the show was ended";
         return Err(Failure::problem(why));
     }
-    // Refused where robots have fallen silent again: it is asked once more when they are back.
+    // The operation is refused if robots have fallen silent again. The question is asked again once they report.
     if let Err(refusal) = handle.operate(Operation::GoOn).await {
         say::note(&refusal.to_string());
     }

@@ -88,16 +88,16 @@ pub fn run(arguments: &RehearseArguments) -> Outcome {
     Ok(report.ok)
 }
 
-/// What a rehearsal tells for its report.
+/// Records of a rehearsal for its report.
 #[derive(Default)]
 struct Told {
-    /// The recorded inputs; empty: nothing was played.
+    /// Log of the controller's inputs; empty if nothing was played.
     log: Vec<u8>,
     truth: Truth,
 }
 
 impl Told {
-    /// The page of the report.
+    /// Returns the report as an HTML page. `radius_m` is the radius of a robot, metres.
     fn page(mut self, found: &RehearsalReport, title: String, radius_m: f64) -> Result<String, Failure> {
         if self.log.is_empty() {
             return Ok(unplayed_page(found, title));
@@ -114,7 +114,7 @@ impl Told {
     }
 }
 
-/// The page of a show that was not played: why.
+/// Returns the page for a show that was not played, with the reasons.
 fn unplayed_page(found: &RehearsalReport, show: String) -> String {
     let incident = |issue: &Issue| ReportedEvent {
         at_s: 0.0,
@@ -140,13 +140,13 @@ fn steps_file(path: &Path) -> Result<GrowingFile<'_>, Failure> {
     Ok(file)
 }
 
-/// One robot at one moment. Names are quoted, because they may have commas.
+/// Formats a row of the file for `--steps`: one robot at one moment. Names are quoted, because they may have commas.
 fn step_row(at: Instant, name: RobotId, place: Vec2) -> Vec<u8> {
     let quoted = name.as_str().replace('"', "\"\"");
     format!("{:.3},\"{quoted}\",{:.5},{:.5}\n", at.as_secs(), place.x, place.y).into_bytes()
 }
 
-/// What people should know of a log: how to rehearse the same again.
+/// Returns notes for the log: the arguments that repeat the same rehearsal.
 fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
     let mut notes = vec![
         ("command", "rehearse".to_owned()),
@@ -159,13 +159,13 @@ fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
     notes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-/// The name of the show, or of its file: shows of the original have no name.
+/// Returns the name of the show. Shows of the original format have none, and take the name of their file.
 fn title(name: &str, file: &Path) -> String {
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     if name.is_empty() { stem.unwrap_or_default() } else { name.to_owned() }
 }
 
-/// The report with numbers rounded like those of `check`.
+/// Returns the report with numbers rounded like those of `check`.
 fn readable(mut report: RehearsalReport) -> RehearsalReport {
     for seconds in [&mut report.duration_s, &mut report.lower_bound_s] {
         *seconds = rounded(*seconds, 3);

@@ -1,4 +1,4 @@
-//! `replay`: a recorded run again, input by input.
+//! `replay`: plays a recorded run again, input by input, and compares the outputs.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
     Ok(ok)
 }
 
-/// The file of a run, which is a file or the number of a run in a data folder.
+/// Returns the path of a run's file. `run` is that path, or the number of a run in the data folder `data`.
 fn path_of(run: &Path, data: Option<&PathBuf>) -> PathBuf {
     let number = run.to_str().and_then(|text| text.parse().ok());
     match number.filter(|_| !run.exists()) {
@@ -65,8 +65,8 @@ fn append(lines: &mut GrowingFile<'_>, line: &RunLine) {
     lines.append(&text);
 }
 
-/// What `replay` makes of the log of a run, which is a file or the number of a run in a data folder. `doing` stands at the
-/// progress bar.
+/// Reads the log of a run and returns what `replay` makes of it. `run` is a file, or the number of a run in the data
+/// folder `data`. `doing` is the text at the progress bar.
 pub fn replayed<T>(
     run: &Path,
     data: Option<&PathBuf>,
@@ -77,7 +77,7 @@ pub fn replayed<T>(
     let failed = |why: String| Failure::input(format!("{}: {why}", path.display()));
     let log =
         disk::read_regular(&path, BYTES_MAX).map_err(|error| failed(format!("cannot be read: {error}")))?;
-    // A log may come from a program that failed: then the core fails again, and nothing of its work is used.
+    // The log may come from a program that panicked. The controller then panics again, and its state is discarded.
     let made = catch_unwind(AssertUnwindSafe(|| {
         let bar = Bar::new();
         replay(&log, &mut |share| bar.set(share, doing))

@@ -1,4 +1,4 @@
-//! `report`: what was planned and what happened in a recorded run, as a page and as figures.
+//! `report`: what was planned and what happened in a recorded run, as an HTML page and as numbers.
 
 use lightbots_report::{page, report_of};
 use serde_json::json;

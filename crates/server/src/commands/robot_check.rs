@@ -33,7 +33,7 @@ pub async fn run(arguments: RobotCheckArguments, stop: Stop) -> Outcome {
     verdicts::tell(examined, &broker, arguments.json)
 }
 
-/// Waits for the broker.
+/// Waits until the link is connected to the broker. Error after `patience_s` seconds.
 async fn connect(link: &mut Link, broker: &BrokerUrl, patience_s: u32) -> Result<(), Failure> {
     let mut reason = None;
     let patience = tokio::time::sleep(Duration::from_secs(patience_s.into()));
@@ -64,7 +64,7 @@ struct Examination {
     answer: Option<oneshot::Receiver<String>>,
     /// Whether the answer is about the light and not about driving.
     is_look: bool,
-    /// Time at which the exam goes on without an answer.
+    /// Time at which the robot may drive although there is no terminal to confirm that.
     go_at: Option<tokio::time::Instant>,
 }
 
@@ -82,7 +82,7 @@ impl Examination {
         }
     }
 
-    /// Takes the robot through the whole exam.
+    /// Runs the whole exam with the robot and returns the exam.
     async fn run(mut self, stop: &Stop) -> Result<Exam, Failure> {
         self.exam.connected(self.clock.now());
         let ended = loop {
@@ -173,7 +173,7 @@ impl Examination {
     }
 }
 
-/// The finished exam, if there was exactly one robot to examine.
+/// Returns the finished exam if exactly one robot was examined, else an error.
 fn named(exam: Exam) -> Result<Exam, Failure> {
     match exam.ending() {
         Some(Ending::Several(names)) => {
@@ -192,7 +192,7 @@ fn named(exam: Exam) -> Result<Exam, Failure> {
     }
 }
 
-/// A line of the terminal, read on a thread of its own so that the exam goes on.
+/// Reads a line from the terminal on a separate thread, so that the exam continues meanwhile.
 fn read_line() -> oneshot::Receiver<String> {
     let (sender, line) = oneshot::channel();
     std::thread::spawn(move || {
@@ -205,7 +205,7 @@ fn read_line() -> oneshot::Receiver<String> {
     line
 }
 
-/// The answer; `None` if the input has ended.
+/// Waits for the awaited answer; `None` if the input has ended. Never returns if no answer is awaited.
 async fn answer(awaited: &mut Option<oneshot::Receiver<String>>) -> Option<String> {
     match awaited {
         Some(line) => line.await.ok(),

@@ -47,7 +47,7 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     Ok(true)
 }
 
-/// Starting places, one per robot.
+/// Reads the arguments of `--start` into one starting place for each robot.
 fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
     let words: Vec<&str> = said.iter().flat_map(|text| text.split_whitespace()).collect();
     match (said, words.as_slice()) {
@@ -66,7 +66,7 @@ fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Fa
     }
 }
 
-/// The places of a show's first frame.
+/// Returns the places of a show's first frame, one for each robot.
 fn first_frame(path: &str, stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
     let reading = ShowArguments { floor: Some((stage.width_m, stage.depth_m)), identity: None };
     let show = show_file::open(Path::new(path), &reading)?.show;
@@ -83,12 +83,12 @@ fn enough(mut places: Vec<Vec2>, robots: usize, whence: &str) -> Result<Vec<Vec2
     Ok(places)
 }
 
-/// Faults of simulated robots.
+/// Returns the conditions of simulated robots, without noise and slip if `ideal`.
 pub(super) fn conditions(ideal: bool) -> Conditions {
     if ideal { Conditions::ideal() } else { Conditions::default() }
 }
 
-/// The wanted seed, or a random one.
+/// Returns the seed that was asked for, or else a random one.
 pub(super) fn seed(asked: Option<u64>) -> u64 {
     asked.unwrap_or_else(|| {
         let mut bytes = [0; 8];

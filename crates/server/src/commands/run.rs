@@ -39,15 +39,16 @@ use crate::{open_files, playlist_player, say, show_file};
 const FIRST: &str = "countdown";
 /// Seed of simulated robots without `--seed`. Fixed, so that robots keep their names between starts.
 const USUAL_SEED: u64 = 1;
-/// Issues of the show that are printed at the start. The screen lists all of them.
+/// Most issues of the show that are printed at the start. The screen lists all of them.
 const ISSUES_SHOWN: usize = 5;
 /// Longest time for stopping the robots and disconnecting at the end. After it connections are cut off.
 pub const GOODBYE: Duration = Duration::from_secs(5);
 
-/// Lighting and sound desks.
+/// The lighting desk and the sound desk, as far as the command line asks for them.
 type Desks = (Option<DeskLight>, Option<OscLink>);
 
-/// What was started, in the order of its stop: robots say to the conductor that they stand, and the broker brings that.
+/// What `run` started, in the order in which it is stopped. The conductor ends first, while robots and broker can still
+/// report to it that the robots stand.
 #[derive(Default)]
 struct Started {
     conductor: Option<JoinHandle<()>>,
@@ -58,7 +59,8 @@ struct Started {
 }
 
 impl Started {
-    /// Waits for all that ends by itself once a stop is wanted, and ends the robots.
+    /// Waits for the conductor, which ends by itself once a stop is wanted. Then ends the simulated robots and waits
+    /// for the other tasks.
     async fn end(&mut self) {
         if let Some(conductor) = self.conductor.take() {
             let _ = conductor.await;
@@ -78,7 +80,7 @@ impl Started {
         self.tasks.push(tokio::spawn(cast.run(shared.handle.clone(), shared.desk.watch(), until)));
     }
 
-    /// Starts what follows desks and the broker's warnings.
+    /// Starts the tasks for lighting desk, sound desk, warnings of the broker, and music.
     fn follow(
         &mut self,
         arguments: &RunArguments,
@@ -104,13 +106,13 @@ impl Started {
         self.sound(arguments, shared, stop)
     }
 
-    /// Without the feature `sound` there is none.
+    /// Does nothing without the feature `sound`.
     #[cfg(not(feature = "sound"))]
     fn sound(&mut self, _: &RunArguments, _: &Arc<Shared>, _: &Stop) -> Result<(), Failure> {
         Ok(())
     }
 
-    /// Plays the music of the open show on this machine, where that is asked for.
+    /// Starts to play the music of the open show on this machine, if `--sound` is set.
     #[cfg(feature = "sound")]
     fn sound(&mut self, arguments: &RunArguments, shared: &Arc<Shared>, stop: &Stop) -> Result<(), Failure> {
         if !arguments.desk.sound {
@@ -217,13 +219,13 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     Ok(false)
 }
 
-/// The desks that were asked for.
+/// Opens the desks that the command line asks for.
 async fn open_desks(arguments: &RunArguments) -> Result<Desks, Failure> {
     let light = DeskLight::open(&arguments.desk, arguments.lamps.settings()).await?;
     Ok((light, OscLink::open(&arguments.desk).await?))
 }
 
-/// Says whether the network reaches the web app, and how the first operator comes in.
+/// If the network reaches the web app, prints that, and the address for the first operator if there is none yet.
 fn invite(
     arguments: &RunArguments,
     shared: &Shared,
@@ -240,13 +242,13 @@ fn invite(
     }
 }
 
-/// The certificate of the web app where it is served with TLS.
+/// Returns the certificate of the web app; `None` if it is served without TLS.
 fn certificate(exposure: &Exposure, data: &Path) -> Result<Option<WebCertificate>, Failure> {
     let is_wanted = exposure.scheme() == Scheme::Https;
     is_wanted.then(|| WebCertificate::take(data, &exposure.hosts())).transpose()
 }
 
-/// Says that the network reaches the web app, and how people see that they reached this one.
+/// Prints that the network reaches the web app, and the fingerprint by which people recognise its certificate.
 fn say_open(certificate: Option<&WebCertificate>) {
     let Some(certificate) = certificate else {
         let line = "Open to the network without TLS: sign-in is required, but passwords can be read on the way, and \
@@ -268,8 +270,8 @@ fn say_open(certificate: Option<&WebCertificate>) {
     }
 }
 
-/// The seed of robot names. On our own broker it is fixed, so that pins of a show still fit. On another broker it is
-/// random, because other robots may have these names.
+/// Returns the seed of the simulated robots and their names. On our own broker its default is fixed, so that pins of a
+/// show still fit. On another broker its default is random, because other robots may have these names.
 fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
     if is_own_broker { asked.unwrap_or(USUAL_SEED) } else { robots::seed(asked) }
 }
@@ -278,7 +280,7 @@ fn exposure(arguments: &RunArguments) -> Result<Exposure, Failure> {
     Exposure::new(arguments.listen, arguments.plain_http, arguments.host_name.clone())
 }
 
-/// Puts the warnings of the embedded broker on the screens.
+/// Shows the warnings of the embedded broker on the screens.
 async fn relay(mut lines: mpsc::Receiver<String>, log: ScreenLog, stop: Stop) {
     loop {
         let line = tokio::select! {
@@ -290,8 +292,8 @@ async fn relay(mut lines: mpsc::Receiver<String>, log: ScreenLog, stop: Stop) {
     }
 }
 
-/// The settings for the screen's form, and the broker for the controller. It is the broker of the command line, else the
-/// one that was chosen on the screen, else our own.
+/// Returns the settings for the screen's form, and the broker for the controller. The broker is that of the command
+/// line, else the one that was chosen on the screen, else our own.
 fn chosen(
     arguments: &RunArguments,
     other: Option<BrokerUrl>,
@@ -317,7 +319,8 @@ fn chosen(
     }
 }
 
-/// The first show and its name in the library.
+/// Returns the show that is opened at the start, and its name in the library. That is the file of the command line,
+/// else the show that was open last, else an example.
 fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<String>, Show), Failure> {
     if let Some(file) = &arguments.show {
         let opened = show_file::open(file, &arguments.reading)?;
@@ -354,7 +357,7 @@ async fn open(shared: &Arc<Shared>, name: Option<String>) {
     }
 }
 
-/// Address of the web app on this machine.
+/// Returns the address of the web app for this machine: loopback if the app listens on all addresses.
 fn own_address(address: SocketAddr) -> SocketAddr {
     if address.ip().is_unspecified() {
         return SocketAddr::new(Ipv4Addr::LOCALHOST.into(), address.port());

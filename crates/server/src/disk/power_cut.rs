@@ -1,10 +1,10 @@
-//! What a power cut leaves of files, for tests: the operations of this thread are noted as they happen, and a model says
-//! what may be on the disk after any of them.
+//! Models for tests what a power cut leaves of files. The disk operations of this thread are recorded as they happen,
+//! and the model computes what may be on the disk after any of them.
 //!
 //! The model is that of POSIX: bytes are surely on the disk once their file was synced, and a name once its folder was.
-//! Of what was not synced any part may be there, in any order (Pillai and others, *All File Systems Are Not Created
-//! Equal*, OSDI 2014). A name moves within a folder as a whole or not at all; between two folders it may be in both for
-//! a while.
+//! Any part of what was not synced may be on the disk, in any order. Source: Pillai and others, *All File Systems Are
+//! Not Created Equal*, OSDI 2014. A name moves within a folder as a whole or not at all; between two folders it may be
+//! in both for a while.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug)]
 pub enum Operation {
     MadeFolder(PathBuf),
-    /// A file has these bytes, which need not be on the disk.
+    /// A file was written with these bytes, which need not be on the disk yet.
     Wrote(PathBuf, Vec<u8>),
     SyncedFile(PathBuf),
     SyncedFolder(PathBuf),
@@ -28,17 +28,17 @@ thread_local! {
     static NOTED: RefCell<Option<Vec<Operation>>> = const { RefCell::new(None) };
 }
 
-/// The operations of this thread are noted from now on.
+/// Begins to record the operations of this thread.
 pub fn begin() {
     NOTED.with(|noted| *noted.borrow_mut() = Some(Vec::new()));
 }
 
-/// The operations that were noted since this was asked last.
+/// Returns the operations that were recorded since the last call.
 pub fn take() -> Vec<Operation> {
     NOTED.with(|noted| noted.borrow_mut().as_mut().map(std::mem::take).unwrap_or_default())
 }
 
-/// Notes an operation.
+/// Records an operation, if recording has begun.
 pub fn note(operation: impl FnOnce() -> Operation) {
     NOTED.with(|noted| {
         if let Some(noted) = noted.borrow_mut().as_mut() {
@@ -52,7 +52,7 @@ pub fn note(operation: impl FnOnce() -> Operation) {
 struct Renaming {
     removed: Option<PathBuf>,
     added: Option<(PathBuf, Node)>,
-    /// It happens only where this name is there.
+    /// The change takes effect only if this name exists.
     after: Option<PathBuf>,
 }
 
@@ -71,7 +71,7 @@ struct Content {
     synced: Option<Vec<u8>>,
 }
 
-/// What is on the disk for sure, and what may be.
+/// State of a disk: what is surely on it, and what may be.
 #[derive(Clone, Debug, Default)]
 pub struct Disk {
     files: Vec<Content>,
@@ -134,7 +134,8 @@ impl Disk {
         done.iter().for_each(|renaming| renaming.apply(&mut self.synced));
     }
 
-    /// The power is cut: what is found afterwards. `chance`: whether something that was not synced is there.
+    /// Returns what is found after a power cut: the bytes of each file, and `None` for a folder. `chance` decides for
+    /// each part that was not synced whether it is there.
     pub fn cut(&self, mut chance: impl FnMut() -> bool) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
         let mut names = self.synced.clone();
         for renaming in self.pending.iter().filter(|_| chance()) {
@@ -180,7 +181,7 @@ impl Renaming {
     }
 }
 
-/// Puts what a power cut left into a folder of the real disk.
+/// Writes what a power cut left into a folder of the real disk.
 pub fn restore(found: &BTreeMap<PathBuf, Option<Vec<u8>>>, folder: &Path) {
     fs::create_dir_all(folder).unwrap();
     for (path, bytes) in found {

@@ -1,4 +1,4 @@
-//! The files that belong to shows of the library: `assets/HASH` in its folder, one for all shows that name it.
+//! Assets of the shows in the library: files `assets/HASH` in its folder, each shared by all shows that name it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -10,32 +10,32 @@ use lightbots_show::{Asset, AssetHash, Show};
 
 use crate::disk::{self, Readers};
 
-/// A file that no show names is deleted at a start after this time. Until then it can come back with a show whose
-/// deletion is undone, or with a draft in a browser.
+/// Age from which a file that no show names is deleted, at the next start. Until then it can come back with a show
+/// whose deletion is undone, or with a draft in a browser.
 const UNUSED_FOR: Duration = Duration::from_secs(30 * 24 * 3600);
 
 /// Files by hash. Clones share them.
 #[derive(Clone, Debug)]
 pub struct AssetStore {
     folder: PathBuf,
-    /// Files of shows that are in no folder.
+    /// Files of built-in shows, which are in no folder.
     given: Arc<Mutex<BTreeMap<AssetHash, Arc<[u8]>>>>,
 }
 
 impl AssetStore {
-    /// The store in a folder; the folder is made with the first file.
+    /// Returns the store in a folder. The folder is made with the first file.
     pub fn new(folder: PathBuf) -> Self {
         Self { folder, given: Arc::default() }
     }
 
-    /// Remembers the files of a show that is in no folder.
+    /// Remembers the files of a built-in show.
     pub fn give(&self, show: &Show) {
         let mut given = self.given.lock().unwrap_or_else(PoisonError::into_inner);
         let contents = show.assets.iter().filter_map(|(hash, asset)| Some((*hash, asset.content.clone()?)));
         given.extend(contents);
     }
 
-    /// Writes the files that a show holds and the store lacks, among them those of shows in no folder.
+    /// Writes those files of a show that the folder lacks, also the ones that only a built-in show has.
     pub fn keep(&self, show: &Show) -> std::io::Result<()> {
         for (hash, asset) in &show.assets {
             if let Some(content) = asset.content.clone().or_else(|| self.given_content(hash)) {
@@ -45,7 +45,7 @@ impl AssetStore {
         Ok(())
     }
 
-    /// Writes a file, unless the store has it. `hash` is that of its content.
+    /// Writes a file, unless the folder has it. `hash` is the hash of `content`.
     pub fn add(&self, hash: AssetHash, content: &[u8]) -> std::io::Result<()> {
         if self.content(hash, content.len() as u64).is_some() {
             return Ok(());
@@ -53,19 +53,19 @@ impl AssetStore {
         disk::replace(&self.folder.join(hash.to_string()), content, Readers::All)
     }
 
-    /// Gives a show the files that it names and that are in the store. A damaged file counts as missing.
+    /// Fills in the content of a show's assets from the store. A damaged file counts as missing.
     pub fn attach(&self, show: &mut Show) {
         for (hash, asset) in show.assets.iter_mut().filter(|(_, asset)| asset.content.is_none()) {
             asset.content = self.of(*hash, asset);
         }
     }
 
-    /// A file that a show names. A damaged file counts as missing.
+    /// Returns the content of an asset that a show names. A damaged file counts as missing.
     pub fn of(&self, hash: AssetHash, asset: &Asset) -> Option<Arc<[u8]>> {
         self.content(hash, asset.bytes).or_else(|| self.given_content(&hash))
     }
 
-    /// A file of that hash and length, bytes. A damaged file counts as missing.
+    /// Returns the file with this hash and length, bytes, from the folder. A damaged file counts as missing.
     fn content(&self, hash: AssetHash, length: u64) -> Option<Arc<[u8]>> {
         let path = self.folder.join(hash.to_string());
         let about = std::fs::metadata(&path).ok()?;
@@ -75,7 +75,7 @@ impl AssetStore {
         disk::read_regular(&path, length).ok().filter(|bytes| hash_of(bytes) == hash).map(Arc::from)
     }
 
-    /// A file of that hash.
+    /// Returns the file with this hash. A damaged file counts as missing.
     pub fn get(&self, hash: AssetHash) -> Option<Arc<[u8]>> {
         let length = std::fs::metadata(self.folder.join(hash.to_string())).map(|about| about.len()).ok();
         length.and_then(|length| self.content(hash, length)).or_else(|| self.given_content(&hash))
@@ -86,12 +86,12 @@ impl AssetStore {
         disk::remove_drafts(&self.folder);
     }
 
-    /// Whether there are files that are old enough to be deleted where no show names them.
+    /// Whether there are files that are old enough to be deleted if no show names them.
     pub fn has_old(&self) -> bool {
         self.old().next().is_some()
     }
 
-    /// Deletes old files that no show names any more.
+    /// Deletes old files whose hashes are not in `named`.
     pub fn sweep(&self, named: &BTreeSet<AssetHash>) {
         for file in self.old() {
             let hash = file.file_name().to_str().and_then(AssetHash::from_hex);

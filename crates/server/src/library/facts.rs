@@ -1,4 +1,4 @@
-//! What a list of shows says of a show. Files are read once, and again after they have changed.
+//! Facts about shows that lists display. A file is read once, and again after it has changed.
 
 use std::collections::BTreeMap;
 use std::fs::Metadata;
@@ -15,11 +15,11 @@ use super::version::etag;
 
 /// The most files whose facts are remembered: all shows that a library lists, and the states of 400 shows.
 const FILES_MAX: usize = 30_000;
-/// A file that was written this recently is read again: a second change may leave its time of change as it is, because
-/// some file systems count in steps of two seconds.
+/// Age from which the facts of a file are remembered. A file that was written more recently is read each time, because
+/// a second change may leave its time of change as it is. Some file systems count in steps of two seconds.
 const SETTLED_AFTER: Duration = Duration::from_secs(3);
 
-/// What a list says of a show.
+/// Facts about a show that a list displays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListFacts {
     /// Name that the author gave the show; may be empty.
@@ -35,26 +35,26 @@ pub struct ListFacts {
 }
 
 impl ListFacts {
-    /// The facts of a file of any format, or why it is no show.
+    /// Reads the facts of a file of any format. The error says why the file is no show.
     pub fn of(bytes: &[u8]) -> Result<Self, String> {
         let loaded = read(bytes, None).map_err(|error| error.to_string())?;
         Ok(Self { etag: etag(bytes), ..Self::of_show(&loaded.show, loaded.unread) })
     }
 
-    /// The facts of a show without a file, and thus without a version.
+    /// Returns the facts of a show without a file, and thus without a version.
     pub fn of_show(show: &Show, unread: Option<String>) -> Self {
         let (frames, pixels) = (show.frames.len(), most_pixels(show));
         Self { title: show.name.clone(), frames, pixels, etag: String::new(), unread }
     }
 }
 
-/// What tells whether a file has changed.
+/// State of a file by which a change is detected.
 #[derive(Clone, Debug, PartialEq)]
 struct Stamp {
     bytes: u64,
     modified: SystemTime,
-    /// On Unix the file's number and the time of its last change of any kind, seconds and nanoseconds: they tell a
-    /// file that was put in the place of another with the time of that.
+    /// On Unix the inode number, and the time of the last change of any kind, seconds and nanoseconds. They reveal a
+    /// file that replaced another and has the same time of change.
     identity: (u64, i64, i64),
 }
 
@@ -75,12 +75,12 @@ impl Stamp {
     }
 }
 
-/// ListFacts of files by path. Clones share them.
+/// [`ListFacts`] of files by path. Clones share them.
 #[derive(Clone, Debug, Default)]
 pub struct FileFacts(Arc<Mutex<BTreeMap<PathBuf, (Stamp, ListFacts)>>>);
 
 impl FileFacts {
-    /// The facts of a file, or why it is no show.
+    /// Returns the facts of a file, from memory if the file has not changed. The error says why the file is no show.
     pub fn get(&self, file: &Path) -> Result<ListFacts, String> {
         let before = std::fs::metadata(file).ok().and_then(|about| Stamp::of(&about));
         if let Some((stamp, facts)) = lock(&self.0).get(file)

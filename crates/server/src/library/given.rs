@@ -1,4 +1,4 @@
-//! Read-only shows that are in no folder: the examples, and the file that the program was started with.
+//! Built-in shows, which are read-only and in no folder: the examples, and the file that the program was started with.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
@@ -11,21 +11,21 @@ use super::facts::ListFacts;
 use super::lock::lock;
 use super::version::etag;
 
-/// A read-only show that is in no folder.
+/// A built-in show, which is read-only and in no folder.
 #[derive(Clone, Debug)]
 pub struct Given {
-    /// What it is called where no file has that name, and what its copies are named after.
+    /// Name of the show if no file has that name. Names of its copies begin with it.
     pub base: String,
-    /// Where it comes from.
+    /// Origin of the show: an example, or the file of the command line.
     pub origin: ShowOrigin,
-    /// Its document in our format.
+    /// Document of the show in our format.
     pub bytes: Vec<u8>,
-    /// What lists say of it. `unread` is why its file holds more than the document.
+    /// Facts that lists display. `unread` says why the show's file holds more than the document.
     pub facts: ListFacts,
 }
 
 impl Given {
-    /// A show that is called `base`. `unread`: why its file holds more than the show.
+    /// Makes a built-in show with the name `base`. `unread` says why the show's file holds more than the show.
     pub fn new(base: String, origin: ShowOrigin, show: &Show, unread: Option<String>) -> Self {
         let bytes = LIGHTBOTS.write(show, None).bytes;
         let facts = ListFacts { etag: etag(&bytes), ..ListFacts::of_show(show, unread) };
@@ -33,7 +33,7 @@ impl Given {
     }
 }
 
-/// The shows by the name they are listed under. Clones share them.
+/// The built-in shows by the name they are listed under. Clones share them.
 #[derive(Clone, Debug, Default)]
 pub struct GivenShows(Arc<Mutex<BTreeMap<String, Given>>>);
 
@@ -43,13 +43,13 @@ impl GivenShows {
         lock(&self.0).keys().cloned().collect()
     }
 
-    /// A show by the name it is listed under.
+    /// Returns a show by the name it is listed under.
     pub fn get(&self, name: &str) -> Option<Given> {
         lock(&self.0).get(name).cloned()
     }
 
-    /// Adds a show; answers the name it is listed under. The file of the command line takes its name from an example.
-    /// `saved`: names of the shows in the folder.
+    /// Adds a show and returns the name it is listed under. The file of the command line takes the name of an example,
+    /// which is then listed under another. `saved` has the names of the shows in the folder.
     pub fn add(&self, show: Given, saved: &BTreeSet<String>) -> String {
         let (base, origin) = (show.base.clone(), show.origin);
         let mut given = lock(&self.0);
@@ -62,13 +62,14 @@ impl GivenShows {
         listed
     }
 
-    /// `base 2`, `base 3`…, the first that is free.
+    /// Returns the first free name of `base 2`, `base 3` and so on.
     pub fn copy_name(&self, base: &str, saved: &BTreeSet<String>) -> String {
         first_free((2..).map(|number| format!("{base} {number}")), &lock(&self.0), saved)
     }
 }
 
-/// `base`, or where that is taken `base (example)`, `base (example 2)`…, or `base (file)` and so on.
+/// Returns `base`, or if that is taken the first free name of `base (example)`, `base (example 2)` and so on. For the
+/// file of the command line, the word is `file`.
 fn listed_name(
     base: &str,
     origin: ShowOrigin,
@@ -81,7 +82,7 @@ fn listed_name(
     first_free(names, given, saved)
 }
 
-/// The first of endless `names` that no show has, whatever the case of its letters.
+/// Returns the first of endless `names` that no show has, whatever the case of its letters.
 fn first_free(
     mut names: impl Iterator<Item = String>,
     given: &BTreeMap<String, Given>,

@@ -2,7 +2,8 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Locks a value. A panic elsewhere leaves whole values behind, because each is replaced in one step.
+/// Locks a value, also after a panic of another thread. The value is then still valid, because it is replaced in one
+/// step.
 pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

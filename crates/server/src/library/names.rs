@@ -11,7 +11,7 @@ fn may_hold(letter: char) -> bool {
     letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | ',' | '(' | ')' | '!' | '\'' | '+')
 }
 
-/// The name, if it is one on every system; else what a name looks like.
+/// Returns the name if it is allowed on every system. The error says which names are allowed.
 pub(super) fn checked(name: &str) -> Result<&str, String> {
     let fits = (1..=NAME_MAX).contains(&name.chars().count())
         && name.len() <= 200
@@ -24,7 +24,7 @@ pub(super) fn checked(name: &str) -> Result<&str, String> {
     Err(format!("a show's name has 1 to {NAME_MAX} letters, digits, spaces and . , - _ ( ) ! ' +"))
 }
 
-/// The closest name to a text that is one.
+/// Returns an allowed name that is close to a text, with at most 40 characters.
 pub(super) fn tidy_name(text: &str) -> String {
     let letters: String = text.chars().map(|letter| if may_hold(letter) { letter } else { '-' }).collect();
     let short: String = letters.trim_matches(['.', ' ']).chars().take(40).collect();
@@ -32,7 +32,7 @@ pub(super) fn tidy_name(text: &str) -> String {
     if short.is_empty() { "show".into() } else { short.to_owned() }
 }
 
-/// The name a file's show gets in the library.
+/// Returns the name that the show of a file gets in the library.
 pub fn name_of_file(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     tidy_name(stem(&name))

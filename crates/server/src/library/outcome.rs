@@ -1,63 +1,64 @@
-//! What the library gives, refuses and asks for.
+//! Results, errors and conditions of operations of the library.
 
 use lightbots_show::{Issues, Show};
 
 /// A show as the library keeps it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kept {
-    /// Its document in our format.
+    /// Document of the show in our format.
     pub bytes: Vec<u8>,
-    /// The same in memory, without the files that belong to it.
+    /// The show in memory, without the content of its assets.
     pub show: Show,
-    /// Its version, in quotes.
+    /// Version of the show, in quotes.
     pub etag: String,
-    /// Why the show cannot be replaced, for people: its file holds more than the document.
+    /// Why the show cannot be replaced, for people: its file holds more than the document. `None` if it can be
+    /// replaced.
     pub read_only: Option<String>,
-    /// What is wrong with the pictures of its layers, once they were decoded.
+    /// Issues of the pictures of its layers, once they were decoded.
     pub issues: Issues,
 }
 
-/// Why the library does not do as it is told.
+/// Why the library refuses an operation: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LibraryError {
-    /// The name cannot be one.
+    /// The name is not allowed.
     BadName(String),
-    /// There is no such show.
+    /// There is no show, state or file of this name.
     Missing(String),
-    /// It was saved elsewhere first.
+    /// Another client saved the show first, or the name is taken.
     Conflict(String),
-    /// It is given with the program or only partly understood, and stays as it is.
+    /// The show is built-in or only partly understood, and cannot be changed.
     ReadOnly(String),
-    /// It is no show, or no file of its hash.
+    /// The bytes are no show, or a file does not have the stated hash.
     NoShow(String),
-    /// The disk does not want to.
+    /// The disk cannot be read or written.
     Disk(String),
 }
 
-/// What must be so for a show to be replaced or deleted.
+/// Condition under which a show is replaced or deleted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Condition {
-    /// Nothing.
+    /// No condition.
     #[default]
     Any,
-    /// It has this version.
+    /// The show has this version.
     Is(String),
-    /// There is none yet.
+    /// There is no show of this name yet.
     IsNew,
 }
 
 impl LibraryError {
-    /// There is no show of that name.
+    /// Returns the error that there is no show of this name.
     pub(super) fn missing(name: &str) -> Self {
         Self::Missing(format!("there is no show \"{name}\" in the library"))
     }
 
-    /// The disk does not give the file of a show.
+    /// Returns the error that the file of a show cannot be read.
     pub(super) fn unreadable(name: &str, error: &std::io::Error) -> Self {
         Self::Disk(format!("the show \"{name}\" cannot be read: {error}"))
     }
 
-    /// One line for people.
+    /// Returns the error as one line for people.
     pub fn line(&self) -> &str {
         match self {
             Self::BadName(line)

@@ -1,4 +1,4 @@
-//! The power is cut during saves: whatever the disk has not been told to keep may be missing.
+//! Tests of power cuts during saves: whatever was not synchronised may be missing.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use crate::disk::power_cut::{self, Disk, Operation, restore};
 
 /// Power cuts that are tried after each operation on the disk.
 const CUTS: u64 = 3;
-/// What a user does in one test.
+/// Number of things that the user does in one test.
 const STEPS: usize = 25;
 
 /// Random numbers, the same each time (xorshift).
@@ -22,10 +22,10 @@ impl Random {
     }
 }
 
-/// Titles of what was saved, the newest last, by name of the show; and whether the show is there still.
+/// For each show, by name: the titles of what was saved, the newest last, and whether the show still exists.
 type Saved = BTreeMap<String, (Vec<String>, bool)>;
 
-/// One step of the user: saves, renames or deletes a show. What is saved afterwards.
+/// Does one step of the user: saves, renames or deletes a show. Returns what is saved afterwards.
 fn step(library: &Library, random: &mut Random, number: usize, saved: &Saved) -> Saved {
     let names = ["one", "two", "three"];
     let name = names[random.below(3) as usize];
@@ -59,7 +59,7 @@ fn step(library: &Library, random: &mut Random, number: usize, saved: &Saved) ->
     next
 }
 
-/// Titles in a folder that a power cut left: of the present show, and of all its states.
+/// Returns titles in a folder that a power cut left: of the present show, and of all its states.
 fn found(library: &Library, name: &str) -> (Option<String>, Vec<String>) {
     let now = library.get(name).ok().map(|kept| kept.show.name);
     let states =
@@ -67,7 +67,7 @@ fn found(library: &Library, name: &str) -> (Option<String>, Vec<String>) {
     (now, states.map(|kept| kept.show.name).collect())
 }
 
-/// Whether all that was saved is there: `done` for sure, and of `next`, which was under way, any part.
+/// Checks that everything in `done` is there. Of `next`, which was under way, any part may be there.
 fn check(library: &Library, done: &Saved, next: &Saved) {
     for (name, (titles, is_there)) in done {
         let (now, states) = found(library, name);
@@ -122,7 +122,7 @@ fn cut_at_every_operation(seed: u64) {
     }
 }
 
-/// An operation by its paths below a folder, which itself is there.
+/// Returns an operation with its paths relative to a folder, which exists already.
 fn within(folder: &Path, operation: Operation) -> Operation {
     let below = |path: PathBuf| path.strip_prefix(folder).map_or(path.clone(), PathBuf::from);
     match operation {

@@ -7,9 +7,9 @@ use super::lock::lock;
 use super::{Condition, Kept, Library, LibraryError, checked};
 
 impl Library {
-    /// Saves a show of any format; what is kept is ours, or the file itself where it is not understood whole. A given show
-    /// is not changed: unless a new show is wanted, a copy of a free name is made, and the entry tells that name and
-    /// `copy_of`.
+    /// Saves a show of any format. It is kept in our format, or as the same file if it is only partly understood. A
+    /// built-in show is not changed: a copy is saved under a free name, which the entry states together with `copy_of`.
+    /// With [`Condition::IsNew`], the name of a built-in show is a conflict.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
         let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
@@ -19,7 +19,7 @@ impl Library {
         if given.is_none() {
             check(name, condition, &now)?;
         }
-        // A copy of a given show would lose what was not understood, too.
+        // A copy of a built-in show would lose what was not understood, too.
         if let Some(line) = now.ok().and_then(|kept| kept.read_only) {
             return Err(LibraryError::ReadOnly(line));
         }
@@ -43,14 +43,15 @@ impl Library {
             self.keep_state(name, bytes);
             return self.files.replace(name, format, bytes);
         }
-        // First the files, so that there is never a document whose files are lost.
+        // The assets are written first, so that no document lacks its assets.
         self.assets.keep(&loaded.show)?;
         let document = LIGHTBOTS.write(&loaded.show, None).bytes;
         self.keep_state(name, &document);
         self.files.replace(name, &LIGHTBOTS, &document)
     }
 
-    /// Keeps the file of a show before `next` takes its place. A disk that cannot is no reason not to save.
+    /// Keeps the present file of a show as an earlier state, unless it equals `next`. A failure is only logged, so that
+    /// the show is saved all the same.
     fn keep_state(&self, name: &str, next: &[u8]) {
         if self.files.read(name).is_ok_and(|now| now == next) {
             return;
@@ -60,8 +61,8 @@ impl Library {
         }
     }
 
-    /// Deletes a show of the folder. Given shows stay. `renamed_to`: the show under its new name, which gets the earlier
-    /// states.
+    /// Deletes a show of the folder. A built-in show cannot be deleted. `renamed_to` is the new name of a renamed show,
+    /// which gets the earlier states.
     pub fn delete(
         &self,
         name: &str,

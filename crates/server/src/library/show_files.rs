@@ -9,7 +9,7 @@ use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, MAX_BYTES};
 use super::names;
 use crate::disk::{self, Readers};
 
-/// Both formats of a show's file, the one that is read first.
+/// Both formats of a show's file. If both files exist, the first is read.
 const FORMATS: [&Format; 2] = [&LIGHTBOTS, &ARCHIVE];
 
 /// Files of shows in one folder.
@@ -17,7 +17,7 @@ const FORMATS: [&Format; 2] = [&LIGHTBOTS, &ARCHIVE];
 pub struct ShowFiles(PathBuf);
 
 impl ShowFiles {
-    /// The files in a folder, which is made with the first of them.
+    /// Returns the files in a folder, which is made with the first of them.
     pub fn new(folder: PathBuf) -> Self {
         Self(folder)
     }
@@ -38,25 +38,25 @@ impl ShowFiles {
         files.flatten().filter_map(name).filter(|name| names::checked(name).is_ok()).collect()
     }
 
-    /// The file of a show: its document, or the archive where there is no document.
+    /// Returns the path of a show's file: its document, or the archive if there is no document.
     pub fn present(&self, name: &str) -> PathBuf {
         let [document, archive] = FORMATS.map(|format| self.path(name, format));
         if !document.exists() && archive.exists() { archive } else { document }
     }
 
-    /// The bytes of a show's file.
+    /// Reads the bytes of a show's file.
     pub fn read(&self, name: &str) -> io::Result<Vec<u8>> {
         read(&self.present(name))
     }
 
-    /// Writes a show's file in one of both formats, in place of the one there is.
+    /// Writes a show's file in one of both formats, and removes the file in the other.
     pub fn replace(&self, name: &str, format: &Format, bytes: &[u8]) -> io::Result<()> {
         disk::replace(&self.path(name, format), bytes, Readers::All)?;
         let others = FORMATS.into_iter().filter(|other| other.ending() != format.ending());
         others.into_iter().try_for_each(|other| disk::remove(&self.path(name, other)))
     }
 
-    /// Removes a show.
+    /// Removes the files of a show.
     pub fn remove(&self, name: &str) -> io::Result<()> {
         FORMATS.into_iter().try_for_each(|format| disk::remove(&self.path(name, format)))
     }
@@ -66,7 +66,7 @@ impl ShowFiles {
     }
 }
 
-/// The bytes of a file that is not too long to be a show.
+/// Reads a file that is not too long to be a show.
 pub fn read(file: &Path) -> io::Result<Vec<u8>> {
     disk::read_regular(file, MAX_BYTES as u64)
 }

@@ -1,4 +1,4 @@
-//! Earlier states of shows, and what is in the folder beside shows.
+//! Tests of earlier states of shows, and of other files in the folder.
 
 use super::*;
 
@@ -20,7 +20,7 @@ fn the_last_saved_states_can_be_looked_at_and_restored_and_nothing_is_lost_by_it
     for number in 1..=30 {
         save(library, "mine", &format!("v{number}"));
     }
-    // Saved as it is: no further state.
+    // Saving an unchanged show adds no state.
     save(library, "mine", "v30");
     let last: Vec<_> = (10..=30).rev().map(|number| format!("v{number}")).collect();
     assert_eq!(titles(library, "mine"), last);

@@ -1,4 +1,4 @@
-//! From the words and files of the command line to frames that wait for their robots.
+//! Reads the words and files of the command line into frames whose pixels are not placed yet.
 
 use std::path::{Path, PathBuf};
 
@@ -21,10 +21,10 @@ const FILE_MAX: u64 = 64 << 20;
 /// Steps of a scrolling text for each character.
 const STEPS_PER_CHARACTER: usize = 1;
 
-/// Width of the window of a scrolling text, cap heights.
+/// Width of the window of a scrolling text, in cap heights.
 const WINDOW: f64 = 3.0;
 
-/// All frames that are wanted.
+/// Reads all sources. Returns the frames of all of them, in order, with pixels not placed yet.
 pub fn read(arguments: &MakeArguments, bar: &Bar) -> Result<Vec<Wanted>, Failure> {
     let font = font(arguments)?;
     let mut wanted = Vec::new();
@@ -43,7 +43,7 @@ pub fn read(arguments: &MakeArguments, bar: &Bar) -> Result<Vec<Wanted>, Failure
     Ok(wanted)
 }
 
-/// The font's name, and its file where it is one.
+/// A built-in font's name, and the font file that is used instead, if there is one.
 struct ChosenFont {
     name: String,
     file: Option<(AssetHash, Asset)>,

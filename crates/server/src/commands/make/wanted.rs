@@ -1,4 +1,4 @@
-//! A frame that waits for its robots, and what its source is made of.
+//! A frame whose pixels are not placed yet, and what its source is made of.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,20 +10,20 @@ use lightbots_show::{Asset, AssetHash, Frame, Stage};
 
 use crate::cli::MakeArguments;
 
-/// A frame that waits for its robots.
+/// A frame whose pixels are not placed yet.
 pub struct Wanted {
     /// Name, times and source.
     pub frame: Frame,
-    /// What the source gives.
+    /// What the source was read into: a drawing, or lights.
     pub material: Material,
-    /// The source's file.
+    /// File of the source or of its font, as an asset of the show.
     pub asset: Option<(AssetHash, Asset)>,
-    /// Whether it is a moment of the film whose moment before is the frame before.
+    /// Whether the frame before shows an earlier moment of the same animation.
     pub start: bool,
 }
 
 impl Wanted {
-    /// Its drawing, if it has one.
+    /// Returns the drawing that the source was read into; `None` for lights.
     pub fn drawing(&self) -> Option<Drawing> {
         match &self.material {
             Material::Drawing { made, .. } => Some(made.drawing.clone()),
@@ -32,13 +32,13 @@ impl Wanted {
     }
 }
 
-/// A file as an asset of the show, by its hash.
+/// Returns a file as an asset of the show, with its hash.
 pub fn asset(path: &Path, bytes: &[u8], media_type: &str) -> (AssetHash, Asset) {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     asset_of(&name, media_type, Arc::from(bytes))
 }
 
-/// A frame of one source, whose file is given.
+/// Makes a frame of one source. `file` is the content of the source's file, if it has one.
 pub fn one(
     name: String,
     content: Content,
@@ -49,14 +49,14 @@ pub fn one(
     Ok(frame_of(name, content, material, arguments))
 }
 
-/// A frame of one source that has been read already.
+/// Makes a frame of one source that has been read already.
 pub fn frame_of(name: String, content: Content, material: Material, arguments: &MakeArguments) -> Wanted {
     let source = recipe(content, arguments).source();
     let frame = Frame { name, air_time_s: arguments.air, sources: vec![source], ..Frame::default() };
     Wanted { frame, material, asset: None, start: false }
 }
 
-/// The recipe of a source with what the command line says.
+/// Returns the recipe of a source with the settings of the command line.
 pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
     let usual = Placing::default();
     let placing = Placing {
@@ -68,7 +68,7 @@ pub fn recipe(content: Content, arguments: &MakeArguments) -> Recipe {
     Recipe { placing, seed: arguments.seed, ..Recipe::new(content) }
 }
 
-/// The floor that the command line asks for.
+/// Returns a stage with the floor of the command line, or 3 m by 3 m.
 pub fn stage(arguments: &MakeArguments) -> Stage {
     let (width_m, depth_m) = arguments.floor.unwrap_or((3.0, 3.0));
     Stage { width_m, depth_m, ..Stage::default() }

@@ -1,4 +1,4 @@
-//! Videos by the program ffmpeg.
+//! Makes videos with the program ffmpeg.
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, Read as _, Write as _};
@@ -12,7 +12,7 @@ use lightbots_show::{Issue, Show, excerpt};
 use crate::disk::Draft;
 use crate::failure::Failure;
 
-/// The kind of file.
+/// Container format of a video.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Container {
     /// MP4 with H.264 and AAC.
@@ -22,7 +22,7 @@ pub(super) enum Container {
 }
 
 impl Container {
-    /// Encoders and their settings: quality before size, and the same bytes from the same pictures.
+    /// Returns the encoders and their settings: quality before size, and the same bytes from the same pictures.
     fn settings(self) -> &'static [&'static str] {
         match self {
             Self::Mp4 => &[
@@ -69,11 +69,11 @@ impl Container {
     }
 }
 
-/// The music of a show as a file.
+/// The music of a show, as a file that ffmpeg can read.
 pub(super) enum Music {
-    /// Beside the show.
+    /// The music file beside the show's file.
     File(PathBuf),
-    /// From the show itself; removed afterwards.
+    /// A copy of the music in the show; the copy is removed when this value is dropped.
     Copy(Draft),
 }
 
@@ -86,8 +86,8 @@ impl Music {
     }
 }
 
-/// Finds the show's music: in the show, or beside its file. A film without it is silent, which an issue says. A copy of
-/// music that is in the show lies beside `out`.
+/// Finds the show's music in the show or beside its file. Music in the show is copied to a file beside `out`. If the
+/// music is missing, the film is silent and an issue says so.
 pub(super) fn music(
     show: &Show,
     (file, out): (&Path, &Path),
@@ -101,7 +101,7 @@ pub(super) fn music(
         std::fs::write(copy.path(), content).map_err(cannot)?;
         return Ok(Some(Music::Copy(copy)));
     }
-    // The name of a file, not a way out of the folder.
+    // Only a plain file name is used, because a path could lead out of the folder.
     let plain = Path::new(name).file_name().filter(|plain| *plain == name.as_str());
     let beside = plain.map(|plain| file.parent().unwrap_or(Path::new("")).join(plain));
     let found = beside.and_then(|path| path.canonicalize().ok()).filter(|path| path.is_file());
@@ -112,11 +112,11 @@ pub(super) fn music(
     Ok(found.map(Music::File))
 }
 
-/// A video to be made.
+/// A video to make.
 pub(super) struct Video<'a> {
     pub container: Container,
     pub size: FilmSize,
-    /// When the music begins, seconds of the film.
+    /// Time at which the music begins, seconds after the start of the film.
     pub music_begins_s: f64,
     pub music: Option<&'a Music>,
 }
@@ -160,25 +160,25 @@ impl Video<'_> {
     }
 }
 
-/// A running ffmpeg. Dropped before the end, it is killed.
+/// A running ffmpeg, which is killed if this value is dropped before the end.
 pub(super) struct Encoder {
     child: Child,
-    /// Where pictures go; `None` once all have gone.
+    /// Input of ffmpeg, which takes the pictures; `None` once it is closed.
     input: Option<ChildStdin>,
 }
 
 impl Encoder {
-    /// Adds a picture.
+    /// Sends a picture to ffmpeg, as RGB bytes. If ffmpeg has ended, the error gives its reason.
     pub fn add(&mut self, picture: &[u8]) -> Result<(), Failure> {
         let written = self.input.as_mut().map(|input| input.write_all(picture));
         match written {
             Some(Ok(())) => Ok(()),
-            // It has ended, and says why.
+            // ffmpeg has ended, and `end` returns its reason.
             _ => Err(self.end().err().unwrap_or_else(|| Failure::problem("ffmpeg ended too early"))),
         }
     }
 
-    /// All pictures were added.
+    /// Closes the input and waits until ffmpeg has written the video.
     pub fn finish(mut self) -> Result<(), Failure> {
         self.end()
     }
@@ -187,7 +187,7 @@ impl Encoder {
         self.input = None;
         let mut said = String::new();
         if let Some(errors) = self.child.stderr.take() {
-            // What is no text is not said.
+            // Output that is not text is ignored.
             let _ = errors.take(4096).read_to_string(&mut said);
         }
         let status = self.child.wait().map_err(|error| Failure::problem(format!("ffmpeg: {error}")))?;
@@ -201,7 +201,7 @@ impl Encoder {
 
 impl Drop for Encoder {
     fn drop(&mut self) {
-        // One that has ended cannot be killed.
+        // Fails if ffmpeg has ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

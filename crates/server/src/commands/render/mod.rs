@@ -26,7 +26,7 @@ use crate::{say, show_file, show_plan};
 use ffmpeg::Video;
 use output::Output;
 
-/// Pictures of which the colours of a GIF are made.
+/// Most pictures from which the colours of a GIF are chosen.
 const PALETTE_PICTURES: usize = 40;
 
 /// The JSON of `render`.
@@ -41,7 +41,7 @@ struct Summary {
     film: Option<FilmFacts>,
 }
 
-/// What a film has.
+/// Numbers of a film.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct FilmFacts {
     pictures: usize,
@@ -99,7 +99,7 @@ impl Summary {
     }
 }
 
-/// What is made of what.
+/// Inputs of a rendering.
 struct Work<'a> {
     arguments: &'a RenderArguments,
     stop: &'a Stop,
@@ -149,7 +149,7 @@ impl Work<'_> {
         }
     }
 
-    /// Calls `add` with each picture.
+    /// Renders each picture and passes it to `add`. Error if the program is to stop.
     fn pictures(
         &self,
         mut film: ShowFilm<'_>,
@@ -206,7 +206,7 @@ impl Work<'_> {
     }
 }
 
-/// `[start]`: the robot that the show asks for by name, where it starts.
+/// Returns the name of the robot that the show requires at each starting place; `None` if any robot will do.
 fn names(plan: &ShowPlan, starts: &[Vec2]) -> Vec<Option<String>> {
     let mut names = vec![None; starts.len()];
     for (name, &robot) in &plan.names {

@@ -1,4 +1,4 @@
-//! What is written where.
+//! The kinds of files that `render` writes.
 
 use lightbots_film::FilmSize;
 
@@ -6,7 +6,7 @@ use super::ffmpeg::Container;
 use crate::cli::RenderArguments;
 use crate::failure::Failure;
 
-/// What is made.
+/// Kind of file to write.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Output {
     /// A contact sheet.
@@ -20,7 +20,7 @@ pub(super) enum Output {
 }
 
 impl Output {
-    /// What the ending of the file asks for.
+    /// Returns the kind of file that the ending of the file's name stands for.
     pub fn of(arguments: &RenderArguments) -> Result<Self, Failure> {
         let ending = arguments.out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let film = |(width, height): (u32, u32), fps: f64| {
@@ -41,7 +41,8 @@ impl Output {
     }
 }
 
-/// Videos store colours of pairs of pixels.
+/// Returns a video of this size. An odd width or height is an error, because videos store one colour for two pixels
+/// each way.
 fn even(container: Container, size: FilmSize) -> Result<Output, Failure> {
     if size.width % 2 == 1 || size.height % 2 == 1 {
         let line = format!("--size {}x{}: width and height of a video are even", size.width, size.height);
