@@ -12,7 +12,7 @@ mod state_tests;
 const DOT: &[u8] =
     br##"{"lightbots":1,"name":"Dot","frames":[{"pixels":[{"id":0,"place":[0,0],"color":"#ffffff"}]}]}"##;
 
-/// A library in a folder of its own, gone with the value.
+/// A library in a temporary folder, which is removed when this value is dropped.
 struct Temporary {
     library: Library,
     folder: PathBuf,
@@ -94,7 +94,7 @@ fn a_given_show_stays_as_it_is_and_saving_it_makes_copies() {
     let first = library.put("heart", DOT, &Condition::Is(etag)).unwrap();
     assert_eq!((first.name.as_str(), first.copy_of), ("heart 2", Some(ShowOrigin::Example)));
     assert_eq!((first.origin, library.get("heart 2").unwrap().etag), (ShowOrigin::Saved, first.etag.clone()));
-    // Whatever version a screen knows of what cannot change: nothing is overwritten, so that nothing is refused.
+    // A built-in show cannot change, so any version of it is accepted: nothing is overwritten.
     let second = library.put("heart", DOT, &Condition::Is("\"old\"".into())).unwrap();
     assert_eq!(second.name, "heart 4");
     assert_eq!(library.get("heart").unwrap().show.name, "Given");
@@ -317,7 +317,7 @@ fn a_file_is_added_once_under_its_own_hash_only() {
     library.put_asset(&hash, b"picture").unwrap();
     library.put_asset(&hash, b"picture").unwrap();
     assert_eq!(&*library.asset(&hash).unwrap(), b"picture");
-    // A show that names the file, saved without it, has it.
+    // A show that names the file and is saved without its content has the content afterwards.
     let mut show = with_picture();
     show.assets.values_mut().for_each(|asset| asset.content = None);
     library.put("Picture", &LIGHTBOTS.write(&show, None).bytes, &Condition::IsNew).unwrap();

@@ -20,10 +20,10 @@ pub enum Log {
     Debug,
 }
 
-/// What was chosen, in the command line's words.
+/// The level that was chosen on the command line.
 static LEVEL: std::sync::OnceLock<Log> = std::sync::OnceLock::new();
 
-/// How much this program logs, for a program that it starts.
+/// Returns the log level as an argument for a program that this one starts.
 pub fn level() -> &'static str {
     match LEVEL.get() {
         Some(Log::Off) => "off",
@@ -34,9 +34,10 @@ pub fn level() -> &'static str {
     }
 }
 
-/// Starts logging to stderr. The broker's own lines count one level less: it calls ordinary departures news.
+/// Starts logging to stderr. Fewer lines of the broker and other libraries are logged, because the broker reports
+/// ordinary disconnects as important.
 pub fn start(log: Log) {
-    // A second start keeps the first.
+    // A second call keeps the first level.
     let _ = LEVEL.set(log);
     let (ours, broker) = match log {
         Log::Off => (LevelFilter::OFF, LevelFilter::OFF),
@@ -49,6 +50,6 @@ pub fn start(log: Log) {
     let colours = std::io::IsTerminal::is_terminal(&std::io::stderr());
     let lines =
         tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_target(false).with_ansi(colours);
-    // A second start in one process keeps the first, which is as good.
+    // A second call in one process keeps the first logger.
     let _ = tracing_subscriber::registry().with(targets).with(lines).try_init();
 }

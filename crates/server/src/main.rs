@@ -1,8 +1,8 @@
 //! The program `lightbots`: sockets, embedded broker, files and clocks around the cores. The only crate with IO.
 //!
-//! `main` reads the command line and hands over to one file a command in `commands`. `live` holds what a running
-//! fleet needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's
-//! server. It decides nothing about shows or robots: the cores do.
+//! `main` reads the command line and hands over to one file a command in `commands`. `live` holds what a running fleet
+//! needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's server. The
+//! cores, and not this program, decide about shows and robots.
 
 mod accounts;
 mod backup;
@@ -51,18 +51,18 @@ fn main() {
         }
     };
     let code = runtime.block_on(async {
-        // First of all, so that an early Ctrl-C or TERM is never missed.
+        // The first thing, so that an early Ctrl-C or TERM is never missed.
         let stop = Stop::install();
         match Cli::try_parse() {
             Ok(cli) => run(cli, stop).await,
             Err(error) => misuse(&error),
         }
     });
-    // Not by returning: that would wait for a plan still being made on another thread.
+    // Exits here, because returning would wait for a plan that another thread is still making.
     std::process::exit(code);
 }
 
-/// Help and version as asked for; wrong use in one line.
+/// Prints help, version, or one line about wrong use. Returns the exit code.
 fn misuse(error: &clap::Error) -> i32 {
     let lists_commands = error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
     if !error.use_stderr() || lists_commands {
@@ -76,7 +76,8 @@ fn misuse(error: &clap::Error) -> i32 {
     2
 }
 
-/// Runs one command; its exit code: 0 fine, 1 problems that were printed, 2 wrong use or unreadable input.
+/// Runs one command. Returns its exit code: 0 fine, 1 problems that were printed, 2 wrong use or unreadable input, 130
+/// cancelled.
 async fn run(cli: Cli, stop: Stop) -> i32 {
     logging::start(cli.log);
     let outcome = match cli.command {

@@ -1,4 +1,4 @@
-//! Numbers of people and for people.
+//! Reads values from the command line, and rounds numbers for people.
 
 use std::net::{SocketAddr, ToSocketAddrs};
 
@@ -22,7 +22,7 @@ pub fn pixels(text: &str) -> Result<(u32, u32), String> {
     read(width).zip(read(height)).ok_or_else(wrong)
 }
 
-/// Reads pictures a second.
+/// Reads a number of pictures a second, 1 to 120.
 pub fn fps(text: &str) -> Result<f64, String> {
     let read = text.trim().parse::<f64>().ok().filter(|fps| (1.0..=120.0).contains(fps));
     read.ok_or_else(|| "pictures a second are a number from 1 to 120".into())
@@ -46,31 +46,31 @@ pub fn place(text: &str) -> Option<Vec2> {
     Some(Vec2::new(read(x)?, read(y)?))
 }
 
-/// A positive length, metres, or another positive number up to a thousand.
+/// Reads a positive number up to 1,000, such as a length in metres.
 pub fn metres(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && *number <= 1_000.0);
     number.ok_or_else(|| "write a number above 0 and up to 1000".into())
 }
 
-/// A time of up to a day, seconds.
+/// Reads a time of up to a day, seconds.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| (0.0..=86_400.0).contains(number));
     number.ok_or_else(|| "write a number of seconds from 0 to 86400".into())
 }
 
-/// `#ffa500` as a colour.
+/// Reads a colour such as `#ffa500`.
 pub fn color(text: &str) -> Result<Rgb, String> {
     Rgb::from_hex(text).ok_or_else(|| "write a colour like #ffa500".into())
 }
 
-/// Reads where to listen: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.
+/// Reads the address to listen at: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
     let wrong =
         || "an address is HOST:PORT, such as 127.0.0.1:8420, or 0.0.0.0:8420 for every network".to_owned();
     text.trim().to_socket_addrs().ok().and_then(|mut found| found.next()).ok_or_else(wrong)
 }
 
-/// A spread with its numbers rounded to `decimals`.
+/// Returns a spread with its numbers rounded to `decimals`.
 pub fn rounded_spread(Spread { median, p99, max }: Spread, decimals: i32) -> Spread {
     Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
 }

@@ -1,6 +1,6 @@
-//! What the system lets this process have: open files, memory.
+//! Limits of the system for this process: open files and memory.
 
-/// Raises it as far as the system lets us: every connection is one.
+/// Raises the limit on open files as far as the system allows, up to 65,536. Every connection is an open file.
 pub fn raise_limit() {
     const WANTED: u64 = 65_536;
     if let Err(error) = rlimit::increase_nofile_limit(WANTED) {
@@ -8,22 +8,22 @@ pub fn raise_limit() {
     }
 }
 
-/// Open files that the system lets this process have.
+/// Returns how many files this process may have open.
 pub fn limit() -> usize {
-    // Where the limit is not known, the least that systems have.
+    // 256 if the limit is not known: the least that systems have.
     let known = rlimit::Resource::NOFILE.get_soft().unwrap_or(256);
     usize::try_from(known).unwrap_or(usize::MAX)
 }
 
-/// Whether an error says that this process, or the whole system, has as many open files as it may.
+/// Whether an error means that this process, or the whole system, has reached its limit on open files.
 pub fn is_limit(error: &std::io::Error) -> bool {
     // EMFILE and ENFILE; on Windows WSAEMFILE.
     let codes = if cfg!(windows) { [10_024, 10_024] } else { [24, 23] };
     error.raw_os_error().is_some_and(|code| codes.contains(&code))
 }
 
-/// Bounds the memory of the broker's process, where the system can: one that runs away ends and is started again, instead
-/// of taking the whole machine with it.
+/// Limits the memory of the broker's process, on Linux only. A broker that uses too much memory then ends and is
+/// started again, and the rest of the machine keeps its memory.
 pub fn limit_memory() {
     #[cfg(target_os = "linux")]
     {

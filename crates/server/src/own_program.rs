@@ -1,8 +1,8 @@
-//! Where this program's file is, for children that run it.
+//! Path of this program's file, for child processes that run it.
 
 use std::path::PathBuf;
 
-/// This program, also after its file was replaced by a newer build.
+/// Returns the path of this program. On Linux it is valid even after the file was replaced by a newer build.
 pub fn own_program() -> PathBuf {
     let running = PathBuf::from("/proc/self/exe");
     if cfg!(target_os = "linux") && running.exists() {

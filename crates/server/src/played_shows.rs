@@ -1,4 +1,4 @@
-//! Which shows the robots of this data folder have played to their end, kept in a file: others are offered at half speed.
+//! Shows that were played to their end, kept in a file of the data folder. Other shows are offered at half speed.
 
 use std::collections::VecDeque;
 use std::io;
@@ -14,9 +14,9 @@ use crate::live::conductor::{Handle, News};
 use crate::web::Desk;
 
 const FILE: &str = "played.json";
-/// Shows that are kept; the one that was played first is forgotten first. An entry has about 100 bytes.
+/// Most shows that are kept. Beyond it, the show that was played first is forgotten. An entry has about 100 bytes.
 const SHOWS_MAX: usize = 1_000;
-/// The longest file, bytes: names of shows are 200 characters at most.
+/// Longest file, bytes: names of shows are 200 characters at most.
 const FILE_MAX: u64 = 1 << 20;
 
 /// The shows that were played to their end. Clones share them.
@@ -28,14 +28,14 @@ pub struct PlayedShows {
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct Kept {
-    /// In the order in which they were played first.
+    /// Shows in the order in which they were first played.
     #[serde(default)]
     shows: VecDeque<Entry>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Entry {
-    /// What the show was called, for people.
+    /// Name of the show, for people.
     show: String,
     #[serde(flatten)]
     played: Played,
@@ -44,15 +44,15 @@ struct Entry {
 /// A show and the kind of robots that play it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Played {
-    /// Hash of all that robots' drives depend on: a show with another name or other colours is the same.
+    /// Hash of all that robots' drives depend on. A show that differs only in its name or colours has the same hash.
     drives: u64,
-    /// Real robots take part.
+    /// Whether real robots take part.
     real: bool,
 }
 
 impl Played {
-    /// A show by its `show_plan::drives_hash`, and the robots that are there. What only simulated robots played, real ones
-    /// did not.
+    /// Returns a show by its `show_plan::drives_hash`, with the kind of robots that are there. For real robots, a show
+    /// that only simulated robots have played counts as not played.
     pub fn of(drives: u64, robots: &[RobotView]) -> Self {
         Self { drives, real: has_real(robots) }
     }
@@ -63,7 +63,8 @@ fn has_real(robots: &[RobotView]) -> bool {
 }
 
 impl PlayedShows {
-    /// The shows of a folder of data; none where the file cannot be read: then they are offered at half speed once more.
+    /// Reads the file in the data folder. If it cannot be read, there are no shows, and all are offered at half speed
+    /// again.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
         let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
@@ -74,12 +75,12 @@ impl PlayedShows {
         Self { path, kept: Arc::new(Mutex::new(kept)) }
     }
 
-    /// Whether robots of that kind have played the show to its end.
+    /// Whether robots of this kind have played the show to its end.
     pub fn has(&self, played: Played) -> bool {
         self.lock().shows.iter().any(|entry| entry.played == played)
     }
 
-    /// Robots played a show to its end.
+    /// Notes that robots played a show to its end.
     fn add(&self, show: &str, played: Played) {
         let text = {
             let mut kept = self.lock();
@@ -92,7 +93,7 @@ impl PlayedShows {
             }
             serde_json::to_vec_pretty(&*kept)
         };
-        // Screens ask meanwhile.
+        // The lock is free again, because screens query the shows while the file is written.
         let written =
             text.map_err(io::Error::other).and_then(|text| disk::replace(&self.path, &text, Readers::Owner));
         if let Err(error) = written {
@@ -129,15 +130,15 @@ impl PlayedShows {
     }
 }
 
-/// The run that is on.
+/// The run that is under way.
 #[derive(Debug, Default)]
 struct PresentRun {
-    /// The name of its show, what it is, and the number of its frames.
+    /// Name of the show, the show with its kind of robots, and its number of frames. `None` if no run is under way.
     show: Option<(String, Played, usize)>,
 }
 
 impl PresentRun {
-    /// The show that was played to its end with this event: all its frames stood.
+    /// If this event ends the run and all frames were played, returns the show.
     fn ends(&mut self, event: &Event) -> Option<(String, Played)> {
         let EventKind::RunEnded { outcome, frames_played, .. } = &event.kind else { return None };
         let (name, played, frames) = self.show.take()?;

@@ -1,4 +1,4 @@
-//! Plays the playlist: the task that does what `playlist` says, by the operations that a person uses.
+//! The task that plays the playlist, by the same operations that a person uses.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,21 +15,21 @@ use crate::sentences::sentence;
 use crate::stop::Stop;
 use crate::web::{Shared, operate};
 
-/// Time between two looks at the playlist.
+/// Time between two checks of the playlist.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
-/// Looks at a controller without a run until the run of a turn counts as over although its end was not heard of: its event
-/// may be on its way for one look.
+/// Number of checks without a run after which a turn is over although no event ended it. The event may still be on its
+/// way at the first check.
 const LOOKS_WITHOUT_RUN: u32 = 3;
-/// Turns that are over at once in one look at most: entries whose time is past are skipped one after the other.
+/// Most turns that are skipped in one check. Entries whose time is past are skipped one after the other.
 const ACTS_MAX: usize = 200;
 
 /// A turn that is about to begin.
 #[derive(Debug)]
 struct Attempt {
     key: TurnKey,
-    /// The revision of its open show; `None`: it is not open yet.
+    /// Revision of the show since this attempt opened it; `None` if it is not open yet.
     revision: Option<u32>,
-    /// Why it could not begin at the last look.
+    /// Why the turn could not begin at the last check.
     refusal: Option<String>,
 }
 
@@ -38,14 +38,14 @@ struct Player {
     shared: Arc<Shared>,
     stop: Stop,
     attempt: Option<Attempt>,
-    /// Speed and loop as the operator set them, while a show of the playlist plays.
+    /// The operator's speed (percent) and loop setting, kept while a show of the playlist plays with other ones.
     settings: Option<(u32, bool)>,
-    /// The turn whose run this player has begun or found.
+    /// Whether this player has begun the run of the present turn, or found it at the start.
     is_playing: bool,
     looks_without_run: u32,
 }
 
-/// Plays by schedule until the program stops.
+/// Plays shows by schedule until the program stops.
 pub async fn play(shared: Arc<Shared>, stop: Stop) {
     let mut news = shared.handle.news();
     let mut looks = tokio::time::interval(LOOK_EVERY);
@@ -69,7 +69,7 @@ pub async fn play(shared: Arc<Shared>, stop: Stop) {
 }
 
 impl Player {
-    /// At the start: a turn was playing when the program ended. Its run goes on, or the turn is over.
+    /// Handles a turn that was playing when the program ended. Its run continues, or the turn has failed.
     async fn find_run(&mut self) {
         let Some(key) = self.shared.playlist.playing() else { return };
         let Some(snapshot) = self.shared.handle.look().await else { return };
@@ -80,10 +80,10 @@ impl Player {
         }
     }
 
-    /// Notes how the run of a turn ends, and that a person stopped robots.
+    /// Handles an event: records how the run of a turn ends, and holds the playlist if a person stopped robots.
     fn hear(&mut self, news: &News) {
         let News::Event(event) = news else { return };
-        // The program's end stops robots: no person wanted the playlist to be held.
+        // The end of the program stops robots too, and must not hold the playlist.
         if self.stop.is_wanted() {
             return;
         }
@@ -119,7 +119,7 @@ impl Player {
 
     async fn look(&mut self, news: &mut broadcast::Receiver<News>) {
         if !self.shared.playlist.is_on() && self.settings.is_none() {
-            // A look costs time in proportion to the fleet.
+            // A snapshot costs time in proportion to the fleet.
             return self.attempt = None;
         }
         let Some(snapshot) = self.shared.handle.look().await else { return };
@@ -140,7 +140,8 @@ impl Player {
         }
     }
 
-    /// A run whose end was not heard of, because too much happened at once.
+    /// Ends a turn whose run is over although no event said that, because too much happened at once and events were
+    /// lost.
     fn watch(&mut self, snapshot: &Snapshot) {
         self.looks_without_run = if snapshot.run.is_some() { 0 } else { self.looks_without_run + 1 };
         if self.looks_without_run < LOOKS_WITHOUT_RUN {
@@ -181,7 +182,7 @@ impl Player {
         self.end_at(key, end, at_s);
     }
 
-    /// Begins a turn, or finds out why it cannot begin yet.
+    /// Begins a turn, or records why it cannot begin yet.
     async fn begin(&mut self, key: TurnKey, snapshot: &Snapshot, news: &mut broadcast::Receiver<News>) {
         let Some(turn) = self.shared.playlist.turn(key.id) else { return };
         if self.attempt.as_ref().is_none_or(|attempt| attempt.key != key) {
@@ -235,7 +236,7 @@ impl Player {
         for operation in [speed, Operation::Loop { on: false }] {
             self.operate(operation).await.map_err(Refused::ForNow)?;
         }
-        // The ends of earlier runs are not those of this one.
+        // Handles the waiting events first, because they belong to earlier runs.
         self.hear_waiting(news);
         if self.shared.playlist.is_held() {
             return Ok(());
@@ -285,7 +286,7 @@ impl Player {
         self.shared.playlist.ends(key, end, at_s);
     }
 
-    /// Speed and loop are the operator's again.
+    /// Restores the operator's settings of speed and loop.
     async fn restore_settings(&mut self) {
         let Some((percent, on)) = self.settings.take() else { return };
         for operation in [Operation::Speed { percent }, Operation::Loop { on }] {
@@ -297,7 +298,7 @@ impl Player {
         }
     }
 
-    /// Does what a person would do on the screen. Why not, for people.
+    /// Runs an operation as a person does on the screen. The error is a line for people.
     async fn operate(&self, operation: Operation) -> Result<(), String> {
         let answer = operate(&self.shared, Request { id: 0, operation }).await;
         answer.error.map_or(Ok(()), Err)
@@ -306,8 +307,8 @@ impl Player {
 
 /// Why a turn does not begin, with a remedy.
 enum Refused {
-    /// It is tried again while the turn is not too late: robots and broker may still come.
+    /// The start is tried again while the turn is not too late, because robots and broker may still come.
     ForNow(String),
-    /// Nothing changes by waiting.
+    /// Waiting would change nothing.
     ForGood(String),
 }

@@ -8,7 +8,7 @@ pub struct Bar(ProgressBar);
 const STEPS: u64 = 1000;
 
 impl Bar {
-    /// An empty bar; invisible where stderr is no terminal.
+    /// Returns an empty bar, which is invisible if stderr is no terminal.
     pub fn new() -> Self {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr_with_hz(10));
         if let Ok(style) = ProgressStyle::with_template("{bar:40.yellow/238} {percent:>3} %  {msg}") {
@@ -17,7 +17,7 @@ impl Bar {
         Self(bar)
     }
 
-    /// Where it stands now.
+    /// Moves the bar to a share of the work, 0 to 1, with a word about what is being done.
     pub fn set(&self, share: f64, doing: impl Into<String>) {
         self.0.set_message(doing.into());
         self.0.set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);

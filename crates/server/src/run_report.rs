@@ -1,4 +1,4 @@
-//! What a run on live robots was like.
+//! Report of a run on live robots.
 
 use lightbots_api::{self as api, rounded};
 use lightbots_base::Instant;
@@ -11,10 +11,10 @@ use crate::failure::Failure;
 use crate::numbers::rounded_spread;
 use crate::{commands, say};
 
-/// The most issues of a run that are kept.
+/// Most issues of a run that are kept.
 const ISSUES_MAX: usize = 500;
 
-/// A run, from its events.
+/// Report of a run, made from the run's events.
 #[derive(Clone, Debug, Default)]
 pub struct RunReport {
     frames: usize,
@@ -22,7 +22,7 @@ pub struct RunReport {
     began: Option<Instant>,
     duration_s: f64,
     frames_played: usize,
-    /// Between the first and the last arrival in a frame, one value a frame.
+    /// Time between the first and the last arrival in a frame, one value a frame.
     spreads_s: Vec<f64>,
     errors_m: Vec<f64>,
     dropouts: usize,
@@ -46,17 +46,17 @@ struct Summary<'a> {
 }
 
 impl RunReport {
-    /// Of a run of this show that has not begun.
+    /// Returns the report of a run of this show that has not begun.
     pub fn new(show: &Show) -> Self {
         Self { frames: show.frames.len(), ..Self::default() }
     }
 
-    /// Whether the places of robots belong to what happened.
+    /// Whether [`Self::add`] needs the places of robots for this event.
     pub fn wants_places(event: &Event) -> bool {
         matches!(event.kind, EventKind::FrameReached { .. })
     }
 
-    /// Takes in what happened; `places` where [`Self::wants_places`].
+    /// Adds an event. `places` is a snapshot if [`Self::wants_places`] returns `true`.
     pub fn add(&mut self, event: &Event, places: Option<&Snapshot>) {
         match &event.kind {
             EventKind::RunBegun { robots, .. } => self.robots = *robots,
@@ -66,7 +66,7 @@ impl RunReport {
             EventKind::FrameReached { frame, spread, .. } => {
                 self.spreads_s.push(spread.as_secs());
                 self.frames_played += 1;
-                // Without air time the next drive may have begun: its goals are not this frame's.
+                // Without air time the next drive may have begun, whose goals are not those of this frame.
                 let stands =
                     |snapshot: &&Snapshot| snapshot.run.as_ref().is_none_or(|run| run.frame == *frame);
                 let robots = places.filter(stands).into_iter().flat_map(|snapshot| &snapshot.robots);
@@ -90,17 +90,17 @@ impl RunReport {
         }
     }
 
-    /// Puts what was known before the run in front.
+    /// Adds issues that were found before the run, in front of the others.
     pub fn add_issues(&mut self, issues: &Issues) {
         self.issues.splice(0..0, issues.iter().cloned());
     }
 
-    /// Something was wrong with the broker.
+    /// Adds a warning about the broker.
     pub fn warn(&mut self, line: String) {
         self.issues.push(Issue::warning("broker", line));
     }
 
-    /// Whether robots were sent anywhere.
+    /// Whether the run has begun, with at least one robot.
     pub fn has_begun(&self) -> bool {
         self.robots > 0
     }
@@ -117,13 +117,13 @@ impl RunReport {
             && self.dropouts <= self.rejoined
     }
 
-    /// How much was played, 0 to 1.
+    /// Share of the frames that were played, 0 to 1.
     pub fn share(&self) -> f64 {
         (self.frames_played as f64 / self.frames.max(1) as f64).min(1.0)
     }
 }
 
-/// What of a run belongs in its report, as an issue.
+/// Returns the issue for an event; `None` if the report has none for it.
 fn issue(kind: &EventKind) -> Option<Issue> {
     let (code, frame) = match kind {
         EventKind::Disconnected => ("broker-lost", None),
@@ -139,7 +139,7 @@ fn issue(kind: &EventKind) -> Option<Issue> {
         EventKind::RunEnded { outcome: RunOutcome::Aborted, .. } => ("aborted", None),
         _ => return None,
     };
-    // One that drops out may come back: whether it did is told by `ok`.
+    // A robot that drops out may come back, and `ok` counts whether it did.
     let severity = if code == "dropout" { Severity::Warning } else { kind.severity() };
     let issue = Issue { severity, ..Issue::error(code, kind.to_string()) };
     let issue = match kind {
@@ -149,7 +149,7 @@ fn issue(kind: &EventKind) -> Option<Issue> {
     Some(frame.map_or(issue.clone(), |frame| issue.in_frame(frame)))
 }
 
-/// The report on stdout.
+/// Prints the report on stdout, as JSON or as lines for people.
 pub fn print(report: RunReport, json: bool) -> Result<(), Failure> {
     let spread = |values: &[f64], decimals: i32| rounded_spread(Spread::of(values), decimals);
     let summary = Summary {

@@ -2,18 +2,18 @@
 
 use std::io::Write;
 
-/// A line on stdout.
+/// Prints a line on stdout.
 pub fn line(text: &str) {
     let mut out = std::io::stdout().lock();
     let _ = writeln!(out, "{text}").and_then(|()| out.flush());
 }
 
-/// A line on stderr that says what went wrong.
+/// Prints a line on stderr that says what went wrong.
 pub fn error(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "error: {text}");
 }
 
-/// A line on stderr worth knowing.
+/// Prints a note on stderr.
 pub fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

@@ -1,13 +1,13 @@
-//! Lines for people as sentences.
+//! Turns lines for people into sentences.
 
-/// A line with a capital letter first.
+/// Returns a line with a capital letter first.
 pub fn capitalised(line: &str) -> String {
     let mut letters = line.chars();
     let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
     first + letters.as_str()
 }
 
-/// A line as a sentence: a capital letter first, a full stop last.
+/// Returns a line as a sentence: a capital letter first, a full stop last.
 pub fn sentence(line: &str) -> String {
     capitalised(line.trim_end_matches('.')) + "."
 }

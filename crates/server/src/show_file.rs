@@ -1,4 +1,4 @@
-//! Shows from files.
+//! Reads and writes files of shows.
 
 use std::path::Path;
 
@@ -21,23 +21,24 @@ pub struct Opened {
     pub show: Show,
     /// Why the file holds more than the show; `None`: all of it was understood.
     pub unread: Option<String>,
-    /// What reading and validating it found.
+    /// Issues that were found when the show was read and validated.
     pub issues: Issues,
 }
 
-/// The show of a file, with the floor and identity of the command line. A failure is one line with the file's name.
+/// Reads the show of a file, with the floor and identity of the command line. The error is one line with the file's
+/// name.
 pub fn open(path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     let bytes = bytes(path)?;
     interpret(&bytes, path, arguments)
 }
 
-/// What a file of any format holds. A failure is one line with the file's name.
+/// Reads what a file of any format holds. The error is one line with the file's name.
 pub fn load(path: &Path) -> Result<Loaded, Failure> {
     let bytes = bytes(path)?;
     loaded(&bytes, path)
 }
 
-/// The bytes of a file that is not too long to be a show.
+/// Reads a file that is not too long to be a show.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let unreadable = |what: String| Failure::input(format!("{}: {what}", path.display()));
     let about = std::fs::metadata(path).map_err(|error| unreadable(format!("cannot be read: {error}")))?;
@@ -55,7 +56,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     read_bounded(path, MAX_BYTES as u64).map_err(|error| unreadable(format!("cannot be read: {error}")))
 }
 
-/// The format that the ending of a file's name stands for.
+/// Returns the format that the ending of a file's name stands for. Error if no format has this ending.
 pub fn format_of(path: &Path) -> Result<&'static Format, Failure> {
     let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
     for_file(&name).ok_or_else(|| {
@@ -64,12 +65,12 @@ pub fn format_of(path: &Path) -> Result<&'static Format, Failure> {
     })
 }
 
-/// Writes a file. A failure is one line with the file's name.
+/// Writes a file. The error is one line with the file's name.
 pub fn write(path: &Path, bytes: Vec<u8>) -> Result<(), Failure> {
     std::fs::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
-/// The show in a file's bytes.
+/// Reads the show in the bytes of the file at `path`, with the floor and identity of the command line.
 pub fn interpret(bytes: &[u8], path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     Ok(prepare(loaded(bytes, path)?, arguments))
 }
@@ -100,7 +101,7 @@ fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
     Opened { show, unread, issues }
 }
 
-/// Says that a show keeps the floor it has, where another was asked for.
+/// Returns the warning that a show keeps its own floor, if `--floor` differs from it.
 fn floor_ignored(stage: &Stage, (width_m, depth_m): (f64, f64)) -> Option<Issue> {
     let same = (stage.width_m, stage.depth_m) == (width_m, depth_m);
     let message = format!(

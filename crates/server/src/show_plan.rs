@@ -1,4 +1,4 @@
-//! Plans of whole shows: for the screen, for `check` and for `plan`.
+//! Plans whole shows: for the screen, for `check` and for `plan`.
 
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,13 +12,13 @@ use lightbots_show::{Assets, Issue, Issues, Show, starting_places};
 
 use crate::threads::Threads;
 
-/// Plans a show from its starting places. `found` is what reading and validating it showed.
+/// Plans a show from its starting places. `found` has the issues of reading and validating it.
 pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
-    // It is never given up.
+    // This planning is never cancelled.
     plan_unless(show, found, &|| false).unwrap_or_default()
 }
 
-/// The same, given up as soon as `is_wanted` says so.
+/// As [`plan`], but cancelled as soon as `is_wanted` returns `true`.
 pub fn plan_unless(
     show: &Show,
     found: &Issues,
@@ -40,12 +40,12 @@ fn document(show: &Show, found: &Issues, plan: &ShowPlan, began: Instant) -> api
     plan_document(plan, &found, plan_ms)
 }
 
-/// The last plan that was made: a show whose light, colours or names alone were changed is not planned again.
+/// The latest plan. A show in which only light, colours or names were changed is not planned again.
 #[derive(Debug, Default)]
 pub struct LastPlan(Mutex<Option<(Show, Arc<ShowPlan>)>>);
 
 impl LastPlan {
-    /// Plans a show as [`plan_unless`] does, or takes the last plan if robots drive the same.
+    /// Plans a show as [`plan_unless`] does, or uses the latest plan if the robots' drives are the same.
     pub fn plan_unless(
         &self,
         show: &Show,
@@ -82,15 +82,16 @@ impl io::Write for Hashed {
     }
 }
 
-/// Hash of all that robots' drives depend on. It reads the whole show: not for a task that others wait for.
+/// Returns a hash of all that robots' drives depend on. It reads the whole show, so it must not run in a task that
+/// others wait for.
 pub fn drives_hash(show: &Show) -> u64 {
     let mut hashed = Hashed(StateHash::new());
-    // Neither a show nor the hash refuses anything.
+    // Neither serialising a show nor hashing it fails.
     let _ = serde_json::to_writer(io::BufWriter::new(&mut hashed), &driven(show));
     hashed.0.finish()
 }
 
-/// The show without what robots' drives do not depend on. A field that is not named here counts.
+/// Returns the show without everything that robots' drives do not depend on. A field that is not named here is kept.
 fn driven(show: &Show) -> Show {
     let mut driven = Show {
         name: String::new(),
@@ -112,7 +113,7 @@ fn driven(show: &Show) -> Show {
     driven
 }
 
-/// What is said of a show whose planning took too long: no part of a plan.
+/// Returns what clients get for a show whose planning took too long: issues, and no part of a plan.
 pub fn cut_off(found: &Issues, budget: Duration) -> api::Plan {
     let message = format!(
         "planning took longer than {} s and was cut off: check the show on the command line, make it smaller, or start \
@@ -142,7 +143,7 @@ mod tests {
         let plan = |show: &Show, gives_up: bool| last.plan_unless(show, &Vec::new(), &|| gives_up);
         let first = plan(&show(), false).expect("it is not given up");
         assert_eq!(first.transitions.len(), 1);
-        // What is given up at once can only be there already.
+        // Planning is cancelled at once here, so that a result can only be a remembered one.
         let mut lit = show();
         let (name, span, settings) = (String::new(), LayerSpan::Show, Vec::new());
         lit.layers.push(Layer { kind: "fire".into(), name, span, settings });

@@ -1,8 +1,8 @@
 //! Earlier saved states of shows: `history/NAME/NUMBER.lightbots.json` in the library's folder, counted up.
 //!
-//! A show's file goes there when it is replaced or deleted, as a second name of the same file: no byte is copied, and a
-//! crash in between leaves one state twice at most. The last [`STATES`] are kept, and of older ones the last of each day for
-//! [`DAYS`]: a screen saves after every change, so that the last states alone may span a minute.
+//! When a show's file is replaced or deleted, a hard link to the old file is made there. No byte is copied, and a crash
+//! in between leaves one state twice at most. The last [`STATES`] states are kept, and of older ones the last of each
+//! day for [`DAYS`] days. A screen saves after every change, so the last states alone may span only a minute.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -14,9 +14,9 @@ use super::names;
 use super::version::modified_ms;
 use crate::disk;
 
-/// States of a show that are kept whatever their age.
+/// Number of the latest states of a show that are kept whatever their age.
 pub const STATES: usize = 20;
-/// Days for which the last state of each is kept, and the states of a deleted show.
+/// Number of days for which the last state of each day is kept, and the states of a deleted show.
 const DAYS: u64 = 30;
 const DAY_MS: u64 = 24 * 3600 * 1000;
 
@@ -25,7 +25,7 @@ const DAY_MS: u64 = 24 * 3600 * 1000;
 pub struct States(PathBuf);
 
 impl States {
-    /// The states in a folder, which is made with the first of them.
+    /// Returns the states in a folder, which is made with the first of them.
     pub fn new(folder: PathBuf) -> Self {
         Self(folder)
     }
@@ -43,12 +43,13 @@ impl States {
         states
     }
 
-    /// The file of a state.
+    /// Returns the file of a state, if there is one.
     pub fn file(&self, show: &str, number: u32) -> Option<PathBuf> {
         self.of(show).into_iter().find_map(|(other, file)| (other == number).then_some(file))
     }
 
-    /// Makes a show's file a state, and removes those that are too many. The file stays where it is, too.
+    /// Keeps a show's file as a further state, and removes states that are too many. The file itself stays in its
+    /// place. Does nothing if there is no file.
     pub fn keep(&self, show: &str, file: &Path) -> io::Result<()> {
         if !file.is_file() {
             return Ok(());
@@ -68,7 +69,7 @@ impl States {
         Ok(())
     }
 
-    /// Makes the states of one show earlier states of another: the show has a new name.
+    /// Moves the states of the show `from` behind those of the show `to`, which is its new name.
     pub fn hand_over(&self, from: &str, to: &str) -> io::Result<()> {
         if from == to {
             return Ok(());
@@ -98,7 +99,8 @@ impl States {
         disk::remove_drafts(&self.0.join(show));
     }
 
-    /// Removes the states of shows that were deleted long ago. `there`: the shows there are.
+    /// Removes the states of shows that were deleted more than [`DAYS`] days ago. `there` has the names of all shows
+    /// that exist.
     pub fn sweep(&self, there: &BTreeSet<String>) {
         let longest = Duration::from_millis(DAYS * DAY_MS);
         for show in self.shows().into_iter().filter(|show| !there.contains(show)) {
@@ -114,7 +116,8 @@ impl States {
     }
 }
 
-/// The files of states, the newest first, that are not kept. `saved_ms` tells when a file was saved.
+/// Returns the files of `states`, the newest first, that are not to be kept. `saved_ms` returns when a file was saved,
+/// milliseconds since 1970.
 fn too_many(states: &[(u32, PathBuf)], saved_ms: impl Fn(&Path) -> u64) -> Vec<PathBuf> {
     let newest = states.first().map_or(0, |(_, file)| saved_ms(file));
     let mut days = BTreeSet::new();
@@ -130,7 +133,7 @@ fn too_many(states: &[(u32, PathBuf)], saved_ms: impl Fn(&Path) -> u64) -> Vec<P
     dropped
 }
 
-/// Copies a file with the time of its change, where the file system has no second names.
+/// Copies a file with its time of change, for file systems without hard links.
 fn copy(from: &Path, to: &Path) -> io::Result<()> {
     let modified = fs::metadata(from)?.modified()?;
     disk::replace(to, &super::show_files::read(from)?, disk::Readers::All)?;

@@ -1,8 +1,10 @@
-//! What a playlist does next: a function of its entries, of local time, and of what has happened. No clock, no IO.
+//! Decides what a playlist does next, as a function of its entries, of local time, and of what has happened. No clock,
+//! no IO.
 //!
-//! An entry with a time of day and the entries that follow it are a **chain**. A chain is played on a **day**, the local day
-//! of its first entry's time, and may go on after midnight. A **turn** is an entry on a day. It is due at its time, or a
-//! pause after the turn before it was over, in whatever way. It begins within [`LATE_S`] of that, or is skipped.
+//! An entry with a time of day and the entries that follow it are a **chain**. A chain is played on a **day**, the
+//! local day of its first entry's time, and may continue after midnight. A **turn** is an entry on a day. A turn is due
+//! at its time, or a pause after the turn before it was over, in whatever way that one ended. It begins within
+//! [`LATE_S`] seconds of that moment, or is skipped.
 
 use std::collections::BTreeMap;
 
@@ -12,20 +14,21 @@ use serde::{Deserialize, Serialize};
 use super::list::{PlaylistTurn, TurnStart};
 use super::times::{date_of, moment};
 
-/// How late a show may begin, seconds: an audience still waits then. A turn that is later is skipped and never caught up.
+/// Longest delay of a show, seconds: an audience still waits then. A turn that is later is skipped and not played
+/// afterwards.
 pub const LATE_S: i64 = 300;
 
-/// The switch, and what happened to each entry last.
+/// Whether the playlist is on, and the latest turn of each entry.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DayLog {
-    /// When the playlist was switched on, seconds since 1970; `None`: it is off.
+    /// Time at which the playlist was switched on, seconds since 1970; `None` if it is off.
     #[serde(default)]
     pub on_since_s: Option<i64>,
-    /// Why nothing starts until a person lets the playlist go on: one sentence.
+    /// Why the playlist is held, one sentence: nothing starts until a person resumes it. `None` if it is not held.
     #[serde(default)]
     pub held: Option<String>,
-    /// By the entries' numbers.
+    /// Latest turn of each entry, by the entry's number.
     #[serde(default)]
     pub turns: BTreeMap<u32, TurnRecord>,
 }
@@ -34,17 +37,17 @@ pub struct DayLog {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TurnRecord {
-    /// The day of its chain.
+    /// Day of the entry's chain.
     pub date: NaiveDate,
     pub stage: TurnStage,
-    /// When that began, seconds since 1970.
+    /// Time at which the stage began, seconds since 1970.
     pub at_s: i64,
-    /// Why it failed or was skipped.
+    /// Why the turn failed or was skipped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<String>,
 }
 
-/// How far an entry has come on a day.
+/// Stage of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TurnStage {
@@ -60,41 +63,41 @@ pub enum TurnStage {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TurnEnd {
     Played,
-    /// Why, with a remedy.
+    /// The turn failed: why, with a remedy.
     Failed(String),
-    /// Why, with a remedy.
+    /// The turn was skipped: why, with a remedy.
     Skipped(String),
 }
 
-/// An entry on a day.
+/// A turn: an entry on a day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TurnKey {
     pub id: u32,
     pub date: NaiveDate,
 }
 
-/// What is to be done now.
+/// What the playlist does next.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlaylistAct {
     Nothing,
-    /// Drive robots to their starting places, because the pause before this turn began.
+    /// Drive robots to their starting places, because the pause before this turn has begun.
     Home(TurnKey),
-    /// Begin the show, or go on trying until this moment, seconds since 1970.
+    /// Begin the show, or keep trying until this moment, seconds since 1970.
     Play(TurnKey, i64),
-    /// Its last moment is over, seconds since 1970.
+    /// Skip the turn, because the last moment for its start, seconds since 1970, is over.
     Skip(TurnKey, i64),
 }
 
-/// Where a turn is.
+/// State of a turn on a day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnPlace<'a> {
-    /// It plays or is over.
+    /// The turn plays or is over.
     Begun(&'a TurnRecord),
-    /// It starts at this moment, seconds since 1970.
+    /// The turn starts at this moment, seconds since 1970.
     Due { at_s: i64, is_home_asked: bool },
-    /// The turn before it is not over.
+    /// The start is unknown, because the turn before is not over.
     Unknown,
-    /// The time of its chain was over when the playlist was switched on.
+    /// The time of the chain was over when the playlist was switched on.
     Past,
 }
 
@@ -105,7 +108,7 @@ impl TurnStage {
 }
 
 impl DayLog {
-    /// Notes how far a turn is.
+    /// Records the stage of a turn. `at_s` is the time at which it began, seconds since 1970.
     pub fn note(&mut self, key: TurnKey, stage: TurnStage, at_s: i64, line: Option<String>) {
         self.turns.insert(key.id, TurnRecord { date: key.date, stage, at_s, line });
     }
@@ -117,7 +120,7 @@ impl DayLog {
     }
 }
 
-/// What to do now. `is_free`: robots do nothing, so a show could begin.
+/// Returns what to do at `now_s`, seconds since 1970. `is_free`: robots do nothing, so a show could begin.
 pub fn next_act<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
@@ -146,12 +149,12 @@ pub fn next_act<Z: TimeZone>(
             }
         }
     }
-    // The earliest first; of two at one time the first of the list.
+    // Home comes last, and else the earliest is first; of two at the same time, the first in the list.
     acts.sort_by_key(|(at_s, act)| (matches!(act, PlaylistAct::Home(_)), *at_s));
     acts.into_iter().next().map_or(PlaylistAct::Nothing, |(_, act)| act)
 }
 
-/// The turns of a day, as far as the chains of the list are played on it.
+/// Returns the turns of a day with their states, without chains that are not played on that day.
 pub fn places<'a, Z: TimeZone>(
     list: &'a [PlaylistTurn],
     log: &'a DayLog,
@@ -159,7 +162,7 @@ pub fn places<'a, Z: TimeZone>(
     on_since_s: i64,
 ) -> Vec<(&'a PlaylistTurn, TurnPlace<'a>)> {
     let mut found = Vec::new();
-    // When the turn before was over; `None`: it is not.
+    // Time at which the turn before was over; `None` if it is not.
     let mut before: Option<i64> = None;
     let (mut is_played, mut is_past) = (false, false);
     for turn in list {
@@ -168,7 +171,7 @@ pub fn places<'a, Z: TimeZone>(
         let begun = own.filter(|record| record.stage != TurnStage::SentHome);
         let due = match &turn.start {
             TurnStart::At { time, .. } => {
-                // A chain that has begun on a later day does not go on with this one.
+                // A chain that has already begun on a later day is not played for this day any more.
                 let is_newer = record.is_some_and(|record| record.date > date);
                 is_played = begun.is_some() || turn.is_on(date) && !is_newer;
                 let at_s = moment(zone, date, *time);

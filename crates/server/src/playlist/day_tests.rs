@@ -1,4 +1,4 @@
-//! Days of a playlist: midnight, weekdays, clocks that are put forward and back, overlap, failures.
+//! Tests of days of a playlist: midnight, weekdays, clocks that are put forward and back, overlap, failures.
 
 use chrono::{FixedOffset, NaiveDateTime, NaiveTime};
 
@@ -48,7 +48,7 @@ impl TimeZone for Berlin {
     }
 }
 
-/// A local time in summer or winter that is there once, seconds since 1970.
+/// Returns a local time that occurs once, in summer or winter, as seconds since 1970.
 fn at(text: &str) -> i64 {
     Berlin.from_local_datetime(&utc(text)).single().unwrap().timestamp()
 }
@@ -84,7 +84,7 @@ fn act(list: &[PlaylistTurn], log: &DayLog, now: &str) -> PlaylistAct {
     next_act(list, log, (at(now), &Berlin), true)
 }
 
-/// Plays a day: each turn takes `run_s` seconds. When each began, and what was skipped, in order.
+/// Plays a day on which each turn takes `run_s` seconds. Returns when each turn began and which were skipped, in order.
 fn played(list: &[PlaylistTurn], log: &mut DayLog, span: (i64, i64), run_s: i64) -> Vec<String> {
     let mut told = Vec::new();
     let mut runs: Option<(TurnKey, i64)> = None;

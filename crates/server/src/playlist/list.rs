@@ -6,7 +6,8 @@ use lightbots_show::SPEED_MIN_PERCENT;
 
 /// The most entries: a show every quarter of an hour, all day.
 pub const ENTRIES_MAX: usize = 96;
-/// The longest pause, minutes: half a day. A follower of yesterday's last entry then still begins before tomorrow.
+/// Longest pause, minutes: half a day. An entry that follows the last one of yesterday then still begins before
+/// tomorrow.
 const PAUSE_MAX_MIN: u32 = 720;
 /// The longest name of a show, bytes: as in the library.
 const NAME_MAX: usize = 200;
@@ -41,23 +42,23 @@ pub enum TurnStart {
         /// Days of the week, Monday first.
         days: [bool; 7],
     },
-    /// After the entry before it.
+    /// After the end of the entry before it and a pause of `pause_s` seconds.
     After {
         pause_s: i64,
-        /// Robots drive to their starting places at the begin of the pause.
+        /// Whether robots drive to their starting places at the beginning of the pause.
         home: bool,
     },
 }
 
 impl PlaylistTurn {
-    /// Whether the entry has a time on that day.
+    /// Whether the entry has a time of day and is played on this day of the week.
     pub fn is_on(&self, date: NaiveDate) -> bool {
         let day = date.weekday().num_days_from_monday() as usize;
         matches!(&self.start, TurnStart::At { days, .. } if days[day])
     }
 }
 
-/// Checks all entries. The fault names the entry, what is wrong, and what to do.
+/// Checks all entries. The error names the entry, what is wrong, and what to do.
 pub fn read(entries: &[PlaylistEntry]) -> Result<Vec<PlaylistTurn>, String> {
     if entries.len() > ENTRIES_MAX {
         return Err(format!("{} entries are too many: at most {ENTRIES_MAX} are possible", entries.len()));
@@ -113,7 +114,7 @@ fn start(entry: &PlaylistEntry) -> Result<TurnStart, String> {
     }
 }
 
-/// The entry as clients and files have it.
+/// Returns the entry as clients and files have it.
 pub fn entry(turn: &PlaylistTurn) -> PlaylistEntry {
     let mut entry = PlaylistEntry {
         id: turn.id,

@@ -1,7 +1,7 @@
-//! A day by playlist: shows at set times, pauses between them, and what became of each.
+//! Plays shows by a playlist, at set times with pauses between them, and records what became of each.
 //!
-//! `list` has the entries, `day` what happened and, as a pure function of both and of the time, what to do next;
-//! `view` is the same for screens, `store` keeps both in files. The task that acts on it is `playlist_player`.
+//! `list` has the entries. `day` has what happened, and decides what to do next, as a pure function of both and of the
+//! time. `view` presents that to screens, and `store` keeps it in files. The task `playlist_player` carries it out.
 
 mod day;
 mod list;

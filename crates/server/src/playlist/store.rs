@@ -1,6 +1,7 @@
-//! The playlist in two files of the data folder: the entries, and what happened to them.
+//! The playlist in two files of the data folder: one for the entries, one for what happened to them.
 //!
-//! A backup leaves the second one out (`backup/paths.rs`): robots must not set off because an old folder was brought back.
+//! A backup leaves the second one out (`backup/paths.rs`): robots must not start to drive because an old folder was
+//! restored.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use crate::live::clock::unix_ms;
 
 const FILE: &str = "playlist.json";
 const DAY_FILE: &str = "playlist-day.json";
-/// The longest file, bytes: an entry has at most 500.
+/// Longest file, bytes: an entry has at most 500.
 const FILE_MAX: u64 = 256 << 10;
 
 /// The playlist of a data folder. Clones share it.
@@ -33,9 +34,9 @@ pub struct PlaylistStore {
 /// Why a playlist was not changed, for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ChangeRefused {
-    /// An entry is impossible.
+    /// An entry is invalid.
     Wrong(String),
-    /// Another client changed it first.
+    /// Another client changed the playlist first.
     Stale(String),
     /// The file of the playlist cannot be read.
     Fault(String),
@@ -48,7 +49,7 @@ struct Kept {
     revision: u64,
     list: Vec<PlaylistTurn>,
     log: DayLog,
-    /// Why the files cannot be read, with file, place and remedy.
+    /// Why the files cannot be read, with file, place and remedy; `None` if they were read.
     fault: Option<String>,
 }
 
@@ -60,13 +61,13 @@ struct PlaylistFile {
 }
 
 impl PlaylistStore {
-    /// The playlist of a folder; empty where there is none. A file that cannot be read is kept, and nothing is played until
-    /// it can.
+    /// Reads the playlist of a data folder; it is empty if there are no files. If a file cannot be read, it is kept,
+    /// and nothing is played until it can be read.
     pub fn load(folder: &Path) -> Self {
         let store = Self { folder: folder.to_owned(), kept: Arc::default() };
         let mut kept = store.lock();
         store.read(&mut kept);
-        // A client that read the playlist of an earlier start has another revision.
+        // Revisions begin at the time of the start, so that a client from before a restart has another one.
         kept.revision = unix_ms();
         if let Some(fault) = &kept.fault {
             tracing::error!("{fault}");
@@ -75,7 +76,7 @@ impl PlaylistStore {
         store
     }
 
-    /// The playlist for clients.
+    /// Returns the playlist for clients.
     pub fn state(&self) -> PlaylistState {
         let kept = self.refreshed();
         let now = (now_s(), &Local);
@@ -91,7 +92,7 @@ impl PlaylistStore {
         }
     }
 
-    /// Replaces switch and entries.
+    /// Replaces the entries, and switches the playlist on or off.
     pub fn change(&self, change: PlaylistChange) -> Result<(), ChangeRefused> {
         let mut kept = self.refreshed();
         if let Some(fault) = &kept.fault {
@@ -119,44 +120,44 @@ impl PlaylistStore {
         Ok(())
     }
 
-    /// Whether shows start by themselves, or one of them plays.
+    /// Whether the playlist is on, or one of its shows still plays.
     pub fn is_on(&self) -> bool {
         let kept = self.refreshed();
         kept.log.on_since_s.is_some() || kept.log.playing().is_some()
     }
 
-    /// Whether a person has to let it go on.
+    /// Whether the playlist is held, so that a person has to resume it.
     pub fn is_held(&self) -> bool {
         self.lock().log.held.is_some()
     }
 
-    /// What is to be done now. `is_free`: robots do nothing.
+    /// Returns what to do at present. `is_free`: robots do nothing.
     pub fn next_act(&self, is_free: bool) -> PlaylistAct {
         let kept = self.refreshed();
         next_act(&kept.list, &kept.log, (now_s(), &Local), is_free)
     }
 
-    /// The entry of that number.
+    /// Returns the entry with this number.
     pub fn turn(&self, id: u32) -> Option<PlaylistTurn> {
         self.lock().list.iter().find(|turn| turn.id == id).cloned()
     }
 
-    /// The turn that plays, if one does.
+    /// Returns the turn that plays, if one does.
     pub fn playing(&self) -> Option<TurnKey> {
         self.lock().log.playing()
     }
 
-    /// Robots were sent to their starting places before a turn.
+    /// Records that robots were sent to their starting places before a turn.
     pub fn sent_home(&self, key: TurnKey) {
         self.note(|log| log.note(key, TurnStage::SentHome, now_s(), None));
     }
 
-    /// A turn plays.
+    /// Records that a turn has begun to play.
     pub fn begins(&self, key: TurnKey) {
         self.note(|log| log.note(key, TurnStage::Playing, now_s(), None));
     }
 
-    /// A turn is over since this moment, seconds since 1970.
+    /// Records how a turn ended, and when: `at_s`, seconds since 1970.
     pub fn ends(&self, key: TurnKey, end: TurnEnd, at_s: i64) {
         let (stage, line) = match end {
             TurnEnd::Played => (TurnStage::Played, None),
@@ -166,7 +167,8 @@ impl PlaylistStore {
         self.note(|log| log.note(key, stage, at_s, line));
     }
 
-    /// Nothing starts from now on, if the playlist is on. Whether that is new.
+    /// Holds the playlist, if it is on: nothing starts until it is released. Returns `false` if it was held already or
+    /// is off.
     pub fn hold(&self, line: &str) -> bool {
         let is_new = {
             let kept = self.lock();
@@ -178,7 +180,7 @@ impl PlaylistStore {
         is_new
     }
 
-    /// Lets a held playlist go on. Whether it was held.
+    /// Releases a held playlist. Returns whether it was held.
     pub fn release(&self) -> bool {
         let was_held = self.is_held();
         if was_held {
@@ -187,7 +189,7 @@ impl PlaylistStore {
         was_held
     }
 
-    /// Changes what happened. Without a disk it is remembered as long as the program runs.
+    /// Changes the records in memory and on the disk. If the disk fails, they last until the program ends.
     fn note(&self, change: impl FnOnce(&mut DayLog)) {
         let mut kept = self.lock();
         change(&mut kept.log);
@@ -196,7 +198,7 @@ impl PlaylistStore {
         }
     }
 
-    /// The playlist; files that could not be read are read again.
+    /// Locks the playlist. Files that could not be read before are read again.
     fn refreshed(&self) -> MutexGuard<'_, Kept> {
         let mut kept = self.lock();
         if kept.fault.is_some() {
@@ -227,13 +229,13 @@ impl PlaylistStore {
         if list.iter().any(|turn| turn.id == 0) {
             let kept = Kept { log: log.clone(), ..Kept::default() };
             number(&mut list, &kept);
-            // What happens to an entry is noted by its number.
+            // The numbers are saved, because records refer to entries by number.
             self.write_list(&list).map_err(|error| self.unwritable(&error))?;
         }
         Ok((list, log))
     }
 
-    /// The value of a file; the usual one where there is no file.
+    /// Reads a value from a file; returns the default value if there is no file. `remedy` becomes part of the error.
     fn file<T: DeserializeOwned + Default>(&self, name: &str, remedy: &str) -> Result<T, String> {
         let path = self.folder.join(name);
         let fault = |why: String| {
@@ -264,8 +266,8 @@ impl PlaylistStore {
     }
 }
 
-/// Takes the number away from entries that start another show, or at another time: what happened today was not theirs. The
-/// one that plays keeps it.
+/// Sets the number of entries to 0 that start another show, or at another time, because the records are not about them.
+/// The entry that plays keeps its number.
 fn renew(list: &mut [PlaylistTurn], kept: &Kept) {
     let playing = kept.log.playing().map(|key| key.id);
     for turn in list.iter_mut().filter(|turn| Some(turn.id) != playing) {
@@ -276,7 +278,7 @@ fn renew(list: &mut [PlaylistTurn], kept: &Kept) {
     }
 }
 
-/// Gives numbers to entries without one.
+/// Numbers the entries that have the number 0.
 fn number(list: &mut [PlaylistTurn], kept: &Kept) {
     let known = list.iter().chain(&kept.list).map(|turn| turn.id);
     let mut last = known.chain(kept.log.turns.keys().copied()).max().unwrap_or(0);

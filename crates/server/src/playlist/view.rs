@@ -7,10 +7,10 @@ use super::day::{DayLog, LATE_S, TurnPlace, TurnStage, places};
 use super::list::PlaylistTurn;
 use super::times::{clock_text, date_of, day_text};
 
-/// Days ahead in which the next start is looked for: each weekday once, today twice.
+/// Number of days ahead in which the next start is searched: each weekday once, that of today twice.
 const AHEAD: u64 = 7;
 
-/// What became of each entry today. An entry of yesterday's chain that plays, or is still to come, counts, too.
+/// Returns what became of each entry today. For an entry of yesterday's chain that still plays, that counts.
 pub fn today<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
@@ -59,7 +59,7 @@ fn said<Z: TimeZone>(place: TurnPlace<'_>, zone: &Z) -> PlaylistToday {
     }
 }
 
-/// The entry that starts next; if the playlist is off: as if it was switched on now.
+/// Returns the entry that starts next. If the playlist is off, the result is as if it were switched on at `now_s`.
 pub fn next<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
