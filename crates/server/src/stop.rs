@@ -1,16 +1,16 @@
-//! Ctrl-C, TERM and HUP, which a closed terminal sends: installed before anything else, so that there is no moment in
-//! which they kill, and robots would not receive STOP.
+//! Handles Ctrl-C, TERM and HUP, which a closed terminal sends. The handlers are installed before anything else, so
+//! that at no moment a signal kills the program before robots receive STOP.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 use tokio::sync::watch;
 
-/// Nothing runs that would have to be stopped.
+/// Phase in which nothing runs that must be stopped: a signal ends the program.
 const STARTING: u8 = 0;
-/// A command without robots computes.
+/// Phase in which a command without robots computes: a signal ends the program.
 const COMPUTING: u8 = 1;
-/// A command listens to [`Stop::wait`].
+/// Phase in which a command waits by [`Stop::wait`]: the first signal requests a stop.
 const RUNNING: u8 = 2;
 
 /// Whether the user wants the program to stop. A second signal ends it at once.
@@ -21,7 +21,7 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// Installs the handlers. Must be called in the runtime.
+    /// Installs the signal handlers. Must be called in the runtime.
     pub fn install() -> Self {
         let (sender, wanted) = watch::channel(false);
         let phase = Arc::new(AtomicU8::new(STARTING));
@@ -30,25 +30,25 @@ impl Stop {
         Self { wanted, phase }
     }
 
-    /// Runs what only computes; a signal ends the program at once.
+    /// Runs a computation. A signal during it ends the program at once.
     pub fn at_once<T>(&self, compute: impl FnOnce() -> T) -> T {
         self.phase.store(COMPUTING, Ordering::Release);
         tokio::task::block_in_place(compute)
     }
 
-    /// From now on a signal does not end the program, but [`Stop::wait`].
+    /// From this call on, the first signal does not end the program, but makes [`Stop::wait`] return.
     pub fn take_over(&self) {
         self.phase.store(RUNNING, Ordering::Release);
     }
 
-    /// Returns once the user wants to stop.
+    /// Waits until the user wants the program to stop.
     pub async fn wait(&self) {
         let mut wanted = self.wanted.clone();
         // The sender lives as long as the program.
         let _ = wanted.wait_for(|wanted| *wanted).await;
     }
 
-    /// A wish to stop that comes true with this one, or earlier.
+    /// Returns a `Stop` that is requested together with this one, or earlier by its [`End`].
     pub fn child(&self) -> (Self, End) {
         let (child, end) = self.apart();
         let (sender, parent) = (end.0.clone(), self.clone());
@@ -63,7 +63,7 @@ impl Stop {
         (child, end)
     }
 
-    /// A wish to stop that comes true only by its [`End`], which must be kept until then.
+    /// Returns a `Stop` that is requested only by its [`End`]. The [`End`] must be kept until then.
     pub fn apart(&self) -> (Self, End) {
         let (sender, wanted) = watch::channel(false);
         (Self { wanted, phase: self.phase.clone() }, End(sender))
@@ -75,12 +75,12 @@ impl Stop {
     }
 }
 
-/// Ends what runs by a [`Stop::child`] or [`Stop::apart`].
+/// Requests the stop of a [`Stop::child`] or [`Stop::apart`].
 #[derive(Debug)]
 pub struct End(watch::Sender<bool>);
 
 impl End {
-    /// Ends it now.
+    /// Requests the stop.
     pub fn now(self) {
         self.0.send_replace(true);
     }
@@ -102,7 +102,7 @@ async fn listen(mut signals: Signals, sender: watch::Sender<bool>, phase: Arc<At
 struct Signals {
     interrupt: Option<tokio::signal::unix::Signal>,
     terminate: Option<tokio::signal::unix::Signal>,
-    /// `None` where the program was started to outlive its terminal, as `nohup` does.
+    /// The HUP signal; `None` if the program was started to outlive its terminal, as `nohup` does.
     hang_up: Option<tokio::signal::unix::Signal>,
 }
 
@@ -136,7 +136,7 @@ impl Signals {
     }
 }
 
-/// Whether this process was started with the signal ignored. Only Linux tells without unsafe code.
+/// Whether this process was started with HUP ignored. Only Linux reports that without unsafe code.
 #[cfg(unix)]
 fn ignores_hang_up() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -5,13 +5,13 @@ use std::time::Duration;
 
 use lightbots_plan::{WorkerTask, Workers};
 
-/// How often the calling thread asks for a cancellation while it waits for the others. A cancelled plan thus ends as soon
-/// as one of the planner's own loops would end it.
+/// Interval at which the calling thread checks for a cancellation while it waits for the others. A cancelled plan thus
+/// ends as early as in the planner's own loops.
 const POLL: Duration = Duration::from_millis(10);
-/// Most threads: memory is the limit beyond it, because each plans a drive of up to 10,000 robots.
+/// Most threads. Beyond it, memory is the limit, because each thread plans a drive of up to 10,000 robots.
 const MOST: usize = 16;
 
-/// As many threads as the machine has cores.
+/// Worker threads for the planner: one per core, at most [`MOST`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Threads;
 

@@ -1,4 +1,4 @@
-//! Devices of the robot of this process.
+//! Devices of the robot that this process controls.
 
 use crate::proximity::RAYS;
 
@@ -39,17 +39,17 @@ pub(crate) const SENSORS: [Tag; 2] = [6, 7];
 /// Tag of the first proximity sensor in `NAMES`.
 const PROXIMITY: Tag = 8;
 
-/// Tag of a name; 0: no such device.
+/// Returns the tag of a device by its name; 0 if there is no such device.
 pub(crate) fn tag(name: &[u8]) -> Tag {
     NAMES.iter().position(|known| *known == name).map_or(0, |index| index as Tag + 1)
 }
 
-/// Wheel of a tag in `tags`: 0 left, 1 right.
+/// Returns the wheel of a tag: 0 left, 1 right. `None` if the tag is not in `tags`.
 pub(crate) fn side(tags: [Tag; 2], tag: Tag) -> Option<usize> {
     tags.iter().position(|known| *known == tag)
 }
 
-/// Index of a proximity sensor by its tag, clockwise from the front.
+/// Returns the index of a proximity sensor by its tag, clockwise from the front. `None` for other devices.
 pub(crate) fn proximity(tag: Tag) -> Option<usize> {
     tag.checked_sub(PROXIMITY).map(usize::from).filter(|sensor| *sensor < RAYS)
 }

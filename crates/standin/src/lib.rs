@@ -30,13 +30,13 @@ pub extern "C" fn wb_robot_init() -> c_int {
     1
 }
 
-/// Advances the simulation by a step; −1: the simulation ends.
+/// Advances the simulation by `millis` milliseconds. Returns −1 if the simulation ends.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_step(millis: c_int) -> c_int {
     with(|robot| robot.step(millis))
 }
 
-/// Ends the process if the simulation ends.
+/// Disconnects from the floor. Ends the process if the simulation ends.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_cleanup() {
     with(|robot| robot.cleanup());
@@ -48,13 +48,13 @@ pub extern "C" fn wb_robot_get_name() -> *const c_char {
     with(|robot| robot.name.as_ptr())
 }
 
-/// Simulated seconds.
+/// Simulated time, seconds.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_get_time() -> c_double {
     with(|robot| robot.reply.time_s)
 }
 
-/// Milliseconds of a step.
+/// Basic step of the simulation, milliseconds.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_get_basic_time_step() -> c_double {
     16.0
@@ -73,13 +73,13 @@ pub unsafe extern "C" fn wb_robot_get_device(name: *const c_char) -> Tag {
     devices::tag(unsafe { CStr::from_ptr(name) }.to_bytes())
 }
 
-/// Sets a motor's target position, radians; infinity: without end.
+/// Sets a motor's target position, radians. With infinity, the motor turns at its rate without end.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_motor_set_position(tag: Tag, position: c_double) {
     with(|robot| robot.aim_motor(tag, position));
 }
 
-/// Sets a motor's rate, rad/s.
+/// Sets a motor's rate, rad/s. A negative rate is refused while the motor has a target position.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_motor_set_velocity(tag: Tag, radps: c_double) {
     with(|robot| robot.turn_motor(tag, radps));
@@ -121,7 +121,7 @@ pub extern "C" fn wb_compass_get_values(_tag: Tag) -> *const c_double {
     with(|robot| robot.compass().as_ptr())
 }
 
-/// Shows a colour.
+/// Sets the colour of the light.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_led_set(_tag: Tag, colour: c_int) {
     with(|robot| robot.command.colour = colour as u32);

@@ -12,9 +12,9 @@ pub const RATE_MAX_RADPS: f64 = 133.33;
 /// Last command of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
-    /// Target position as its sensor reads it, radians; infinite: without end.
+    /// Target position as the motor's sensor reads it, radians; infinite: the motor turns at its rate without end.
     pub target_rad: f64,
-    /// Rate, rad/s.
+    /// Rate, rad/s. Towards a target position it is a limit, and its sign is ignored.
     pub radps: f64,
 }
 
@@ -26,7 +26,7 @@ impl Default for Motor {
 }
 
 impl Motor {
-    /// Rate at this reading of its sensor, rad/s.
+    /// Returns the rate at which the motor turns while its sensor reads `read_rad`, rad/s.
     #[must_use]
     pub fn rate_radps(&self, read_rad: f64) -> f64 {
         if self.target_rad.is_infinite() {

@@ -12,7 +12,7 @@ pub const TABLE: [[f64; 3]; 5] = [
     [0.04, 0.0, 0.0],
 ];
 
-/// Value at a distance: linear between the rows, and that of the last row beyond them.
+/// Sensor value at a distance in metres: linear between the rows, and that of the last row beyond them.
 pub(crate) fn value(distance_m: f64) -> f64 {
     between(distance_m, 1)
 }
@@ -24,7 +24,7 @@ pub fn sigma_m(distance_m: f64) -> f64 {
     between(distance_m, 1) * between(distance_m, 2) / per_m
 }
 
-/// A column of the table at a distance.
+/// Returns a column of the table at a distance in metres, linear between the rows.
 fn between(distance_m: f64, column: usize) -> f64 {
     let pair = TABLE.windows(2).find(|pair| distance_m < pair[1][0]);
     pair.map_or(TABLE[TABLE.len() - 1][column], |pair| {

@@ -35,7 +35,7 @@ pub(crate) fn with<T>(action: impl FnOnce(&mut RobotProcess) -> T) -> T {
     }
 }
 
-/// Connects to the floor named in the environment.
+/// Connects to the floor at the address in the environment. Ends the process if that fails.
 pub(crate) fn connect() {
     let name = std::env::var("WEBOTS_ROBOT_NAME").unwrap_or_default();
     let Some(address) = std::env::var_os(socket::ADDRESS) else { fail("LIGHTBOTS_STANDIN is not set") };

@@ -52,12 +52,12 @@ pub fn drive(library: &LibController, settings: &DriverSettings) -> Result<(), M
     Ok(())
 }
 
-/// The robot's own clock.
+/// Converts the real time since the start to the robot's own clock.
 fn own(passed: std::time::Duration) -> Instant {
     Instant::from_secs(passed.as_secs_f64())
 }
 
-/// The smallest multiple of the world's step that is not below `STEP_MS`.
+/// Returns the step of the driver: the smallest multiple of the world's step that is not below `STEP_MS`, milliseconds.
 fn step_ms(basic_ms: f64) -> i32 {
     let basic_ms = basic_ms.max(1.0);
     ((STEP_MS / basic_ms).ceil().max(1.0) * basic_ms) as i32

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use crate::library_paths;
 
-/// A device of the robot; 0 is none.
+/// Tag of a device of the robot; 0 is no device.
 pub type DeviceTag = u16;
 
 /// libController, loaded and bound. All calls come from one thread: the library holds one lock during a step.
@@ -104,12 +104,12 @@ impl LibController {
         })
     }
 
-    /// Connects to the simulation; waits up to about 50 s, and ends the process if there is none.
+    /// Connects to the simulation. Waits up to about 50 s, and ends the process if there is no simulation.
     pub fn init(&self) {
         (self.init)();
     }
 
-    /// Advances the simulation by `millis`, a multiple of the basic step; `false`: the simulation ends.
+    /// Advances the simulation by `millis`, a multiple of the basic step. Returns `false` if the simulation ends.
     pub fn step(&self, millis: i32) -> bool {
         (self.step)(millis) != -1
     }
@@ -145,12 +145,14 @@ impl LibController {
         Some((self.device)(name.as_ptr())).filter(|tag| *tag != 0)
     }
 
-    /// Sets a motor's target as its sensor reads it, radians; infinite: without end.
+    /// Sets a motor's target position as its sensor reads it, radians. With infinity, the motor turns at its rate
+    /// without end.
     pub fn motor_position(&self, motor: DeviceTag, radians: f64) {
         (self.motor_position)(motor, radians);
     }
 
-    /// Sets a motor's rate, rad/s. Negative only without a target position: towards a position, Webots chooses the sign.
+    /// Sets a motor's rate, rad/s. It may be negative only without a target position: towards a position, Webots
+    /// chooses the sign.
     pub fn motor_velocity(&self, motor: DeviceTag, radps: f64) {
         (self.motor_velocity)(motor, radps);
     }
@@ -180,12 +182,12 @@ impl LibController {
         (self.compass_enable)(compass, millis);
     }
 
-    /// The direction of north in the body of the robot; NaN before the first sample.
+    /// Direction of north in body space; NaN before the first sample.
     pub fn compass_values(&self, compass: DeviceTag) -> [f64; 3] {
         three((self.compass_values)(compass))
     }
 
-    /// Sets a light, R·65536 + G·256 + B.
+    /// Sets the colour of a light, R·65536 + G·256 + B.
     pub fn led_set(&self, led: DeviceTag, colour: u32) {
         (self.led_set)(led, colour as c_int);
     }

@@ -58,7 +58,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     outcome.map_err(|missing| missing.to_string())
 }
 
-/// The stated broker, or `BROKER`.
+/// Returns the broker of the command line, or `BROKER` if there is none.
 fn broker(arguments: &Arguments) -> Result<BrokerUrl, ArgumentsError> {
     let own = [BROKER.to_owned()];
     arguments.login.broker(if arguments.broker.is_empty() { &own } else { &arguments.broker })

@@ -50,7 +50,7 @@ fn disc_through(right: Vec2, left: Vec2) -> Option<Vec2> {
     (beyond_m2 > 0.0).then(|| middle + away * beyond_m2.sqrt())
 }
 
-/// Enters a robot around `centre` into the gaps of the sensors that see it.
+/// Lowers the gaps of those sensors that see a robot around `centre`, if it is nearer.
 fn see(gaps_m: &mut [f64; SENSORS], centre: Vec2) {
     for (sensor, gap_m) in gaps_m.iter_mut().enumerate() {
         let looks = Vec2::unit(sensor as f64 * FRAC_PI_4);

@@ -49,7 +49,8 @@ pub(crate) struct WorldClock {
 }
 
 impl WorldClock {
-    /// The time of the step at `simulated_s` of the simulation and `real` of the own clock. `drives`: a route is under way.
+    /// Returns the time of the step at `simulated_s` seconds of the simulation, when the own clock is at `passed`.
+    /// `drives`: a route is under way.
     pub(crate) fn tick(&mut self, simulated_s: f64, passed: Duration, drives: bool) -> Tick {
         let real_s = passed.as_secs_f64();
         // The first step after a pause counts as one usual step.
@@ -88,7 +89,7 @@ mod tests {
             Self { robots, simulated_s: 0.0, real_s: 0.0, ticks: Vec::new() }
         }
 
-        /// `steps` steps of this real duration each.
+        /// Runs `steps` steps, each of which takes this real time, seconds.
         fn run(&mut self, steps: usize, real_step_s: f64, drives: bool) {
             for _ in 0..steps {
                 self.simulated_s += STEP_S;
@@ -105,7 +106,7 @@ mod tests {
             }
         }
 
-        /// Largest difference of the robots' world clocks, and lag of the first one, seconds.
+        /// Returns the largest difference of the robots' world clocks, and the lag of the first one, seconds.
         fn apart_and_behind_s(&self) -> (f64, f64) {
             let world = self.ticks.iter().map(|tick| (tick.now - tick.lag).as_secs());
             let (least, most) =

@@ -7,8 +7,8 @@ use crate::stop::Stop;
 use crate::{open_files, say};
 
 pub async fn run(arguments: BrokerOnlyArguments, stop: Stop) -> Outcome {
-    // Ctrl-C at the terminal reaches parent and child. The child ignores it and ends when the pipe of its parent
-    // closes, so that robots still receive STOP.
+    // Ctrl-C at the terminal reaches parent and child. The child does not end by it, but when its parent closes the
+    // pipe, so that robots still receive STOP.
     stop.take_over();
     open_files::raise_limit();
     open_files::limit_memory();

@@ -56,7 +56,7 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
         () = stop.wait() => Err(Failure::problem("stopped before the end of the show")),
     };
     report.add_issues(&opened.issues);
-    // Not the link first: the robots of a run that failed are still being stopped.
+    // Ends the conductor, and not only its link: it may still have to stop the robots of a failed run.
     if !stop.is_wanted() {
         end.now();
     }

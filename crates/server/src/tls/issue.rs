@@ -1,15 +1,16 @@
-//! What our certificates hold.
+//! Makes the content of our certificates.
 
 use std::time::{Duration, SystemTime};
 
 use rcgen::{CertificateParams, DnType, Error, ExtendedKeyUsagePurpose, KeyPair, KeyUsagePurpose};
 
-/// Names of the own machine, in every server certificate.
+/// Names of this machine, which every server certificate has.
 pub const OWN_NAMES: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
-/// A day of certificates, by definition 86,400 s.
+/// One day, the unit of a certificate's validity.
 const DAY: Duration = Duration::from_secs(86_400);
 
-/// A certificate of these names and addresses that is good for `days` days. `common` is its common name.
+/// Returns the parameters of a certificate for these names and addresses, valid for `days` days. `common` is its common
+/// name.
 pub fn params(names: &[String], common: &str, days: u32) -> Result<CertificateParams, Error> {
     let mut params = CertificateParams::new(names)?;
     params.distinguished_name.remove(DnType::CommonName);
@@ -20,7 +21,7 @@ pub fn params(names: &[String], common: &str, days: u32) -> Result<CertificatePa
     Ok(params)
 }
 
-/// A server certificate that no authority signed, and its key, both PEM.
+/// Makes a self-signed server certificate. Returns the certificate and its key, both PEM.
 pub fn self_signed(names: &[String], common: &str, days: u32) -> Result<(String, String), Error> {
     let mut params = params(names, common, days)?;
     params.key_usages = vec![KeyUsagePurpose::DigitalSignature];

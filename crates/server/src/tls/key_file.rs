@@ -1,8 +1,8 @@
-//! Rights of the file of a private key.
+//! Access rights of the file of a private key.
 
 use std::path::Path;
 
-/// Lets only its owner read a key. A line for people if other users of the machine could read it.
+/// Makes a key readable for its owner only. Returns a line for people if other users of the machine could read it.
 #[cfg(unix)]
 pub fn keep_private(key: &Path) -> Option<String> {
     use std::fs::{self, Permissions};
@@ -13,7 +13,7 @@ pub fn keep_private(key: &Path) -> Option<String> {
         return None;
     }
     let name = key.display();
-    // The file behind a link belongs to another program.
+    // A link is left as it is, because the file behind it belongs to another program.
     let is_link = fs::symlink_metadata(key).is_ok_and(|about| about.is_symlink());
     if !is_link && fs::set_permissions(key, Permissions::from_mode(0o600)).is_ok() {
         return Some(format!(
@@ -24,7 +24,7 @@ pub fn keep_private(key: &Path) -> Option<String> {
     Some(format!("Other users of this machine can use the key {name} (mode {mode:o}): chmod 600 {name}"))
 }
 
-/// Other systems have other rights.
+/// Does nothing, because other systems have other access rights.
 #[cfg(not(unix))]
 pub fn keep_private(_: &Path) -> Option<String> {
     None

@@ -1,4 +1,4 @@
-//! TLS of the embedded broker and of the web app: what certificates hold, and files that become an acceptor.
+//! TLS of the embedded broker and of the web app: content of certificates, and server settings from files.
 
 mod issue;
 mod key_file;
@@ -19,8 +19,8 @@ pub use key_file::keep_private;
 /// First byte of a TLS connection: a handshake record, RFC 8446, section 5.1.
 pub const FIRST_BYTE: u8 = 0x16;
 
-/// The settings of a server with a certificate `cert` (PEM, with its chain) and its key. With `client_ca` clients must show
-/// a certificate of that authority. The error names the file, without a remedy.
+/// Returns the TLS settings of a server with a certificate `cert` (PEM, with its chain) and its key. With `client_ca`,
+/// clients must show a certificate of that authority. The error names the file, without a remedy.
 pub fn server_config(cert: &Path, key: &Path, client_ca: Option<&Path>) -> Result<ServerConfig, String> {
     let provider = Arc::new(ring::default_provider());
     let builder = ServerConfig::builder_with_provider(provider.clone())
@@ -43,12 +43,12 @@ pub fn server_config(cert: &Path, key: &Path, client_ca: Option<&Path>) -> Resul
     })
 }
 
-/// The acceptor of a server.
+/// Returns the acceptor of a TLS server.
 pub fn acceptor(config: ServerConfig) -> TlsAcceptor {
     TlsAcceptor::from(Arc::new(config))
 }
 
-/// The certificates of a PEM file, at least one. The error names the file, without a remedy.
+/// Reads the certificates of a PEM file, at least one. The error names the file, without a remedy.
 pub fn certificates(path: &Path) -> Result<Vec<CertificateDer<'static>>, String> {
     let found = CertificateDer::pem_file_iter(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
     match found {
