@@ -50,8 +50,8 @@ fn wrong(option: &str, why: &dyn fmt::Display) -> ArgumentsError {
 }
 
 impl BrokerArguments {
-    /// Returns the broker at all of `addresses`, with login and certificates. The addresses are parsed here and not by
-    /// the parser of the command line, because its error messages would repeat a password.
+    /// Returns one broker with all of `addresses`, the login and the certificates. The addresses are parsed here and
+    /// not by the parser of the command line, because its error messages would repeat a password.
     pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, ArgumentsError> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
         self.broker_given(addresses, set(USER), set(PASSWORD))

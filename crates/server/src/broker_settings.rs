@@ -97,7 +97,8 @@ impl Settings {
         TlsTrust::new(ca.as_ref().map(Text::pem), client).map(Some).map_err(|error| error.to_string())
     }
 
-    /// Returns what a screen may show of the settings: everything but the password and the key.
+    /// Returns what a screen may show of the settings: everything but the password and the key. `embedded` is the
+    /// address of the server's own broker, if it runs.
     pub fn shown(&self, embedded: Option<&BrokerUrl>) -> BrokerSettings {
         BrokerSettings {
             address: self.address.clone(),

@@ -1,4 +1,4 @@
-//! The command line. design: scripts and CI rely on it.
+//! The command line of the program. Scripts and CI rely on it.
 
 mod backup;
 mod certs;

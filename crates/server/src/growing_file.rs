@@ -49,7 +49,7 @@ impl<'a> GrowingFile<'a> {
     }
 }
 
-/// Empties a regular file. A pipe or `/dev/null` is left as it is, because it cannot be cut.
+/// Empties a regular file. A pipe or `/dev/null` is left as it is, because it cannot be truncated.
 fn empty(file: &std::fs::File) -> std::io::Result<()> {
     if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }

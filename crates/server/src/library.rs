@@ -50,7 +50,7 @@ use version::{etag, modified_ms};
 
 /// Name of the file that holds the name of the show that was open last.
 const OPEN: &str = ".open";
-/// Most bytes that are read from that file: more than any name has.
+/// Most bytes that are read from [`OPEN`]: more than any name has.
 const NAME_BYTES_MAX: u64 = 1_000;
 /// The most shows that are listed and kept.
 const SHOWS_MAX: usize = 10_000;

@@ -17,8 +17,8 @@ use crate::web::{Shared, operate};
 
 /// Time between two checks of the playlist.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
-/// Number of checks without a run after which a turn is over although no event ended it. The event may still be on its
-/// way at the first check.
+/// Number of consecutive checks without a run after which a turn counts as over, although no event ended it. The event
+/// may still be on its way at the first check.
 const LOOKS_WITHOUT_RUN: u32 = 3;
 /// Most turns that are skipped in one check. Entries whose time is past are skipped one after the other.
 const ACTS_MAX: usize = 200;
@@ -27,7 +27,7 @@ const ACTS_MAX: usize = 200;
 #[derive(Debug)]
 struct Attempt {
     key: TurnKey,
-    /// Revision of the show since this attempt opened it; `None` if it is not open yet.
+    /// Revision of the show that this attempt opened; `None` if it has not opened the show yet.
     revision: Option<u32>,
     /// Why the turn could not begin at the last check.
     refusal: Option<String>,

@@ -197,7 +197,7 @@ fn put_in_place(staging: &Path, data: &Path, holds_files: bool) -> Result<Option
     let before = before.unwrap_or_else(|| beside(data, "before"));
     disk::rename(data, &before).map_err(failed)?;
     if let Err(error) = disk::rename(staging, data) {
-        // Restore the folder that was there before.
+        // Restores the folder that was there before.
         let _ = disk::rename(&before, data);
         return Err(failed(error));
     }

@@ -108,7 +108,7 @@ impl TurnStage {
 }
 
 impl DayLog {
-    /// Records the stage of a turn. `at_s` is the time at which it began, seconds since 1970.
+    /// Records the stage of a turn. `at_s` is the time at which the stage began, seconds since 1970.
     pub fn note(&mut self, key: TurnKey, stage: TurnStage, at_s: i64, line: Option<String>) {
         self.turns.insert(key.id, TurnRecord { date: key.date, stage, at_s, line });
     }
@@ -149,7 +149,7 @@ pub fn next_act<Z: TimeZone>(
             }
         }
     }
-    // Home comes last, and else the earliest is first; of two at the same time, the first in the list.
+    // Driving home comes last. Else the earliest comes first; of two at the same time, the first in the list.
     acts.sort_by_key(|(at_s, act)| (matches!(act, PlaylistAct::Home(_)), *at_s));
     acts.into_iter().next().map_or(PlaylistAct::Nothing, |(_, act)| act)
 }

@@ -10,7 +10,7 @@ use super::times::{clock_text, date_of, day_text};
 /// Number of days ahead in which the next start is searched: each weekday once, that of today twice.
 const AHEAD: u64 = 7;
 
-/// Returns what became of each entry today. For an entry of yesterday's chain that still plays, that counts.
+/// Returns what became of each entry today. An entry of yesterday's chain is reported as playing while it still plays.
 pub fn today<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,

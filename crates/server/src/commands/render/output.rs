@@ -20,7 +20,8 @@ pub(super) enum Output {
 }
 
 impl Output {
-    /// Returns the kind of file that the ending of the file's name stands for.
+    /// Returns the kind of file that the ending of the file's name stands for. Error if there is none, or if the width
+    /// or height of a video is odd.
     pub fn of(arguments: &RenderArguments) -> Result<Self, Failure> {
         let ending = arguments.out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let film = |(width, height): (u32, u32), fps: f64| {
