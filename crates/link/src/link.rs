@@ -44,7 +44,7 @@ impl Link {
         self.events.recv().await
     }
 
-    /// The next event, if one is waiting.
+    /// Returns the next event if one is waiting, else `None`.
     pub fn try_next(&mut self) -> Option<LinkEvent> {
         self.events.try_recv().ok()
     }

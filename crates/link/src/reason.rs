@@ -7,7 +7,8 @@ use tokio_rustls::rustls::{self, AlertDescription, CertificateError};
 
 use crate::BrokerAddress;
 
-/// One line with the reason of a missing connection and its remedy. `accepted`: the broker had accepted the login.
+/// Returns one line with the reason of a missing connection and its remedy. `accepted`: the broker had accepted the
+/// login.
 pub(crate) fn reason(error: &ConnectionError, address: &BrokerAddress, accepted: bool) -> String {
     if let Some(error) = rustls_error(error) {
         return tls_reason(error, address);
@@ -47,7 +48,7 @@ pub(crate) fn reason(error: &ConnectionError, address: &BrokerAddress, accepted:
     }
 }
 
-/// One line for a refused subscription.
+/// Returns one line with the reason and the remedy of a refused subscription.
 pub(crate) fn not_granted(filter: &str, address: &BrokerAddress) -> String {
     format!(
         "the broker at {address} refuses the subscription to {filter}: give this user the right to read it"

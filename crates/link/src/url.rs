@@ -26,7 +26,7 @@ pub struct UrlError(String);
 type Login = (Option<String>, Option<String>);
 
 impl BrokerUrl {
-    /// A plain broker without login.
+    /// Returns a broker with one address, without TLS and login.
     pub fn new(host: impl Into<String>, port: u16) -> Self {
         let addresses = vec![BrokerAddress { host: host.into(), port, tls: false }];
         Self { addresses, user: None, password: None, trust: None }
@@ -137,7 +137,7 @@ fn decode(text: &str) -> Option<String> {
 }
 
 impl fmt::Display for BrokerUrl {
-    /// The addresses without login, for logs and screens.
+    /// Writes the addresses without login, for logs and screens.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, address) in self.addresses.iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };

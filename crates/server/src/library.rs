@@ -52,7 +52,7 @@ use version::{etag, modified_ms};
 const OPEN: &str = ".open";
 /// Most bytes that are read from [`OPEN`]: more than any name has.
 const NAME_BYTES_MAX: u64 = 1_000;
-/// The most shows that are listed and kept.
+/// Most shows of the folder that are listed.
 const SHOWS_MAX: usize = 10_000;
 
 /// The library of shows. Clones share its content.
@@ -274,7 +274,7 @@ impl Library {
             let loaded = show_files::read(&file).ok().and_then(|bytes| read(&bytes, None).ok());
             loaded.map(|loaded| loaded.show.assets.into_keys().collect::<Vec<_>>())
         });
-        // A show that cannot be read may name any file.
+        // A show that cannot be read may name any file, so nothing is deleted then.
         if let Some(named) = named.collect::<Option<Vec<_>>>() {
             self.assets.sweep(&named.into_iter().flatten().collect());
         }

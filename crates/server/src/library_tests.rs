@@ -134,7 +134,7 @@ fn the_file_of_the_command_line_hides_nothing_and_is_not_hidden() {
     assert_eq!(library.get("heart").unwrap().show.name, "File");
     let copy = library.put("heart", DOT, &Condition::Any).unwrap();
     assert_eq!((copy.name.as_str(), copy.copy_of), ("heart 2", Some(ShowOrigin::StartFile)));
-    // The next start with the same file.
+    // A library as after the next start with the same file.
     let next = Library { given: GivenShows::default(), ..library.clone() };
     assert_eq!(next.give("heart", ShowOrigin::StartFile, &titled("File"), None), "heart");
     assert_eq!(next.get("heart 2").unwrap().show.name, "Dot");
@@ -251,7 +251,7 @@ fn files_of_an_archive_are_kept_once_and_outlive_saves_of_the_document() {
     assert_eq!(picture(library, "Copy"), Some(b"picture".to_vec()));
     let assets = temporary.folder.join("assets");
     assert_eq!(std::fs::read_dir(&assets).unwrap().count(), 1);
-    // A file that was damaged on the disk is no file of the show.
+    // A file that was damaged on the disk counts as missing.
     let file = std::fs::read_dir(&assets).unwrap().next().unwrap().unwrap().path();
     std::fs::write(&file, b"pictUre").unwrap();
     assert_eq!(picture(library, "Copy"), None);
@@ -296,7 +296,7 @@ fn the_files_of_a_start_file_go_with_its_copy() {
     assert!(!temporary.folder.exists(), "nothing is written before something is saved");
     let kept = library.get("mine").unwrap();
     let copy = library.put("mine", &kept.bytes, &Condition::Any).unwrap();
-    // The next start without that file.
+    // A library as after the next start without that file.
     let assets = AssetStore::new(temporary.folder.join("assets"));
     let later = Library { given: GivenShows::default(), assets, ..library.clone() };
     assert_eq!(picture(&later, &copy.name), Some(b"picture".to_vec()));

@@ -66,7 +66,7 @@ fn main() {
 fn misuse(error: &clap::Error) -> i32 {
     let lists_commands = error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
     if !error.use_stderr() || lists_commands {
-        // A reader that has gone away is no error.
+        // Printing fails if the reader of the output has gone away, which is no error.
         let _ = error.print();
         return if lists_commands { 2 } else { 0 };
     }

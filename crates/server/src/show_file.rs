@@ -14,7 +14,7 @@ use crate::layer_pictures::LayerPictures;
 /// The code of the issue that `--floor` was given for a show that has a floor of its own.
 pub const FLOOR_IGNORED: &str = "floor-ignored";
 
-/// A show as a command uses it.
+/// A show as commands use it: read, adapted to the command line, and validated.
 #[derive(Clone, Debug)]
 pub struct Opened {
     /// The show, with the floor and the identity the user asked for.
@@ -52,7 +52,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
             "the file has {size:.0} MB, a show at most {limit:.0} MB: is it a show?"
         )));
     }
-    // A pipe has no length before it is read.
+    // A pipe has no length before it is read, so the limit is checked again while reading.
     read_bounded(path, MAX_BYTES as u64).map_err(|error| unreadable(format!("cannot be read: {error}")))
 }
 

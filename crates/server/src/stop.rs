@@ -13,7 +13,7 @@ const COMPUTING: u8 = 1;
 /// Phase in which a command waits by [`Stop::wait`]: the first signal requests a stop.
 const RUNNING: u8 = 2;
 
-/// Whether the user wants the program to stop. A second signal ends it at once.
+/// Whether the user wants the program to stop. A second signal ends the program at once.
 #[derive(Clone, Debug)]
 pub struct Stop {
     wanted: watch::Receiver<bool>,

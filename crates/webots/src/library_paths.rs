@@ -19,7 +19,7 @@ const INSTALLATIONS: [&str; 4] = [
     "C:\\Program Files\\Webots",
 ];
 
-/// All paths to try, in order: the bare name, paths below `home` (the value of `WEBOTS_HOME`), and the default
+/// Returns all paths to try, in order: the bare name, paths below `home` (the value of `WEBOTS_HOME`), and the default
 /// installations. The bare name works because Webots sets the library path of its controllers.
 pub(crate) fn candidates(home: Option<&Path>) -> Vec<PathBuf> {
     let homes = home.into_iter().chain(INSTALLATIONS.iter().map(Path::new));

@@ -1,7 +1,7 @@
 //! Wheel turns from Webots' position sensors.
 
-/// True turn of a wheel in a step of `step_s` for the sensor reading `read_rad`, radians. Webots' sensors read
-/// (2/dt)·atan(w·dt/2) instead of the rate w (measured in R2023b: 60 rad/s reads 55.9 at 16 ms). NaN gives NaN.
+/// Returns the true turn of a wheel in a step for the turn that its sensor reads, radians. In a step, Webots' sensors
+/// read 2·atan(w/2) for a turn w (measured in R2023b: 60 rad/s reads 55.9 at 16 ms). NaN gives NaN.
 pub(crate) fn wheel_turn_rad(read_rad: f64) -> f64 {
     2.0 * (read_rad / 2.0).tan()
 }

@@ -88,7 +88,7 @@ pub struct Accounts {
 }
 
 impl Accounts {
-    /// The accounts of a data folder.
+    /// Returns the accounts of a data folder. Nothing is read yet.
     pub fn of(data: &Path) -> Self {
         Self { data: data.to_owned() }
     }

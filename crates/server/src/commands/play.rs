@@ -62,7 +62,7 @@ pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
     }
     finish(&stop, task).await;
     if stop.is_wanted() {
-        // The conductor ended the run when it stopped the robots. That event is behind the unread ones.
+        // The conductor ended the run when it stopped the robots. The event of that end is still unread, behind others.
         catch_up(&mut report, &mut news);
     }
     tell(report, arguments.json, played)
@@ -106,7 +106,7 @@ async fn play(
     loop {
         match handle.operate(Operation::Play { from: 0, missing }).await {
             Ok(()) => break,
-            // A robot that was ready a moment ago may report again at once.
+            // The start is tried again, because robots that were ready a moment ago may report again at once.
             Err(Refusal::TooFewRobots { .. } | Refusal::NotConnected) if Instant::now() < until => {
                 tokio::time::sleep(LOOK).await;
             }

@@ -22,7 +22,7 @@ impl ShowFiles {
         Self(folder)
     }
 
-    /// The folder.
+    /// Returns the folder of the files.
     pub fn folder(&self) -> &Path {
         &self.0
     }

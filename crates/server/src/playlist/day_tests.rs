@@ -193,7 +193,7 @@ fn what_was_over_at_the_switch_is_not_played_nor_its_followers() {
     let mut log = on_since("2026-05-04T19:30:00");
     let evening = (at("2026-05-04T19:30:00"), at("2026-05-05T12:00:00"));
     assert_eq!(played(&list, &mut log, evening, 60), ["20:00 3"]);
-    // Up to the lateness it begins at once.
+    // A turn that is late by at most `LATE_S` begins at once.
     let mut log = on_since("2026-05-04T19:05:00");
     assert_eq!(
         played(&list[..1], &mut log, (at("2026-05-04T19:05:00"), at("2026-05-04T20:00:00")), 60),

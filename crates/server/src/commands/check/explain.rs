@@ -30,7 +30,7 @@ struct Row {
 }
 
 impl Explained {
-    /// All transitions of a plan.
+    /// Explains all transitions of a plan.
     pub fn all(plan: &ShowPlan) -> Vec<Self> {
         let explained = |(to, of): (usize, &lightbots_plan::Explanation)| Self {
             to,
@@ -41,7 +41,7 @@ impl Explained {
         plan.explanations.iter().enumerate().map(explained).collect()
     }
 
-    /// One line for the transition and one for each solver.
+    /// Returns one line for the transition and one for each solver.
     pub fn lines(&self, show: &Show) -> Vec<String> {
         let head = format!("to {}: {}", frame_name(show, self.to), self.reason);
         let line = |(index, row): (usize, &Row)| {

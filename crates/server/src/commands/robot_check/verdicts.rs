@@ -90,7 +90,7 @@ fn rule_answer(finding: &Finding) -> RuleAnswer {
     }
 }
 
-/// One line per rule, and three more for a broken rule.
+/// Prints one line for a rule, and three more for each trial of a broken rule.
 fn print_finding(finding: &Finding) {
     let word = match finding.verdict {
         RuleVerdict::Keeps => "keeps",
