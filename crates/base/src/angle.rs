@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-/// The same direction in (−π, π]. NaN and infinity are returned unchanged.
+/// Normalises an angle to (−π, π]. NaN and infinity are returned unchanged.
 pub fn wrap(angle: f64) -> f64 {
     if angle > -PI && angle <= PI {
         return angle;

@@ -42,7 +42,8 @@ impl Rgb {
         Self::from_number(u32::from_str_radix(digits, 16).ok()?)
     }
 
-    /// The colour `share` of the way to `other`; `share` is clamped to 0..=1.
+    /// The colour `share` of the way to `other`, per channel in sRGB codes. `share` is clamped to 0..=1; NaN counts as
+    /// 0.
     pub fn mixed(self, other: Self, share: f64) -> Self {
         let share = if share > 0.0 { share.min(1.0) } else { 0.0 };
         let mix = |from: u8, to: u8| (from as f64 + (to as f64 - from as f64) * share + 0.5) as u8;
@@ -50,12 +51,12 @@ impl Rgb {
     }
 }
 
-/// Linear light, 0 to 1, of an sRGB-coded channel (IEC 61966-2-1) whose full code is 1.
+/// Decodes an sRGB channel (IEC 61966-2-1): from the coded value, 0 to 1, to linear light, 0 to 1.
 pub fn srgb_decoded(share: f64) -> f64 {
     if share <= 0.04045 { share / 12.92 } else { libm::pow((share + 0.055) / 1.055, 2.4) }
 }
 
-/// Such as `#ffa500`.
+/// Writes the colour in hexadecimal, such as `#ffa500`.
 impl fmt::Display for Rgb {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "#{:06x}", self.number())

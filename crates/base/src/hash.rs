@@ -1,4 +1,4 @@
-//! The state hash: two rehearsals are the same to the bit exactly if their hashes are.
+//! The state hash: rehearsals with equal hashes are taken to be the same to the last bit.
 
 /// A 64-bit hash of a sequence of words: multiply and xor as in FNV-1a, but a word at a time, and mixed at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ impl StateHash {
         self.word(number.to_bits());
     }
 
-    /// Appends bytes and their number.
+    /// Appends the number of bytes, then the bytes.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.word(bytes.len() as u64);
         for chunk in bytes.chunks(8) {
@@ -33,7 +33,7 @@ impl StateHash {
         }
     }
 
-    /// The hash of the sequence.
+    /// The hash of all that was appended.
     pub const fn finish(self) -> u64 {
         let mut z = self.0;
         z = (z ^ (z >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -14,7 +14,7 @@ impl RobotId {
     /// Longest name, bytes: that of a UUID (R3).
     pub const MAX_LEN: usize = 36;
 
-    /// The name in a text; `None` if the text is not a valid name.
+    /// A name from text; `None` if the text is not a valid name.
     pub fn new(text: &str) -> Option<Self> {
         let fits = (1..=Self::MAX_LEN).contains(&text.len());
         if !fits {
@@ -79,7 +79,7 @@ impl serde::Serialize for RobotId {
     }
 }
 
-/// What is no name is an error.
+/// Text that is not a valid name is an error.
 #[cfg(feature = "serde")]
 impl<'de> serde::Deserialize<'de> for RobotId {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

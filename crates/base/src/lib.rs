@@ -1,8 +1,8 @@
 //! The types that all other crates share: vectors, poses, angles, instants, ids, colours, limits, braking, timed paths
 //! and light tracks.
 //!
-//! The crate knows nothing of shows, messages or wheels, allocates nothing and reads no clock. All lengths are metres, all
-//! angles radians counter-clockwise, all times microseconds.
+//! The crate depends on no other of our crates, allocates nothing and reads no clock. Lengths are metres and angles are
+//! radians counter-clockwise. [`Instant`] and [`Span`] count microseconds.
 //!
 //! ```
 //! use lightbots_base::{PathRef, Piece, Span, Vec2};

@@ -1,31 +1,31 @@
-//! Where in a light track a robot is.
+//! The position in a light track that a robot has reached.
 
 use crate::light_track::{LightRecord, LightTrack};
 use crate::{Rgb, Span};
 
-/// A place in a track that moves on with time, so that a step costs the same however long the track is.
+/// A position in a track. It keeps the current record, so that a step costs the same however long the track is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightCursor {
     record: usize,
-    /// How often the repeat at `record` has been run.
+    /// How many repetitions of the current block have begun; 0 outside of repetitions.
     repeats: u32,
-    /// When the record began, microseconds after the track.
+    /// Begin of the current record, microseconds after the start of the track.
     began_us: u64,
-    /// The colour before the record.
+    /// The colour with which the current record begins.
     before: Rgb,
     moved: bool,
 }
 
 impl LightCursor {
-    /// The colour some time after the start of the track; the last one after its end. Times that go back are found from the
-    /// start again. A repeat that is not valid counts as none.
+    /// Returns the colour at `elapsed` after the start of the track; after its end, the last colour. For a time before
+    /// the current record, the search begins again at the start. A repeat of more records than precede it is skipped.
     pub fn at(&mut self, track: LightTrack<'_>, elapsed: Span) -> Rgb {
         let elapsed_us = self.seek(track, elapsed);
         let Some(&record) = track.records.get(self.record) else { return self.before };
         record.within(self.before, (elapsed_us - self.began_us) as f64 / record.duration_us() as f64)
     }
 
-    /// Finds the record at some time after the start of the track, as `at` does; that time, not before 0, microseconds.
+    /// Moves to the record at `elapsed` after the start of the track. Returns `elapsed` in microseconds, at least 0.
     #[inline]
     pub fn seek(&mut self, track: LightTrack<'_>, elapsed: Span) -> u64 {
         let elapsed_us = u64::try_from(elapsed.0).unwrap_or(0);
@@ -48,8 +48,8 @@ impl LightCursor {
         elapsed_us
     }
 
-    /// The record that was found last: when it begins, after the start of the track, how long it lasts, and the colours
-    /// from which to which it leads in a straight line of sRGB codes. `None`: the track is over.
+    /// Returns the current record as a straight line of sRGB codes: begin after the start of the track, duration, first
+    /// and last colour. `None` if the track is over.
     #[inline]
     pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, (Rgb, Rgb))> {
         let record = *track.records.get(self.record)?;
@@ -66,8 +66,8 @@ impl LightCursor {
         self.record >= track.records.len()
     }
 
-    /// Goes back to the beginning of the block, or on behind its repeat. Blocks that are over as a whole are left out: a
-    /// repeat may stand for millions.
+    /// At a repeat, goes back to the beginning of its block, or on to the record behind the repeat. Repetitions that
+    /// are over already are skipped at once, because a repeat may stand for millions.
     fn repeat(&mut self, track: LightTrack<'_>, (records, times): (usize, u32), elapsed_us: u64) {
         let block_us = match self.record.checked_sub(records) {
             Some(first) => track.records[first..self.record].iter().map(|record| record.duration_us()).sum(),

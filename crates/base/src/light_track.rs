@@ -1,38 +1,40 @@
 //! Light tracks: a robot's colour over time as records.
 //!
-//! A track is a start colour and records. A line leads from the colour before it to its own while its duration passes, drawn
-//! in sRGB codes; a step holds the colour before it and ends with its own. A repeat runs the records before it again.
+//! A track is a start colour and a list of records. A line fades from the colour before it to its own, linearly in sRGB
+//! codes. A step keeps the colour before it and switches to its own at its end. A repeat runs the records before it
+//! again.
 
 use crate::{Rgb, Span};
 
-/// Unit of durations: 10 ms. Samples of effects are as far apart, and shows are exact to 25 ms (design).
+/// Unit of durations: 10 ms, the interval at which effects are sampled. Lights may be wrong for 25 ms at most (design).
 pub const TICK: Span = Span::from_millis(10);
-/// Most ticks of a record, and most repeats: as many as four bytes of a varint hold beside the bit of the kind.
+/// Largest number of ticks in a record, and largest number in a repeat. A varint of four bytes has 28 bits, one of
+/// which is the kind of the record.
 pub const TICKS_MAX: u32 = (1 << 27) - 1;
-/// Bytes of the start colour.
+/// Length of the start colour, bytes.
 const START_BYTES: usize = 3;
-/// Most bytes of a varint here: 28 bits.
+/// Longest varint in a track, bytes. It holds 28 bits.
 const VARINT_BYTES_MAX: usize = 4;
 
 /// A record of a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LightRecord {
-    /// From the colour before to another in a straight line of sRGB codes.
+    /// A fade from the colour before to `to`, linear in sRGB codes.
     Line {
         /// Duration in `TICK`s, 1 to `TICKS_MAX`.
         ticks: u32,
         /// The colour at its end.
         to: Rgb,
     },
-    /// The colour before, and at the end another.
+    /// The colour before for the whole duration, then `to`.
     Step {
         /// Duration in `TICK`s, 1 to `TICKS_MAX`.
         ticks: u32,
         /// The colour at its end.
         to: Rgb,
     },
-    /// The records before it again. None of these is a repeat.
+    /// Runs the records before it again. None of them is a repeat.
     Repeat {
         /// Number of records, 1 to `TICKS_MAX`.
         records: u32,
@@ -46,13 +48,14 @@ pub enum LightRecord {
 pub enum LightTrackError {
     /// The bytes end within the start colour or a record.
     Truncated,
-    /// A varint has more than four bytes, or one that it does not need.
+    /// A varint has more than four bytes, or a last byte that it does not need. Also a number in a repeat above
+    /// `TICKS_MAX`.
     LongVarint,
-    /// A duration, a number of records or of repeats is 0.
+    /// A duration, a number of records or a number of repetitions is 0.
     Zero,
     /// A repeat has too few records before it, or a repeat among them.
     BadRepeat,
-    /// There are more records than there is room for.
+    /// The buffer has no room for all records.
     TooMany,
 }
 
@@ -74,7 +77,7 @@ impl LightRecord {
         }
     }
 
-    /// The colour a share of the way through the record, before its end; `before` is the colour that it began with.
+    /// The colour at a share of the record's duration, 0 to less than 1. `before`: the colour with which it begins.
     pub(crate) fn within(self, before: Rgb, share: f64) -> Rgb {
         match self {
             Self::Line { to, .. } => before.mixed(to, share),
@@ -92,7 +95,7 @@ impl LightRecord {
 }
 
 impl LightTrack<'_> {
-    /// How long the track lasts.
+    /// Duration of the whole track, with repetitions.
     pub fn duration(&self) -> Span {
         let total_us = (0..self.records.len()).fold(0u64, |sum_us, index| {
             let own_us = match self.repeated(index) {
@@ -104,16 +107,17 @@ impl LightTrack<'_> {
         Span(i64::try_from(total_us).unwrap_or(i64::MAX))
     }
 
-    /// The records that the record at `index` repeats, and how often.
+    /// The records that the record at `index` repeats, and how often. `None` if it is no repeat, or repeats more
+    /// records than precede it.
     fn repeated(&self, index: usize) -> Option<(&[LightRecord], u32)> {
         let LightRecord::Repeat { records, times } = self.records[index] else { return None };
         let first = index.checked_sub(records as usize)?;
         Some((&self.records[first..index], times))
     }
 
-    /// Writes the track as bytes: three of the start colour, then the records. A line or step is the varint of
-    /// 2·ticks + kind (a step is 1) and three bytes of its colour. A repeat is the byte 1, which stands for a step of no
-    /// duration, and the varints of its numbers.
+    /// Encodes the track: the three bytes of the start colour, then the records. A line or step is the varint of
+    /// 2·ticks + kind (0 for a line, 1 for a step) and three bytes of colour. A repeat is the byte 1, as for a step of
+    /// 0 ticks, then the varints of `records` and `times`.
     pub fn encode(&self, mut write: impl FnMut(u8)) {
         colour_bytes(self.start).into_iter().for_each(&mut write);
         for &record in self.records {
@@ -136,11 +140,11 @@ impl LightTrack<'_> {
     }
 }
 
-/// Reads a track's bytes. Records go to `room` in order.
+/// Decodes the bytes of a track. The records are written to `room` in order.
 ///
 /// # Errors
-/// [`LightTrackError`]; `room` then holds the records before the wrong one. Bytes are either refused or exactly what
-/// [`LightTrack::encode`] writes.
+/// [`LightTrackError`]; `room` then holds the records before the invalid one. Bytes that are accepted are exactly those
+/// that [`LightTrack::encode`] writes for the track.
 pub fn decode_light_track<'a>(
     bytes: &[u8],
     room: &'a mut [LightRecord],
@@ -199,7 +203,8 @@ fn read_varint(rest: &mut &[u8]) -> Result<u32, LightTrackError> {
     Err(LightTrackError::LongVarint)
 }
 
-/// Seven bits a byte, the lowest first; the eighth says that more follow (LEB128).
+/// Writes a number as a varint (LEB128): seven bits per byte, the lowest first. The eighth bit of a byte says that more
+/// follow.
 pub fn varint(mut value: u64, write: &mut impl FnMut(u8)) {
     while value >= 0x80 {
         write(value as u8 | 0x80);

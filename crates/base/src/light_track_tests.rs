@@ -8,8 +8,8 @@ use crate::random::split_mix;
 const GREY: fn(u8) -> Rgb = |code| Rgb::new(code, code, code);
 
 impl LightTrack<'_> {
-    /// What a cursor has to give, walked from the start: the colour some time after it. After the end, the last colour
-    /// stays. A repeat that is not valid counts as none.
+    /// The colour that a cursor must return, found by walking all records from the start. After the end it is the last
+    /// colour. An invalid repeat is skipped.
     fn at(&self, elapsed: Span) -> Rgb {
         let mut left_us = u64::try_from(elapsed.0).unwrap_or(0);
         let mut colour = self.start;
@@ -34,7 +34,7 @@ impl LightTrack<'_> {
     }
 }
 
-/// The colour within records that begin with `colour`; `None` after their end.
+/// The colour `left_us` microseconds after the begin of records that begin with `colour`; `None` after their end.
 fn walked(records: &[LightRecord], mut colour: Rgb, mut left_us: u64) -> Option<Rgb> {
     for &record in records {
         let whole_us = record.duration_us();
@@ -69,7 +69,7 @@ fn lines_steps_and_repeats_are_played() {
     let track = LightTrack { start: GREY(0), records: &records };
     let at = |ticks: i64| track.at(TICK * ticks).r;
     assert_eq!([at(-9), at(0), at(5), at(10), at(14)], [0, 0, 50, 100, 100]);
-    // Each repeat begins with the colour at its end: 20.
+    // Each repetition begins with the colour at its end: 20.
     assert_eq!([at(15), at(20), at(25), at(30), at(59)], [20, 60, 100, 20, 100]);
     assert_eq!([at(60), at(95), at(130)], [20, 10, 0]);
     assert_eq!([at(129 + i64::from(TICKS_MAX)), at(130 + i64::from(TICKS_MAX))], [0, 255]);

@@ -47,7 +47,7 @@ impl Piece {
         Self { duration, c1: at, c2: at, end: at }
     }
 
-    /// The cubic that meets position and velocity at both ends.
+    /// The cubic with the given positions and velocities (m/s) at both ends.
     pub fn hermite(start: Vec2, v0: Vec2, end: Vec2, v1: Vec2, duration: Span) -> Self {
         let third = duration.as_secs() / 3.0;
         Self { duration, c1: start + v0 * third, c2: end - v1 * third, end }
@@ -94,7 +94,7 @@ impl<'a> PathRef<'a> {
         self.pieces.last().map_or(self.start, |piece| piece.end)
     }
 
-    /// Whether all pieces stay at the start; also for a path without pieces.
+    /// Whether all pieces stay at the start; `true` for a path without pieces.
     pub fn rests(&self) -> bool {
         self.timed().all(|(_, _, piece)| piece.is_rest(self.start))
     }
@@ -116,7 +116,7 @@ impl<'a> PathRef<'a> {
         Motion { position: start, ..Motion::default() }
     }
 
-    /// Each piece with its start place and its start time, counted from the path's start.
+    /// Iterates over the pieces, each with its start place and its start time, counted from the path's start.
     pub fn timed(&self) -> impl Iterator<Item = (Vec2, Span, &'a Piece)> + use<'a> {
         let mut start = self.start;
         let mut begin = Span::ZERO;

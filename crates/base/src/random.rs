@@ -1,7 +1,7 @@
 //! Repeatable numbers that look random: the same on every machine, from a state that the caller keeps.
 
-/// The next number of SplitMix64 (Steele, Lea and Flood 2014): passes statistical tests, also from seeds that differ in
-/// one bit. The simulator draws its noise from it.
+/// The next number of SplitMix64 (Steele, Lea and Flood 2014). It passes statistical tests, also from seeds that differ
+/// in one bit. The simulator draws its noise from it.
 #[inline]
 pub fn split_mix(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -11,8 +11,8 @@ pub fn split_mix(state: &mut u64) -> u64 {
     mixed ^ (mixed >> 31)
 }
 
-/// The next state of a linear congruential generator modulo 2^64 (Knuth's MMIX). Only its high bits look random: use them
-/// in tests, where a few lines of seeds do.
+/// Advances a linear congruential generator modulo 2^64 (Knuth's MMIX) and returns its state. Only the high bits look
+/// random. Meant for tests.
 #[inline]
 pub fn congruential(state: &mut u64) -> u64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

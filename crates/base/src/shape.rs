@@ -2,7 +2,7 @@
 
 use crate::Vec2;
 
-/// The nearest point of a rectangle; the point itself where it is inside.
+/// The point of a rectangle that is nearest to `point`, which is `point` itself if it lies inside.
 #[inline]
 pub fn nearest_in_rect(point: Vec2, min: Vec2, max: Vec2) -> Vec2 {
     Vec2::new(point.x.max(min.x).min(max.x), point.y.max(min.y).min(max.y))

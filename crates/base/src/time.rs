@@ -23,7 +23,7 @@ impl Instant {
         self.0 as f64 / 1e6
     }
 
-    /// `seconds` after the start, rounded to the microsecond; negative values and NaN give the start.
+    /// The instant `seconds` after the start, rounded to the microsecond. Negative values and NaN give the start.
     pub fn from_secs(seconds: f64) -> Self {
         Self(libm::round(seconds * 1e6) as u64)
     }
@@ -44,17 +44,17 @@ impl Span {
     /// A span of zero length.
     pub const ZERO: Self = Self(0);
 
-    /// Whole milliseconds.
+    /// A span of whole milliseconds.
     pub const fn from_millis(millis: i64) -> Self {
         Self(millis * 1000)
     }
 
-    /// Seconds, rounded to the microsecond; NaN gives zero.
+    /// A span of `seconds`, rounded to the microsecond; NaN gives zero.
     pub fn from_secs(seconds: f64) -> Self {
         Self(libm::round(seconds * 1e6) as i64)
     }
 
-    /// In seconds.
+    /// The length in seconds.
     pub const fn as_secs(self) -> f64 {
         self.0 as f64 / 1e6
     }

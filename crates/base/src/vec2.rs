@@ -31,7 +31,7 @@ impl Vec2 {
         Self { x, y }
     }
 
-    /// The unit vector in direction `angle`.
+    /// The unit vector in direction `angle`, radians.
     pub fn unit(angle: f64) -> Self {
         Self::new(libm::cos(angle), libm::sin(angle))
     }
@@ -61,12 +61,12 @@ impl Vec2 {
         (self - other).length()
     }
 
-    /// The vector's angle from +x, in (−π, π]; 0 for no direction.
+    /// The vector's angle from +x, in (−π, π]; 0 for the zero vector.
     pub fn angle(self) -> f64 {
         libm::atan2(self.y, self.x)
     }
 
-    /// A quarter turn to the left.
+    /// The vector rotated by a quarter turn to the left.
     pub fn left(self) -> Self {
         Self::new(-self.y, self.x)
     }
@@ -82,14 +82,14 @@ impl Vec2 {
         (length > 1e-12 && length.is_finite()).then(|| self / length)
     }
 
-    /// Whether both coordinates are numbers.
+    /// Whether both coordinates are finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite()
     }
 }
 
 impl Pose {
-    /// A pose at a place.
+    /// A pose from a place and a heading.
     pub const fn new(at: Vec2, heading: f64) -> Self {
         Self { at, heading }
     }

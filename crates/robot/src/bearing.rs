@@ -3,10 +3,10 @@
 
 use lightbots_base::{Vec2, wrap};
 
-/// Length of track after which a rotation is read, metres. Below, the noise of the fixes hides the direction: 2 mm over
-/// 60 mm are 2°. Above, a robot drives farther before it knows its heading.
+/// Displacement from the first pair at which the rotation is computed, metres. Below, the noise of the fixes hides the
+/// direction: 2 mm over 60 mm are 2°. Above, a robot drives farther before it knows its heading.
 const SPREAD_M: f64 = 0.06;
-/// Most fixes in one reading: 16 s of fixes. A robot that stands gathers no information, so it starts anew.
+/// Number of fixes after which the sums begin anew: 16 s of fixes. A robot that stands gathers no information.
 const MOST: u32 = 1000;
 
 /// Sums over pairs of (place by wheels, place by fix), for the rotation of least squares between them.

@@ -1,10 +1,11 @@
 //! The show clock, from the robot's own clock and two-way time transfer.
 //!
-//! A Kalman filter over offset and drift. An answer measures the offset as half the difference of both directions. Its
-//! error is at most half of the excess of its round trip over the shortest one known, so the excess sets the noise of the
-//! measurement. Over a jittery link the few quick answers therefore count, and none is discarded. The clock filter of NTP
-//! (RFC 5905 section 10) discards all but the quickest. Where both directions of a link have much jitter, quick round trips
-//! are rare, and the least delays of each direction alone say more ([`least_delays`]).
+//! A Kalman filter over offset and drift. An answer measures the offset as half the difference of the delays in both
+//! directions. The error is at most half of the excess of its round trip over the shortest possible one. The excess
+//! therefore sets the noise of the measurement. Over a jittery link the few quick answers count most, and none is
+//! discarded. The clock filter of NTP (RFC 5905 section 10) discards all but the quickest. Where both directions of a
+//! link have much jitter, quick round trips are rare. There the least delays of each direction alone tell more
+//! ([`least_delays`]).
 
 mod least_delays;
 
@@ -12,17 +13,20 @@ use least_delays::LeastDelays;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
-/// Least number of answers of a synchronised clock. Below, one delayed answer decides the offset. Above, robots join later.
+/// Number of answers that a synchronised clock needs. Below, one delayed answer decides the offset. Above, robots join
+/// later.
 const ENOUGH: u32 = 4;
 /// Largest error of a synchronised clock, microseconds, 1 sigma, unless it has [`QUICK`] answers. Below, robots on jittery
 /// links join later. Above, robots depart at visibly different times.
 const GOOD_US: f64 = 3_000.0;
-/// Answers until which questions are sent at [`QUICK_PACE`]. Tuned on the tests below: 2 ms after 3 s.
+/// Number of answers until which questions are sent at [`QUICK_PACE`]. Tuned on the tests below: an error of 2 ms after
+/// 3 s.
 const QUICK: u32 = 16;
-/// Answers until which a clock that is not [`GOOD_US`] asks at [`QUICK_PACE`], 30 s. Below, over a link of 5 to 250 ms each
-/// way, robots are 25 mm apart in time and brake for each other. Above, a fleet on a link that is never good floods it.
+/// Number of answers until which a clock with an error above [`GOOD_US`] asks at [`QUICK_PACE`]: 30 s. Below, over a
+/// link of 5 to 250 ms each way, robots are 25 mm apart in time and brake for each other. Above, a fleet on a link that
+/// is never good floods it.
 const PATIENT: u32 = 150;
-/// Answers after which questions are sent at [`OLD_PACE`]. Below, drift is too uncertain for that pace.
+/// Number of answers from which questions are sent at [`OLD_PACE`]. Below, drift is too uncertain for that pace.
 const SETTLED: u32 = 60;
 /// Time between the first questions. Below, a fleet that is switched on floods its broker.
 const QUICK_PACE: Span = Span::from_millis(200);
@@ -30,13 +34,16 @@ const QUICK_PACE: Span = Span::from_millis(200);
 const YOUNG_PACE: Span = Span::from_millis(1000);
 /// Time between questions of a settled clock, or of one that gets no answers. Above, drift adds up between answers.
 const OLD_PACE: Span = Span::from_millis(3000);
-/// Unanswered questions after which the robot asks at [`OLD_PACE`]: this controller does not answer.
+/// Number of unanswered questions in a row after which the robot asks at [`OLD_PACE`], because this controller does not
+/// answer.
 const DEAF: u8 = 8;
-/// Answers later than this are dropped: their round trip says nothing.
+/// Longest time from a question to its answer. Later answers are dropped, because their round trip bounds the offset
+/// too loosely.
 const LATEST: Span = Span::from_millis(3000);
 /// Number of answered questions remembered, so that a duplicate of an answer counts once.
 const ANSWERED: usize = 8;
-/// Bound of the drift, as a share: three times the 100 ppm of a poor crystal. A third of it is the first 1 sigma.
+/// Bound of the drift, as a share: three times the 100 ppm of a poor crystal. A third of it is the drift's first
+/// standard deviation.
 const WORST_DRIFT: f64 = 300e-6;
 /// Random walk of the drift with temperature: variance per second, as a share squared.
 const WANDER: f64 = 0.3e-6 * 0.3e-6;
@@ -44,16 +51,19 @@ const WANDER: f64 = 0.3e-6 * 0.3e-6;
 const BEST_US: f64 = 100.0;
 /// Growth of the shortest known round trip per answer, as a share, because routes through a network change.
 const LEAK: f64 = 1e-5;
-/// An answer that contradicts the offset by more than this, microseconds, comes from a controller that began anew.
+/// An answer whose bounds the offset violates by more than this, microseconds, comes from a controller that was started
+/// anew.
 const SET_ANEW_US: f64 = 500_000.0;
 
 const _: () = assert!(ENOUGH < QUICK && QUICK < SETTLED && SETTLED < PATIENT);
 const _: () = assert!(QUICK_PACE.0 < YOUNG_PACE.0 && YOUNG_PACE.0 < OLD_PACE.0);
 
-/// The show clock as a line over the own clock, and when to ask for it again: all that a step reads of it.
+/// The show clock as a line over the own clock, and when the next question is due. A step reads no more than this of
+/// the clock.
 #[derive(Debug)]
 pub(crate) struct ShowClock {
-    /// Offset = `base_us` + `offset_us` at `at` of the own clock. Keeping the whole part apart keeps small numbers exact.
+    /// The offset, show clock minus own clock, is `base_us` + `offset_us` when the own clock reads `at`. The whole
+    /// number is kept apart so that small fractions stay exact.
     base_us: i64,
     offset_us: f64,
     /// Change of the offset, microseconds per microsecond.
@@ -66,7 +76,7 @@ pub(crate) struct ShowClock {
 /// The Kalman filter that fits the line to the answers of the controller.
 #[derive(Debug)]
 pub(crate) struct ClockFilter {
-    /// The line was discarded, so moments stated before are void.
+    /// Whether the line was discarded, which makes void all moments that were received before.
     was_reset: bool,
     unanswered: u8,
     answers: u32,
@@ -97,7 +107,7 @@ impl ShowClock {
         self.synchronised.then(|| now + Span(self.base_us.saturating_add(self.offset_at(now) as i64)))
     }
 
-    /// How long a question and its answer took, plus and minus the offset, microseconds.
+    /// Delay of a question plus the offset from `base_us`, and delay of its answer minus that offset, microseconds.
     fn delays_us(&self, there: i64, back: i64) -> [f64; 2] {
         [there.saturating_sub(self.base_us) as f64, back.saturating_add(self.base_us) as f64]
     }
@@ -186,11 +196,13 @@ impl ClockFilter {
         clock.at = now;
     }
 
-    /// Corrects the line by one measurement of the offset. The excess of its round trip is its noise.
+    /// Corrects offset and drift by one measurement of the offset. Its noise grows with the excess of its round trip
+    /// over the shortest one.
     fn learn(&mut self, clock: &mut ShowClock, measured_us: f64, round_us: f64) {
         self.shortest_us = (self.shortest_us + LEAK * self.shortest_us).min(round_us);
         self.mean_us += (round_us - self.mean_us) / f64::from(self.answers.min(32));
-        // While few answers are known, even the shortest round trip may be long: by what they vary, or by half of itself.
+        // With few answers, even the shortest round trip may be too long: by the excess of the mean one, or by half of
+        // itself.
         let unknown_us =
             (self.mean_us - 0.5 * self.shortest_us) / libm::sqrt(f64::from(self.answers.min(200)));
         let excess = round_us - self.shortest_us + unknown_us;
@@ -203,14 +215,15 @@ impl ClockFilter {
         self.correct(clock, off, 1.0 - gain, drift_gain);
     }
 
-    /// The offset was `off` from what was measured: so is the drift, and that share of the covariance is kept.
+    /// Corrects the drift by `drift_gain` times the innovation `off` of the offset, and keeps the share `kept` of the
+    /// offset's covariance.
     fn correct(&mut self, clock: &mut ShowClock, off: f64, kept: f64, drift_gain: f64) {
         let [offset, both, drift] = self.variance;
         clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
         self.variance = [offset * kept, both * kept, drift - drift_gain * both];
     }
 
-    /// Moves the offset between the bounds that the least delays give it, and to their middle where that is surer.
+    /// Clamps the offset to the bounds that the least delays give, or moves it to their middle if that is more certain.
     fn narrow(&mut self, clock: &mut ShowClock, now: Instant) {
         let [offset, both, drift] = self.variance;
         let middle = self.delays.middle(now, self.answers, libm::sqrt(drift.max(0.0)));
@@ -227,8 +240,8 @@ impl ClockFilter {
     }
 
     /// Bounds the offset by an answer, which proves that it is at most `there` and at least `-back`. An estimate
-    /// outside was too sure and moves to the bound. One outside by [`SET_ANEW_US`] belongs to a controller that began
-    /// anew.
+    /// outside moves to the bound and becomes less certain. One outside by more than [`SET_ANEW_US`] means a new
+    /// controller: the clock starts anew.
     fn keep_within_bounds(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
         let [most, back_us] = clock.delays_us(there, back);
         let least = -back_us;
@@ -242,7 +255,7 @@ impl ClockFilter {
         }
     }
 
-    /// A question is sent: the next one is due a pace later.
+    /// Notes that a question is sent, and sets when the next one is due.
     pub(crate) fn ask(&mut self, clock: &mut ShowClock, now: Instant) {
         let pace = match self.answers {
             _ if self.unanswered >= DEAF => OLD_PACE,
@@ -261,7 +274,8 @@ impl ClockFilter {
         self.unanswered = 0;
     }
 
-    /// Whether the show clock was set anew, so that earlier moments are void. The call clears it.
+    /// Whether the show clock was set anew, which makes void all moments that were received before. The call clears the
+    /// flag.
     pub(crate) fn take_reset(&mut self) -> bool {
         core::mem::take(&mut self.was_reset)
     }
@@ -298,8 +312,8 @@ mod tests {
         }
     }
 
-    /// Plays `seconds` of questions over a link of 5 ms to `slowest_ms` each way; gives the worst error after the first
-    /// `settled_s` seconds, microseconds.
+    /// Simulates `seconds` of questions over a link of 5 ms to `slowest_ms` each way. Returns the worst error after the
+    /// first `settled_s` seconds, microseconds.
     fn worst_error(slowest_ms: i64, drift: f64, seconds: u64, settled_s: u64, seed: u64) -> f64 {
         let mut clock = Clock::new(Instant(1000));
         let show_at = |own: Instant| 7_000_000.0 + own.0 as f64 * (1.0 + drift);

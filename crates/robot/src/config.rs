@@ -10,7 +10,7 @@ pub struct Config {
     pub id: RobotId,
     /// Name and version it reports.
     pub firmware: Firmware,
-    /// Spreads the periodic messages of a fleet over time.
+    /// Seed of the phase of its periodic messages, so that those of a fleet spread over time.
     pub seed: u32,
     /// How old a position fix is when it comes in; 0 to 0.45 s.
     pub fix_delay: Span,
@@ -18,14 +18,15 @@ pub struct Config {
     pub fix_sigma_m: f64,
     /// Noise of a heading fix, 1 sigma, radians.
     pub heading_sigma_rad: f64,
-    /// Share of their turning that the wheels lose, 1 sigma. The filter estimates the actual share.
+    /// Expected wheel slip as a share of the wheels' turning, 1 sigma. The filter estimates the actual slip.
     pub slip: f64,
-    /// Patience with the link. The robot brakes and is cut off when the controller is silent for longer during a route.
-    /// The same happens when the link is down for longer during any drive. It stands 0.3 s later at the latest.
+    /// How long the robot tolerates a lost link. It brakes and is cut off if the controller is silent for longer during
+    /// a route. A link that is down for longer has that effect during any drive. The robot stands 0.3 s later at the
+    /// latest.
     pub silence: Span,
     /// Time between position fixes.
     pub fix_pace: Span,
-    /// Abilities beyond the original protocol. Without any, it behaves and reports like an original robot.
+    /// Abilities beyond the original protocol. Without any, the robot behaves and reports like an original one.
     pub abilities: Abilities,
     /// Measures of its body.
     pub limits: Limits,
@@ -42,26 +43,26 @@ pub struct Config {
 /// How many proximity sensors a robot can have.
 pub const SENSORS: usize = 8;
 
-/// What the proximity sensors of a robot are. Each sits on the rim and reads the distance to the nearest point of any
+/// Parameters of a robot's proximity sensors. Each sits on the rim and reads the distance to the nearest point of any
 /// rim in its cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProximitySensors {
-    /// Directions in which they look, radians counter-clockwise from the front; those next to each other look next to
-    /// each other.
+    /// Directions of the sensors, radians counter-clockwise from the front, in order around the robot.
     pub bearings_rad: [f32; SENSORS],
     /// Half the angle of their cones, radians.
     pub half_cone_rad: f32,
-    /// Farthest gap of interest, metres. What is farther away cannot be reached within the stopping distance.
+    /// Largest gap that counts as a reading, metres. What is farther away cannot be reached within the stopping
+    /// distance.
     pub range_m: f32,
-    /// Noise of a reading, 1 sigma: metres, and share of the gap.
+    /// Constant part of the noise of a reading, 1 sigma, metres.
     pub noise_m: f32,
-    /// See `noise_m`.
+    /// Part of the noise that grows with the gap, 1 sigma, as a share of the gap. It is added to `noise_m`.
     pub noise_share: f32,
 }
 
 impl ProximitySensors {
-    /// Those of an Elisa-3: eight, 45° apart. Noise as measured in Webots R2023b on 2026-11-21: 0.5 mm at 5 mm, 0.8
-    /// mm at 10 mm.
+    /// The sensors of an Elisa-3: eight, 45° apart. Noise as measured in Webots R2023b on 2026-11-21: 0.5 mm at 5 mm,
+    /// 0.8 mm at 10 mm.
     pub const ELISA_3: Self = Self {
         bearings_rad: {
             const STEP: f32 = core::f32::consts::FRAC_PI_4;
@@ -74,36 +75,38 @@ impl ProximitySensors {
     };
 }
 
-/// How the safety layer decides; docs/reflex.md says what breaks above and below each value.
+/// Parameters of the safety layer's decisions; docs/reflex.md says what breaks above and below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SafetyPolicy {
-    /// Growth of the swept discs, in sigma of the neighbour's place when they are nearest.
+    /// Growth of the swept discs, as a multiple of the standard deviation of the neighbour's place at its nearest.
     pub sigmas: f32,
-    /// What is left between rims when the robot stands, metres.
+    /// Gap that is left between the rims when the robot stands, metres.
     pub spare_m: f32,
-    /// Share of the planned clearance that the growth takes at most.
+    /// Largest growth of the swept discs for a moving planned neighbour: a share of the planned clearance, less one
+    /// sigma of the place.
     pub planned_share: f32,
-    /// How much nearer than it is already a planned neighbour may come before the robot brakes for it, metres.
+    /// How much nearer a planned neighbour that is too near already may come before the robot brakes for it, metres.
     pub tolerance_m: f32,
-    /// Steps in a row in which a robot wants to drive and must not before it counts as blocked.
+    /// Number of steps with less than half the wanted speed after which a robot counts as blocked. A step without a
+    /// limit takes one off the count.
     pub steps_to_block: u8,
-    /// It is free again when what blocked it was missing from its place for this many steps.
+    /// Number of steps for which the blocking obstacle must be missing before the robot is free again.
     pub steps_to_free: u8,
-    /// What blocked it is missing when it is this much farther away, metres. A blocked robot backs away until there
-    /// is this much room, …
+    /// Growth of the gap, metres, from which the blocking obstacle counts as missing. A blocked robot also backs away
+    /// until the gap is this large.
     pub clear_m: f32,
-    /// … this fast, m/s, …
+    /// Speed at which a blocked robot backs away, m/s.
     pub retreat_mps: f32,
-    /// … unless a neighbour is this near behind it, metres.
+    /// Gap to a neighbour behind it below which a blocked robot does not back away, metres.
     pub followed_m: f32,
-    /// How far it leaves its route at most, backing away or giving way to a neighbour, metres.
+    /// Largest distance by which the robot backs away, or leaves its route to give way to a neighbour, metres.
     pub evade_most_m: f32,
-    /// Share of missing clearance that it gives way by.
+    /// Distance by which a robot gives way, as a share of the missing clearance.
     pub give_way_share: f32,
 }
 
 impl SafetyPolicy {
-    /// Tuned in rehearsals of formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
+    /// Tuned in rehearsals of formations, of random pairs and of robots that stop dead, 2026-11-23 and 2026-11-24.
     pub const DEFAULT: Self = Self {
         sigmas: 2.0,
         spare_m: 0.001,
@@ -119,64 +122,64 @@ impl SafetyPolicy {
     };
 }
 
-/// What the estimator of neighbours assumes of their motion and of the plan's errors; docs/reflex.md says what breaks
-/// above and below each value.
+/// Assumptions of the neighbour estimator about motion and the plan's errors; docs/reflex.md says what breaks above and
+/// below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NeighbourModel {
-    /// How far neighbours are off their plan beside what they and this robot mistake their places by, 1 sigma in each
-    /// axis: metres.
+    /// How far neighbours are off their planned places, 1 sigma in each axis, metres. Errors of the place estimates of
+    /// both robots come on top.
     pub planned_sigma_m: f32,
-    /// The same for velocity, m/s.
+    /// How far neighbours are off their planned velocities, 1 sigma in each axis, m/s.
     pub planned_sigma_mps: f32,
-    /// Share of its offset from the plan that a neighbour makes good in a second: the inverse of the correlation
-    /// time, 1/s.
+    /// Rate at which a neighbour's offset from its plan decays, 1/s: the inverse of the correlation time.
     pub offset_share: f32,
     /// Unforeseen acceleration of planned neighbours, 1 sigma in each axis, m/s².
     pub accel_sigma_mps2: f32,
-    /// The same of neighbours that the plan does not know, m/s².
+    /// Unforeseen acceleration of neighbours that the plan does not know, 1 sigma in each axis, m/s².
     pub unplanned_accel_mps2: f32,
-    /// Velocity of a neighbour of which nothing is known, 1 sigma in each axis, m/s.
+    /// Velocity of an unplanned neighbour before it is measured, 1 sigma in each axis, m/s.
     pub unknown_sigma_mps: f32,
-    /// Error of the distance that the own wheels drive, 1 sigma, as a share of it.
+    /// Error of the distance that the robot's own wheels measure, 1 sigma, as a share of the distance.
     pub odometry_share: f32,
-    /// A planned neighbour has stopped when its readings are more likely by this factor than those of one that drives
-    /// by plan, natural logarithm.
+    /// Log-likelihood ratio (natural) above which a planned neighbour counts as stopped: stopped over driving by plan.
     pub stop_log_ratio: f32,
-    /// It has left its plan when its readings are off it by this many sigma.
+    /// Offset of a neighbour's readings from its plan above which it has left the plan, in standard deviations.
     pub stray_sigmas: f32,
-    /// Error of the place at which a neighbour was found to stand, 1 sigma across the line of sight, metres.
+    /// Error of the place of a neighbour that was found to have stopped, 1 sigma across the line of sight, metres.
     pub stop_sigma_m: f32,
-    /// The same of its velocity, m/s.
+    /// Error of the velocity of a neighbour that was found to have stopped, 1 sigma, m/s.
     pub stop_sigma_mps: f32,
-    /// How much the place of what stands changes in a step, 1 sigma: metres, …
+    /// Process noise of the place of a standing object, 1 sigma per step, metres.
     pub standing_sigma_m: f32,
-    /// … and the direction of an edge, radians.
+    /// Process noise of the direction of an edge, 1 sigma per step, radians.
     pub standing_sigma_rad: f32,
-    /// Velocity of what stands, 1 sigma in each axis, m/s.
+    /// Error of the velocity of a standing object, which is taken as 0, 1 sigma in each axis, m/s.
     pub standing_sigma_mps: f32,
-    /// Something stands when its readings are more likely by this factor than those of neighbours that move, natural
-    /// logarithm.
+    /// Log-likelihood ratio (natural) above which readings are of a standing object: standing over moving neighbours.
     pub standing_log_ratio: f32,
-    /// Share of the logarithm of a likelihood that remains after a step, of what stands.
+    /// Share of the log-likelihood of a standing object that remains after a step.
     pub standing_remembered: f32,
-    /// Probability that a sensor does not see what stands in its cone.
+    /// Probability that a sensor does not see a standing object in its cone.
     pub unseen_share: f32,
-    /// Likelihood of an end at one of the places tried, over that of an edge without end, when something comes into
-    /// sight, natural logarithm.
+    /// Prior of the end of an edge at each of the places tried, when something comes into sight. Natural logarithm of
+    /// its likelihood over that of an endless edge.
     pub end_log_prior: f32,
-    /// The same of a robot that stands.
+    /// Prior of a standing robot at each of the places tried: natural logarithm of its likelihood over that of an
+    /// endless edge.
     pub disc_log_prior: f32,
-    /// Likelihood that an edge that was seen ends where it is not seen any more, natural logarithm.
+    /// Prior of an end where an edge goes out of sight: natural logarithm of its likelihood over that of an endless
+    /// edge.
     pub new_end_log_prior: f32,
-    /// Hypotheses whose places differ by less than this are one, metres.
+    /// Difference in place below which hypotheses are merged, metres.
     pub alike_m: f32,
 }
 
 impl NeighbourModel {
     /// `planned_sigma_m` and `offset_share` were measured in rehearsals with standard conditions on 2026-11-24.
-    /// `accel_sigma_mps2` makes the covariances of planned neighbours honest (reflex/planned_scene_tests.rs), those of
-    /// what stands the covariances of walls (reflex/wall_scene_tests.rs, 2026-11-24). The others were tuned on
-    /// formations, random pairs and deaths, 2026-11-23 and 2026-11-24.
+    /// `accel_sigma_mps2` makes the covariances of planned neighbours match their errors
+    /// (reflex/planned_scene_tests.rs). The parameters of standing objects do that for walls
+    /// (reflex/wall_scene_tests.rs, 2026-11-24). The others were tuned on formations, random pairs and robots that stop
+    /// dead, 2026-11-23 and 2026-11-24.
     pub const DEFAULT: Self = Self {
         planned_sigma_m: 0.0006,
         planned_sigma_mps: 0.015,
@@ -203,8 +206,8 @@ impl NeighbourModel {
 }
 
 impl Config {
-    /// An Elisa-3 with all abilities, fixes at every step, without delay and with 2 mm and 1° of noise, and 2 s of
-    /// patience with the link.
+    /// An Elisa-3 with all abilities. Fixes come at every step, without delay and with noise of 2 mm and 1°. It
+    /// tolerates a lost link for 1.9 s.
     pub fn new(id: RobotId) -> Self {
         Self {
             id,
@@ -232,16 +235,16 @@ impl Config {
 pub struct Inputs {
     /// Turns of the left and the right wheel since the step before, radians, forwards positive.
     pub wheel_turns_rad: [f64; 2],
-    /// A position fix, where one came in since the step before.
+    /// A position fix that came in since the step before; `None` if there was none.
     pub fix: Option<Fix>,
-    /// Charge of the battery, percent.
+    /// Charge of the battery, percent; `None` without a reading.
     pub battery: Option<u8>,
-    /// Lag of the wheels' world behind the own clock; negative: it runs ahead. Zero on a board. A simulation that is
-    /// slower than real time lags. Routes go by the world's time, so that all robots of one simulation are at the same
-    /// path time. The show clock, the link and the light go by the own clock.
+    /// Lag of the world of the wheels behind the own clock; negative if it runs ahead. Zero on a board; a simulation
+    /// that is slower than real time lags. Routes go by the time of that world, so that all robots of one simulation
+    /// are at the same path time. The show clock, the link and the light go by the own clock.
     pub lag: Span,
-    /// Gaps between its rim and what is nearest, metres, as eight proximity sensors 45° apart see them,
-    /// counter-clockwise from the front; infinite where nothing is in sight. `None`: it has none.
+    /// Gap that each proximity sensor reads between the robot's rim and the nearest object, metres, in the order of
+    /// [`ProximitySensors::bearings_rad`]. Infinite if nothing is in sight; `None` if the robot has no sensors.
     pub proximity_m: Option<[f32; SENSORS]>,
 }
 

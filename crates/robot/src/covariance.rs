@@ -25,8 +25,8 @@ const WAY: f64 = 0.01;
 /// Process noise of the heading as a share of the rotation, because the effective track varies: see docs/simulator.md.
 const TURN: f64 = 0.03;
 
-/// Covariances of one state with x, y, heading and the slip of the left wheel. Single precision is far finer than any of
-/// them is known, and half the work.
+/// Covariances of one state with x, y, heading and the slip of the left wheel. Single precision is much finer than the
+/// values are known, and half the work.
 pub(crate) type Row = [f32; 4];
 
 /// Motion since the covariance was last propagated.
@@ -89,7 +89,8 @@ pub(crate) fn right_correction(gains: &[Gain; 3], innovation: [f32; 3]) -> f32 {
 /// The covariance.
 #[derive(Debug)]
 pub(crate) struct PoseCovariance {
-    /// Variances that every step reads, taken from `rows`.
+    /// Greater variance of x and y, square metres: a copy from `rows`, because every step reads it. `heading` is a
+    /// copy, too.
     place: f64,
     heading: f64,
     rows: [Row; 4],
@@ -100,7 +101,7 @@ pub(crate) struct PoseCovariance {
 }
 
 impl PoseCovariance {
-    /// An unknown pose, and slip with this 1 sigma.
+    /// The covariance of an unknown pose, and of a slip with this standard deviation.
     pub(crate) fn new(slip: f64) -> Self {
         let mut rows = [[0.0; 4]; 4];
         let slip = (slip * slip) as f32;
@@ -118,7 +119,7 @@ impl PoseCovariance {
         self.heading = f64::from(self.rows[HEADING][HEADING]);
     }
 
-    /// Propagates the covariance over a stretch that ended with this heading.
+    /// Propagates the covariance over a stretch. `facing`: unit vector of the heading at its end.
     pub(crate) fn propagate(&mut self, stretch: &MotionSegment, facing: Vec2, track_m: f64, drift: Drift) {
         let [left, right] = stretch.ways_m;
         let (half_left, half_right, by) = (-0.5 * left, -0.5 * right, 1.0 / track_m);
@@ -229,7 +230,7 @@ impl PoseCovariance {
     }
 }
 
-/// Adds `share` times another row.
+/// Adds `share` times another row to a row.
 #[inline]
 fn add(row: &mut Row, share: f32, other: &Row) {
     row.iter_mut().zip(other).for_each(|(value, with)| *value += share * with);

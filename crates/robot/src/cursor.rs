@@ -1,4 +1,4 @@
-//! Evaluation of a route at a path time that advances. It keeps the current piece as a polynomial.
+//! Evaluation of a route at a path time that advances. The current piece is kept as a polynomial.
 
 use lightbots_base::{Motion, Span, Vec2};
 use lightbots_wire::Route;
@@ -41,7 +41,7 @@ impl RouteCursor {
         }
     }
 
-    /// The motion at a path time within the piece sought, per path time.
+    /// The motion at a path time within the current piece. Velocity and acceleration are per path time.
     pub(crate) fn motion(&self, time: Span) -> Motion {
         let [p, a, b, c] = self.cubic;
         if self.rests {
@@ -56,7 +56,7 @@ impl RouteCursor {
         }
     }
 
-    /// The piece at the path time sought: its index, and when it begins.
+    /// The current piece: its index, and when it begins.
     pub(crate) fn piece(&self) -> (usize, Span) {
         (self.index, self.begin)
     }
@@ -79,7 +79,7 @@ impl RouteCursor {
     }
 }
 
-/// Where piece `index` starts.
+/// The place where piece `index` starts, stage metres.
 pub(crate) fn from(route: &Route, index: usize) -> Vec2 {
     index.checked_sub(1).and_then(|before| route.pieces.get(before)).map_or(route.start, |piece| piece.end)
 }

@@ -4,25 +4,26 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::filter::turned;
 
-/// Acceleration that feedback may use, as a multiple of what plans use. Below, a robot cannot catch up with its route.
-/// Above, it stumbles.
+/// Largest acceleration under feedback, as a multiple of the one that plans use. Below, a robot cannot catch up with
+/// its route. Above, it stumbles.
 const ACCEL_RESERVE: f64 = 1.25;
-/// Speed that feedback may use, as a multiple of what plans use. See [`ACCEL_RESERVE`].
+/// Largest speed under feedback, as a multiple of the one that plans use. See [`ACCEL_RESERVE`].
 const SPEED_RESERVE: f64 = 1.25;
 /// Acceleration after braking without a ramp, as a multiple of the ramp: about the grip of tyres. An Elisa-3 stumbles at it
 /// and loses 4 mm at most. Below, it loses 20 mm, and the robots close behind brake in turn, each more than the one before.
 const RECOVERY: f64 = 9.0;
-/// Braked steps that make stop and go of it, at which the robots behind brake too. A robot that lost the speed of one step
-/// because a sensor erred and regains it by the ramp lags 18 mm, and the one behind runs into it (campaign, seeds 498, 703).
+/// Number of braked steps from which braking is stop-and-go, at which the robots behind brake too. After fewer, speed
+/// comes back fast. A robot that brakes in one step because a sensor erred would lag 18 mm by the ramp. The robot
+/// behind would run into it (campaign, seeds 498, 703).
 const STOP_AND_GO: u32 = 2;
 /// Largest change of the turning rate, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
 /// Time for which a robot drives on as commanded before, seconds: one step until the motors answer, and one step of holding
 /// the command.
 const DEAD_S: f64 = 0.032;
-/// A commanded speed below this is standing, m/s.
+/// Commanded speed below which the robot stands or only turns, m/s.
 const STANDING_MPS: f64 = 0.01;
-/// A commanded turning rate below this is standing, rad/s.
+/// Commanded turning rate below which the robot does not turn, rad/s.
 const STANDING_RADPS: f64 = 0.2;
 
 /// Commanded motion of the body.
@@ -45,9 +46,9 @@ pub(crate) struct BodyPose {
 #[derive(Debug, Default)]
 pub(crate) struct DriveBase {
     commanded: Setpoint,
-    /// Steps in which it braked without a ramp, since it last had its speed.
+    /// Number of steps in which the robot braked without a ramp since it last had its wanted speed.
     braked_steps: u32,
-    /// It regains its speed by the ramp, where it braked for [`STOP_AND_GO`].
+    /// Whether the robot regains its speed by the ramp after [`STOP_AND_GO`] braked steps or more.
     pub gently: bool,
 }
 
@@ -95,13 +96,13 @@ impl DriveBase {
         self.wheels(slip, limits)
     }
 
-    /// Whether speed lost by braking comes back as fast as the tyres grip.
+    /// Whether speed lost by braking is regained as fast as the tyres grip.
     fn recovers_fast(&self) -> bool {
         self.braked_steps > 0 && !(self.gently && self.braked_steps >= STOP_AND_GO)
     }
 
-    /// The setpoint of a robot that has nothing to do: to stand by the ramp, on the curve that it drives. Robots close
-    /// behind see that in time, which they do not where a robot stops dead.
+    /// The setpoint of a robot that has nothing to do: it brakes by the ramp on its present curve until it stands.
+    /// Robots close behind detect that in time, but not a robot that stops dead.
     pub(crate) fn rolling_out(&self, dt: f64, limits: &Limits) -> Setpoint {
         if !self.rolls() {
             return Setpoint::default();
@@ -116,7 +117,7 @@ impl DriveBase {
         self.commanded.speed_mps.abs() >= STANDING_MPS
     }
 
-    /// Distance to a stop by the ramp, metres.
+    /// Distance to a stop by the ramp, metres, with the dead time before it.
     pub(crate) fn braking_m(&self, limits: &Limits) -> f64 {
         let speed_mps = self.commanded.speed_mps.abs();
         speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * limits.accel_mps2) + DEAD_S)
@@ -138,7 +139,8 @@ impl DriveBase {
         !self.rolls() && self.commanded.turn_radps.abs() < STANDING_RADPS
     }
 
-    /// Wheel rates of the command. Where one exceeds the motor's limit, both are scaled, so that the curve stays.
+    /// Wheel rates of the command, left and right, rad/s. Where one exceeds the motor's limit, both are scaled, so that
+    /// the curve stays.
     fn wheels(&self, slip: [f64; 2], limits: &Limits) -> [f64; 2] {
         let Setpoint { speed_mps, turn_radps } = self.commanded;
         let half = turn_radps * limits.track_m * 0.5;

@@ -1,5 +1,5 @@
-//! Estimate of the present pose. The filter holds the pose at the moment of the latest fixes. Where these come late,
-//! odometry leads from there to the present.
+//! Estimate of the present pose. The filter holds the pose at the moment of the latest fixes. If fixes come late,
+//! odometry carries that pose on to the present.
 
 use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
@@ -7,20 +7,20 @@ use crate::config::{Config, Fix};
 use crate::filter::{Filter, turned};
 use crate::history::OdometryHistory;
 
-/// A robot is lost with an error of its place above this, metres, 1 sigma. Below, robots abandon routes in short outages.
+/// Error of the place above which a robot is lost, metres, 1 sigma. Below, robots abandon routes in short outages.
 /// Above, they drive where they may touch their neighbours.
 const LOST_M: f64 = 0.02;
-/// A robot is lost without a fix for longer than this, whatever the covariance says.
+/// Time without a fix after which a robot is lost, whatever the covariance says.
 const LOST_AFTER: Span = Span::from_millis(3000);
 
-/// Whether a robot knows its pose well enough, as of one step.
+/// How well a robot knew its pose in one step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PoseQuality {
-    /// The pose is too uncertain to drive.
+    /// Whether the pose is too uncertain to drive.
     pub lost: bool,
-    /// The last fix is too old even for a robot that is held.
+    /// Whether the last fix is too old, even for a robot that rests on a held route.
     pub lost_for_good: bool,
-    /// Fixes are overdue.
+    /// Whether fixes are overdue.
     pub blind: bool,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct PoseQuality {
 pub(crate) struct Estimate {
     delay: Span,
     filter: Filter,
-    /// The present place where fixes come late; otherwise unused, as the two fields below.
+    /// The present place if fixes come late; otherwise unused, as are the two fields below.
     at: Vec2,
     /// Unit vector of `heading`.
     facing: Vec2,
@@ -64,13 +64,13 @@ impl Estimate {
         self.predict_present(history);
     }
 
-    /// Corrects the pose by a fix. NaN is ignored.
+    /// Corrects the pose by a fix. NaN in it is ignored.
     #[inline]
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, history: &OdometryHistory) {
         if !self.is_ahead() {
             self.filter.correct(now, fix);
         } else {
-            // The fix was made at a moment within the step after the filter's.
+            // The fix was measured within the first step of the history, which the filter has not taken yet.
             let (way, turn) = self.filter.motion(history.begun_by(now - self.delay));
             let moved = self.filter.facing() * way;
             let fix = Fix { at: fix.at - moved, heading: fix.heading.map(|heading| heading - turn) };
@@ -170,12 +170,12 @@ impl Estimate {
         self.filter.variance() > LOST_M * LOST_M || self.lost_for_good(now)
     }
 
-    /// Whether the last fix is so old that none is to be expected, or no fix ever came.
+    /// Whether the last fix is older than [`LOST_AFTER`], or no fix ever came.
     pub(crate) fn lost_for_good(&self, now: Instant) -> bool {
         self.is_blind(now, LOST_AFTER)
     }
 
-    /// Whether fixes and wheels contradict each other for longer than a shove explains. The call clears it.
+    /// Whether the place jumped twice within a second, which no push explains. The call clears the flag.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.filter.take_senseless()
     }

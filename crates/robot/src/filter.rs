@@ -17,20 +17,22 @@ use crate::noise::NoiseEstimate;
 use crate::slip::SlipEstimate;
 use gate::{GateResult, OutlierGate};
 
-/// Steps between two propagations of the covariance. Below, the filter costs more. Above, gains are used that are too old.
+/// Steps between two propagations of the covariance. Below, the filter costs more. Above, the gains in use are too old.
 const STRETCH: u32 = 4;
-/// Fixes after a gap for which the covariance is propagated at every step, because each of them changes the gains a lot.
+/// Number of fixes after a gap for which the covariance is propagated at every step, because each of them changes the
+/// gains a lot.
 const TEACHING: u8 = 8;
-/// Least noise of a place, metres, 1 sigma. Below, a builder's optimistic figure makes the filter reject good fixes.
+/// Lower bound of the noise of a position fix, metres, 1 sigma. Below, too low a figure in the configuration makes the
+/// filter reject good fixes.
 const BEST_FIX_M: f64 = 0.000_3;
-/// Least noise of a heading, radians, 1 sigma. See [`BEST_FIX_M`].
+/// Lower bound of the noise of a heading fix, radians, 1 sigma. See [`BEST_FIX_M`].
 const BEST_HEADING_RAD: f64 = 0.002;
-/// Without a heading fix for longer than this, the heading comes from motion.
+/// Time without a heading fix after which the heading comes from motion.
 const NO_COMPASS: Span = Span::from_millis(500);
 /// Error of a heading that comes from motion, radians, 1 sigma: 2 mm of noise over 60 mm.
 const BEARING_RAD: f64 = 0.03;
-/// A heading from motion is used where it contradicts the estimate by more than this, radians. Below, its noise turns a
-/// robot that knows its heading.
+/// Contradiction between a heading from motion and the estimate from which the former is used, radians. Below, its
+/// noise turns a robot that knows its heading.
 const BEARING_OFF_RAD: f64 = 0.2;
 
 /// Pose and slip with their covariance.
@@ -48,13 +50,13 @@ pub(crate) struct Filter {
     way: Vec2,
     /// Motion since the covariance was propagated.
     stretch: MotionSegment,
-    /// Fixes since then, of places and of headings.
+    /// Number of fixes since the covariance was propagated: of the place, of the heading.
     fixes: [u32; 2],
     slip: SlipEstimate,
     gate: OutlierGate,
     place_noise: NoiseEstimate,
     heading_noise: NoiseEstimate,
-    /// Innovation of the fix before, where it was no outlier.
+    /// Innovations of the fix before: place in metres and heading in radians, zero for an outlier. `None` after a gap.
     off: Option<(Vec2, f64)>,
     gains: [Gain; 3],
     covariance: PoseCovariance,
@@ -156,7 +158,8 @@ impl Filter {
         self.turn_by(f64::from(turn));
     }
 
-    /// Propagates the covariance over the stretch behind and updates it by the measurements within.
+    /// Propagates the covariance over the steps since the last time, updates it by their measurements, and computes the
+    /// gains.
     fn propagate(&mut self) {
         let stretch = core::mem::take(&mut self.stretch);
         let [places, headings] = core::mem::take(&mut self.fixes);
@@ -175,7 +178,8 @@ impl Filter {
         }
     }
 
-    /// Innovation of the place; zero for an outlier.
+    /// Tests a position fix and returns its innovation. Zero for an outlier, and for a jump, which moves the place
+    /// itself.
     fn gate_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
         let noise = self.place_noise.variance();
         match self.gate.place(now, off, self.covariance.place(), noise) {
@@ -194,7 +198,8 @@ impl Filter {
         }
     }
 
-    /// Innovation of the heading; zero for an outlier.
+    /// Tests a heading fix and returns its innovation. Zero for an outlier, and for a jump, which turns the heading
+    /// itself.
     fn gate_heading(&mut self, now: Instant, off: f64) -> f64 {
         let noise = self.heading_noise.variance();
         match self.gate.heading(now, off, self.covariance.heading() + noise, !self.aligned) {
@@ -213,7 +218,7 @@ impl Filter {
         }
     }
 
-    /// Without a compass, reads the heading from motion until the filter can follow it.
+    /// Without a compass, sets the heading from motion if it is unknown or far off.
     fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
         if self.gate.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
             return;
@@ -257,12 +262,12 @@ impl Filter {
         self.aligned
     }
 
-    /// When the last place came that was no outlier.
+    /// When the last position fix came that was no outlier.
     pub(crate) fn last_fix(&self) -> Option<Instant> {
         self.gate.last_place()
     }
 
-    /// Variance of the place in each coordinate.
+    /// Variance of the place, square metres: the greater of both coordinates.
     pub(crate) fn variance(&self) -> f64 {
         self.covariance.place()
     }
@@ -273,19 +278,20 @@ impl Filter {
         way_m * (libm::sqrt(self.covariance.heading()) + bend * libm::sqrt(self.covariance.slip()))
     }
 
-    /// Variance of the place that `way_m` of driving without a fix adds, by the heading error and by unknown slip.
+    /// Variance that `way_m` of driving without a fix adds to the place, by the heading error and by unknown slip,
+    /// square metres.
     pub(crate) fn drift(&self, way_m: f64) -> f64 {
         let bend_m = way_m / self.track_m * way_m;
         way_m * way_m * self.covariance.heading() + 0.5 * bend_m * bend_m * self.covariance.slip()
     }
 
-    /// Whether fixes and wheels contradict each other for longer than a shove explains. The call clears it.
+    /// Whether the place jumped twice within a second, which no push explains. The call clears the flag.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.gate.take_senseless()
     }
 }
 
-/// `facing` rotated by a small angle: a Taylor series, exact to 1e-9 below 0.1 rad, scaled back to length 1.
+/// Returns `facing` rotated by a small angle: a Taylor series, exact to 1e-9 below 0.1 rad, scaled back to length 1.
 pub(crate) fn turned(facing: Vec2, turn: f64) -> Vec2 {
     let square = turn * turn;
     let sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));

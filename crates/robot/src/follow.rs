@@ -8,8 +8,8 @@ use crate::look_ahead::Ahead;
 
 /// Gain of the error along, 1/s (Kanayama's Kx). Above, the dead time of two steps makes the speed swing.
 const ALONG: f64 = 9.0;
-/// Deceleration with which a large error along is closed, m/s². It adds to that of the route, so above it a robot that
-/// caught up cannot brake in time and drives on beyond its route.
+/// Deceleration with which a large error along is closed, m/s². It adds to the deceleration of the route. Above, a
+/// robot that caught up cannot brake in time and drives on beyond its route.
 const CLOSING_MPS2: f64 = 0.4;
 /// Error along from which [`CLOSING_MPS2`] limits the speed, metres: there it equals the linear gain.
 const FAR_M: f64 = 2.0 * CLOSING_MPS2 / (ALONG * ALONG);
@@ -22,7 +22,8 @@ const SPOT: f64 = 12.0;
 /// Turning rate towards the look-ahead direction, as a multiple of angle per remaining time. At 1 the turn would end
 /// exactly in time, without reserve for the ramp.
 const SWING: f64 = 1.8;
-/// Least speed by which an error across steers, m/s. Below, a robot that creeps does not return to its route.
+/// Lower bound of the speed that an error across is multiplied by for steering, m/s. Below, a robot that creeps does
+/// not return to its route.
 const STEERING_MPS: f64 = 0.05;
 /// Speed of the route below which its tangent is no direction, m/s.
 pub(crate) const RESTING_MPS: f64 = 0.002;
@@ -30,10 +31,10 @@ pub(crate) const RESTING_MPS: f64 = 0.002;
 const CALM_M: f64 = 0.0015;
 /// Sines of the heading error below this are noise while the route rests. See [`CALM_M`].
 const CALM_SIN: f64 = 0.012;
-/// Distance from a creeping route at which a robot turns towards it, metres. Where the route rests, turning does not pay:
-/// the place may be as wrong, and the robot would arrive later.
+/// Distance from a creeping route at which a robot turns towards it, metres. A robot does not turn where the route
+/// rests: the place may be as wrong, and the robot would arrive later.
 const STRAY_M: f64 = 0.004;
-/// Speed below which a route rests and does not creep, m/s. It only has to exclude rounding.
+/// Speed of a route up to which it rests; a faster one creeps, m/s. It only has to exclude rounding.
 const CREEPING_MPS: f64 = 1e-5;
 /// Largest speed of a correction while the route rests, m/s.
 const CORRECTION_MPS: f64 = 0.1;
@@ -45,7 +46,7 @@ const _: () = assert!(CREEPING_MPS < RESTING_MPS && RESTING_MPS < STEERING_MPS);
 /// The tracking controller of a robot.
 #[derive(Debug)]
 pub(crate) struct Follow {
-    /// Unit vector of travel.
+    /// Unit vector of travel, in the stage.
     travel: Vec2,
     /// 1 forwards, −1 backwards, 0 not chosen yet.
     sense: f64,
@@ -56,8 +57,8 @@ impl Follow {
         Self { travel: Vec2::ZERO, sense: 0.0 }
     }
 
-    /// The next setpoint. `motion`: the route's, by show time, at the moment when the setpoint takes effect. `ahead`: the
-    /// look-ahead direction, where the route rests or is slow.
+    /// The next setpoint. `motion`: motion of the route per show time, at the moment when the setpoint takes effect.
+    /// `ahead`: the look-ahead direction, if the route rests or is slow.
     #[inline]
     pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: BodyPose) -> Setpoint {
         let speed = motion.velocity.length();
@@ -75,7 +76,7 @@ impl Follow {
         let error = motion.position - body.at;
         let stray = ahead.is_none() && speed > CREEPING_MPS && error.length() > STRAY_M;
         if let Some(towards) = error.normalized().filter(|_| stray) {
-            // A route that creeps has no direction, and yet leads away to the side in time.
+            // The tangent of a creeping route is no direction, and yet the route leads away to the side in time.
             self.travel = towards;
             self.choose_sense(body.facing);
         }
@@ -89,7 +90,7 @@ impl Follow {
         Setpoint { speed_mps: 0.0, turn_radps: self.turn_on_the_spot(body.facing) }
     }
 
-    /// Chooses front or back first, whichever is the shorter turn, with hysteresis.
+    /// Chooses whether the robot drives forwards or backwards, whichever is the shorter turn, with hysteresis.
     fn choose_sense(&mut self, facing: Vec2) {
         let cos = facing.dot(self.travel);
         if self.sense == 0.0 || cos * self.sense < BEHIND_COS {

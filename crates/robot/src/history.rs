@@ -1,4 +1,5 @@
-//! Odometry since the moment of the latest fixes, so that a late fix corrects the pose of its own moment.
+//! Odometry since the moment of the latest fixes, so that a late fix corrects the pose that the robot had at its
+//! moment.
 
 use lightbots_base::{Instant, Span};
 
@@ -44,7 +45,7 @@ impl OdometryHistory {
         Some(turns)
     }
 
-    /// Wheel turns of the oldest step until `then`, interpolated.
+    /// Wheel turns in the part of the oldest step before `then`, interpolated.
     pub(crate) fn begun_by(&self, then: Instant) -> Turns {
         let Some((ended, turns)) = self.all().next() else { return [0.0; 2] };
         let (whole, past) = (*ended - self.taken, then - self.taken);

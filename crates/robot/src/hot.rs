@@ -14,15 +14,15 @@ use crate::seek::Seek;
 use crate::stall::StallDetector;
 use crate::supervise::Supervisor;
 
-/// Fixes are overdue when three have not come and this much time has passed on top. Below one step, jitter of the fixes
-/// counts as an outage. Above, a robot drives on without fixes for longer.
+/// Time beyond that of three fixes after which fixes are overdue. Below one step, jitter of the fixes counts as an
+/// outage. Above, a robot drives on without fixes for longer.
 const OVERDUE: Span = Span::from_millis(16);
 
 /// All state that a step reads or writes while no neighbour is in sight and the light is a straight line of colours: one
 /// piece of memory, 1.8 KB.
 ///
-/// A simulator of thousands of robots may load it into the cache by its address and size before the robot's turn. A step
-/// that waits for memory itself waits longer than it computes.
+/// A simulator of thousands of robots may load it into the cache by its address and size before the robot's turn.
+/// Otherwise a step waits longer for memory than it computes.
 #[derive(Debug)]
 #[repr(align(64))]
 pub struct Hot {
@@ -30,7 +30,7 @@ pub struct Hot {
     pub(crate) now: Instant,
     /// When the latest step was, in the time of the world that the wheels are in.
     pub(crate) last_step: Option<Instant>,
-    /// How far that world lags behind the own clock, as of the latest step.
+    /// How far the world of the wheels lags behind the own clock, as of the latest step.
     pub(crate) lag: Span,
     pub(crate) clock: ShowClock,
     /// Measures of the own body, a copy from the configuration.
@@ -39,11 +39,11 @@ pub struct Hot {
     pub(crate) blind_after: Span,
     /// Range of the proximity sensors, metres.
     pub(crate) range_m: f32,
-    /// It understands routes, and so the show clock.
+    /// Whether the robot understands routes, and with them the show clock.
     pub(crate) takes_routes: bool,
-    /// Its light says what is wrong.
+    /// Whether its light shows faults.
     pub(crate) shows_trouble: bool,
-    /// The light may change by itself, or was told to change since the latest step.
+    /// Whether the light may change by itself, or a command changed it since the latest step.
     pub(crate) light_changes: bool,
     pub(crate) shown: Rgb,
     /// The light of the next steps, as far as it is known.
@@ -51,13 +51,13 @@ pub struct Hot {
     /// Moment of the show clock whose colour of the piece was shown last.
     pub(crate) piece_shown_at: Instant,
     pub(crate) state: RobotState,
-    /// When it stops, by its own clock: its route comes to rest until then.
+    /// When the robot stops after a `STOP at`, by its own clock. Its route comes to rest by then.
     pub(crate) stops_at: Option<Instant>,
-    /// It stands until fixes come again.
+    /// Whether the robot stands until fixes come again.
     pub(crate) pauses: bool,
-    /// The safety layer follows a neighbour or acts on one. Otherwise a step does not run the safety layer.
+    /// Whether the safety layer follows a neighbour or acts on one. Otherwise a step does not run the safety layer.
     pub(crate) is_wary: bool,
-    /// What the latest step knew of its pose.
+    /// How well the robot knew its pose in the latest step.
     pub(crate) quality: PoseQuality,
     pub(crate) drive: DriveBase,
     pub(crate) stall: StallDetector,

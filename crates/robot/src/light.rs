@@ -1,5 +1,5 @@
-//! The light: a colour, fades and stretches of light by the show clock, light from elsewhere over them, blinking to be
-//! found, and red flashes for faults.
+//! The light: a colour, fades and stretches of light by the show clock, and live light from elsewhere over them. It
+//! also blinks to be found and flashes red for faults.
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
@@ -8,39 +8,39 @@ use crate::light_ahead::{LightAhead, StoredTracks};
 use crate::light_piece::LightPiece;
 use crate::live_light::LiveLight;
 
-/// Capacity for fades that wait for their moment. One more replaces the latest.
+/// Number of fades that can wait for their moment. One more replaces the latest.
 const WAITING: usize = 4;
 /// Half a period of blinking: 4 Hz.
 const FLASH: Span = Span::from_millis(125);
 /// How long a fault lasts before the light shows it. Below, every restart of the link flashes.
 const SETTLED: Span = Span::from_millis(500);
-/// Time between two groups of flashes.
+/// Period of the groups of red flashes.
 const TROUBLE: Span = Span::from_millis(2000);
 const RED: Rgb = Rgb::new(255, 0, 0);
 
 /// The present colour, and what will change it.
 #[derive(Debug, Default)]
 pub(crate) struct Light {
-    /// Its own light, which goes on beneath all that is shown instead.
+    /// Colour of the own light, which goes on beneath all that is shown over it.
     shown: Rgb,
-    /// A fade, a track, light from elsewhere, blinking or flashes change it. Otherwise it stays at `shown`.
+    /// Whether a fade, a stretch, live light, blinking or flashes may change the light. Otherwise it stays at `shown`.
     busy: bool,
-    /// The colour a running fade came from, and the fade.
+    /// The running fade, behind the colour at which it began.
     running: Option<(Rgb, Fade)>,
-    /// In order of time.
+    /// Fades that have not begun, in order of time.
     waiting: heapless::Vec<Fade, WAITING>,
-    /// Light that was sent ahead.
+    /// Stretches of light, sent ahead.
     pub(crate) tracks: LightAhead,
-    /// Light from elsewhere.
+    /// Live light from elsewhere, such as a lighting desk.
     pub(crate) live: LiveLight,
-    /// From when until when it blinks, own clock.
+    /// Begin and end of blinking, own clock.
     blink: Option<(Instant, Instant)>,
-    /// From when on a fault is shown, own clock, and its number of flashes.
+    /// When a fault begins to be shown, own clock, and its number of flashes.
     trouble: Option<(Instant, u8)>,
 }
 
 impl Light {
-    /// Shows a colour at once and cancels all fades and stretches of light.
+    /// Sets the own light to a colour at once, and cancels all fades and stretches of light.
     pub(crate) fn set(&mut self, colour: Rgb) {
         self.shown = colour;
         self.running = None;
@@ -48,7 +48,8 @@ impl Light {
         self.tracks.clear();
     }
 
-    /// Takes a fade. It begins at its moment, or at once where that is past or the show time is unknown.
+    /// Takes a fade. It begins at its moment, or at once if that is past. If the show time is unknown, its colour is
+    /// set at once.
     pub(crate) fn fade(&mut self, show: Option<Instant>, fade: Fade) {
         let Some(show) = show else {
             return self.set(fade.to);
@@ -63,13 +64,13 @@ impl Light {
         self.advance(show);
     }
 
-    /// Blinks from `now` on, own clock.
+    /// Blinks from `now` on, own clock, for the time `over`.
     pub(crate) fn blink(&mut self, now: Instant, over: Span) {
         self.blink = Some((now, now + over));
         self.busy = true;
     }
 
-    /// Reports a fault at `now` of the own clock, as a number of red flashes; 0: none.
+    /// Takes the present fault at `now` of the own clock, as a number of red flashes; 0 for none.
     pub(crate) fn report(&mut self, now: Instant, flashes: u8) {
         if flashes == 0 && !self.busy {
             return;
@@ -85,18 +86,18 @@ impl Light {
         self.busy
     }
 
-    /// Cancels the fades that have not begun, and all stretches of light: the colour stays as it is.
+    /// Cancels the fades that have not begun, and all stretches of light. A fade that runs goes on.
     pub(crate) fn stop(&mut self) {
         self.waiting.clear();
         self.tracks.clear();
     }
 
-    /// Light that was sent ahead or from elsewhere arrived.
+    /// Notes that a stretch or live light arrived, which steps must look at.
     pub(crate) fn wake(&mut self) {
         self.busy = true;
     }
 
-    /// The colour now, by the own clock and the show clock.
+    /// The colour at `now` of the own clock and at `show` of the show clock.
     pub(crate) fn step(&mut self, now: Instant, show: Option<Instant>, stored: &StoredTracks) -> Rgb {
         if !self.busy {
             return self.shown;
@@ -130,8 +131,8 @@ impl Light {
         if beat % 2 == 0 { colour } else { Rgb::BLACK }
     }
 
-    /// The colours from a moment of the show clock on, after `step` found the colour of that moment. There is no piece where
-    /// anything but a stretch may change it.
+    /// The line of colours from a moment of the show clock on, after `step` computed the colour of that moment.
+    /// [`LightPiece::NONE`] if anything but a stretch may change the light.
     pub(crate) fn piece(&self, show: Option<Instant>, stored: &StoredTracks) -> LightPiece {
         let is_alone = self.running.is_none()
             && self.waiting.is_empty()
@@ -141,7 +142,7 @@ impl Light {
         show.filter(|_| is_alone).map_or(LightPiece::NONE, |show| self.tracks.piece(show, stored))
     }
 
-    /// The own light is this by now, by a piece.
+    /// Sets the own light to the colour that a piece showed last.
     pub(crate) fn catch_up(&mut self, shown: Rgb) {
         self.shown = shown;
     }

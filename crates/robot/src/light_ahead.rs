@@ -6,9 +6,10 @@ use lightbots_wire::{LightAnchor, LightStretch, MAX_LIGHT_RECORDS};
 use crate::light_piece::LightPiece;
 use crate::timeline::Timeline;
 
-/// Stretches that are stored: one that plays, the one that goes on from it, and the first of the next drive.
+/// Number of stretches that are stored: the one that plays, the one that goes on from it, and the first of the next
+/// drive.
 pub(crate) const STORED: usize = 3;
-/// A message whose number is less than this below the newest is an old message, as with routes.
+/// A message whose number is less than this below the newest is old, as with routes.
 pub(crate) const OLD_NUMBERS: u32 = 64;
 
 /// Colours of one stretch.
@@ -33,17 +34,17 @@ impl StoredTrack {
     }
 }
 
-/// The tracks' storage.
+/// Storage of all stretches.
 pub(crate) type StoredTracks = [StoredTrack; STORED];
 
-/// A stretch that was received.
+/// A stretch that was received, without its colours.
 #[derive(Clone, Copy, Debug)]
 struct Kept {
     number: u32,
     slot: usize,
     /// The route whose START it waits for.
     seq: Option<u32>,
-    /// From when its time counts; `None`: not known yet.
+    /// Moment of the show clock from which its time counts; `None` while it waits for a START.
     from: Option<Instant>,
     runs_freely: bool,
     skip: Span,
@@ -54,17 +55,17 @@ struct Kept {
 #[derive(Clone, Copy, Debug)]
 struct Playing {
     kept: Kept,
-    /// The colour that was shown before.
+    /// The colour that was shown before it began.
     before: Rgb,
     cursor: LightCursor,
-    /// Its time, without what was skipped, counts from here, as far as it goes on with the show clock.
+    /// Moment of the show clock at which its track began, if its time runs with the show clock.
     began: Instant,
-    /// Whether it went on so at the last step, and does until a message comes. Blending is over.
+    /// Whether its time runs with the show clock until a message comes, and blending is over.
     is_even: bool,
 }
 
 impl Playing {
-    /// The line of colours at its cursor, as far as it lies within `from..until`.
+    /// The line of colours at its cursor, as far as it lies between two moments. `None` if the track is over.
     fn piece(&self, track: LightTrack<'_>, moments: (Instant, Instant)) -> Option<LightPiece> {
         let (begins, lasts, colours) = self.cursor.line(track)?;
         Some(LightPiece::new(moments, (self.began + begins, lasts), colours))
@@ -75,13 +76,13 @@ impl Playing {
 #[derive(Debug)]
 pub(crate) struct LightAhead {
     playing: Option<Playing>,
-    /// In order of arrival.
+    /// Stretches that have not begun, in order of arrival.
     waiting: heapless::Vec<Kept, STORED>,
     /// Number of the stretch that was received last; 0: none.
     newest: u32,
-    /// The START that was heard last.
+    /// Route number and moment of the START that was received last.
     started: Option<(u32, Instant)>,
-    /// Time since `playing` counts, without holds.
+    /// Time of the stretch that plays, which stands still during holds.
     timeline: Timeline,
     /// No stretch that waits begins before this moment of the show clock.
     quiet_until: Instant,
@@ -106,12 +107,13 @@ impl LightAhead {
         self.newest
     }
 
-    /// Whether one plays or waits.
+    /// Whether a stretch plays or waits.
     pub(crate) fn is_any(&self) -> bool {
         self.playing.is_some() || !self.waiting.is_empty()
     }
 
-    /// Keeps a stretch. An old message changes nothing. Without room, it replaces the one that waits and came last.
+    /// Keeps a stretch. An old message changes nothing. Without room, the new stretch replaces the one that came last
+    /// of those that wait.
     pub(crate) fn keep(&mut self, stretch: &LightStretch, storage: &mut StoredTracks) {
         if self.newest != 0 && self.newest.wrapping_sub(stretch.number) < OLD_NUMBERS {
             return;
@@ -139,7 +141,8 @@ impl LightAhead {
         self.quiet_until = Instant::ZERO;
     }
 
-    /// A START states when a route begins. A later moment postpones it, as with routes.
+    /// Takes a START, which sets when stretches of that route begin. For the START of a route that is known, only a
+    /// later moment counts.
     pub(crate) fn start(&mut self, seq: u32, at: Instant) {
         if self.started.is_some_and(|(known, before)| known == seq && before >= at) {
             return;
@@ -154,7 +157,7 @@ impl LightAhead {
     /// Notes a hold or resume.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
-        // A resume that comes late makes up for time.
+        // A resume that is received late advances the time at once.
         self.quiet_until = Instant::ZERO;
     }
 
@@ -170,7 +173,7 @@ impl LightAhead {
         self.waiting.clear();
     }
 
-    /// The show clock was set anew: what was stated by it is void.
+    /// Drops all stretches and moments, because the show clock was set anew.
     pub(crate) fn forget_moments(&mut self) {
         *self = Self { newest: self.newest, ..Self::default() };
     }
@@ -180,7 +183,7 @@ impl LightAhead {
         show >= self.quiet_until && self.due(show).is_some()
     }
 
-    /// The colour at a moment of the show clock, where a stretch plays. `shown`: the colour until now.
+    /// The colour at a moment of the show clock; `None` if no stretch plays. `shown`: the colour until now.
     pub(crate) fn step(&mut self, show: Instant, shown: Rgb, storage: &StoredTracks) -> Option<Rgb> {
         if show >= self.quiet_until {
             while let Some(index) = self.due(show) {
@@ -208,7 +211,7 @@ impl LightAhead {
         Some(colour)
     }
 
-    /// The piece after one that is over, if nothing happened but that time passed; `None`: `step` has to look.
+    /// The line of colours after one that is over, if nothing else happened. `None` if `step` must compute the colour.
     #[inline]
     pub(crate) fn next_piece(&mut self, show: Instant, storage: &StoredTracks) -> Option<LightPiece> {
         if show >= self.quiet_until {
@@ -220,7 +223,7 @@ impl LightAhead {
         playing.piece(track, (show, self.quiet_until))
     }
 
-    /// The colours from a moment of the show clock on, after `step` found the colour of that moment.
+    /// The line of colours from a moment of the show clock on, after `step` computed the colour of that moment.
     pub(crate) fn piece(&self, show: Instant, storage: &StoredTracks) -> LightPiece {
         let even = self.playing.as_ref().filter(|playing| playing.is_even);
         let piece = even
@@ -229,7 +232,7 @@ impl LightAhead {
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
-        // What waits for a moment belongs to the drive before, or this stretch was sent in its place.
+        // A stretch that waits for a moment belongs to the drive before, or this stretch was sent in its place.
         let is_replaced = |other: &Kept| kept.seq.is_some() || is_earlier(other.number, kept.number);
         self.waiting.retain(|other| other.seq.is_some() || !is_replaced(other));
         let is_new = |playing: &Playing| playing.kept.from != kept.from;
@@ -247,21 +250,22 @@ impl LightAhead {
         });
     }
 
-    /// The stretch that waits and begins by this moment.
+    /// Index of the first stretch that waits and begins by this moment.
     fn due(&self, show: Instant) -> Option<usize> {
         let is_due =
             |kept: Kept| self.time_of(kept, show).is_some_and(|time| time >= kept.skip.max(Span::ZERO));
         (0..self.waiting.len()).find(|&index| is_due(self.waiting[index]))
     }
 
-    /// Before when no stretch that waits begins, because the time of a stretch goes no faster than the show clock.
+    /// Moment of the show clock before which no stretch that waits begins. The time of a stretch goes no faster than
+    /// the show clock.
     fn next_due(&self, show: Instant) -> Instant {
         let due =
             |kept: &Kept| self.time_of(*kept, show).map(|time| show + (kept.skip.max(Span::ZERO) - time));
         self.waiting.iter().filter_map(due).min().unwrap_or(Instant::FAR)
     }
 
-    /// The time of a stretch, which counts from its anchor; `None`: not known.
+    /// The time of a stretch since its anchor; `None` if that is not known.
     fn time_of(&self, kept: Kept, show: Instant) -> Option<Span> {
         let from = kept.from?;
         if kept.runs_freely || show < from {
@@ -276,7 +280,7 @@ impl LightAhead {
     }
 }
 
-/// Whether a number comes before another; numbers go around.
+/// Whether a number comes before another one; numbers wrap around.
 fn is_earlier(number: u32, other: u32) -> bool {
     (other.wrapping_sub(number) as i32) > 0
 }

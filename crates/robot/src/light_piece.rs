@@ -1,30 +1,32 @@
-//! A piece of light that needs no look at stretches, fades or faults: a straight line of colours over a part of the show
-//! clock.
+//! A piece of light: a straight line of colours over a part of the show clock. A step within it need not look at
+//! stretches, fades or faults.
 //!
-//! Most steps lie within one. What [`LightAhead`](crate::light_ahead::LightAhead) has to do for a colour would make them a
-//! quarter slower.
+//! Most steps lie within a piece. They would be a quarter slower if [`LightAhead`](crate::light_ahead::LightAhead)
+//! computed each colour.
 
 use lightbots_base::{Instant, Rgb, Span};
 
-/// Parts of a code in which colours are computed: whole numbers are quicker than fractions.
+/// Binary places of the fixed-point numbers in which colour codes are computed: whole numbers are quicker than
+/// floating-point ones.
 const PARTS_BITS: u32 = 40;
 
 /// Colours from one moment of the show clock to another, if no message comes between.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPiece {
-    /// First moment, and how long it lasts: 0 for a piece without a moment.
+    /// First moment, show clock. The piece lasts `lasts_us` microseconds, 0 if it covers no moment.
     from: Instant,
     lasts_us: u64,
-    /// Of each channel, at `from`: its code and a half, and its change in a microsecond, in parts of a code.
+    /// Code of each channel at `from` plus one half, in fixed point. `changes`: its change in a microsecond.
     codes: [i64; 3],
     changes: [i64; 3],
 }
 
 impl LightPiece {
-    /// A piece without a moment.
+    /// A piece that covers no moment.
     pub(crate) const NONE: Self = Self { from: Instant::ZERO, lasts_us: 0, codes: [0; 3], changes: [0; 3] };
 
-    /// A line of colours that takes `lasts` from `begins` on, as far as it lies within `from..until`.
+    /// A line of colours from `start` to `end` that takes `lasts` from `begins` on, as far as it lies within
+    /// `from..until`.
     pub(crate) fn new(
         (from, until): (Instant, Instant),
         (begins, lasts): (Instant, Span),
@@ -44,12 +46,12 @@ impl LightPiece {
         Self { from, lasts_us, codes, changes }
     }
 
-    /// Whether it has no moment.
+    /// Whether the piece covers no moment.
     pub(crate) fn is_none(&self) -> bool {
         self.lasts_us == 0
     }
 
-    /// The colour at a moment of the show clock; `None`: the piece says nothing about it.
+    /// The colour at a moment of the show clock; `None` if the piece does not cover that moment.
     #[inline]
     pub(crate) fn colour(&self, show: Instant) -> Option<Rgb> {
         // A moment before the piece wraps around to a large number.

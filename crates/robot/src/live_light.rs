@@ -11,28 +11,29 @@ const LOSS: Span = Span::from_millis(2_500);
 /// Live light of a robot.
 #[derive(Debug, Default)]
 pub(crate) struct LiveLight {
-    /// Its place in messages; `None`: it was given none.
+    /// Number of its colour in messages (SLOT); `None` until it is received.
     slot: Option<u16>,
-    /// Number of the newest message that concerned it; 0: none lately.
+    /// Number of the newest message for this robot; 0 if none came lately.
     newest: u32,
     /// The colour that is shown, and until when if no message follows, own clock.
     shown: Option<(Rgb, Instant)>,
 }
 
 impl LiveLight {
-    /// Its place in messages.
+    /// Number of its colour in messages, if it has one.
     pub(crate) fn slot(&self) -> Option<u16> {
         self.slot
     }
 
-    /// Gives it a place in messages. Colours of another place are not its own.
+    /// Sets the number of its colour in messages. A colour that was shown for another number is dropped.
     pub(crate) fn give_slot(&mut self, slot: u16) {
         if self.slot.replace(slot) != Some(slot) {
             self.shown = None;
         }
     }
 
-    /// Receives colours at `now` of the own clock; whether one is for this robot. An old message is not.
+    /// Receives colours at `now` of the own clock. Returns whether one of them is for this robot; an old message is
+    /// ignored.
     pub(crate) fn receive(&mut self, now: Instant, live: &LiveColours) -> bool {
         let colour = self.slot.and_then(|slot| live.of(slot)).filter(|_| !self.is_old(live.number));
         if let Some(colour) = colour {
@@ -48,11 +49,11 @@ impl LiveLight {
         }
     }
 
-    /// The colour at `now` of the own clock; `None`: the own light is shown.
+    /// The colour at `now` of the own clock; `None` if the own light is shown.
     pub(crate) fn colour(&mut self, now: Instant) -> Option<Rgb> {
         let (colour, until) = self.shown?;
         if now >= until {
-            // A controller that comes back may count from anywhere.
+            // A controller that comes back may begin with any number.
             (self.newest, self.shown) = (0, None);
             return None;
         }
@@ -64,7 +65,7 @@ impl LiveLight {
         self.shown.is_some()
     }
 
-    /// Messages of one moment have the same number.
+    /// Whether a message is older than the newest one. Messages of one moment have the same number.
     fn is_old(&self, number: u32) -> bool {
         self.newest != 0 && (1..OLD_NUMBERS).contains(&self.newest.wrapping_sub(number))
     }

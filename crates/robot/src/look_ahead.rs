@@ -1,5 +1,5 @@
-//! Look-ahead on slow stretches of a route. Near a stop, the tangent swings faster than a robot turns, or back the way it
-//! came. What counts is the direction in which the route drives off.
+//! Look-ahead on slow stretches of a route. Near a stop, the tangent swings faster than a robot turns, or reverses. The
+//! robot therefore turns to the direction in which the route drives off.
 
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Route;
@@ -8,11 +8,13 @@ use crate::cursor::from;
 
 /// Speed below which a route is slow, m/s. The proof of a plan uses the same bound.
 pub(crate) const SLOW_MPS: f64 = 0.02;
-/// How far ahead it looks. Below, a robot begins its turn too late. Above, it turns away while the route still moves.
+/// Path time for which the look-ahead looks ahead. Below, a robot begins its turn too late. Above, it turns away while
+/// the route still moves.
 const HORIZON: Span = Span::from_millis(480);
-/// Steps in which it looks: that of the control loop.
+/// Time between two samples of the route: a step of the control loop.
 const STEP: Span = Span::from_millis(16);
-/// Where the horizon has no fast moment, the fastest counts if its speed is this multiple of the present one.
+/// Where the route stays slow within the horizon, its fastest moment counts if its speed is this multiple of the
+/// present one.
 const MUCH_FASTER: f64 = 2.0;
 
 /// The look-ahead direction.
@@ -20,7 +22,7 @@ const MUCH_FASTER: f64 = 2.0;
 pub(crate) struct Ahead {
     /// Unit vector of travel.
     pub towards: Vec2,
-    /// How long until the route travels so, seconds.
+    /// Time until the route travels in this direction, seconds.
     pub within_s: f64,
 }
 
@@ -35,8 +37,8 @@ pub(crate) struct LookAhead {
 }
 
 impl LookAhead {
-    /// The look-ahead direction at a path time within piece `index`, which begins at `begin`. `None` where the route
-    /// ends, or goes on as it goes now.
+    /// The look-ahead direction at a path time within piece `index`, which begins at `begin`. `None` if the route ends
+    /// or stays about as slow as it is.
     pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
         if time < self.from || time >= self.until {
             (self.from, self.until, self.towards) = (time, time + HORIZON / 2, None);
@@ -49,7 +51,7 @@ impl LookAhead {
     }
 }
 
-/// Path time and direction with which a route drives off.
+/// Path time and direction with which a route drives off; `None` if it does not within the horizon.
 fn drives_off(route: &Route, (index, begin): (usize, Span), time: Span) -> Option<(Span, Vec2)> {
     let mut start = from(route, index);
     let (mut begin, mut now, mut horizon) = (begin, time.max(begin), time + HORIZON);

@@ -6,25 +6,26 @@
 /// Time constant of the average, readings: 2 s. Below, the estimate itself is noisy. Above, a sensor that becomes worse is
 /// trusted for longer.
 const READINGS: f64 = 128.0;
-/// Largest squared difference that counts, as a multiple of the variance, because outliers are no noise: 3 sigma.
+/// Largest half of a squared difference that counts, as a multiple of the variance, because outliers are no noise: 3
+/// sigma.
 const CLIP: f64 = 9.0;
 
 /// The noise variance of one sensor.
 #[derive(Debug)]
 pub(crate) struct NoiseEstimate {
-    /// As stated by the builder.
+    /// Variance by the configuration.
     described: f64,
-    /// As estimated.
+    /// Variance as estimated.
     seen: f64,
 }
 
 impl NoiseEstimate {
-    /// Begins with the variance that the sensor is described with.
+    /// Begins with the configured variance.
     pub(crate) fn new(described: f64) -> Self {
         Self { described, seen: described }
     }
 
-    /// The variance to use: never less than described.
+    /// The variance to use: never less than the configured one.
     pub(crate) fn variance(&self) -> f64 {
         // Not `max`, because that handles NaN at some cost in every step.
         if self.seen > self.described { self.seen } else { self.described }

@@ -8,20 +8,20 @@ use lightbots_wire::RobotState;
 const BUSY: Span = Span::from_millis(500);
 /// Time between status reports while it stands.
 const CALM: Span = Span::from_millis(2000);
-/// A robot farther than this from its route reports that, metres. Below, ordinary tracking errors are reported.
+/// Distance from its route beyond which a robot reports that, metres. Below, ordinary tracking errors are reported.
 const OFF_M: f64 = 0.008;
-/// A robot nearer than this is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
+/// Distance within which a robot is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
 const BACK_M: f64 = 0.006;
-/// Ratio to the last reported distance from the route at which it is reported again. Braking for a neighbour costs less, so
-/// the robot may be standing.
+/// Growth of the reported distance from the route, as a factor, at which it is reported again. Braking for a neighbour
+/// stays below it; above it the robot may be standing.
 const FARTHER: f64 = 4.0;
-/// Without fixes, ratio to the last reported error of the place at which it is reported again.
+/// Growth of the reported error of the place, as a factor, at which a robot without fixes reports it again.
 const MORE: f64 = 1.25;
-/// The same as a difference, metres, added to the ratio.
+/// Growth of that error that comes on top of the factor, metres.
 const MORE_M: f64 = 0.0005;
-/// An obstacle is reported again when its direction changes by more than this, radians.
+/// Change of an obstacle's direction above which it is reported again, radians.
 const ELSEWHERE: f64 = 0.08;
-/// A robot that was just switched on waits this long for its first fix before it introduces itself without a place.
+/// How long a robot with a new link, or just switched on, waits for its place. Then it introduces itself without one.
 const POWER_ON: Span = Span::from_millis(500);
 
 const _: () = assert!(BACK_M < OFF_M && BUSY.0 < CALM.0);
@@ -29,13 +29,13 @@ const _: () = assert!(BACK_M < OFF_M && BUSY.0 < CALM.0);
 /// A kind of message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MessageKind {
-    /// On `UUID`.
+    /// The introduction, on `UUID`.
     Introduction,
-    /// On `Arrival`: the number of the route that ended, 0 for a target.
+    /// An arrival, on `Arrival`: the number of the route that ended, 0 for a target.
     Arrival(u32),
-    /// On `Status`.
+    /// A status report, on `Status`.
     Status,
-    /// On `Time`.
+    /// A question for the time, on `Time`.
     Question,
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct Outbox {
     introduction: bool,
     /// Since when it waits to introduce itself unasked.
     newcomer: Option<Instant>,
-    /// Its last introduction was without a place.
+    /// Whether its last introduction was without a place.
     introduced_without_place: bool,
     arrival: Option<u32>,
     status: bool,
@@ -61,7 +61,7 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// An outbox whose periodic messages are `phase` later than those of others.
+    /// An empty outbox. `phase` delays the first periodic status report, so that those of a fleet spread over time.
     pub(crate) fn new(phase: Span) -> Self {
         Self {
             introduction: false,
@@ -82,7 +82,8 @@ impl Outbox {
         self.introduction = true;
     }
 
-    /// The robot was switched on, or its link is new: it introduces itself once it knows its place.
+    /// Notes that the robot was switched on or its link is new. It introduces itself once it knows its place, or after
+    /// [`POWER_ON`].
     pub(crate) fn arrive_new(&mut self, now: Instant) {
         self.newcomer = Some(now);
     }
@@ -99,7 +100,8 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Notes what there is to report. `off_m`: distance from the route. `err_m`: error of the place where fixes stay away.
+    /// Notes what is to be reported after a step. `off_m`: distance from the route. `err_m`: error of the place, if
+    /// fixes are overdue.
     pub(crate) fn notice(
         &mut self,
         now: Instant,
@@ -156,7 +158,8 @@ impl Outbox {
         !(self.introduction || self.arrival.is_some() || self.question || self.status)
     }
 
-    /// The kind of the next message. `speaks_ours` is false for a robot that only knows the original protocol.
+    /// Takes out the next message and returns its kind. If `speaks_ours` is false, status reports and questions are
+    /// dropped, because the original protocol lacks them.
     pub(crate) fn take(&mut self, knows_place: bool, speaks_ours: bool) -> Option<MessageKind> {
         if core::mem::take(&mut self.introduction) {
             self.introduced_without_place = !knows_place;

@@ -19,8 +19,8 @@ pub use reports::Message;
 use sense::LONGEST_STEP;
 pub use state::Robot;
 
-/// A robot farther than this from its route abandons it, metres: it is stuck, or was never where the route starts. Below,
-/// robots that were led astray abandon routes they can still follow. Above, they drive far outside what the plan proved.
+/// Distance from its route beyond which a robot abandons the route, metres: it is stuck, or was never where the route
+/// starts. Below, robots abandon routes that they can still follow. Above, they drive far outside what the plan proved.
 const GIVE_UP_M: f64 = 0.3;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
@@ -32,18 +32,20 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             return;
         }
         self.hot.now = self.hot.now.max(now);
-        // The message does not undo a silence that no step could notice because the simulation stood.
+        // The link is checked first. A silence may have become too long while the simulation stood still and no step
+        // ran.
         self.heed_link(now);
         let hot = &mut self.hot;
         if hot.supervisor.was_out(now) {
             hot.routes.note_outage();
         }
         hot.supervisor.receive(now);
-        // A route whose moment has come is under way, even if no step saw it yet: the next one must not replace it.
+        // A kept route whose start time has come begins here, even if no step has run since. The next route must not
+        // replace it.
         self.begin_due(self.route_time(now));
         self.end_light_piece();
         let mut commands = commands(payload);
-        // Read where it was decoded: it has room for a route, and moving it would copy all of that.
+        // The command is read in place, because it has room for a whole route, and a move would copy all of that.
         while let Some(command) = &commands.next() {
             match command {
                 Ok(command) if self.can(command) => self.handle(now, personal, command),
@@ -52,7 +54,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// The link to the broker went up or down at `now`. Up: the robot introduces itself once it knows its place.
+    /// Takes note that the link to the broker went up or down at `now`. After it went up, the robot introduces itself
+    /// once it knows its place, or after 0.5 s without one.
     pub fn link(&mut self, now: Instant, up: bool) {
         self.hot.now = self.hot.now.max(now);
         self.hot.supervisor.link(now, up);
@@ -62,8 +65,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// One step, each 16 ms, at `now` of the own clock. Steps more than 0.1 s of the wheels' world apart are gaps: the
-    /// wheels may have turned meanwhile, but nothing is planned over them.
+    /// Runs one step at `now` of the own clock, to be called every 16 ms. Time runs as in the world of the wheels
+    /// (`Inputs::lag`). A step after a gap of more than 0.1 s counts as 0.1 s long.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
         let world = now - inputs.lag;
         let took = self.take_time(now, world);
@@ -83,8 +86,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         Outputs { wheels_radps, light }
     }
 
-    /// The light at `now` of the own clock, between steps. A shell whose light can change at any time asks each
-    /// millisecond or so. The lights of a fleet then change together and not each at its next step.
+    /// The colour of the light at `now` of the own clock, between steps. A shell that can change its light at any time
+    /// calls this about every millisecond. The lights of a fleet then change together and not each at its next step.
     pub fn light(&mut self, now: Instant) -> Rgb {
         let show = self.hot.clock.show_time(now);
         if !self.hot.light_changes {
@@ -110,17 +113,18 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.change_light(now, show)
     }
 
-    /// Shows the colour of the piece, if it has one for this moment.
+    /// Returns the colour of the light piece at this moment of the show clock, and remembers the moment. `None` if the
+    /// piece does not cover it, or the show clock is unknown.
     #[inline]
     fn piece_colour(&mut self, show: Option<Instant>) -> Option<Rgb> {
         let show = show?;
         let colour = self.hot.light_piece.colour(show)?;
-        // The colour is computed again where it is needed: most steps would store it in vain.
+        // Only the moment is stored. `end_light_piece` computes the colour again, which most steps do not need.
         self.hot.piece_shown_at = show;
         Some(colour)
     }
 
-    /// The light where no piece says it.
+    /// Computes the colour where the light piece does not cover the moment, and finds the next piece.
     #[inline(never)]
     fn change_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
         if let Some(show) = show.filter(|_| !self.hot.light_piece.is_none())
@@ -139,7 +143,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.shown
     }
 
-    /// A message or a fault may change the light: what was shown last is known to it then.
+    /// Ends the light piece, because a message or a fault may change the light. `Light` learns the colour that was
+    /// shown last.
     fn end_light_piece(&mut self) {
         if !self.hot.light_piece.is_none() {
             self.hot.shown = self.hot.light_piece.colour(self.hot.piece_shown_at).unwrap_or(self.hot.shown);
@@ -148,14 +153,14 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// How long the step took. Messages may have come in between.
+    /// Returns how long the step took, 0 to [`LONGEST_STEP`], and stores its time.
     fn take_time(&mut self, now: Instant, world: Instant) -> Span {
         let hot = &mut self.hot;
         if hot.last_step.is_none() {
             hot.outbox.arrive_new(now);
         }
         let took = hot.last_step.map_or(Span::ZERO, |last| {
-            // Lag that is made good at rest is no time in which wheels turned.
+            // Lag that is caught up without a route is no time in which wheels turned.
             let most = if hot.routes.under_way() { LONGEST_STEP } else { now - (last + hot.lag) };
             (world - last).min(most)
         });
@@ -164,7 +169,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         took.clamp(Span::ZERO, LONGEST_STEP)
     }
 
-    /// The kept route takes over where its moment has come.
+    /// Begins the kept route if its start time has come.
     #[inline]
     fn begin_due(&mut self, route_time: Option<Instant>) {
         let Some(time) = route_time.filter(|_| self.hot.routes.keeps_one()) else { return };
@@ -174,8 +179,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Ends what must not go on. A target survives being lost or blocked, as with an original robot. A route does not,
-    /// because the others have driven on.
+    /// Stops the robot or ends its route where it must not drive on, and asks for the time in a silence. Being lost or
+    /// faulty ends a route, because the others drive on. A target survives that, as with an original robot.
     fn supervise(&mut self, now: Instant) {
         self.stop_in_time(now);
         let drives = self.drives();
@@ -184,7 +189,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let hot = &mut self.hot;
         if drives == Drives::Route {
             let gives_up = hot.routes.off_m().is_some_and(|off_m| off_m > GIVE_UP_M);
-            // A robot that waits for fixes knows why its route runs away.
+            // A robot that pauses until fixes come falls behind its route by itself: that is no fault.
             if gives_up && !hot.pauses {
                 hot.supervisor.fault(now);
             }
@@ -197,7 +202,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Gives up what it drives where the link is silent for too long.
+    /// Abandons the target and the route if the link is down or silent for too long.
     fn heed_link(&mut self, now: Instant) {
         let drives = self.drives();
         let hot = &mut self.hot;

@@ -18,18 +18,19 @@ use crate::timeline::Timeline;
 const NEAR_M: f64 = 0.0125;
 /// Time after the end of a route from which the arrival test of the original robots (20 mm) suffices.
 const TRYING: Span = Span::from_millis(1500);
-/// A robot that is held farther than this from its route drives back to it, metres. Below, it turns on the spot for noise.
-/// Above, the robots near it have less room than the plan left them.
+/// Distance from its route beyond which a robot drives back to it during a hold, metres. Below, it turns on the spot
+/// for noise. Above, the robots near it have less room than the plan left them.
 const STRAYED_M: f64 = 0.0055;
-/// Distance at which it is back, metres. The gap to [`STRAYED_M`] is hysteresis.
+/// Distance from its route at which the robot is back, metres. The gap to [`STRAYED_M`] is hysteresis.
 const BACK_M: f64 = 0.004;
-/// A route whose number is at most this much below the newest is an old message that came late. Beyond, the controller
-/// began anew.
+/// A route whose number is less than this below the newest is an old message that came late. One farther below is of a
+/// controller that began anew.
 const OLD_NUMBERS: u32 = 64;
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
 
-/// Most neighbours expected in sight at once: no more discs of a robot's size have their centres within 0.11 m.
+/// Largest number of neighbours expected in sight at once: no more discs of a robot's size have their centres within
+/// 0.11 m.
 pub(crate) const MAX_IN_SIGHT: usize = 12;
 /// The neighbours expected in sight.
 pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
@@ -43,19 +44,19 @@ struct Running {
     look_ahead: LookAhead,
     /// The drive to the end, once the route is over and the robot has not arrived.
     seek: Option<Seek>,
-    /// The drive back to the route, while that is held.
+    /// The drive back to the route during a hold.
     back: Option<Seek>,
     slot: Slot,
-    /// It is held by the time the wheels have answered.
+    /// Whether path time stands still by the time the wheels have answered.
     rests: bool,
     room_mm: Option<u16>,
     seq: u32,
     duration: Span,
     /// Path time by the time the wheels have answered.
     time: Span,
-    /// Path time per show time then, 0 to 1.
+    /// Path time per show time at `time`, 0 to 1.
     rate: f64,
-    /// Place of the route then.
+    /// Place of the route at `time`, stage metres.
     due: Vec2,
     off_m: f64,
     cursor: RouteCursor,
@@ -70,8 +71,8 @@ pub(crate) struct Routes {
     kept: Option<KeptRoute>,
     /// Number of the route that ended last.
     finished: u32,
-    /// The link was out between two drives or on one: what comes until the next START or STOP may be old, and the robot does
-    /// not turn towards a route by it.
+    /// Whether the link was out since the latest START or STOP. Until the next one, a route that comes may be an old
+    /// message, and the robot does not turn towards it.
     was_out: bool,
 }
 
@@ -80,7 +81,7 @@ impl Routes {
         Self { running: None, kept: None, timeline: Timeline::new(), finished: 0, was_out: false }
     }
 
-    /// Keeps a route for its START. Copies of the one under way or just finished, and old messages, change nothing.
+    /// Keeps a route until its START. Copies of the route under way or just finished, and old messages, change nothing.
     pub(crate) fn keep(&mut self, route: &Route, storage: &mut RouteStorage) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
@@ -92,8 +93,8 @@ impl Routes {
         storage.put(slot, route);
     }
 
-    /// Sets when the kept route begins. A second START counts if it is later, because an earlier one is an old message
-    /// that was overtaken. Whether that changed anything.
+    /// Sets when the kept route begins. A later START counts only if its moment is later too: one with an earlier
+    /// moment is an old message that was overtaken. Returns whether the moment changed.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq && !kept.is_late(at, show)) else {
             return false;
@@ -102,13 +103,13 @@ impl Routes {
         kept.start(at)
     }
 
-    /// Planned clearance of the route under way, millimetres.
+    /// Planned clearance of the route under way, millimetres; `None` without one.
     pub(crate) fn room_mm(&self) -> Option<u16> {
         self.running.as_ref()?.room_mm
     }
 
-    /// Appends the planned neighbours within `sight_m` of the body at the moment that the latest step predicted, at most
-    /// [`MAX_IN_SIGHT`].
+    /// Appends the planned neighbours within `sight_m` of the body, metres, at the path time of the latest step. At
+    /// most [`MAX_IN_SIGHT`] fit.
     pub(crate) fn expect(
         &self,
         body: BodyPose,
@@ -141,7 +142,8 @@ impl Routes {
         }
     }
 
-    /// Whether the route under way tells which neighbours come within a range: it names them, or they all stay farther away.
+    /// Whether the route under way accounts for all neighbours within `range_m`, metres: it lists neighbours, or its
+    /// clearance is larger than that.
     pub(crate) fn tells_neighbours(&self, range_m: f32, storage: &RouteStorage) -> bool {
         self.running.as_ref().is_some_and(|running| {
             let is_alone = running.room_mm.is_some_and(|room_mm| f32::from(room_mm) > 1e3 * range_m);
@@ -154,7 +156,7 @@ impl Routes {
         self.timeline.note(at, hold);
     }
 
-    /// Brings the route under way to rest from this moment on, or from its begin if that is later. Discards the kept one.
+    /// Brings the route under way to rest from `at` on, or from its begin if that is later. Discards the kept route.
     pub(crate) fn rest(&mut self, at: Instant) {
         self.kept = None;
         if let Some(running) = &self.running {
@@ -162,8 +164,8 @@ impl Routes {
         }
     }
 
-    /// Begins the kept route when its moment has come, or discards a moment that was missed because the clock was unknown.
-    /// Whether the route began.
+    /// Begins the kept route if its moment has come, and returns whether it did. A moment that is past by more than
+    /// [`TOO_LATE`] is discarded; it was missed because the clock was unknown.
     #[inline]
     pub(crate) fn begin_due(&mut self, show: Instant, storage: &RouteStorage) -> bool {
         self.kept.is_some() && self.begin_kept(show, storage)
@@ -201,8 +203,8 @@ impl Routes {
         true
     }
 
-    /// The next setpoint along the route under way. `takes_effect`: show time when the wheels answer. `aside`: offset
-    /// from the route at which to drive, stage metres.
+    /// The next setpoint along the route under way; `None` without one. `takes_effect`: show time when the wheels
+    /// answer. `aside`: offset from the route at which to drive, stage metres.
     pub(crate) fn step(
         &mut self,
         takes_effect: Instant,
@@ -227,8 +229,8 @@ impl Routes {
         }
         let waits = progress.rate == 0.0 && self.timeline.stays_held(takes_effect);
         if waits && (running.back.is_some() || running.off_m > STRAYED_M) {
-            // All wait: a robot that left its route drives back to it. Once it knows when all go on, it turns to its route
-            // instead.
+            // During a hold, a robot that left its route drives back to it. Once the resume is known, it turns to the
+            // direction of its route instead.
             let back = running.back.get_or_insert_with(|| Seek::closely(motion.position));
             if running.off_m > BACK_M {
                 return Some(back.step(body, limits));
@@ -241,7 +243,7 @@ impl Routes {
         let ahead = if speed < SLOW_MPS {
             running.look_ahead.look(route, running.cursor.piece(), progress.time)
         } else if motion.velocity.length() < RESTING_MPS {
-            // Held in motion, it keeps to the tangent there.
+            // A route that is held in motion is at rest: the robot keeps to the tangent there.
             Some(Ahead { towards: by_path_time.velocity / speed, within_s: 0.0 })
         } else {
             None
@@ -250,25 +252,26 @@ impl Routes {
         Some(running.follow.step(&motion, ahead, body))
     }
 
-    /// Does not turn towards the kept route until its START comes: what else a robot hears after a silence may be old.
+    /// Stops turning towards the kept route until its START comes, because other messages after a silence may be old.
     pub(crate) fn await_start(&mut self) {
         if let Some(kept) = &mut self.kept {
             kept.await_start();
         }
     }
 
-    /// The link was out. It matters to a robot that names a route: others have nothing that could be old.
+    /// Notes that the link was out. That matters only to a robot with a route, because others have nothing that could
+    /// be old.
     pub(crate) fn note_outage(&mut self) {
         self.was_out |= self.named() != 0;
         self.await_start();
     }
 
-    /// Turns towards the first direction of the kept route while no other motion is due.
+    /// The setpoint to turn towards the first direction of the kept route; `None` if there is nothing to turn to.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         self.kept.as_mut()?.prepare(body)
     }
 
-    /// Ends the route under way where it is over and the robot stands at its end. Returns its number.
+    /// Ends the route under way and returns its number if it is over and the robot is at its end; else `None`.
     pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
         let over = |running: &mut Running| {
             let time = self.timeline.at(show).time;
@@ -292,7 +295,7 @@ impl Routes {
         self.was_out = false;
     }
 
-    /// The show clock was set anew: moments stated before are void.
+    /// Abandons the route under way and discards all moments, because the show clock was set anew.
     pub(crate) fn forget_moments(&mut self) {
         self.running = None;
         self.timeline = Timeline::new();
@@ -316,7 +319,7 @@ impl Routes {
         self.running.is_some() || self.kept.as_ref().is_some_and(|kept| kept.starts.is_some())
     }
 
-    /// Whether the route under way is held.
+    /// Whether the route under way is held at `show`.
     pub(crate) fn held(&self, show: Option<Instant>) -> bool {
         self.running.is_some() && show.is_some_and(|show| self.timeline.held(show))
     }
@@ -326,13 +329,14 @@ impl Routes {
         self.running.as_ref().is_some_and(|running| running.rests)
     }
 
-    /// Number of the route that reports name: the one kept, else the one under way, else the one finished last; 0: none.
+    /// Number of the route that reports name: the one kept, else the one under way, else the one finished last; 0 for
+    /// none.
     pub(crate) fn named(&self) -> u32 {
         let running = self.running.as_ref().map(|running| running.seq);
         self.kept.as_ref().map(|kept| kept.seq).or(running).unwrap_or(self.finished)
     }
 
-    /// When the route that reports name begins or began.
+    /// When the route that reports name begins or began; `None` if that is unknown.
     pub(crate) fn starts(&self) -> Option<Instant> {
         match &self.kept {
             Some(kept) => kept.starts,
@@ -340,12 +344,13 @@ impl Routes {
         }
     }
 
-    /// Place of the route under way once the wheels have answered, stage metres.
+    /// Place of the route under way once the wheels have answered, stage metres; `None` without one.
     pub(crate) fn due(&self) -> Option<Vec2> {
         self.running.as_ref().map(|running| running.due)
     }
 
-    /// Distance from the present place of the route to that after `within` more of path time, metres.
+    /// Distance from the present place of the route to its place after `within` more of path time, metres. 0 without a
+    /// route under way.
     pub(crate) fn way_ahead_m(&self, within: Span, storage: &RouteStorage) -> f64 {
         let Some(running) = &self.running else { return 0.0 };
         let route = storage.at(running.slot);
@@ -353,14 +358,15 @@ impl Routes {
         path.at(running.time + within).position.distance(running.due)
     }
 
-    /// Distance of the robot from the place of the route under way, metres.
+    /// Distance of the robot from the place of the route under way, metres; `None` without one.
     pub(crate) fn off_m(&self) -> Option<f64> {
         self.running.as_ref().map(|running| running.off_m)
     }
 }
 
 impl Running {
-    /// Whether the robot is near enough to the end. For [`TRYING`] it tries to come nearer than it must.
+    /// Whether the robot is near enough to the end: within [`NEAR_M`], or after [`TRYING`] by the arrival test of the
+    /// original robots.
     fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
         at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }
@@ -371,7 +377,8 @@ fn turned_by(vector: Vec2, by: Vec2) -> Vec2 {
     Vec2::new(vector.x * by.x - vector.y * by.y, vector.x * by.y + vector.y * by.x)
 }
 
-/// Motion per show time from motion per path time. The ease of holds is too gentle to matter as acceleration.
+/// Converts motion per path time into motion per show time. The acceleration by the ease of holds is left out: it is
+/// too gentle to matter.
 fn by_show_time(motion: Motion, rate: f64) -> Motion {
     if rate == 1.0 {
         return motion;

@@ -1,4 +1,5 @@
-//! Driving to a TARGET: turn, drive, curve smoothly, backwards where that is shorter, stand within 20 mm.
+//! Driving to a TARGET: the robot turns, drives, curves smoothly, goes backwards if that is shorter, and stands within
+//! 20 mm.
 
 use lightbots_base::{Limits, Vec2};
 
@@ -6,18 +7,18 @@ use crate::drive::{BodyPose, Setpoint};
 
 /// Arrival test of the original robots: both coordinates within this, metres.
 const ARRIVED_M: f64 = 0.02;
-/// Distance to the target at which the robot stops, metres. If it were
-/// smaller, noise of the place would make the robot turn on the spot.
+/// Distance to the target at which the robot stops, metres. If it were smaller, noise of the place would make the robot
+/// turn on the spot.
 const STOP_M: f64 = 0.003;
 /// Distance at which it stops where the target lies to its side, metres. If
 /// it were smaller, the robot would turn back and forth at the target.
 const ABEAM_M: f64 = 0.012;
-/// Braking with which it approaches, m/s². It is less than the ramps of the drive base allow, so that it does not
+/// Deceleration of the approach, m/s². It is less than the ramps of the drive base allow, so that the robot does not
 /// overshoot.
 const BRAKING_MPS2: f64 = 0.8;
 /// Turning rate per sine of the heading error, rad/s. Above, the dead time of the motors makes it swing.
 const TURN_GAIN: f64 = 8.0;
-/// Below this cosine of the heading error (45°) it turns on the spot. Above, it drives a curve.
+/// Cosine of the heading error (45°) below which the robot turns on the spot. Above, it drives a curve.
 const CURVE_COS: f64 = 0.7;
 /// Cosine of the direction to the target below which front and back swap. Near zero, noise would swap them again and again.
 const BEHIND_COS: f64 = -0.15;
@@ -26,7 +27,7 @@ const BEHIND_COS: f64 = -0.15;
 #[derive(Debug)]
 pub(crate) struct Seek {
     goal: Vec2,
-    /// 1 forwards, −1 backwards.
+    /// 1 forwards, −1 backwards, 0 not chosen yet.
     sense: f64,
     /// Distance at which it stops where the target lies to its side, metres.
     abeam_m: f64,
@@ -70,7 +71,7 @@ impl Seek {
     }
 }
 
-/// Arrival test of the original robots.
+/// The arrival test of the original robots: whether both coordinates are within 20 mm of the goal.
 pub(crate) fn within_arrival(at: Vec2, goal: Vec2) -> bool {
     let off = at - goal;
     off.x.abs() <= ARRIVED_M && off.y.abs() <= ARRIVED_M

@@ -4,7 +4,7 @@
 use crate::covariance::Drift;
 
 /// Share of the deviation from the mean that is lost in a step: a time constant of 1 s. Wheels that stand lose it too,
-/// because nothing tells how they will grip when they turn again.
+/// because their grip may be different when they turn again.
 const FORGETTING: f64 = 0.015;
 /// Distance over which the mean is first learned, metres. Below, the noise of the first fixes becomes slip.
 const FIRST_M: f64 = 0.1;
@@ -17,7 +17,7 @@ const WANDER: f64 = 0.3;
 const LEAST: f64 = 0.25;
 /// Upper bound of the deviation, as a share of the turning.
 const MOST: f64 = 0.1;
-/// Bound of slip, as a share of the turning. Beyond it a wheel is lifted or stuck.
+/// Largest absolute slip, as a share of the turning. Beyond it a wheel is lifted or stuck.
 const BOUND: f64 = 0.4;
 
 const _: () = assert!(FIRST_M < LAST_M && MOST < BOUND);
@@ -31,14 +31,14 @@ pub(crate) struct SlipEstimate {
     wander: f64,
     /// Lower and upper bound of `wander`.
     bounds: [f64; 2],
-    /// Variance of the mean before anything was learned.
+    /// Variance of the mean before anything is learned.
     unknown: f64,
     /// Distance over which the mean was learned, at most [`LAST_M`], metres.
     learned_m: f64,
 }
 
 impl SlipEstimate {
-    /// Wheels that are expected to slip by up to this share, 1 sigma.
+    /// The estimate before anything is learned. `expected`: slip as a share of the turning, 1 sigma.
     pub(crate) fn new(expected: f64) -> Self {
         let wander = WANDER * expected.clamp(0.002, BOUND);
         Self {
@@ -51,7 +51,7 @@ impl SlipEstimate {
         }
     }
 
-    /// Distances over the ground for distances by the wheels' turning, left and right.
+    /// Converts distances by the wheels' turning into distances over the ground, left and right.
     pub(crate) fn ground_m(&self, ways: [f64; 2]) -> [f64; 2] {
         [ways[0] * (1.0 - self.now[0]), ways[1] * (1.0 - self.now[1])]
     }
@@ -61,7 +61,7 @@ impl SlipEstimate {
         self.now
     }
 
-    /// Predicts the slip over one step.
+    /// Predicts the slip over one step: it returns towards its mean.
     pub(crate) fn predict(&mut self) {
         self.now[0] += (self.mean[0] - self.now[0]) * FORGETTING;
         self.now[1] += (self.mean[1] - self.now[1]) * FORGETTING;
@@ -73,7 +73,7 @@ impl SlipEstimate {
         self.now[1] = (self.now[1] + by[1]).clamp(-BOUND, BOUND);
     }
 
-    /// Updates mean and deviation from a drive of `way_m`. `uncertain`: variance of the slip.
+    /// Updates mean and deviation from a drive of `way_m`, metres. `uncertain`: variance of the slip.
     pub(crate) fn learn(&mut self, way_m: f64, uncertain: f64) {
         self.learned_m = (self.learned_m + way_m).min(LAST_M);
         let share = way_m / (self.learned_m + FIRST_M);
@@ -87,7 +87,7 @@ impl SlipEstimate {
         self.wander = self.wander.clamp(self.bounds[0], self.bounds[1]);
     }
 
-    /// Expected change in a number of steps.
+    /// Expected change of the slip in a number of steps.
     pub(crate) fn drift(&self, steps: u32) -> Drift {
         let share = FIRST_M / (FIRST_M + self.learned_m);
         let mean = self.unknown * share * share;

@@ -3,10 +3,10 @@
 
 /// Least commanded rate at which a wheel must turn, rad/s: 22 mm/s of an Elisa-3. Below, friction is taken for a stall.
 const LEAST_RADPS: f64 = 5.0;
-/// A wheel that turns less than this share of its command does not turn.
+/// Share of its commanded turn below which a wheel counts as not turning.
 const SHARE: f64 = 0.2;
-/// Steps in a row without turning that are a stall. Below three, the dead time of the motors is one. Above, a robot that is
-/// stuck is reported later.
+/// Number of steps in a row without turning after which a wheel counts as stuck. Below three, the dead time of the
+/// motors counts as a stall. Above, a robot that is stuck is reported later.
 const STEPS: u8 = 6;
 
 /// Compares commanded with measured wheel rates.
@@ -15,18 +15,18 @@ pub(crate) struct StallDetector {
     commanded_radps: [f64; 2],
     /// `[wheel]`: steps in a row in which it did not turn.
     steps: [u8; 2],
-    /// A wheel has turned since power-on, so the encoders work.
+    /// Whether a wheel has turned since power-on, which shows that the encoders work.
     turned: bool,
 }
 
 impl StallDetector {
-    /// The commanded wheel rates from now on, rad/s.
+    /// Sets the commanded wheel rates from now on, rad/s.
     #[inline]
     pub(crate) fn command(&mut self, wheels_radps: [f64; 2]) {
         self.commanded_radps = wheels_radps;
     }
 
-    /// Takes the wheel turns of a step of `dt` seconds. Whether a wheel is stuck.
+    /// Takes the wheel turns of a step of `dt` seconds. Returns whether a wheel is stuck; counting then begins anew.
     #[inline]
     pub(crate) fn sample(&mut self, turns_rad: [f64; 2], dt: f64) -> bool {
         self.turned |= turns_rad != [0.0; 2];

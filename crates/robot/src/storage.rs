@@ -1,4 +1,4 @@
-//! Storage of a robot's large and seldom used data: its routes, its light ahead, and its odometry where fixes come late.
+//! Storage of a robot's large and seldom used data: routes, stretches of light, and odometry for fixes that come late.
 
 use lightbots_base::Vec2;
 use lightbots_wire::{Neighbours, Pieces, Route};
@@ -6,11 +6,11 @@ use lightbots_wire::{Neighbours, Pieces, Route};
 use crate::history::OdometryHistory;
 use crate::light_ahead::{StoredTrack, StoredTracks};
 
-/// Storage of the route under way, of the one kept for later, of stretches of light and of the odometry history: 31 KB, of
-/// which a step reads next to nothing.
+/// Storage of the route under way, of the one kept for later, of stretches of light and of the odometry history. It has
+/// 31 KB, of which a step reads next to nothing.
 ///
-/// A [`crate::Robot`] contains it or is given one that lies elsewhere. Where thousands of robots take turns, the state of
-/// their steps then lies close together.
+/// A [`crate::Robot`] contains a storage or refers to one elsewhere. A simulator of thousands of robots keeps them
+/// elsewhere, so that the state of its steps lies close together in memory.
 #[derive(Debug)]
 pub struct RouteStorage {
     slots: [Route; 2],
@@ -18,7 +18,7 @@ pub struct RouteStorage {
     pub(crate) history: OdometryHistory,
 }
 
-/// one of the two slots.
+/// One of the two places for a route.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slot {
     First,

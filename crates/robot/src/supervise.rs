@@ -1,16 +1,17 @@
-//! Supervision: a silent link and faults of sensors or motors stop the robot, whatever it was to do.
+//! Supervision: a lost link, or a fault of sensors or motors, stops the robot whatever it was to do.
 
 use lightbots_base::{Instant, Span};
 
 /// How long a robot stands after a fault. Below, it drives on and off where a sensor fails again and again.
 const FAULT: Span = Span::from_millis(1000);
-/// Silence of the controller during a run after which the robot asks for the time. It must be shorter than the robot's
-/// patience with the link (2 s). Above, a question that is lost cannot be repeated in time.
+/// Silence of the controller during a run after which the robot asks for the time. It must be shorter than
+/// `Config::silence` (1.9 s by default). Above, a question that is lost cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
-/// Silence after which the link was out, whatever the robot does: its questions for the time, at most 3 s apart (R28), were
-/// not answered. Below, robots that stand for long take all routes for old. Above, they turn towards one that is.
+/// Silence after which the link counts as out, whatever the robot does: its questions for the time, at most 3 s apart
+/// (R28), were not answered. Below, robots that stand for long take all routes for old. Above, they turn towards an old
+/// route.
 const OUTAGE: Span = Span::from_millis(3300);
-/// Time between two such questions.
+/// Time between two questions of a robot in such a silence.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
@@ -22,7 +23,7 @@ pub(crate) enum Drives {
     Not,
     /// To a target. Its controller may be an original one, which sends nothing meanwhile.
     Target,
-    /// A route that will begin by itself.
+    /// Not yet, but the START of its route has come: the route will begin by itself.
     Soon,
     /// A route under way.
     Route,
@@ -35,7 +36,7 @@ pub(crate) struct Supervisor {
     heard: Instant,
     down_since: Option<Instant>,
     cut: bool,
-    /// It was cut until the link came back, and has not reported that.
+    /// Whether the robot was cut off until the link came back, and has not reported that.
     untold: bool,
     faulty_until: Option<Instant>,
     asked: Instant,
@@ -55,14 +56,14 @@ impl Supervisor {
         }
     }
 
-    /// A message came in.
+    /// Notes that a message came in.
     pub(crate) fn receive(&mut self, now: Instant) {
         self.heard = now;
         self.down_since = None;
         self.cut = false;
     }
 
-    /// The link went up or down. A link that is up is no message: silence goes on.
+    /// Notes that the link went up or down. Only a message ends a silence, not a link that went up.
     pub(crate) fn link(&mut self, now: Instant, up: bool) {
         if up {
             self.untold |= self.cut;
@@ -92,7 +93,8 @@ impl Supervisor {
         now - self.heard > OUTAGE
     }
 
-    /// Cuts the robot off where the link is silent for too long for what the robot does. Whether it did so just now.
+    /// Cuts the robot off if the link is down, or silent on a route, for too long. Returns whether it did so in this
+    /// call.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
         let silent = self.is_silent(now);
@@ -106,7 +108,7 @@ impl Supervisor {
         news
     }
 
-    /// Whether to ask the controller because it is silent. The call notes the question.
+    /// Whether to ask for the time because the controller is silent. If so, the call counts as the question.
     pub(crate) fn take_question(&mut self, now: Instant, drives: Drives) -> bool {
         let asks = matches!(drives, Drives::Soon | Drives::Route)
             && now - self.heard > QUIET
@@ -117,7 +119,7 @@ impl Supervisor {
         asks
     }
 
-    /// A fault begins.
+    /// Notes a fault: the robot stands for [`FAULT`].
     pub(crate) fn fault(&mut self, now: Instant) {
         self.faulty_until = Some(now + FAULT);
     }
@@ -133,7 +135,7 @@ impl Supervisor {
         self.faulty_until.is_some()
     }
 
-    /// Whether the link has come back to one that was cut, once.
+    /// Whether the link came back while the robot was cut off. The call clears the flag.
     pub(crate) fn take_untold(&mut self) -> bool {
         core::mem::take(&mut self.untold)
     }

@@ -6,7 +6,7 @@ use lightbots_wire::Route;
 /// Holds and resumes remembered. Older ones are folded into the base point.
 const EVENTS: usize = 8;
 
-/// RouteProgress of a route.
+/// Progress of a route at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RouteProgress {
     /// Path time.
@@ -23,7 +23,7 @@ struct Event {
     hold: bool,
 }
 
-/// RouteProgress at a moment.
+/// Progress at a moment of the show clock.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     at: Instant,
@@ -35,7 +35,7 @@ struct Point {
 #[derive(Clone, Debug)]
 pub(crate) struct Timeline {
     base: Point,
-    /// In order of time, not before `base`.
+    /// Holds and resumes in order of time, not before `base`.
     events: heapless::Vec<Event, EVENTS>,
 }
 
@@ -47,14 +47,14 @@ impl Timeline {
         }
     }
 
-    /// A route begins at `at`. Earlier holds and resumes do not apply to it.
+    /// Begins a route at `at`. Earlier holds and resumes do not apply to it.
     pub(crate) fn begin(&mut self, at: Instant) {
         self.base = Point { at, progress: RouteProgress::START };
         self.events.retain(|event| event.at >= at);
     }
 
-    /// Notes a hold or resume. Their order of arrival does not matter. Duplicates, and those from before the route, are
-    /// dropped.
+    /// Notes a hold or resume. The order in which they arrive does not matter. Duplicates, and those from before the
+    /// route, are dropped.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         let folded = at < self.base.at || at == self.base.at && hold == self.base.progress.held;
         if folded || self.events.iter().any(|event| event.at == at && event.hold == hold) {
@@ -73,7 +73,7 @@ impl Timeline {
         let _ = self.events.insert(place, Event { at, hold });
     }
 
-    /// Progress comes to rest from `at` on, whatever was noted for later.
+    /// Brings progress to rest from `at` on: adds a hold and discards what was noted for later.
     pub(crate) fn rest(&mut self, at: Instant) {
         self.events.retain(|event| event.at <= at);
         self.note(at, true);
@@ -84,7 +84,7 @@ impl Timeline {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
 
-    /// Path time, and whether it goes on with the show clock from this moment on, as far as is known.
+    /// Path time, and whether it runs with the show clock from this moment on, as far as is known.
     pub(crate) fn time_and_whether_even(&self, show: Instant) -> (Span, bool) {
         let now = self.at(show);
         let is_even = now.rate == 1.0 && !now.held && self.events.last().is_none_or(|last| last.at <= show);
@@ -97,7 +97,7 @@ impl Timeline {
         last.map_or(self.base.progress.held, |event| event.hold)
     }
 
-    /// RouteProgress at a moment of the show clock; before the route's start, its path time is negative.
+    /// Progress at a moment of the show clock. Before the route's start, path time is negative.
     #[inline]
     pub(crate) fn at(&self, show: Instant) -> RouteProgress {
         let mut point = self.base;
@@ -113,7 +113,7 @@ impl RouteProgress {
 }
 
 impl Point {
-    /// RouteProgress at `at`: the rate first changes linearly to 0 or 1, then it stays.
+    /// Progress at a later moment `at`: the rate first changes linearly to 0 or 1, then it stays.
     fn until(self, at: Instant) -> Self {
         let RouteProgress { time, rate, held } = self.progress;
         let elapsed = at - self.at;

@@ -1,20 +1,22 @@
 //! The least delays of both directions of a link, which bound the offset of the show clock.
 //!
-//! No message arrives before it was sent, so that each question bounds the offset from above and each answer from below.
-//! The quickest question and the quickest answer need not belong together: over a link with much jitter they are quicker
-//! than any round trip. The middle between both bounds is the offset where the link is as quick there as back.
+//! No message arrives before it was sent, so that each question bounds the offset from above and each answer from
+//! below. The quickest question and the quickest answer need not belong together. Over a link with much jitter, both
+//! are quicker than those of any one round trip. The middle between both bounds is the offset if the link is equally
+//! quick in both directions.
 
 use lightbots_base::{Instant, Span};
 
-/// Delays kept of each direction. With 2, the gap between them says little about how much the least may exceed the shortest
-/// possible one. With more, it says more about the link than about its quickest messages.
+/// Number of delays kept of each direction. With 2, the gap between them tells little about how much the least may
+/// exceed the shortest possible one. With more, it tells more about the link than about its quickest messages.
 const KEPT: usize = 3;
 
-/// Delays of messages in one direction, plus or minus the offset, microseconds; the least ones, ascending.
+/// The least delays of messages in one direction, ascending, microseconds. They include the offset: plus for questions,
+/// minus for answers.
 #[derive(Clone, Copy, Debug)]
 struct Direction {
     delays_us: [f64; KEPT],
-    /// When the least one came.
+    /// When the message with the least delay came.
     least_at: Instant,
 }
 
@@ -36,18 +38,19 @@ impl Direction {
         self.delays_us[0]
     }
 
-    /// How far the least one may be above the shortest possible one. Infinite until enough are known.
+    /// How much the least delay may exceed the shortest possible one, microseconds. Infinite until [`KEPT`] delays are
+    /// known.
     fn gap_us(&self) -> f64 {
         self.delays_us[KEPT - 1] - self.delays_us[0]
     }
 }
 
-/// What the least delays say about the offset.
+/// Estimate of the offset by the least delays.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Middle {
-    /// Microseconds.
+    /// The offset, microseconds.
     pub offset_us: f64,
-    /// Microseconds squared; infinite until enough delays are known.
+    /// Variance of the offset, microseconds squared; infinite until enough delays are known.
     pub variance: f64,
 }
 
@@ -61,13 +64,14 @@ pub(super) struct LeastDelays {
 impl LeastDelays {
     pub const NONE: Self = Self { there: Direction::NONE, back: Direction::NONE };
 
-    /// Time passes: the offset changes by `change_us`, give or take `error_us`.
+    /// Adapts the delays to a change of the offset by `change_us`, with an error of `error_us`, microseconds.
     pub fn age(&mut self, change_us: f64, error_us: f64) {
         self.there.delays_us.iter_mut().for_each(|delay_us| *delay_us += error_us + change_us);
         self.back.delays_us.iter_mut().for_each(|delay_us| *delay_us += error_us - change_us);
     }
 
-    /// An answer came at `now`: the question took `there_us` less the offset, the answer `back_us` plus the offset.
+    /// Takes an answer that came at `now`, microseconds: the question took `there_us` less the offset, the answer
+    /// `back_us` plus the offset.
     pub fn take(&mut self, now: Instant, there_us: f64, back_us: f64) {
         if there_us + self.back.least_us() < 0.0 || back_us + self.there.least_us() < 0.0 {
             // Earlier delays contradict this one: one of both clocks was set, or drifts more than was thought.
@@ -82,19 +86,20 @@ impl LeastDelays {
         [-self.back.least_us(), self.there.least_us()]
     }
 
-    /// The offset at `now` in the middle of its bounds, after a number of `answers`. `drift`: 1 sigma of the drift, as a
-    /// share.
+    /// Estimates the offset at `now` as the middle of its bounds, after a number of `answers`. `drift`: 1 sigma of the
+    /// drift, as a share.
     pub fn middle(&self, now: Instant, answers: u32, drift: f64) -> Middle {
         let [gap_there, gap_back] = [self.there.gap_us(), self.back.gap_us()];
         let age = |direction: &Direction| (now - direction.least_at).max(Span::ZERO).0 as f64;
         let aged_us = 0.5 * drift * (age(&self.there) + age(&self.back));
-        // The first few may all have waited in one queue, so that there is no gap. What the bounds leave open counts then.
+        // The first few messages may all have waited in one queue, so that their delays have no gap. The width between
+        // the bounds counts then.
         let width_us = self.there.least_us() + self.back.least_us();
         let unknown = width_us * width_us / (12.0 * f64::from(answers.max(1)));
         Middle {
             offset_us: 0.5 * (self.there.least_us() - self.back.least_us()),
-            // Of the excess of the least of many delays and the gap to the third, over evenly spread delays and over
-            // the sum of two exponential ones: 1.0 to 1.4 times the error that the middle has.
+            // The standard deviation by the gaps is 1.0 to 1.4 times the error of the middle. Found for evenly spread
+            // delays and for sums of two exponential ones.
             variance: (gap_there * gap_there + gap_back * gap_back) / 12.0 + aged_us * aged_us + unknown,
         }
     }

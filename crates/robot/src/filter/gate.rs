@@ -5,24 +5,25 @@ use lightbots_base::{Instant, Span, Vec2};
 /// Largest innovation of an inlier, standard deviations. Below, good fixes of a robot that was pushed are rejected. Above,
 /// outliers near the robot pull it off its place.
 const GATE: f64 = 5.0;
-/// Innovations below this are inliers whatever the covariance says, metres: three sigma of the default noise of fixes.
+/// Innovation of a place below which a fix is an inlier whatever the covariance says, metres: three sigma of the
+/// default noise.
 const GATE_FLOOR_M: f64 = 0.006;
-/// The same for headings, radians.
+/// Innovation of a heading below which a fix is an inlier whatever the covariance says, radians.
 const GATE_FLOOR_RAD: f64 = 0.1;
-/// Outliers in a row that agree after which the pose jumps to them: 0.16 s of fixes. Below, a burst of reflections
-/// moves the robot. Above, a robot that was carried away stands for longer.
+/// Number of outliers in a row that agree after which the pose jumps to them: 0.16 s of fixes. Below, a burst of
+/// reflections moves the robot. Above, a robot that was carried away stands for longer.
 const OUTLIERS: u8 = 10;
-/// Two jumps within this time are a fault: no shove moves a robot twice as quickly.
+/// Two jumps within this time are a fault, because no push moves a robot twice in it.
 const JUMPS_APART: Span = Span::from_millis(1000);
 
-/// What a fix is.
+/// What becomes of a fix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum GateResult {
-    /// It is rejected.
+    /// The fix is rejected.
     Outlier,
-    /// Its innovation corrects the filter.
+    /// The innovation of the fix corrects the filter.
     Inlier,
-    /// It replaces the estimate.
+    /// The fix replaces the estimate.
     Jump,
 }
 
@@ -38,7 +39,7 @@ pub(super) struct OutlierGate {
     last_heading: Option<Instant>,
     odd_places: u8,
     odd_headings: u8,
-    /// Two jumps came within [`JUMPS_APART`].
+    /// Whether two jumps came within [`JUMPS_APART`].
     senseless: bool,
 }
 
@@ -93,7 +94,7 @@ impl OutlierGate {
         self.last_heading
     }
 
-    /// Whether fixes and wheels contradict each other for longer than a shove explains. The call clears it.
+    /// Whether two jumps came within [`JUMPS_APART`]. The call clears the flag.
     pub(super) fn take_senseless(&mut self) -> bool {
         core::mem::take(&mut self.senseless)
     }

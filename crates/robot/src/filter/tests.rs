@@ -34,7 +34,7 @@ fn one_wild_fix_is_left_alone_and_ten_are_believed() {
     assert!(!one.take_senseless());
 }
 
-/// Wheels that turn by this in a step, radians, and slip by these shares: the truth, kept beside the filter.
+/// The true pose and slip of a robot, kept beside the filter.
 struct Drive {
     at: Vec2,
     heading: f64,
@@ -90,7 +90,7 @@ fn who_stood_for_a_while_does_not_know_its_wheels_any_more() {
     let (sure_m, slip) = (one.strays_m(0.13), one.slip());
     live(&mut one, 600..800, [0.0, 0.0]);
     assert!(one.strays_m(0.13) > 1.5 * sure_m, "{} {sure_m}", one.strays_m(0.13));
-    // What they lose in the mean it does remember.
+    // The mean slip of the wheels is remembered.
     let now = one.slip();
     assert!((now[0] - slip[0]).abs() < 0.02 && (now[1] - slip[1]).abs() < 0.02, "{now:?} {slip:?}");
 }

@@ -9,18 +9,20 @@ use crate::drive::{BodyPose, Setpoint};
 use crate::reflex::Wish;
 use crate::storage::RouteStorage;
 
-/// A robot without fixes does not report that it is there if the error of its place exceeds this, metres, 1 sigma. Below,
-/// a robot that loses its fixes at the end of a route never arrives. Above, it reports places it does not stand at.
+/// Error of the place above which a robot without fixes does not report its arrival, metres, 1 sigma. Below, a robot
+/// that loses its fixes at the end of a route never arrives. Above, it reports arrivals at places where it does not
+/// stand.
 const SURE_M: f64 = 0.003;
-/// Without fixes a robot stands before the error of its place exceeds this, metres, 1 sigma. It is less than what makes it
-/// lost (20 mm). Below, it pauses for short outages. Above, it is lost and abandons its route.
+/// Predicted error of the place above which a robot without fixes stops and waits for them, metres, 1 sigma. It is less
+/// than the error that makes the robot lost (20 mm). Below, it pauses for short outages. Above, it is lost and abandons
+/// its route.
 const PAUSE_M: f64 = 0.016;
-/// Without a compass a robot learns its heading by driving straight on at this speed, m/s. Below, the fixes' noise hides
+/// Speed at which a robot without a compass drives straight on to learn its heading, m/s. Below, the fixes' noise hides
 /// the direction for longer. Above, it leaves its place before it knows its heading.
 const CREEP_MPS: f64 = 0.08;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Wheel rates until the next step, left and right, rad/s.
+    /// Returns the wheel rates until the next step, left and right, rad/s. Reports an arrival.
     pub(super) fn act(&mut self, now: Instant, route_time: Option<Instant>, took: Span) -> [f64; 2] {
         if self.hot.supervisor.faulty(now) {
             return self.hot.drive.halt();
@@ -42,7 +44,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         wheels
     }
 
-    /// Drives as the safety layer allows.
+    /// Returns the wheel rates that the safety layer allows, left and right, rad/s.
     #[inline(never)]
     fn drive_warily(&mut self, wanted: Setpoint, dt: f64) -> [f64; 2] {
         let hot = &mut self.hot;
@@ -61,9 +63,10 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         hot.drive.gently = self.reflex.sees_strays();
         let slip = hot.estimate.slip();
         match (self.reflex.blocked_mps(), most_mps) {
-            // It was to stand anyway.
+            // A robot that rolls out was about to stand anyway.
             (Some(_), _) if rolls_out => hot.drive.halt(),
-            // Held, it may turn on the spot for what comes.
+            // A robot that rests on a held route still turns on the spot towards the direction in which the route goes
+            // on.
             (Some(0.0), _) if !hot.routes.rests_held() => hot.drive.halt(),
             (Some(speed_mps), _) if !hot.routes.rests_held() => {
                 hot.drive.step(Setpoint { speed_mps, turn_radps: 0.0 }, slip, dt, &hot.limits)
@@ -73,7 +76,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Whether it had better stand until fixes come again, because it would be lost if it drove on.
+    /// Whether the robot stands until fixes come again, because it might be lost if it drove on. The result is stored.
     fn pauses(&mut self) -> bool {
         let hot = &mut self.hot;
         hot.pauses = hot.quality.blind
@@ -81,7 +84,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         hot.pauses
     }
 
-    /// What it wants to do: the route under way, else the target, else turn towards what comes.
+    /// The setpoint without the safety layer: along the route under way, else to the target, else a turn towards the
+    /// kept route. `None` if the robot has nothing to do.
     fn want(&mut self, route_time: Option<Instant>, took: Span) -> Option<Setpoint> {
         let hot = &mut self.hot;
         if !hot.routes.under_way() && hot.seek.is_none() && !hot.routes.keeps_one() {
@@ -104,7 +108,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
         match hot.seek.as_mut() {
             Some(seek) => Some(seek.step(soon, &hot.limits)),
-            // A controller that is silent may be gone for good, and people come to look.
+            // A silent controller may be gone for good, and people may come to look: the robot does not turn.
             None if hot.supervisor.is_silent(hot.now) => {
                 hot.routes.await_start();
                 None
@@ -113,7 +117,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Reports once that it is there, when it stands there.
+    /// Reports an arrival, once, when the robot stands at the end of its route or at its target.
     fn arrive(&mut self, route_time: Option<Instant>) {
         let is_lost = self.is_lost_now();
         let hot = &mut self.hot;

@@ -1,4 +1,4 @@
-//! What each command changes.
+//! Handling of commands: what each of them changes.
 
 use core::borrow::BorrowMut;
 
@@ -9,14 +9,14 @@ use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
 
-/// A `STOP at` by which the robot would rest this much later or more is obeyed at once. Below, that happens on slow links
-/// too. Above, a wrong moment lets robots drive on for longer.
+/// If a `STOP at` would bring the robot to rest this much later or more, the robot stops at once. Below, that happens
+/// on slow links too. Above, a wrong moment lets robots drive on for longer.
 const LATEST_STOP: Span = Span::from_millis(2000);
 /// Largest valid coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
 const FAR_M: f64 = 1000.0;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Whether it was built to understand a command.
+    /// Whether the robot has the ability that a command needs.
     pub(super) fn can(&self, command: &Command) -> bool {
         let abilities = self.config.abilities;
         match command {
@@ -97,7 +97,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.light.tracks.note(at, hold);
     }
 
-    /// A target replaces the route and the target before. One beyond [`FAR_M`] is invalid: the robot stands.
+    /// Replaces the routes and the target by a target. One beyond [`FAR_M`] is invalid: it counts as unknown, and the
+    /// robot stops.
     fn take_target(&mut self, goal: Vec2) {
         self.hot.stops_at = None;
         self.hot.routes.clear();
@@ -109,7 +110,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Lets a route under way come to rest first, and stops at once where there is none, or where it is too late.
+    /// Brings the route under way to rest from `at` on, and stops then. Stops at once if no route is under way, the
+    /// show clock is unknown, or the rest would be past or too far ahead.
     fn stop_from(&mut self, now: Instant, at: Instant) {
         let ends_in = self.hot.clock.show_time(now).map(|show| at + Route::EASE - show);
         match ends_in {
@@ -122,7 +124,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Stops if that is due.
+    /// Stops if the moment of a `STOP at` has come.
     pub(super) fn stop_in_time(&mut self, now: Instant) {
         if self.hot.stops_at.is_some_and(|at| now >= at) {
             self.stop();

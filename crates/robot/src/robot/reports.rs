@@ -1,4 +1,4 @@
-//! Messages that the robot sends, and when there is something to report.
+//! The messages that the robot sends, and when it reports something unasked.
 
 use core::borrow::BorrowMut;
 
@@ -10,11 +10,12 @@ use crate::outbox::MessageKind;
 use crate::reflex::Block;
 use crate::storage::RouteStorage;
 
-/// A message to send. The longest report has 343 bytes.
+/// Payload of a message to send. The longest report has 343 bytes.
 pub type Message = heapless::String<376>;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Writes the next message to send; `None`, and an empty message, when there is none.
+    /// Writes the payload of the next message to `out` and returns its topic. `None`, and an empty `out`, if there is
+    /// none.
     #[inline]
     pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
         out.clear();
@@ -34,7 +35,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             }
         };
         let speaks_ours = self.config.abilities != Default::default();
-        // While it was cut, no report got out: the first one over the new link says it.
+        // No report got out while the robot was cut off: the first one over the new link says that it was.
         let was_cut = kind == MessageKind::Introduction && self.hot.supervisor.take_untold();
         let state = if was_cut { RobotState::Cut } else { self.hot.state };
         let details = speaks_ours.then(|| Details { route, state, ..self.details() });
@@ -42,18 +43,19 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         Some(topic)
     }
 
-    /// What stands in its way.
+    /// The obstacle to report; `None` if there is none.
     pub(super) fn block(&self) -> Option<Block> {
         if self.hot.is_wary { self.reflex.block() } else { None }
     }
 
-    /// What stands in its way: gap, and direction in the stage.
+    /// The obstacle to report, with its gap in metres and its direction in the stage in radians. `None` also if the
+    /// pose is unknown.
     pub(super) fn blocked(&self) -> Option<Blocked> {
         let (block, pose) = (self.block()?, self.pose()?);
         Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
     }
 
-    /// Notes what there is to report after a step.
+    /// Puts the messages that are due after a step into the outbox.
     pub(super) fn notice(&mut self, now: Instant) {
         let hot = &mut self.hot;
         if hot.takes_routes && hot.supervisor.is_up() && hot.clock.is_question_due(now) {

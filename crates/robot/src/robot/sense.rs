@@ -1,4 +1,4 @@
-//! The first part of a step: what the sensors say.
+//! The first part of a step: sensor readings correct the estimates.
 
 use core::borrow::BorrowMut;
 
@@ -11,13 +11,14 @@ use crate::routes::InSight;
 use crate::storage::RouteStorage;
 
 /// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
-/// its wheels. Below, a board that skips a few steps would lose way.
+/// its wheels. Below, a board that skips a few steps would fall behind its route.
 pub(super) const LONGEST_STEP: Span = Span::from_millis(100);
-/// Neighbours this much beyond the range of the sensors may be in sight all the same, metres, because both are off
-/// their places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more neighbours
-/// than it need.
+/// Margin beyond the sensors' range within which a planned neighbour may be in sight, metres, because both robots are
+/// off their places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more
+/// neighbours than it need.
 const OFF_PLAN_M: f64 = 0.025;
-/// Wheel turns count up to this multiple of what the motors can turn in the longest step. Beyond, the sensor is broken.
+/// Largest valid wheel turn, as a multiple of what the motors can turn in the longest step. Beyond, the sensor is
+/// broken.
 const WHEEL_TURN_RESERVE: f64 = 2.0;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
@@ -47,7 +48,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Gives the safety layer the readings of the step, and the neighbours that the plan has in sight.
+    /// Passes the readings of the step, and the planned neighbours that may be in sight, to the safety layer.
     #[inline(never)]
     fn sense_neighbours(&mut self, [left, right]: [f64; 2], gaps_m: Option<&[f32; SENSORS]>, dt: f64) {
         let hot = &mut self.hot;
@@ -62,7 +63,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 }
 
-/// Whether any reading is nearer than a distance. Compares all of them, because that is quicker than to stop at the first.
+/// Whether any reading is less than `range_m`. Compares all of them, because that is quicker than to stop at the first.
 #[inline]
 fn is_any_within(gaps_m: &[f32; SENSORS], range_m: f32) -> bool {
     gaps_m.iter().fold(false, |any, &gap_m| any | (gap_m < range_m))

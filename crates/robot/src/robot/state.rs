@@ -12,19 +12,19 @@ use crate::light::Light;
 use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 
-/// A robot whose fixes stay away reports how sure it will be of its place this much later. It is the time that a HOLD takes
-/// to reach all robots. Below, the others cannot stop before it is lost. Above, all robots wait for short outages.
+/// How far ahead a robot without fixes predicts the error of its place for reports. It is the time that a HOLD takes to
+/// reach all robots. Below, the others cannot stop before the robot is lost. Above, all robots wait for short outages.
 const FORESIGHT: Span = Span::from_millis(500);
 
 /// A whole robot: no allocation, no clock, no IO. Feed it messages and steps, then drain its messages.
 ///
-/// `S` is where its routes lie: in the robot itself, or elsewhere if it was given a place.
+/// `S` holds its routes: a [`RouteStorage`] inside the robot, or a reference to one elsewhere.
 #[derive(Debug)]
 pub struct Robot<S = RouteStorage> {
     pub(super) hot: Hot,
     pub(super) config: Config,
     pub(super) battery: Option<u8>,
-    /// Commands that made no sense, since power-on.
+    /// Number of unknown and invalid commands since power-on.
     pub(super) unknown: u32,
     pub(super) clock_filter: ClockFilter,
     pub(super) light: Light,
@@ -40,7 +40,7 @@ impl Robot {
 }
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// [`Robot::new`] with its routes in a storage that may lie elsewhere.
+    /// [`Robot::new`] with the given storage, by value or by reference.
     pub fn with_storage(config: Config, storage: S) -> Self {
         Self {
             hot: Hot::new(&config),
@@ -54,7 +54,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// What every step reads and writes. A simulator of thousands of robots may prefetch it by its address and size.
+    /// The state that every step reads and writes. A simulator of thousands of robots may prefetch it by its address
+    /// and size.
     #[inline]
     pub fn hot(&self) -> &Hot {
         &self.hot
@@ -74,8 +75,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         (!self.is_lost(self.hot.now - self.hot.lag)).then(|| self.hot.estimate.at())
     }
 
-    /// The direction in body space of the neighbour for which the safety layer slows the robot in this step, radians;
-    /// `None`: the robot is free.
+    /// The direction in body space of the neighbour for which the safety layer slows the robot in this step, radians.
+    /// `None` if it does not slow the robot.
     pub fn braking_towards(&self) -> Option<f64> {
         if self.hot.is_wary { self.reflex.braking_towards() } else { None }
     }
@@ -90,12 +91,13 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.clock.show_time(now)
     }
 
-    /// The show clock by which routes go on: that of the world the wheels are in.
+    /// The show time by which routes advance: the show clock less the lag of the wheels' world. `None` until
+    /// synchronised.
     pub(super) fn route_time(&self, now: Instant) -> Option<Instant> {
         self.hot.clock.show_time(now).map(|show| show - self.hot.lag)
     }
 
-    /// Distance from the place that the route says, metres; `None` without a route under way.
+    /// Distance of the robot from the present place of its route, metres; `None` without a route under way.
     pub fn off_m(&self) -> Option<f64> {
         self.hot.routes.off_m()
     }
@@ -110,7 +112,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.estimate.error_m()
     }
 
-    /// Expected error of the place, metres: [`FORESIGHT`] from now where fixes stay away, otherwise now.
+    /// Expected error of the place, 1 sigma, metres, rounded to 0.1 mm. If fixes are overdue, it is the error
+    /// [`FORESIGHT`] from now.
     pub(super) fn err_m(&self) -> f64 {
         let way_m =
             if self.is_blind() { self.hot.routes.way_ahead_m(FORESIGHT, self.storage.borrow()) } else { 0.0 };
@@ -118,7 +121,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         libm::round(err_m * 1e4) / 1e4
     }
 
-    /// Whether the pose is too uncertain to drive. A robot that is held needs to know it less well.
+    /// Whether the pose is too uncertain to drive. A robot at rest on a held route is lost only if its last fix is too
+    /// old, however large the error.
     pub(super) fn is_lost(&self, now: Instant) -> bool {
         if self.hot.routes.rests_held() {
             self.hot.estimate.lost_for_good(now)
@@ -132,7 +136,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if self.hot.routes.rests_held() { self.hot.quality.lost_for_good } else { self.hot.quality.lost }
     }
 
-    /// Whether fixes that should have come stay away.
+    /// Whether position fixes are overdue.
     pub(super) fn is_blind(&self) -> bool {
         self.hot.estimate.is_blind(self.hot.now - self.hot.lag, self.hot.blind_after)
     }
@@ -142,7 +146,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.config.id
     }
 
-    /// Unknown and invalid commands since power-on.
+    /// Number of unknown and invalid commands since power-on.
     pub fn unknown(&self) -> u32 {
         self.unknown
     }
@@ -165,7 +169,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// What is wrong, in flashes of the light; 0: nothing. An original robot never flashes.
+    /// Number of red flashes for what is wrong: 3 faulty, 2 cut off or link down, 1 lost, 0 nothing. An original robot
+    /// never flashes.
     pub(super) fn trouble(&self, now: Instant) -> u8 {
         match self.hot.state {
             _ if !self.hot.shows_trouble => 0,
