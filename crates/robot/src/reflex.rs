@@ -1,5 +1,6 @@
-//! The reflex: a robot sees its neighbours with its proximity sensors, estimates where they are and how they move,
-//! and drives no faster than it can stop for them, sooner than any message could tell it. See docs/reflex.md.
+//! The reflex: the safety layer of a robot. It estimates from the proximity sensors where neighbours are and how they
+//! move. It limits the speed so that the robot can stop for them, sooner than any message could tell it to. See
+//! docs/reflex.md.
 
 mod birth;
 mod covariance;
@@ -32,33 +33,34 @@ use sensors::Sensors;
 use track::Track;
 use tracks::Tracks;
 
-/// A wish slower than this, m/s, is no drive: nothing blocks it.
+/// Speed up to which a robot does not count as driving, m/s. Nothing blocks a robot that wants to go no faster.
 const DRIVES_MPS: f32 = 0.02;
-/// Limits this close to the wish, m/s, slow nothing.
+/// Difference between wanted and allowed speed up to which the limit does not count as braking, m/s.
 const SLOWS_MPS: f32 = 0.001;
 
-/// What the safety layer does. Its transitions are drawn in docs/reflex.md.
+/// State of the safety layer. Its transitions are drawn in docs/reflex.md.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Safety {
-    /// The robot drives as it likes.
+    /// The robot drives at the speed it wants.
     Free,
-    /// It drives slower than it would like for what is at `block`; for this many `steps` in a row it hardly drove.
-    /// `alarm`: the plan does not know what that is.
+    /// The robot drives slower than it wants because of the obstacle at `block`. `steps`: steps with less than half the
+    /// wanted speed, less those without a limit. `alarm`: whether the plan does not know the obstacle.
     Braking { block: Block, steps: u8, alarm: bool },
-    /// It stands because something stands in its way; that was not there in the last `gone` steps.
+    /// The robot stands because of the obstacle at `block`. `gone`: steps in a row in which the obstacle was missing.
     Blocked { block: Block, gone: u8 },
-    /// Blocked, it backs away by what is left of `retreat_m`, metres along its front.
+    /// The robot is blocked and backs away by what is left of `retreat_m`, metres. Its sign is that of the speed at
+    /// which the robot was blocked.
     BackingOff { block: Block, gone: u8, retreat_m: f32 },
 }
 
-/// What stands in the way.
+/// The obstacle that slows or blocks a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Block {
-    /// Rim to obstacle, metres.
+    /// Gap from the robot's rim to the obstacle, metres.
     pub gap_m: f64,
-    /// In which direction it is, radians in body space.
+    /// Direction of the obstacle, radians in body space.
     pub towards: f64,
-    /// Its centre, body space.
+    /// Centre of the obstacle, body space, metres.
     at: Point,
     /// The gap when the robot came to stand, metres.
     stood_m: f32,
@@ -75,7 +77,7 @@ pub(crate) struct Reflex {
     sensors: Sensors,
     model: NeighbourModel,
     policy: SafetyPolicy,
-    /// What it reports of brakes and neighbours.
+    /// Statistics of brakes and neighbours for reports.
     pub(crate) encounters: Encounters,
 }
 
@@ -94,8 +96,8 @@ impl Reflex {
     }
 
     /// Takes the readings of a step of `dt` seconds in which the robot drove `way_m` forwards and turned `turn_rad`
-    /// counter-clockwise, with the neighbours that the plan expects in sight. `error_m`: error of the own place, 1
-    /// sigma. What is not a number is nothing seen.
+    /// counter-clockwise. `planned`: the neighbours that the plan expects in sight. `error_m`: error of the own place,
+    /// 1 sigma. A reading that is NaN counts as nothing seen.
     pub(crate) fn look(
         &mut self,
         gaps_m: Option<&[f32; SENSORS]>,
@@ -117,7 +119,7 @@ impl Reflex {
         );
         let seen = |gap_m: f32| if gap_m < self.sensors.range_m { gap_m.max(0.0) } else { f32::INFINITY };
         let gaps_m = gaps_m.map_or([f32::INFINITY; SENSORS], |gaps_m| gaps_m.map(seen));
-        // The neighbour's own place is about as unsure as that of this robot.
+        // A neighbour's error of its own place is about as large as that of this robot.
         let planned_sigma_m = libm::sqrtf(
             self.model.planned_sigma_m * self.model.planned_sigma_m + 2.0 * (error_m * error_m) as f32,
         );
@@ -126,14 +128,14 @@ impl Reflex {
         self.tracks.step(&scan);
     }
 
-    /// Whether it sees something or does something about what it saw: else there is nothing to ask it until it looks
-    /// again.
+    /// Whether the layer sees something or acts on what it saw. If not, there is no need to call it until the next
+    /// `look`.
     pub(crate) fn is_wary(&self) -> bool {
         !self.tracks.is_empty() || self.safety != Safety::Free
     }
 
-    /// How fast the robot may drive, m/s, at least 0; `None`: as it likes. `room_mm`: what the plan leaves it at
-    /// least.
+    /// The highest allowed speed, m/s, at least 0; `None` if nothing limits it. Updates the state. `room_mm`: planned
+    /// clearance to neighbours that the route does not name, millimetres.
     pub(crate) fn limit(&mut self, wish: Wish, room_mm: Option<u16>) -> Option<f64> {
         let slowest = self.slowest(&wish, room_mm);
         self.safety = match self.safety {
@@ -144,7 +146,7 @@ impl Reflex {
                     self.slowed(before, &wish, mps, cause, room_mm.is_none())
                 }
                 _ => match before {
-                    // One step on its way is not free of what blocks it.
+                    // One step without a limit does not free a robot that braked in several.
                     Safety::Braking { block, steps, alarm } if steps > 1 => {
                         Safety::Braking { block, steps: steps - 1, alarm }
                     }
@@ -158,7 +160,8 @@ impl Reflex {
         }
     }
 
-    /// It may drive at `mps` only, slower than it wishes. `named`: the route names all neighbours.
+    /// The next state of a robot that may drive only at `mps`, m/s, less than it wants. `named`: whether the route
+    /// names all neighbours.
     fn slowed(&self, before: Safety, wish: &Wish, mps: f32, cause: Cause, named: bool) -> Safety {
         let (steps, alarm) =
             if let Safety::Braking { steps, alarm, .. } = before { (steps, alarm) } else { (0, false) };
@@ -172,7 +175,7 @@ impl Reflex {
         self.retreats(block, 0, self.policy.evade_most_m.copysign(wish.speed_mps))
     }
 
-    /// The least speed that any neighbour allows, and for which that is.
+    /// The lowest speed that any neighbour allows, m/s, and which neighbour that is. `None` if none limits the speed.
     fn slowest(&self, wish: &Wish, room_mm: Option<u16>) -> Option<(f32, Cause)> {
         let allowed = |track: &Track| {
             let clearance_m = self.clearance_m(track, room_mm, true);
@@ -182,12 +185,13 @@ impl Reflex {
         self.tracks.iter(&self.sensors).filter_map(allowed).min_by(|one, other| one.0.total_cmp(&other.0))
     }
 
-    /// Whether anything is in sight that the plan does not know.
+    /// Whether a neighbour is in sight that has left its plan.
     pub(crate) fn sees_strays(&self) -> bool {
         self.tracks.iter(&self.sensors).any(Track::strays)
     }
 
-    /// What the plan leaves the robot and this neighbour, metres.
+    /// Planned clearance between the robot and this neighbour, metres; `None` if it is unknown. With `moving`, a
+    /// planned neighbour must move by plan to have one.
     fn clearance_m(&self, track: &Track, room_mm: Option<u16>, moving: bool) -> Option<f32> {
         match track.planned {
             Some(index) => {
@@ -198,7 +202,8 @@ impl Reflex {
         }
     }
 
-    /// Whether what blocks it is still there; and where, by the latest readings.
+    /// The next state of a blocked robot. The nearest track updates the obstacle; the robot is free once the obstacle
+    /// was missing for `steps_to_free` steps.
     fn still_blocked(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let moved = block.at.minus(Point::new(self.own.way_m, 0.0));
         let near = |track: &&Track| track.at.minus(moved).length() < 2.0 * self.sensors.radius_m;
@@ -218,8 +223,8 @@ impl Reflex {
         if retreat_m == 0.0 { Safety::Blocked { block, gone } } else { self.retreats(block, gone, retreat_m) }
     }
 
-    /// It goes on backing away from what it nearly touches, so that there is a path past that: the way it came,
-    /// unless a neighbour follows.
+    /// The next state of a blocked robot that backs away the way it came, so that there is room for a path past the
+    /// obstacle. It stops at `clear_m`, at the end of `retreat_m`, or if a neighbour follows.
     fn retreats(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let left_m = retreat_m.abs() - self.own.way_m.abs();
         let is_near = |track: &Track| track.gap_m(&self.sensors) < self.policy.followed_m;
@@ -232,7 +237,7 @@ impl Reflex {
         Safety::BackingOff { block, gone, retreat_m: left_m.copysign(retreat_m) }
     }
 
-    /// How fast it backs away, m/s along its front; `None`: it is not blocked.
+    /// The speed of a blocked robot along its front, m/s: 0, or that of backing away. `None` if it is not blocked.
     pub(crate) fn blocked_mps(&self) -> Option<f64> {
         match self.safety {
             Safety::BackingOff { retreat_m, .. } => {
@@ -243,8 +248,8 @@ impl Reflex {
         }
     }
 
-    /// How far, and where to in body space, it gives way to neighbours; metres, zero where no neighbour is too near.
-    /// `room_mm`: how far others stay away by plan.
+    /// Offset in body space by which the robot gives way to neighbours, metres; zero if none is too near. `room_mm`:
+    /// planned clearance to neighbours that the route does not name, millimetres.
     pub(crate) fn give_way(&self, room_mm: Option<u16>) -> Vec2 {
         let own_mps = self.own.way_m / self.own.dt;
         self.tracks.iter(&self.sensors).fold(Vec2::ZERO, |sum, track| {
@@ -253,14 +258,14 @@ impl Reflex {
         })
     }
 
-    /// A route begins: from the next step on the plan tells which neighbours are in sight.
+    /// Forgets what is in sight, because a route begins: from the next step on the plan names the neighbours in sight.
     pub(crate) fn begin_route(&mut self) {
         self.tracks.clear();
         self.safety = Safety::Free;
         self.encounters.begin_route();
     }
 
-    /// Notes for reports, at `now` on a route, whether it brakes and how near the neighbours are that its sensors see.
+    /// Notes for reports, at `now` on a route, whether the robot brakes and how near the neighbours that it sees are.
     pub(crate) fn note(&mut self, now: Instant) {
         if self.safety != Safety::Free {
             self.encounters.brakes_at(now);
@@ -271,12 +276,13 @@ impl Reflex {
         }
     }
 
-    /// The route or the target has changed: it may try again.
+    /// Frees the robot from what slows or blocks it.
     pub(crate) fn forget(&mut self) {
         self.safety = Safety::Free;
     }
 
-    /// What it says that is in its way: what it stands for, and what it brakes for if the plan does not know that.
+    /// The obstacle to report: the one that blocks the robot, or one that the plan does not know and that it brakes
+    /// hard for.
     pub(crate) fn block(&self) -> Option<Block> {
         match self.safety {
             Safety::Blocked { block, .. }
@@ -286,7 +292,7 @@ impl Reflex {
         }
     }
 
-    /// In which direction of body space that is for which it is slowed, radians.
+    /// Direction of the obstacle that slows the robot, radians in body space; `None` if none does.
     pub(crate) fn braking_towards(&self) -> Option<f64> {
         match self.safety {
             Safety::Free => None,
@@ -300,9 +306,9 @@ impl Reflex {
 /// The neighbour that slows a robot most.
 #[derive(Clone, Copy)]
 struct Cause {
-    /// Body space.
+    /// Its centre, body space, metres.
     at: Point,
-    /// The plan does not know it.
+    /// Whether the plan does not know it.
     unplanned: bool,
 }
 

@@ -7,9 +7,9 @@ const FAULT: Span = Span::from_millis(1000);
 /// Silence of the controller during a run after which the robot asks for the time. It must be shorter than
 /// `Config::silence` (1.9 s by default). Above, a question that is lost cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
-/// Silence after which the link counts as out, whatever the robot does: its questions for the time, at most 3 s apart
-/// (R28), were not answered. Below, robots that stand for long take all routes for old. Above, they turn towards an old
-/// route.
+/// Silence after which the link counts as out, whatever the robot does. Its questions for the time, at most 3 s apart
+/// (R28), were not answered then. Below, robots that stand for long take all routes for old. Above, they turn towards
+/// an old route.
 const OUTAGE: Span = Span::from_millis(3300);
 /// Time between two questions of a robot in such a silence.
 const ASK_AGAIN: Span = Span::from_millis(150);

@@ -1,4 +1,4 @@
-//! How a track begins: from the plan where that explains a reading, else from the reading alone.
+//! How a track begins: from the plan if a planned neighbour explains a reading, else from the reading alone.
 
 use super::covariance::Covariance;
 use super::departure::Departure;
@@ -8,20 +8,20 @@ use super::sensors::BESIDE_M;
 use super::track::Track;
 use crate::config::SENSORS;
 
-/// Uncertainty across of a place known from one sensor alone, as a share of its distance: ±19°, evenly spread. That
-/// is where a disc 10 mm away is in the cone of one sensor and of no other.
+/// Uncertainty across the line of sight of a place known from one sensor, 1 sigma, as a share of its distance. It
+/// stands for ±19°, evenly spread: there a disc 10 mm away is in the cone of one sensor only.
 pub(super) const BEARING_SIGMA: f32 = 0.19;
-/// Readings of two sensors side by side that differ by less than this, metres, may be of one disc: at 20 mm, a disc
-/// at the edge of a cone reads that much farther there.
+/// Difference below which readings of two sensors side by side may be of one disc, metres. At 20 mm, a disc at the edge
+/// of a cone reads that much farther there.
 const SHARED_M: f32 = 0.015;
-/// A disc between two sensors is this much nearer than either reads, metres, and readings of one sensor alone are
-/// this uncertain on top of their noise.
+/// How much nearer a disc between two sensors is than either reads, metres. Readings of one sensor alone have this
+/// uncertainty on top of their noise.
 const BETWEEN_M: f32 = 0.002;
-/// A planned neighbour explains readings within this many sigma.
+/// Largest error with which a planned neighbour explains a reading, in sigma.
 const EXPLAINS_SIGMAS: f32 = 4.5;
 
-/// The planned neighbour that explains a reading best, if none of `tracks` follows it yet, and none is it that has
-/// left its plan: where the plan has that one it is not.
+/// Begins a track of the planned neighbour that explains a reading best; `None` if none does. A neighbour that a track
+/// follows already does not count. Neither does one that has left its plan, because it is not where the plan has it.
 pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -> Option<Track> {
     let read_m = scan.reads_m(sensor)?;
     let place_m2 = scan.planned_sigma_m * scan.planned_sigma_m;
@@ -36,7 +36,8 @@ pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -
     Some(Track { planned: Some(one.index), departure, ..begun(one.at, one.velocity, covariance, scan) })
 }
 
-/// How far a reading is off what a planned neighbour explains, metres; `None`: the neighbour does not explain it.
+/// Difference between a reading and what it would be of a planned neighbour, metres; `None` if that neighbour does not
+/// explain it.
 pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, scan: &Scan<'_>) -> Option<f32> {
     let expected = scan.sensors.expected(sensor, one.at);
     let variance = scan.planned_sigma_m * scan.planned_sigma_m + scan.sensors.variance_m2(expected.gap_m);

@@ -35,7 +35,7 @@ impl Symmetric {
     }
 }
 
-/// One independent error that moves place (metres) and velocity (m/s) together, 1 sigma.
+/// An independent error that moves place (metres) and velocity (m/s) together, 1 sigma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CommonError {
     pub place: Point,
@@ -74,7 +74,8 @@ impl Covariance {
         self.place_along(unit) + after_s * (2.0 * both + after_s * self.velocity_along(unit))
     }
 
-    /// A step of `dt` seconds at constant velocity, then a change of velocity of unknown direction (1 sigma, m/s).
+    /// Propagates over a step of `dt` seconds at constant velocity, with a change of velocity in an unknown direction
+    /// halfway (1 sigma, m/s).
     pub fn predict(&mut self, dt: f32, change_mps: f32) {
         let [x, y] = &mut self.both;
         let velocity = self.velocity;
@@ -86,7 +87,7 @@ impl Covariance {
         self.kick(change_mps, 0.5 * dt);
     }
 
-    /// The velocity changed by an unknown amount (1 sigma, m/s) `ago_s` seconds ago.
+    /// Adds an unknown change of velocity (1 sigma in each axis, m/s) `ago_s` seconds ago.
     pub fn kick(&mut self, sigma_mps: f32, ago_s: f32) {
         let variance = sigma_mps * sigma_mps;
         self.velocity.xx += variance;
@@ -96,7 +97,7 @@ impl Covariance {
         self.add_place(variance * ago_s * ago_s);
     }
 
-    /// Place and velocity have another independent error.
+    /// Adds an independent error of place and velocity.
     pub fn add(&mut self, by: &CommonError) {
         self.place.minus_outer(by.place, -1.0);
         self.velocity.minus_outer(by.velocity, -1.0);
@@ -124,13 +125,13 @@ impl Covariance {
         self
     }
 
-    /// The place is less sure by this variance in all directions, square metres.
+    /// Adds a variance to the place in all directions, square metres.
     pub fn add_place(&mut self, variance_m2: f32) {
         self.place.xx += variance_m2;
         self.place.yy += variance_m2;
     }
 
-    /// Body space has turned: all axes rotate by the angle of a unit vector.
+    /// Rotates all axes by the angle of a unit vector, because body space has turned.
     pub fn rotate(&mut self, by: Point) {
         self.place = self.place.rotated(by);
         self.velocity = self.velocity.rotated(by);
@@ -138,14 +139,16 @@ impl Covariance {
         self.both = [x.times(by.x).minus(y.times(by.y)), x.times(by.y).plus(y.times(by.x))];
     }
 
-    /// Takes a scalar measurement and returns how place and velocity move.
+    /// Updates by a scalar measurement with this gradient over the place. `variance`: variance of the innovation.
+    /// Returns the corrections of place and velocity.
     pub fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let place = self.place.times(gradient);
         let velocity = self.both[0].times(gradient.x).plus(self.both[1].times(gradient.y));
         self.gain(place, velocity, innovation, variance)
     }
 
-    /// What is known of place and velocity goes with a measurement, by their covariance with it.
+    /// Updates by a measurement with these covariances with `place` and `velocity`. Returns the corrections of place
+    /// and velocity.
     fn gain(&mut self, place: Point, velocity: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let share = 1.0 / variance;
         self.place.minus_outer(place, share);
@@ -155,7 +158,8 @@ impl Covariance {
         (place.times(innovation * share), velocity.times(innovation * share))
     }
 
-    /// Takes a scalar measurement of the velocity along a unit vector and returns how place and velocity move.
+    /// Updates by a scalar measurement of the velocity along a unit vector. `variance`: variance of the innovation.
+    /// Returns the corrections of place and velocity.
     pub fn correct_velocity(&mut self, unit: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let velocity = self.velocity.times(unit);
         let place = Point { x: self.both[0].dot(unit), y: self.both[1].dot(unit) };

@@ -1,5 +1,5 @@
-//! A robot that follows another that stops dead, with noisy sensors: how often they touch, and how often it brakes for
-//! nothing.
+//! A robot follows another that stops dead, with noisy sensors: how often they touch, and how often the robot brakes
+//! for nothing.
 
 use super::estimator_tests::{Dice, Disc, readings};
 use super::scan::Expectation;
@@ -11,32 +11,32 @@ use lightbots_base::braking::stopping_m;
 const DT: f32 = 0.016;
 const SPEED_MPS: f32 = 0.27;
 const RUNS: usize = 2000;
-/// How far each of the two is off its route, 1 sigma in each axis, metres: 0.5 to 0.9 mm along the line of sight were
-/// measured
-/// in rehearsals with standard conditions on 2026-11-24.
+/// How far each of the two is off its route, 1 sigma in each axis, metres. Along the line of sight, 0.5 to 0.9 mm were
+/// measured in rehearsals with standard conditions on 2026-11-24.
 const OFF_M: f32 = 0.001;
-/// Steps before the other dies, and after.
+/// Number of steps before the other robot stops dead. `AFTER`: number of steps after that.
 const BEFORE: usize = 45;
 const AFTER: usize = 40;
 
-/// What came of many deaths.
+/// Results of many runs.
 #[derive(Debug, Default)]
 struct Tally {
     touched: usize,
     false_brakes: usize,
 }
 
-/// Follows at a planned gap, `aside_m` beside the way of the one ahead, which dies.
+/// Simulates a robot that follows another at a planned gap, `aside_m` beside its path, metres. The other robot stops
+/// dead.
 fn follow(gap_m: f32, aside_m: f32, off_m: f32, dice: &mut Dice, tally: &mut Tally) {
     let mut reflex = Reflex::new(&Config::new(RobotId::from_random(1)));
     let far_m = 0.054 + gap_m;
     let ahead_m = libm::sqrtf(far_m * far_m - aside_m * aside_m);
-    // Both are off their routes, by much the same all the time.
+    // Both are off their routes, by a constant offset.
     let off = Point::new(off_m * dice.normal(), off_m * dice.normal());
     let (mut x, mut now_mps, mut told_mps) = (0.0f32, SPEED_MPS, SPEED_MPS);
     let mut other = Point::new(ahead_m, aside_m);
     for step in 0..BEFORE + AFTER {
-        // It dies within a step and slides to a stand.
+        // The other robot stops within a step.
         let other_mps = match step {
             ..BEFORE => SPEED_MPS,
             BEFORE => SPEED_MPS * dice.uniform(),
@@ -70,7 +70,7 @@ fn follow(gap_m: f32, aside_m: f32, off_m: f32, dice: &mut Dice, tally: &mut Tal
         if most_mps < SPEED_MPS - 0.001 && step < BEFORE {
             tally.false_brakes += 1;
         }
-        // Tyres lose at most this much in a step.
+        // Tyres lose at most this speed in a step.
         now_mps = told_mps.max(now_mps - 0.188);
         told_mps = most_mps;
     }

@@ -10,26 +10,27 @@ use super::motion::OwnMotion;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 
-/// Places at which a neighbour may have stopped that are followed at once. Fewer: a robot that drives slowly leaves all of
-/// them before readings can tell.
+/// Number of places at which a neighbour may have stopped that are followed at once. Fewer: a robot that drives slowly
+/// leaves all of them before readings can tell.
 const STOPS: usize = 6;
-/// Distance on the path between two of them, metres. More: the place of the stop is known less well. Less: fewer steps
-/// fit in.
+/// Distance on the path between two such places, metres. More: the place of the stop is known less well. Less: the
+/// places cover fewer steps.
 const STOP_EVERY_M: f32 = 0.002;
-/// Share of a log-likelihood ratio that remains after a step. The model of the offset is only approximate, and in seconds
-/// small misfits add up: at 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline, braked
+/// Share of a log-likelihood ratio that remains after a step. The model of the offset is only approximate, and small
+/// misfits add up in seconds. At 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline, braked
 /// (formation 274).
 const REMEMBERED: f32 = 0.95;
-/// Directions from the axis of the sensor that sees a neighbour first in which it may stand, radians: 16° apart.
+/// Directions in which a neighbour that comes into sight may stand, radians from the axis of the sensor that sees it
+/// first: 16° apart.
 const FIRST_BEARINGS_RAD: [f32; 5] = [-0.56, -0.28, 0.0, 0.28, 0.56];
-/// One planned neighbour compared with its plan.
+/// The test of whether one planned neighbour has left its plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Departure {
     /// Offset of the readings from the plan if the neighbour keeps to it, metres.
     offset_m: f32,
     /// Variance of the offset, square metres.
     variance: f32,
-    /// How far the neighbour drove by plan since the last stop was added, metres.
+    /// How far the neighbour should have driven by plan since the last stop was added, metres.
     driven_m: f32,
     stops: heapless::Vec<Stop, STOPS>,
 }
@@ -37,7 +38,7 @@ pub(crate) struct Departure {
 /// The hypothesis that the neighbour stopped at a place.
 #[derive(Clone, Copy, Debug)]
 struct Stop {
-    /// Its centre, body space.
+    /// Centre of the neighbour there, body space, metres.
     at: Point,
     offset_m: f32,
     /// Logarithm of its likelihood over that of the null hypothesis.
@@ -47,14 +48,14 @@ struct Stop {
 /// How a neighbour left its plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Left {
-    /// It stands at this place, body space.
+    /// It stands at this place, body space, metres.
     Stands(Point),
-    /// It does something else.
+    /// It left its plan in another way.
     Strays,
 }
 
 impl Departure {
-    /// Nothing has been read yet; `sigma_m`: how far neighbours are off their plan.
+    /// A test without readings. `sigma_m`: how far neighbours are off their plan, 1 sigma, metres.
     pub fn new(sigma_m: f32) -> Self {
         Self {
             offset_m: 0.0,
@@ -64,8 +65,9 @@ impl Departure {
         }
     }
 
-    /// A neighbour that the plan has at `planned` comes into sight of a sensor: it may have stopped long before, anywhere at
-    /// that distance. The first reading tells its offset if it drives by plan, and the distance if it does not.
+    /// Begins the test of a neighbour that comes into sight of a sensor and is planned at `planned`. It may have
+    /// stopped long before, in any direction at the distance read. If it drives by plan, the first reading gives its
+    /// offset.
     pub fn at_first_sight(sensor: usize, read_m: f32, planned: Point, scan: &Scan<'_>) -> Self {
         let (axis, radius_m) = (scan.sensors.axes[sensor], scan.sensors.radius_m);
         let mut departure = Self::new(scan.planned_sigma_m);
@@ -88,7 +90,8 @@ impl Departure {
         }
     }
 
-    /// Takes the readings of the sensors that see the neighbour; whether it has left its plan.
+    /// Takes the readings of the sensors that see the neighbour. Returns how it has left its plan; `None` if it keeps
+    /// to it.
     pub fn test(
         &mut self,
         one: &Expectation,
@@ -127,7 +130,8 @@ impl Departure {
         None
     }
 
-    /// From now on it may have stopped where the plan has it now.
+    /// Adds the hypothesis that the neighbour stops where the plan has it now, once that is far enough from the last
+    /// one. Without room, the least likely one is dropped.
     fn add_stop(&mut self, one: &Expectation, dt: f32) {
         self.driven_m += one.velocity.length() * dt;
         if self.driven_m < STOP_EVERY_M {
@@ -143,15 +147,15 @@ impl Departure {
     }
 }
 
-/// The mean of the sensors that see a neighbour.
+/// The mean over the sensors that see a neighbour.
 struct Mean<'a, S> {
     seen_by: S,
     scan: &'a Scan<'a>,
 }
 
 impl<S: Iterator<Item = usize> + Clone> Mean<'_, S> {
-    /// By how much they read more than they would if it were at a place, metres, and the variance of that; `None`: none
-    /// reads anything.
+    /// By how much the sensors read more than they would of a neighbour at `at`, metres, and the variance of that mean.
+    /// `None` if none reads anything.
     fn off_m(&self, at: Point) -> Option<(f32, f32)> {
         let (mut off_m, mut variance, mut count) = (0.0, 0.0, 0.0);
         for sensor in self.seen_by.clone() {

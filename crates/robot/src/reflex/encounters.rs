@@ -1,38 +1,39 @@
-//! What a robot reports of its meetings with others (R53): how often it braked, and how near another rim came.
+//! Statistics of encounters with other robots for reports (R53): how often the robot braked, and how near another rim
+//! came.
 
 use lightbots_base::{Instant, Span};
 
-/// A brake after at least this time without one is counted anew. Below, one brake of a noisy sensor counts several times.
-/// Above, brakes for different robots count as one. Rehearsals count with the same 10 steps of 16 ms.
+/// Time without braking after which the next brake counts anew. Below, one brake of a noisy sensor counts several
+/// times. Above, brakes for different robots count as one. Rehearsals count with the same 10 steps of 16 ms.
 const FREE: Span = Span::from_millis(160);
 
-/// Brakes and the least gap until now.
+/// Number of brakes, and least gap to another rim.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Encounters {
     brakes: u32,
     /// When it braked last.
     braked: Option<Instant>,
-    /// On the route under way, else on the route finished last, metres.
+    /// Least gap on the route under way, else on the route finished last, metres.
     near_m: Option<f32>,
 }
 
 impl Encounters {
-    /// Brakes since power-on.
+    /// Number of brakes since power-on.
     pub fn brakes(&self) -> u32 {
         self.brakes
     }
 
-    /// Least gap between rims on the latest route, metres, to a tenth of a millimetre.
+    /// Least gap between rims on the latest route, metres, rounded to 0.1 mm; `None` if no neighbour was seen.
     pub fn near_m(&self) -> Option<f64> {
         self.near_m.map(|gap_m| libm::round(f64::from(gap_m) * 1e4) / 1e4)
     }
 
-    /// A new route begins.
+    /// Resets the least gap, because a new route begins.
     pub fn begin_route(&mut self) {
         self.near_m = None;
     }
 
-    /// The safety layer slows the robot in the step at `now`.
+    /// Notes that the safety layer slows the robot in the step at `now`.
     pub fn brakes_at(&mut self, now: Instant) {
         if self.braked.is_none_or(|braked| now - braked > FREE) {
             self.brakes = self.brakes.saturating_add(1);
@@ -40,7 +41,7 @@ impl Encounters {
         self.braked = Some(now);
     }
 
-    /// A neighbour is seen with this gap between the rims, metres.
+    /// Notes the gap between the rims of the robot and a neighbour that it sees, metres.
     pub fn see(&mut self, gap_m: f32) {
         if gap_m.is_finite() {
             let gap_m = gap_m.max(0.0);

@@ -1,5 +1,6 @@
-//! How good the estimates of strangers are, neighbours that the plan does not know, and how honest their covariances:
-//! three scenes, ten thousand steps each. Planned neighbours: planned_scene_tests.rs; walls: wall_scene_tests.rs.
+//! How good the estimates of strangers are, neighbours that the plan does not know, and how well their covariances
+//! match the errors. There are three scenes of ten thousand steps each. Planned neighbours: planned_scene_tests.rs;
+//! walls: wall_scene_tests.rs.
 
 extern crate std;
 
@@ -41,14 +42,14 @@ impl Dice {
     }
 }
 
-/// A disc in the robot's body space.
+/// A disc in body space.
 #[derive(Clone, Copy)]
 pub(super) struct Disc {
     pub at: Point,
     pub velocity: Point,
 }
 
-/// What a sensor reads without noise: the nearest rim in its cone.
+/// Gap that a sensor reads without noise, metres: to the nearest rim in its cone.
 pub(super) fn reads_m(discs: &[Disc], sensor: usize) -> f32 {
     let axis = Point::unit(sensor as f32 * core::f32::consts::FRAC_PI_4);
     let reads = |disc: &Disc| {
@@ -94,7 +95,7 @@ impl Tally {
         self.add(nearest.filter(|one| off(one) < 0.03).as_ref(), disc);
     }
 
-    /// The same of the nearest track.
+    /// Adds the errors of the track nearest to a disc.
     pub fn add_nearest_track(&mut self, tracks: &Tracks, disc: &Disc) {
         self.add_nearest(tracks.list().iter().map(Track::estimate), disc);
     }
@@ -113,7 +114,7 @@ impl Tally {
     }
 }
 
-/// Both move on for a step: discs by their velocity with random accelerations, the robot by `own`.
+/// Carries discs and robot over a step: discs by their velocity with random accelerations, the robot by `own`.
 pub(super) fn advance(discs: &mut [Disc], own: &OwnMotion, accel_mps2: f32, dice: &mut Dice) {
     let turn = Point::unit(-own.turn_rad);
     let half = Point::unit(0.5 * own.turn_rad);
@@ -175,9 +176,10 @@ pub(super) fn polar(degrees: f32, gap_m: f32) -> Point {
     Point::unit(degrees.to_radians()).times(2.0 * RADIUS_M + gap_m)
 }
 
-/// Median errors of place and velocity are at most these, and the 95 % ellipse holds 92 to 98 % of the errors.
+/// Checks that the median errors of place and velocity are at most these. The 95 % ellipse must hold 92 to 98 % of the
+/// errors.
 ///
-/// A stranger's bearing is hardly seen by one sensor: ±19° are 10 mm to either side. Its covariance says so.
+/// One sensor hardly sees a stranger's bearing: ±19° are 10 mm to either side. The covariance must cover that.
 #[track_caller]
 pub(super) fn expect(figures: [f32; 4], place_m: f32, speed_mps: f32) {
     let [place, speed, inside, followed] = figures;

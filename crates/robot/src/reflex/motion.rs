@@ -1,4 +1,4 @@
-//! How the robot itself moves.
+//! Motion of the robot itself in a step.
 
 use super::point::Point;
 
@@ -14,9 +14,9 @@ pub(crate) struct OwnMotion {
 }
 
 impl OwnMotion {
-    /// Where a place that does not move is in body space after the step.
+    /// Converts a place that does not move from body space before the step to body space after it.
     pub fn carry(&self, at: Point) -> Point {
-        // The own path bends by half the turn.
+        // The path of the robot bends, so that its chord points in the direction of half the turn.
         let moved = Point::of_small_angle(0.5 * self.turn_rad).times(self.way_m);
         at.minus(moved).rotated(Point::of_small_angle(-self.turn_rad))
     }

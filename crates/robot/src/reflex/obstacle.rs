@@ -1,6 +1,6 @@
-//! Something that stands and that the plan does not know: is it a straight edge, the end of one, or a robot? A
-//! Gaussian sum filter (Alspach and Sorenson, *Nonlinear Bayesian Estimation Using Gaussian Sum Approximations*,
-//! 1972): each hypothesis is an extended Kalman filter of one outline, weighted by the likelihood of all readings.
+//! A standing object that the plan does not know: is it a straight edge, the end of one, or a robot? A Gaussian sum
+//! filter decides (Alspach and Sorenson, *Nonlinear Bayesian Estimation Using Gaussian Sum Approximations*, 1972). Each
+//! hypothesis is an extended Kalman filter of one outline, weighted by the likelihood of all readings.
 
 use super::covariance::{CommonError, Covariance};
 use super::likelihood::{log_density, log_sum};
@@ -11,33 +11,33 @@ use super::scan::Scan;
 use super::view::View;
 use crate::config::{NeighbourModel, SENSORS};
 
-/// Hypotheses that are followed at once: those of the first reading, and two ends that come into sight later.
+/// Largest number of hypotheses followed at once: those of the first reading, and two ends that come into sight later.
 const HYPOTHESES: usize = 24;
-/// A reading belongs to a hypothesis within this many sigma.
+/// Largest error with which a hypothesis explains a reading, in sigma.
 const EXPLAINS_SIGMAS: f32 = 4.0;
-/// Hypotheses less likely than all together by this factor, natural logarithm, are given up.
+/// Natural logarithm of a hypothesis's share in the likelihood of all below which it is dropped.
 const GIVEN_UP_LOG: f32 = -8.0;
-/// Error of the direction of an edge that one sensor sees, 1 sigma, radians: evenly spread up to where the next
-/// sensor is nearer to it.
+/// Error of the direction of an edge that one sensor sees, 1 sigma, radians. The direction is evenly spread up to where
+/// the next sensor is nearer to the edge.
 const EDGE_SIGMA_RAD: f32 = 0.22;
 /// Directions from a sensor's axis in which the end of an edge may be, radians: cones are ±0.87.
 const END_BEARINGS_RAD: [f32; 3] = [-0.5, 0.0, 0.5];
-/// Error of these places across, 1 sigma, as a share of the reading.
+/// Error of the place of an end across the line of sight, 1 sigma, as a share of the reading.
 const END_ACROSS: f32 = 0.24;
 /// Angles between the line of sight to an end and the normal of its edge, radians.
 const END_TURNS_RAD: [f32; 3] = [0.15, 0.6, 1.15];
-/// Error of these angles, 1 sigma, radians.
+/// Error of [`END_TURNS_RAD`], 1 sigma, radians.
 const END_SIGMA_RAD: f32 = 0.25;
 /// Directions from a sensor's axis in which the centre of a robot may be, radians.
 const DISC_BEARINGS_RAD: [f32; 3] = [-0.35, 0.0, 0.35];
-/// Error of these places across, 1 sigma, as a share of the distance.
+/// Error of the place of a robot across the line of sight, 1 sigma, as a share of the distance.
 const DISC_ACROSS: f32 = 0.08;
-/// An obstacle is a straight edge if the logarithm of that probability is more than this: 95 %.
+/// Natural logarithm of the probability above which an obstacle counts as a straight edge: 95 %.
 const FLAT_LOG: f32 = -0.05;
-/// Most that the logarithm of an obstacle's likelihood ratio can be, so that it is lost soon when it is wrong.
+/// Upper bound of an obstacle's log-likelihood ratio, so that a wrong obstacle is lost soon.
 const MOST_LOG_RATIO: f32 = 12.0;
 
-/// That an obstacle has a certain outline.
+/// The hypothesis that an obstacle has a certain outline.
 #[derive(Clone, Debug)]
 struct Hypothesis {
     outline: Outline,
@@ -45,13 +45,13 @@ struct Hypothesis {
     log: f32,
 }
 
-/// Something that stands.
+/// A standing object, such as a wall.
 #[derive(Clone, Debug)]
 pub(crate) struct StandingObject {
     hypotheses: heapless::Vec<Hypothesis, HYPOTHESES>,
-    /// Logarithm of the likelihood of its readings over that of neighbours that move as they like.
+    /// Natural logarithm of the likelihood of its readings over that of moving neighbours.
     pub log_ratio: f32,
-    /// Whether it is likelier than those.
+    /// Whether a standing object is likelier than moving neighbours, with hysteresis.
     pub is_likely: bool,
     /// Sensors that saw it in the latest step, one bit each.
     pub seen_by: u8,
@@ -62,14 +62,14 @@ pub(crate) struct StandingObject {
 /// The readings of a step that may be of an obstacle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readings<'a> {
-    /// Sensors that see nothing known, one bit each.
+    /// Sensors whose readings belong to no known neighbour, one bit each.
     pub open: u8,
-    /// Logarithm of the density of each sensor's reading if it is of a neighbour that moves.
+    /// Natural logarithm of the density of each sensor's reading if it is of a moving neighbour.
     pub logs: &'a [f32; SENSORS],
 }
 
 impl StandingObject {
-    /// What one sensor reads for the first time.
+    /// Begins all hypotheses from the first reading of one sensor, metres.
     pub fn begin(sensor: usize, read_m: f32, scan: &Scan<'_>) -> Self {
         let sensors = scan.sensors;
         let (axis, sigma_m) = (sensors.axes[sensor], libm::sqrtf(sensors.variance_m2(read_m)));
@@ -100,7 +100,7 @@ impl StandingObject {
         self.hypotheses.iter_mut().for_each(|one| one.outline.predict(own, of));
     }
 
-    /// Takes the readings of a step; `but`: a sensor whose reading was taken before.
+    /// Takes the readings of a step. `but`: a sensor whose reading was taken before.
     pub fn take(&mut self, readings: &Readings<'_>, but: Option<usize>, scan: &Scan<'_>) {
         let explained = self.explained(readings.open, scan);
         self.add_ends(scan);
@@ -121,7 +121,7 @@ impl StandingObject {
         self.missed = if explained == 0 { self.missed.saturating_add(1) } else { 0 };
     }
 
-    /// Which of some sensors read what a hypothesis explains.
+    /// Those of the sensors in `open` whose readings a hypothesis explains, one bit each.
     fn explained(&self, open: u8, scan: &Scan<'_>) -> u8 {
         let explains = |sensor: &usize| {
             let Some(read_m) = scan.reads_m(*sensor) else { return false };
@@ -134,7 +134,8 @@ impl StandingObject {
         self.hypotheses.iter().map(|one| one.log)
     }
 
-    /// An edge may end between where a sensor saw it last and where the next sensors do not see it any more.
+    /// Adds hypotheses that the edge ends: between where a sensor saw it last and where the next sensors do not see it
+    /// any more.
     fn add_ends(&mut self, scan: &Scan<'_>) {
         let Some(endless) = self.hypotheses.iter().find(|one| one.outline.form == Form::Edge) else { return };
         let Hypothesis { outline, log } = endless.clone();
@@ -156,7 +157,7 @@ impl StandingObject {
         }
     }
 
-    /// Hypotheses that have become alike are one.
+    /// Merges hypotheses that have become alike. The outline of the likelier one stays, with the likelihood of both.
     fn merge(&mut self, of: &NeighbourModel) {
         let mut index = 1;
         while index < self.hypotheses.len() {
@@ -175,8 +176,8 @@ impl StandingObject {
         }
     }
 
-    /// Whether it is a straight edge for sure, which goes on to both sides of its nearest point: one sensor alone cannot
-    /// tell.
+    /// Whether it surely is a straight edge that goes on to both sides of its nearest point. `false` if one sensor
+    /// alone sees it, which cannot tell.
     pub fn is_flat(&self) -> bool {
         if self.seen_by.count_ones() < 2 {
             return false;
@@ -185,7 +186,7 @@ impl StandingObject {
         log_sum(flat) - log_sum(self.logs()) > FLAT_LOG
     }
 
-    /// The nearest point of all hypotheses together: mean and covariance of their sum.
+    /// The nearest point: mean and covariance over all hypotheses, weighted by their likelihoods.
     pub fn nearest(&self, own: &OwnMotion, of: &NeighbourModel, radius_m: f32) -> NearestPoint {
         let total = log_sum(self.logs());
         let all = || {
@@ -214,7 +215,7 @@ impl Hypothesis {
         })
     }
 
-    /// Takes the readings of the sensors `seen`, and that those of `unseen` do not see it.
+    /// Takes the readings of the sensors `seen`, and the fact that the sensors `unseen` do not see the outline.
     fn take(&mut self, seen: u8, unseen: u8, scan: &Scan<'_>) {
         for sensor in bits(seen) {
             let view = self.outline.view(sensor, scan.sensors);
@@ -222,14 +223,15 @@ impl Hypothesis {
         }
         for sensor in bits(unseen) {
             let Some(view) = self.outline.view(sensor, scan.sensors) else { continue };
-            // What is nearer hides it.
+            // A nearer object would hide it.
             if scan.gaps_m[sensor] > view.gap_m {
                 self.log += self.take_silence(sensor, &view, scan);
             }
         }
     }
 
-    /// Logarithm of the density of a reading. What it does not explain is as likely as a new neighbour.
+    /// Takes a reading and returns the natural logarithm of its density. A reading that the outline does not explain is
+    /// as likely as one of a new neighbour.
     fn take_reading(&mut self, sensor: usize, view: Option<View>, read_m: f32, scan: &Scan<'_>) -> f32 {
         let unexplained = scan.sensors.new_log;
         let Some(view) = view else {
@@ -245,8 +247,8 @@ impl Hypothesis {
         log_density(off_m, variance).max(unexplained)
     }
 
-    /// Logarithm of the probability that a sensor does not see it: it is out of range, it ends before, or the sensor
-    /// misses it.
+    /// Takes the fact that a sensor does not see the outline, and returns the natural logarithm of its probability. The
+    /// outline is out of range, it ends before, or the sensor misses it.
     fn take_silence(&mut self, sensor: usize, view: &View, scan: &Scan<'_>) -> f32 {
         let (off_m, variance) = self.outline.innovation(view, scan.sensors.range_m, scan.sensors);
         let mut silence =
@@ -261,7 +263,8 @@ impl Hypothesis {
         libm::logf(silence.min(1.0))
     }
 
-    /// How far the sensor would see the edge in the direction in which it goes on, along the edge, metres.
+    /// How far along the edge the sensor would see it, in the direction in which it goes on, metres. `None` for an
+    /// outline without an end, or out of range.
     fn reach_m(&self, sensor: usize, scan: &Scan<'_>) -> Option<f32> {
         let [right_m, left_m] = self.outline.stretch(sensor, scan.sensors)?;
         match self.outline.form {

@@ -1,21 +1,22 @@
-//! What stands in sight and the plan does not know: which readings are of it, and what the policy learns of it.
+//! The standing objects in sight that the plan does not know: which readings belong to them, and how the policy sees
+//! them.
 
 use super::obstacle::{Readings, StandingObject, bits};
 use super::scan::Scan;
 use super::track::Track;
 
-/// Obstacles that are followed at once: the two walls of a corner or a corridor.
+/// Largest number of obstacles followed at once: the two walls of a corner or a corridor.
 const OBSTACLES: usize = 2;
-/// An obstacle less likely than neighbours that move, by this factor, natural logarithm, begins anew.
+/// Log-likelihood ratio (natural) of standing over moving below which an obstacle is dropped.
 const LEAST_LOG_RATIO: f32 = -8.0;
-/// An obstacle that no sensor sees in this many steps has gone.
+/// Number of steps in a row without a reading after which an obstacle has gone.
 const MISSED_MOST: u8 = 3;
 
 /// All obstacles in sight.
 #[derive(Debug, Default)]
 pub(crate) struct StandingObjects {
     list: heapless::Vec<StandingObject, OBSTACLES>,
-    /// Those that are likely, each as a disc of a robot's size that touches it where it is nearest.
+    /// The likely obstacles, each as a disc of a robot's size that touches it at its nearest point.
     faces: heapless::Vec<Track, OBSTACLES>,
 }
 
@@ -29,7 +30,7 @@ impl StandingObjects {
         self.faces.clear();
     }
 
-    /// Obstacles that are likelier than neighbours that move, as discs that touch them where they are nearest.
+    /// The obstacles that are likelier than moving neighbours, as discs that touch them at their nearest points.
     pub fn faces(&self) -> impl Iterator<Item = &Track> {
         self.faces.iter()
     }
@@ -55,7 +56,7 @@ impl StandingObjects {
         }
     }
 
-    /// Begins with the nearest reading that no obstacle explains. While all places are taken, none begins.
+    /// Begins an obstacle with the nearest reading that no obstacle explains, unless all places are taken.
     fn begin(&mut self, readings: &Readings<'_>, scan: &Scan<'_>) {
         if self.list.is_full() {
             return;
@@ -67,7 +68,8 @@ impl StandingObjects {
         let _ = self.list.push(one);
     }
 
-    /// Whether a track of a neighbour that moves explains only readings that obstacles that are `meant` explain better.
+    /// Whether obstacles selected by `meant` replace the track of a moving neighbour. They do if they explain all its
+    /// readings or, without a reading, overlap it. A track that the plan names is never replaced.
     pub fn hide(&self, track: &Track, contact_m: f32, meant: fn(&Track) -> bool) -> bool {
         if track.is_known() {
             return false;

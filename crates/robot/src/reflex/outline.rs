@@ -1,9 +1,9 @@
-//! The outline of something that stands: a straight edge, the end of an edge, or a disc of a robot's size; an
-//! extended Kalman filter of where it is.
+//! The outline of a standing object: a straight edge, the end of an edge, or a disc of a robot's size. An extended
+//! Kalman filter estimates where it is.
 //!
-//! The state is relative to the robot: the distance and the direction of the normal of the edge, and how far along
-//! the edge its end is. A disc has its centre there. As it stands, its motion in body space is that of the robot
-//! itself.
+//! The state is relative to the robot: distance and direction of the normal of the edge, and the place of its end along
+//! the edge. For a disc, the place of the centre stands for that of the end. The object does not move, so its motion in
+//! body space is that of the robot itself.
 
 use super::covariance::{CommonError, Covariance};
 use super::motion::OwnMotion;
@@ -22,7 +22,7 @@ pub(crate) enum Form {
     EdgeToLeft,
     /// An edge that goes on from its end to the right.
     EdgeToRight,
-    /// A robot.
+    /// A disc of a robot's size.
     Disc,
 }
 
@@ -40,18 +40,18 @@ pub(crate) struct Outline {
     variance: [[f32; 3]; 3],
 }
 
-/// Where the nearest point of something is, how that point moves, and their covariance.
+/// The nearest point of an object, the motion of that point, and their covariance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NearestPoint {
     /// Body space, metres.
     pub at: Point,
-    /// Over the floor along the axes of body space, m/s.
+    /// Velocity over the floor along the axes of body space, m/s.
     pub velocity: Point,
     pub covariance: Covariance,
 }
 
 impl NearestPoint {
-    /// The point that is farther away by `by_m` in the same direction.
+    /// The point that is farther away by `by_m`, metres, in the same direction.
     pub fn behind(self, by_m: f32) -> Self {
         let far_m = self.at.length().max(1e-3);
         let factor = (1.0 + by_m / far_m).max(0.1);
@@ -67,16 +67,15 @@ impl Outline {
         Self { form: Form::Edge, distance_m, normal, along_m: 0.0, variance }
     }
 
-    /// A disc whose centre is at a place, with errors along and across the unit vector from a sensor to it, metres, 1
-    /// sigma.
+    /// A disc centred at `at`, with errors along and across the unit vector from a sensor to it, metres, 1 sigma.
     pub fn disc(at: Point, towards: Point, along_m: f32, across_m: f32) -> Self {
         let variance = [[along_m * along_m, 0.0, 0.0], [0.0; 3], [0.0, 0.0, across_m * across_m]];
         let form = Form::Disc;
         Self { form, distance_m: at.dot(towards), normal: towards, along_m: at.dot(towards.left()), variance }
     }
 
-    /// The end of an edge whose normal is turned by `turn_rad` from the line of sight, with an error of `sigma_rad`.
-    /// The other errors: along and across the line of sight, metres, 1 sigma.
+    /// An edge with its end at `at`. Its normal is turned by `turn_rad` from the line of sight `towards`, with an error
+    /// of `sigma_rad`. The other errors are along and across the line of sight, metres, 1 sigma.
     pub fn end(
         at: Point,
         towards: Point,
@@ -96,7 +95,7 @@ impl Outline {
         Self { form, distance_m: far_m, normal, along_m: end_m, variance }
     }
 
-    /// The same edge with an end somewhere between two places along it, metres.
+    /// This edge with an end somewhere between two places along it, metres.
     pub fn ending(&self, form: Form, from_m: f32, to_m: f32) -> Self {
         // An even spread over a length has a standard deviation of 0.29 of it.
         let sigma_m = (0.29 * (to_m - from_m).abs()).max(SEEN_SIGMA_M);
@@ -146,7 +145,7 @@ impl Outline {
         }
     }
 
-    /// Variance of what changes with distance, direction and end as `gradient` says.
+    /// Variance of a quantity that has this gradient over distance, direction and end.
     pub fn variance_of(&self, gradient: [f32; 3]) -> f32 {
         dot(self.covariance_with(gradient), gradient)
     }
@@ -155,7 +154,8 @@ impl Outline {
         self.variance.map(|row| dot(row, gradient))
     }
 
-    /// Takes a measurement with this innovation and variance that changes with the state as `gradient` says.
+    /// Takes a measurement that has this gradient over distance, direction and end. `variance`: variance of the
+    /// innovation.
     pub fn correct(&mut self, gradient: [f32; 3], innovation: f32, variance: f32) {
         let moved = self.covariance_with(gradient);
         let share = 1.0 / variance;
@@ -171,8 +171,8 @@ impl Outline {
         self.normal = normal.times(1.0 / normal.length());
     }
 
-    /// The end is on the wrong side of a place along the edge: it moves there, and is no surer for that, as the next
-    /// steps will say the same again. `sense`: 1 if the edge does not reach as far as `bound_m`, −1 if it does.
+    /// Moves the end to `bound_m` along the edge if it is on the wrong side. It becomes no more certain, because the
+    /// next steps say the same again. `sense`: 1 if the edge does not reach as far as `bound_m`, −1 if it does.
     pub fn move_end(&mut self, bound_m: f32, sense: f32) {
         let off_m = bound_m - self.along_m;
         if off_m * self.side() * sense > 0.0 {
@@ -181,7 +181,7 @@ impl Outline {
         }
     }
 
-    /// How likely it is that the edge does not reach as far as a place along it; `None`: it has no end.
+    /// Probability that the edge does not reach as far as a place along it; `None` if it has no end.
     pub fn ends_before(&self, bound_m: f32) -> Option<f32> {
         let side = self.side();
         let sigma_m = libm::sqrtf(self.variance[2][2].max(1e-8));
@@ -217,7 +217,7 @@ impl Outline {
         if self.form == Form::Disc { estimate.behind(-radius_m) } else { estimate }
     }
 
-    /// Whether both say much the same, so that one is enough.
+    /// Whether two outlines have the same form and nearly the same state, so that one is enough.
     pub fn is_like(&self, other: &Self, of: &NeighbourModel) -> bool {
         self.form == other.form
             && (self.distance_m - other.distance_m).abs() < of.alike_m
@@ -236,7 +236,7 @@ fn add_square(to: &mut [[f32; 3]; 3], of: [f32; 3]) {
     }
 }
 
-/// The columns of the lower triangular factor of a covariance: its independent errors, 1 sigma each.
+/// The columns of the lower triangular (Cholesky) factor of a covariance: its independent errors, 1 sigma each.
 fn factors(of: &[[f32; 3]; 3]) -> [[f32; 3]; 3] {
     let mut rest = *of;
     core::array::from_fn(|pivot| {

@@ -1,5 +1,5 @@
-//! How good the estimates of planned neighbours are, and how honest their covariances: three scenes, ten thousand
-//! steps each.
+//! How good the estimates of planned neighbours are, and how well their covariances match the errors: three scenes, ten
+//! thousand steps each.
 
 extern crate std;
 
@@ -21,14 +21,14 @@ const OFFSET_M: f32 = 0.00075;
 const OFFSET_S: f32 = 0.3;
 /// `Scan::planned_sigma_m` in these rehearsals, metres.
 const PLANNED_SIGMA_M: f32 = 0.0009;
-/// In this time a neighbour goes by plan from one velocity to another, seconds.
+/// Time in which a neighbour goes by plan from one velocity to another, seconds.
 const RAMP_S: f32 = 0.4;
-/// Steps of which the errors count in each scene.
+/// Number of steps in each scene whose errors count.
 const STEPS: usize = 10_000;
 
 /// A neighbour of the route in body space.
 struct Neighbour {
-    /// Where the plan has it.
+    /// Planned place and velocity.
     plan: Disc,
     acceleration: Point,
     /// How far it is off its plan, a first-order Gauss-Markov process, metres.
@@ -38,7 +38,7 @@ struct Neighbour {
 }
 
 impl Neighbour {
-    /// By plan it changes its velocity evenly from one to another.
+    /// A neighbour that by plan changes its velocity evenly from one random value to another.
     fn new(at: Point, dice: &mut Dice) -> Self {
         let (first, last) = (any(dice), any(dice));
         Self {
@@ -49,7 +49,7 @@ impl Neighbour {
         }
     }
 
-    /// Where it is, and how it moved in the latest step, the change of its offset included.
+    /// Its true place, and its velocity in the latest step, the change of its offset included.
     fn truth(&self) -> Disc {
         let Disc { at, velocity } = self.plan;
         Disc { at: at.plus(self.offset), velocity: velocity.plus(self.offset_mps) }
@@ -65,7 +65,7 @@ impl Neighbour {
         }
     }
 
-    /// A step in which the robot itself moved by `own`.
+    /// Carries the neighbour over a step in which the robot itself moved by `own`.
     fn advance(&mut self, own: &OwnMotion, dice: &mut Dice) {
         let turn = Point::unit(-own.turn_rad);
         let kept = libm::expf(-DT / OFFSET_S);
@@ -81,12 +81,12 @@ impl Neighbour {
     }
 }
 
-/// Whether a sensor would see each of the discs if that were alone.
+/// Whether a sensor would see each of the discs if there were no others.
 fn all_in_cone(sensor: usize, discs: &[Disc]) -> bool {
     discs.iter().all(|disc| reads_m(core::slice::from_ref(disc), sensor).is_finite())
 }
 
-/// Whether two of the discs touch, or one of them the robot.
+/// Whether two of the discs touch each other, or one touches the robot.
 fn touch(discs: &[Disc]) -> bool {
     let near = |at: Point| at.length() < 2.0 * RADIUS_M;
     discs.iter().enumerate().any(|(index, disc)| {
@@ -94,7 +94,7 @@ fn touch(discs: &[Disc]) -> bool {
     })
 }
 
-/// The tracks take a step in which sensors see the neighbours where they are, and the plan has them elsewhere.
+/// Passes a step to the tracks: readings of the neighbours at their true places, and the plan, from which they are off.
 fn look(tracks: &mut Tracks, neighbours: &[Neighbour], own: &OwnMotion, sensors: &Sensors, dice: &mut Dice) {
     let discs: Vec<Disc> = neighbours.iter().map(Neighbour::truth).collect();
     let planned: Vec<Expectation> =
@@ -109,8 +109,8 @@ fn look(tracks: &mut Tracks, neighbours: &[Neighbour], own: &OwnMotion, sensors:
     });
 }
 
-/// Episodes of at most `episode` steps until something touches. Steps from `warm` on count in which at least `cones`
-/// sensors have all neighbours in their cones.
+/// Runs episodes of at most `episode` steps, until something touches. The steps from `warm` on count in which at least
+/// `cones` sensors have all neighbours in their cones.
 fn scene(
     (warm, episode): (usize, usize),
     cones: usize,
@@ -138,8 +138,8 @@ fn scene(
     tally.figures()
 }
 
-/// Median errors of place, metres, and velocity, m/s, that are allowed. An offset that changes by 15 mm/s in each
-/// axis from step to step has a median speed of 18 mm/s by itself: no estimate is better.
+/// Largest median errors allowed: of place, metres, and of velocity, m/s. No estimate is better: an offset that changes
+/// by 15 mm/s in each axis from step to step has a median speed of 18 mm/s.
 const MEDIANS: [f32; 2] = [0.002, 0.020];
 
 #[test]

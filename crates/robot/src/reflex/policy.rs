@@ -1,5 +1,5 @@
-//! How fast the robot may drive for one neighbour: the highest speed from which it can stop before the swept discs of
-//! both, grown by what is not known of the neighbour, touch.
+//! How fast the robot may drive for one neighbour. It must be able to stop before the swept discs of both touch. They
+//! are grown by the uncertainty of the neighbour's place.
 
 use lightbots_base::braking::{ACTUATION_S, GRIP_MPS2};
 
@@ -8,32 +8,32 @@ use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::SafetyPolicy;
 
-/// Halvings in the search for the highest speed: 0.27 m/s to within 1 mm/s.
+/// Number of halvings in the search for the highest speed: 0.27 m/s to within 1 mm/s.
 const HALVINGS: usize = 8;
-/// A neighbour less than this ahead of abeam (cosine) is not neared by driving on.
+/// Cosine of a neighbour's direction from the front below which driving on does not bring the robot nearer to it.
 const ABEAM: f32 = 0.05;
 
-/// What the robot is about to do along its front; negative is backwards.
+/// The motion that the robot wants along its front; negative is backwards.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
     /// The speed that its route or target asks for, m/s.
     pub speed_mps: f32,
-    /// The speed that its wheels were told a step ago, which acts now, m/s.
+    /// The speed that its wheels were commanded a step ago, which acts now, m/s.
     pub told_mps: f32,
     /// Length of a step, seconds.
     pub dt: f32,
 }
 
 impl Wish {
-    /// 1 forwards, −1 backwards.
+    /// Direction of driving: 1 forwards, −1 backwards.
     fn sense(&self) -> f32 {
         let decides = if self.speed_mps.abs() > 1e-3 { self.speed_mps } else { self.told_mps };
         1f32.copysign(decides)
     }
 }
 
-/// The highest speed allowed for a neighbour, m/s; `None`: the wish is no danger. `clearance_m`: what the plan leaves
-/// the two, where it is known.
+/// The highest speed allowed for a neighbour, m/s; `None` if the wanted speed is no danger. `clearance_m`: planned
+/// clearance between the two, if it is known.
 pub(crate) fn allowed_mps(
     track: &Track,
     wish: &Wish,
@@ -46,7 +46,7 @@ pub(crate) fn allowed_mps(
     if ahead < ABEAM {
         return None;
     }
-    // A neighbour that the plan does not know may stop at any moment: that it drives off is not counted on.
+    // A neighbour that the plan does not know may stop at any moment, so its driving away does not count.
     let away = track.at.times(track.velocity.dot(track.at).max(0.0) / track.at.dot(track.at).max(1e-6));
     let velocity = if clearance_m.is_some() { track.velocity } else { track.velocity.minus(away) };
     let velocity = if track.is_flat { Point::ZERO } else { velocity };
@@ -55,14 +55,14 @@ pub(crate) fn allowed_mps(
     let (at_wanted, direction, after_s) = stop.nearest(wanted_mps);
     let sigma_m = libm::sqrtf(track.covariance.place_after(direction, after_s).max(0.0));
     let grown_m = of.spare_m + of.sigmas * sigma_m;
-    // A neighbour that the plan names is believed to keep to it unless it is nearer for sure.
+    // A neighbour that the plan names is taken to keep to its clearance unless it surely is nearer.
     let planned_m = |clearance_m: f32| (of.planned_share * clearance_m - sigma_m).max(0.0);
     let grown_m = clearance_m.map_or(grown_m, |clearance_m| grown_m.min(planned_m(clearance_m)));
     let least_m = sensors.contact_m() + grown_m;
     if at_wanted >= least_m {
         return None;
     }
-    // Nearer than that already, or driven into by the other: then it must not make it worse.
+    // If the discs come nearer than that even when the robot stops at once, it must not make that worse.
     let (at_rest, ..) = stop.nearest(0.0);
     let tolerance_m = if clearance_m.is_some() { of.tolerance_m } else { 0.0 };
     // Each step may use the tolerance again: it must not add up to a contact.
@@ -79,21 +79,21 @@ pub(crate) fn allowed_mps(
     Some(safe)
 }
 
-/// Driving on at some speed for a step, then stopping at the grip limit.
+/// The manoeuvre that is checked: to drive on at some speed for a step, then to stop at the grip limit.
 struct Stop<'a> {
-    /// Where the neighbour is, body space.
+    /// Centre of the neighbour, body space, metres.
     at: Point,
-    /// Over the floor along the axes of body space, m/s.
+    /// Velocity of the neighbour over the floor along the axes of body space, m/s.
     velocity: Point,
-    /// Whether it stands for a straight edge, which has a nearest point wherever the robot drives along it.
+    /// Whether the neighbour stands for a straight edge, which has a nearest point wherever the robot drives along it.
     is_flat: bool,
     wish: &'a Wish,
     sense: f32,
 }
 
 impl Stop<'_> {
-    /// How near the two centres come until the robot stands, metres, in which direction the neighbour is then, and
-    /// when.
+    /// The nearest approach until the robot stands: distance of the centres, metres; unit vector towards the neighbour;
+    /// and time until then, seconds.
     fn nearest(&self, speed_mps: f32) -> (f32, Point, f32) {
         let (reaction_s, grip) = (ACTUATION_S as f32, GRIP_MPS2 as f32);
         let told_mps = self.wish.told_mps * self.sense;

@@ -1,4 +1,4 @@
-//! The robot brakes for a neighbour that the plan names when that neighbour is nearer for sure.
+//! The robot brakes for a neighbour that the plan names if that neighbour surely is nearer than planned.
 
 use super::Point;
 use super::covariance::Covariance;
@@ -33,6 +33,6 @@ fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
 fn a_planned_neighbour_is_believed_to_keep_to_its_plan_until_it_is_nearer_for_sure() {
     assert_eq!(allowed(0.003, Some(0.008)), None);
     assert!(allowed(0.0005, Some(0.008)).is_some_and(|mps| mps < 0.2), "{:?}", allowed(0.0005, Some(0.008)));
-    // Of a stranger less is known, and it is braked for sooner.
+    // The robot brakes for a stranger sooner, because it knows less about it.
     assert!(allowed(0.003, None).is_some_and(|mps| mps < 0.2), "{:?}", allowed(0.003, None));
 }

@@ -1,4 +1,4 @@
-//! What one step knows: readings, own motion, and the neighbours that the plan has in sight.
+//! The inputs of one step: readings, own motion, and the neighbours that the plan has in sight.
 
 use super::motion::OwnMotion;
 use super::point::Point;
@@ -12,7 +12,7 @@ pub(crate) struct Expectation {
     pub index: u8,
     /// Its centre, body space, metres.
     pub at: Point,
-    /// Over the floor along the axes of body space, m/s.
+    /// Planned velocity over the floor along the axes of body space, m/s.
     pub velocity: Point,
     /// Its planned acceleration, m/s².
     pub acceleration: Point,
@@ -23,7 +23,7 @@ pub(crate) struct Expectation {
 /// The readings of a step and all that they are compared with.
 #[derive(Clone, Copy)]
 pub(crate) struct Scan<'a> {
-    /// Gaps by sensor, metres; at least the sensors' range: nothing.
+    /// Gap that each sensor reads, metres. A value not below the sensors' range means that the sensor sees nothing.
     pub gaps_m: &'a [f32; SENSORS],
     pub own: &'a OwnMotion,
     pub planned: &'a [Expectation],
@@ -34,12 +34,12 @@ pub(crate) struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    /// What a sensor reads, metres; `None`: it sees nothing.
+    /// Gap that a sensor reads, metres; `None` if it sees nothing.
     pub fn reads_m(&self, sensor: usize) -> Option<f32> {
         Some(self.gaps_m[sensor]).filter(|&gap_m| gap_m < self.sensors.range_m)
     }
 
-    /// What the plan says of the neighbour with this number.
+    /// The plan for the neighbour with this number; `None` if the plan does not have it in sight.
     pub fn plan_of(&self, index: Option<u8>) -> Option<&Expectation> {
         self.planned.iter().find(|one| index == Some(one.index))
     }

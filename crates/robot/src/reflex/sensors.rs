@@ -1,10 +1,10 @@
-//! What the proximity sensors are, and what they read of a disc at a place.
+//! The proximity sensors, and what they would read of a disc at a place.
 
 use super::point::Point;
 use crate::config::{ProximitySensors, SENSORS};
 
-/// A neighbour this far outside a sensor's cone, metres, may still be what the sensor sees: its place is not that
-/// sure.
+/// Distance outside a sensor's cone up to which a neighbour may still be what the sensor sees, metres, because its
+/// place is uncertain.
 pub(super) const BESIDE_M: f32 = 0.012;
 
 /// The sensors of one robot, prepared for the formulas.
@@ -14,11 +14,11 @@ pub(crate) struct Sensors {
     pub axes: [Point; SENSORS],
     /// Unit vector of the half angle of their cones.
     pub cone: Point,
-    /// Farthest gap of interest, metres.
+    /// Largest gap that counts as a reading, metres.
     pub range_m: f32,
     noise_m: f32,
     noise_share: f32,
-    /// Logarithm of the density of a reading of something new: it may be anywhere within the range.
+    /// Natural logarithm of the density of a reading of something new, which may be anywhere within the range.
     pub new_log: f32,
     /// Radius of the robot, and of every disc it sees, metres.
     pub radius_m: f32,
@@ -65,7 +65,7 @@ impl Sensors {
         Expected { gap_m: far_m - self.radius_m, far_m, towards, inside_m }
     }
 
-    /// How `Expected::inside_m` changes with the disc's place.
+    /// Gradient of [`Expected::inside_m`] over the disc's place.
     pub fn inside_gradient(&self, sensor: usize, expected: &Expected) -> Point {
         self.axes[sensor].minus(expected.towards.times(self.cone.x))
     }

@@ -1,7 +1,7 @@
 //! Separation: a robot nearer to a neighbour than the plan leaves them gives way by a few millimetres.
 //!
-//! A robot is off its route by what its sensors are wrong, two neighbours by the sum of both; their proximity sensors
-//! tell them far better how near they are than both their places do. Both give way, each a part of what is missing.
+//! A robot is off its route by the errors of its own place, and two neighbours are by the sum of both. Their proximity
+//! sensors measure the gap between them far better. Both give way, each by a part of the missing clearance.
 
 use lightbots_base::Vec2;
 
@@ -9,19 +9,21 @@ use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::SafetyPolicy;
 
-/// Clearance where the plan tells none, and the most that is asked for, metres.
+/// Clearance to keep where the planned clearance is unknown, metres.
 const UNTOLD_M: f32 = 0.003;
+/// Largest clearance to keep, metres, even if the plan leaves more.
 const MOST_M: f32 = 0.008;
-/// Clearance that is asked for even where the plan leaves less, metres: robots are off their places by that.
+/// Least clearance to keep, metres, even if the plan leaves less: robots are off their places by that.
 const LEAST_M: f32 = 0.0025;
-/// A neighbour that comes nearer more slowly than this, m/s, counts as near as it will be `SOON_S` later: faster ones
-/// come near by plan.
+/// Closing speed below which a neighbour counts as near as it will be [`SOON_S`] later, m/s. Neighbours that close
+/// faster come near by plan.
 const DRIFTING_MPS: f32 = 0.1;
+/// Time for which a slow approach is extrapolated, seconds.
 const SOON_S: f32 = 0.1;
-/// With this gap left, metres, a robot gives way twice as far as where as much is missing from plenty.
+/// Gap at which a robot gives way twice as far as it would for the same missing clearance at a large gap, metres.
 const LITTLE_M: f32 = 0.0015;
 
-/// How far a robot gives way to a neighbour, metres in body space.
+/// Offset in body space by which a robot gives way to a neighbour, metres. Zero if the clearance is sufficient.
 pub(crate) fn give_way(
     track: &Track,
     own_mps: f32,

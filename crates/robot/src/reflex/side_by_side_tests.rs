@@ -13,7 +13,7 @@ use super::tracks::Tracks;
 use super::wall_scene_tests::look;
 use crate::config::{ProximitySensors, SENSORS};
 
-/// Steps that count in each scene.
+/// Number of steps that count in each scene.
 const STEPS: usize = 10_000;
 
 /// What was measured in a scene.
@@ -25,7 +25,7 @@ struct Measured {
     gaps_m: [f32; 2],
 }
 
-/// Episodes of at most 40 steps, of which those count in which a sensor sees a robot.
+/// Runs episodes of at most 40 steps. The steps in which a sensor sees a robot count.
 fn scene(make: impl Fn(&mut Dice) -> (Vec<Disc>, OwnMotion)) -> Measured {
     let sensors = Sensors::new(&ProximitySensors::ELISA_3, f64::from(RADIUS_M));
     let (mut dice, mut walls, mut off_m) = (Dice(7), 0, Vec::new());
@@ -58,7 +58,8 @@ fn beside(velocity: Point, dice: &mut Dice) -> Vec<Disc> {
     vec![Disc { at: polar(dice.between(-180.0, 180.0), dice.between(0.005, 0.03)), velocity }]
 }
 
-/// Two robots side by side with 2 to 21 mm between their rims, on a line that is as far away.
+/// Two robots side by side with 2 to 21 mm between their rims. The line through their centres is 5 to 30 mm farther
+/// away than at contact.
 fn two(velocity: Point, dice: &mut Dice) -> Vec<Disc> {
     let towards_deg = dice.between(-180.0, 180.0);
     let middle = polar(towards_deg, dice.between(0.005, 0.03));
@@ -69,8 +70,8 @@ fn two(velocity: Point, dice: &mut Dice) -> Vec<Disc> {
     Vec::from(discs)
 }
 
-/// At most this share of the steps takes robots for a wall, and in 90 % of the steps the gap is wrong by these
-/// metres.
+/// Checks that robots are taken for a wall in at most the share `walls` of the steps. In 90 % of the steps the error of
+/// the gap must be within `gaps_m`, metres.
 #[track_caller]
 fn expect(measured: &Measured, walls: f32, gaps_m: [f32; 2]) {
     assert!(measured.walls <= walls, "{measured:?}");
@@ -91,8 +92,8 @@ fn a_robot_that_drives_is_no_wall() {
     expect(&measured, 0.005, [-0.0045, 0.0015]);
 }
 
-/// One that drives parallel looks much as a wall does while one sensor only sees it, because it comes neither nearer
-/// nor farther.
+/// While only one sensor sees it, a robot that drives parallel looks much as a wall does, because it comes neither
+/// nearer nor farther.
 #[test]
 fn a_robot_that_drives_parallel_is_no_wall() {
     let measured = scene(|dice| {

@@ -13,7 +13,7 @@ const NUMBER: u8 = 7;
 #[test]
 fn where_the_plan_has_a_neighbour_that_left_it_there_is_nobody() {
     let sensors = Sensors::new(&ProximitySensors::ELISA_3, 0.027);
-    // It stopped ahead to the left and should be abeam by now, where another robot is seen.
+    // The neighbour stopped ahead to the left. By plan it is abeam by now, where a sensor sees another robot.
     let (stopped, due) = (Point::new(0.05, 0.04), Point::new(0.0, 0.075));
     let mut gaps_m = [f32::INFINITY; SENSORS];
     gaps_m[2] = sensors.expected(2, due).gap_m;

@@ -14,13 +14,13 @@ use super::scan::Scan;
 use super::sensors::{Expected, Sensors};
 use crate::config::{NeighbourModel, SENSORS};
 
-/// Uncertainty of the edge of a cone, metres: what a neighbour moves along it in a step.
+/// Uncertainty of the edge of a cone, metres: how far a neighbour moves across it in a step.
 const EDGE_SIGMA_M: f32 = 0.003;
 
-/// A neighbour off its plan by more sigma than this, in place or velocity, does not keep to it.
+/// Difference from its plan, in place or velocity, above which a neighbour does not keep to the plan, in sigma.
 const RECOGNISED_SIGMAS: f32 = 4.5;
 
-/// Robots are off their plan by much the same for this many steps.
+/// Number of steps over which a robot's offset from its plan stays much the same.
 const CORRELATED_STEPS: f32 = 10.0;
 
 /// A neighbour in sight.
@@ -31,24 +31,24 @@ pub(crate) struct Track {
     /// Its velocity over the floor, along the axes of body space, m/s.
     pub velocity: Point,
     pub covariance: Covariance,
-    /// Index of the planned neighbour it is taken for.
+    /// Number of the planned neighbour that it is taken for, among those of the route.
     pub planned: Option<u8>,
     /// Steps in a row in which a sensor that should see it did not.
     pub missed: u8,
     /// Sensors that saw it in the latest step, one bit each.
     pub seen_by: u8,
-    /// Whether it still keeps to the plan.
+    /// The test of whether it still keeps to the plan.
     pub departure: Departure,
-    /// The planned neighbour that it was before it did something that the plan does not know.
+    /// Number of the planned neighbour that it was before it left its plan.
     pub left: Option<u8>,
     /// Steps since it came into sight, at most 255.
     pub age: u8,
-    /// Whether it stands for a straight edge: only what drives towards it comes nearer to it.
+    /// Whether it stands for a straight edge, to which a robot comes nearer only by driving towards it.
     pub is_flat: bool,
 }
 
 impl Track {
-    /// The disc that stands for an obstacle, touching it where it is nearest.
+    /// A track of the disc that stands for an obstacle and touches it at its nearest point.
     pub fn standing(estimate: &NearestPoint, seen_by: u8, is_flat: bool, scan: &Scan<'_>) -> Self {
         let NearestPoint { at, velocity, covariance } = *estimate;
         let departure = Departure::new(scan.planned_sigma_m);
@@ -82,7 +82,7 @@ impl Track {
         self.left.is_some() && self.planned.is_none()
     }
 
-    /// Whether it is the planned neighbour of this number, or was until that left its plan.
+    /// Whether it is the planned neighbour with this number, or was until it left its plan.
     pub fn stands_for(&self, index: u8) -> bool {
         self.planned == Some(index) || self.left == Some(index)
     }
@@ -98,7 +98,7 @@ impl Track {
         (0..SENSORS).filter(move |sensor| seen_by >> sensor & 1 == 1)
     }
 
-    /// Takes a reading; its innovation, metres, and the variance of that, square metres.
+    /// Takes a reading. Returns the innovation, metres, and its variance, square metres.
     pub fn take(&mut self, sensor: usize, read_m: f32, sensors: &Sensors) -> (f32, f32) {
         let expected = sensors.expected(sensor, self.at);
         let (off_m, variance) = self.innovation(&expected, read_m, sensors);
@@ -125,7 +125,7 @@ impl Track {
         self.covariance.rotate(turn);
     }
 
-    /// It has left its plan and stands at a place of body space.
+    /// Turns the track into one of a neighbour that has left its plan and stands at a place of body space.
     pub fn stand(&mut self, at: Point, of: &NeighbourModel) {
         let towards = at.times(1.0 / at.length().max(1e-3));
         let [place_m2, velocity_m2ps2] = [of.stop_sigma_m, of.stop_sigma_mps].map(|sigma| sigma * sigma);
@@ -136,7 +136,7 @@ impl Track {
     /// Innovation of a reading, metres, and its variance, square metres.
     pub fn innovation(&self, expected: &Expected, read_m: f32, sensors: &Sensors) -> (f32, f32) {
         let across = expected.towards.left();
-        // The reading bends with the place across: second-order mean and variance.
+        // The reading is quadratic in the place across the line of sight: second-order mean and variance.
         let bend_m = 0.5 * self.covariance.place_along(across) / expected.far_m;
         let variance = self.covariance.place_along(expected.towards)
             + sensors.variance_m2(expected.gap_m)
@@ -144,15 +144,16 @@ impl Track {
         (read_m - expected.gap_m - bend_m, variance)
     }
 
-    /// Takes a measurement with this innovation and variance that changes with the place as `gradient` says.
+    /// Takes a measurement that has this gradient over the place. `variance`: variance of the innovation.
     fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) {
         let (place, velocity) = self.covariance.correct(gradient, innovation, variance);
         self.at = self.at.plus(place);
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Something else than the readings bounds the place along a unit vector: it is at `at` within `sigma_m`. Taken
-    /// only as far as the place is less sure than that, so that saying it at every step makes nothing surer.
+    /// Bounds the place along a unit vector to `at`, with an error of `sigma_m`, by other knowledge than readings. It
+    /// counts only as far as the place is less certain. Repeating it at every step therefore makes nothing more
+    /// certain.
     pub fn bound_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let (known, bound) = (self.covariance.place_along(unit), sigma_m * sigma_m);
         if known > bound {
@@ -161,13 +162,15 @@ impl Track {
         }
     }
 
-    /// Something that is off by `sigma_m` for `CORRELATED_STEPS` on end says where it is along a unit vector.
+    /// Corrects the place along a unit vector by a known place `at`, whose error, `sigma_m`, stays the same for
+    /// [`CORRELATED_STEPS`].
     pub fn learn_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let variance = self.covariance.place_along(unit) + CORRELATED_STEPS * sigma_m * sigma_m;
         self.correct(unit, at.minus(self.at).dot(unit), variance);
     }
 
-    /// The same for the velocity.
+    /// Corrects the velocity along a unit vector by a known one, whose error, `sigma_mps`, stays the same for
+    /// [`CORRELATED_STEPS`].
     pub fn learn_velocity(&mut self, unit: Point, velocity: Point, sigma_mps: f32) {
         let variance = self.covariance.velocity_along(unit) + CORRELATED_STEPS * sigma_mps * sigma_mps;
         let off = velocity.minus(self.velocity).dot(unit);
@@ -176,7 +179,7 @@ impl Track {
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Whether it is where the plan has it, and moves as the plan says, as far as can be told.
+    /// Whether place and velocity agree with the plan within [`RECOGNISED_SIGMAS`].
     pub fn keeps_to(&self, at: Point, velocity: Point, sigma_m: f32, of: &NeighbourModel) -> bool {
         let agrees = |off: Point, planned_sigma: f32, variance: &dyn Fn(Point) -> f32| {
             let size = off.length().max(1e-6);
@@ -189,8 +192,8 @@ impl Track {
             })
     }
 
-    /// The estimate is on the wrong side of the edge of a cone: it moves to the edge, and is no surer for that, as
-    /// the next steps will say the same again.
+    /// Moves the estimate to the edge of a cone, because it is on the wrong side of it. It becomes no more certain,
+    /// because the next steps say the same again.
     pub fn stay_within(&mut self, across: Point, gradient: Point, inside_m: f32) {
         let slope = gradient.dot(across);
         let known = self.covariance.place_along(across);

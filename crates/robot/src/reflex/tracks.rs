@@ -1,4 +1,4 @@
-//! All neighbours in sight: which of them a step corrects, which have come and which have gone.
+//! All neighbours in sight: which readings correct which of them, which have come and which have gone.
 
 use super::birth::{BEARING_SIGMA, expected_there, explained_off_m, unknown};
 use super::departure::{Departure, Left};
@@ -11,21 +11,21 @@ use super::sensors::{BESIDE_M, Sensors};
 use super::track::Track;
 use crate::config::SENSORS;
 
-/// Neighbours that are followed at once: as many robots of one size as fit around another. More are not followed.
+/// Largest number of neighbours followed at once: as many robots of one size as fit around another.
 pub(super) const TRACKS: usize = 6;
-/// A reading belongs to a neighbour if it is within this of what is expected, metres. Above: readings of another
-/// neighbour are taken for this one's. Below 13 mm: a robot that stops dead is lost instead of followed, because the
-/// filter follows it one or two steps late and each step adds up to 4.3 mm.
+/// Largest innovation of a reading that belongs to a neighbour, metres. Above: readings of another neighbour are taken
+/// for this one's. Below 13 mm: a robot that stops dead is lost instead of followed. The filter follows it one or two
+/// steps late, and each step adds up to 4.3 mm.
 const ASSIGN_M: f32 = 0.014;
-/// The same in sigma of the innovation, where that is more.
+/// The limit of [`ASSIGN_M`] in sigma of the innovation, where that is more.
 pub(super) const ASSIGN_SIGMAS: f32 = 4.0;
-/// A neighbour this far inside a sensor's cone, metres, is seen for sure, …
+/// Distance inside a sensor's cone from which a near neighbour surely is seen, metres.
 const SURELY_INSIDE_M: f32 = 0.008;
-/// … if it is nearer than this share of the sensor's range.
+/// Share of the sensors' range below which a neighbour is near enough for that.
 const SURELY_NEAR: f32 = 0.8;
-/// A neighbour that is not seen in this many steps has gone; one that should be seen counts double.
+/// Count of steps without a reading at which a neighbour has gone. A step in which it should be seen counts double.
 const MISSED_MOST: u8 = 3;
-/// Centres of two tracks nearer than this, metres, are of one disc.
+/// Distance of the centres of two tracks below which both are of one disc, metres.
 const SAME_M: f32 = 0.03;
 
 /// Index of the track that each sensor's reading belongs to.
@@ -43,19 +43,19 @@ impl Tracks {
         self.list.is_empty() && self.obstacles.is_empty()
     }
 
-    /// What the policy heeds: edges that are sure, and neighbours that move. What else stands may be a robot, and that may
-    /// drive off at any moment.
+    /// The tracks that the policy considers: edges that are sure, and moving neighbours. Any other standing object may
+    /// be a robot, which may drive off at any moment.
     pub fn iter<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
         self.explained_by(sensors, |face| face.is_flat)
     }
 
-    /// The likeliest explanation of all readings: what stands, and neighbours that move.
+    /// The likeliest explanation of all readings: standing objects and moving neighbours.
     #[cfg(test)]
     pub fn likeliest<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
         self.explained_by(sensors, |_| true)
     }
 
-    /// Obstacles that are `meant`, and neighbours that move and are not the same readings.
+    /// Obstacles selected by `meant`, and moving neighbours that they do not replace.
     fn explained_by<'a>(
         &'a self,
         sensors: &Sensors,
@@ -67,7 +67,7 @@ impl Tracks {
         self.list.iter().filter(move |track| !hidden(track)).chain(faces)
     }
 
-    /// Tracks of neighbours that move, those hidden by what stands included.
+    /// Tracks of moving neighbours, those replaced by standing objects included.
     #[cfg(test)]
     pub fn list(&self) -> &[Track] {
         &self.list
@@ -101,7 +101,7 @@ impl Tracks {
         self.look_for_obstacles(&logs, scan);
     }
 
-    /// What no known neighbour explains may stand. `logs`: see `Readings`.
+    /// Updates the standing objects by the readings that no known neighbour explains. `logs`: see `Readings`.
     fn look_for_obstacles(&mut self, logs: &[f32; SENSORS], scan: &Scan<'_>) {
         let known = self.list.iter().filter(|track| track.is_known());
         let open = !known.fold(0, |seen_by, track| seen_by | track.seen_by);
@@ -111,8 +111,8 @@ impl Tracks {
         }
     }
 
-    /// The track that a sensor's reading most likely belongs to; none where a planned neighbour that is not followed
-    /// yet explains it better.
+    /// Index of the track that a sensor's reading most likely belongs to. `None` if a planned neighbour that is not
+    /// followed yet explains it better.
     fn owner(&self, sensor: usize, scan: &Scan<'_>) -> Option<usize> {
         let read_m = scan.reads_m(sensor)?;
         let mut best: Option<(f32, usize)> = None;
@@ -136,10 +136,9 @@ impl Tracks {
         (!expected_there(sensor, &self.list, scan).is_some_and(explains_better)).then_some(index)
     }
 
-    /// Begins to follow what readings show that belong to no neighbour yet, the nearest first. `logs`: see
-    /// `Readings`.
+    /// Begins tracks for readings that belong to no neighbour yet, the nearest first. `logs`: see `Readings`.
     fn welcome(&mut self, mut owners: Owners, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
-        // Each round gives one sensor at least an owner.
+        // Each round assigns at least one sensor.
         for _ in 0..SENSORS {
             let free = (0..SENSORS).filter(|&sensor| owners[sensor].is_none());
             let readings = free.filter_map(|sensor| Some((sensor, scan.reads_m(sensor)?)));
@@ -168,7 +167,8 @@ impl Tracks {
         }
     }
 
-    /// Compares neighbours with the plan: those that keep to it are known by it.
+    /// Compares tracks with the plan. A track that keeps to it is taken for that planned neighbour and learns from the
+    /// planned place and velocity.
     fn recognise(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
@@ -192,8 +192,8 @@ impl Tracks {
         }
     }
 
-    /// A stranger that a planned neighbour explains as well, if no track follows that one yet, is that neighbour. A
-    /// neighbour that has left its plan is never taken for another.
+    /// Replaces a stranger's track by one of a planned neighbour that explains its nearest reading and has no track
+    /// yet. A neighbour that has left its plan is never taken for another.
     fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
@@ -214,7 +214,8 @@ impl Tracks {
         }
     }
 
-    /// Two discs are never in one place: of two tracks there the one that no sensor saw goes, else the younger.
+    /// Removes one of two tracks in the same place, because two discs are never there: the one that no sensor saw, else
+    /// the younger.
     fn merge(&mut self) {
         let mut index = 1;
         while index < self.list.len() {
@@ -232,8 +233,8 @@ impl Tracks {
     }
 }
 
-/// Whether a neighbour is where the plan has it: the estimate agrees, and so do the readings, as an estimate that is
-/// hardly known agrees with anything.
+/// Whether a neighbour keeps to the plan. Not only its estimate must agree, but also its readings, because a very
+/// uncertain estimate agrees with anything.
 fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     let explains = |sensor: usize| {
         scan.reads_m(sensor).is_none_or(|read_m| explained_off_m(one, sensor, read_m, scan).is_some())
@@ -241,7 +242,7 @@ fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     track.keeps_to(one.at, one.velocity, scan.planned_sigma_m, scan.of) && track.sensors().all(explains)
 }
 
-/// Corrects a track by the readings that are its own, and by what did not see it. `logs`: see `Readings`.
+/// Corrects a track by the readings that belong to it, and by the sensors that do not see it. `logs`: see `Readings`.
 fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
     track.age = track.age.saturating_add(1);
     track.seen_by = seen_by;
@@ -272,7 +273,7 @@ fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SEN
     track.missed = if seen_by != 0 { 0 } else { track.missed.saturating_add(missed) };
 }
 
-/// Compares a neighbour that the plan names with the plan.
+/// Tests whether a planned neighbour has left its plan, and changes its track if it has.
 fn watch(track: &mut Track, scan: &Scan<'_>) {
     let Some(one) = scan.plan_of(track.planned) else { return };
     let seen_by = track.sensors();
@@ -293,7 +294,7 @@ fn watch(track: &mut Track, scan: &Scan<'_>) {
     track.left = Some(one.index);
 }
 
-/// What one sensor sees lies around its axis, what two see between them.
+/// Bounds the direction of a track: what one sensor sees lies around its axis, what two see lies between them.
 fn bound_bearing(track: &mut Track, sensors: &Sensors) {
     let sum = track.sensors().fold(Point::ZERO, |sum, sensor| sum.plus(sensors.axes[sensor]));
     let size = sum.length();

@@ -1,32 +1,32 @@
-//! What a sensor reads of an outline.
+//! What a sensor would read of an outline.
 
 use super::outline::{Form, Outline};
 use super::point::Point;
 use super::sensors::Sensors;
 
-/// An edge that meets the edge of a cone at a smaller angle than this (sine) is not in it: it would be read from
-/// afar.
+/// Sine of the angle between an edge and the side of a sensor's cone below which they do not meet. The sensor would
+/// read the edge from afar.
 const LEAST_SLOPE: f32 = 0.2;
 /// Farther along an edge than any sensor sees, metres.
 const FAR_M: f32 = 10.0;
 
-/// What a sensor reads of an outline, and how that changes with the outline's state: distance, direction, end.
+/// What a sensor would read of an outline, and how that changes with the outline's state: distance, direction, end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
-    /// Metres.
+    /// The reading, metres.
     pub gap_m: f32,
     pub gradient: [f32; 3],
-    /// The reading is quadratic in what changes with the state as this says, …
+    /// Gradient of the quantity in which the reading is quadratic.
     pub across: [f32; 3],
-    /// … with this second derivative.
+    /// Second derivative of the reading over that quantity.
     pub bend: f32,
 }
 
-/// A sensor and an outline, in the axes of the outline: along its normal, and to the left of that.
+/// A sensor and an outline, in the axes of the outline: along its normal, and to the left of the normal.
 struct Sight<'a> {
     of: &'a Outline,
     radius_m: f32,
-    /// Direction of the sensor.
+    /// Direction of the sensor in these axes: `cos` along the normal, `sin` to its left.
     cos: f32,
     sin: f32,
     /// From the sensor straight to the edge, metres.
@@ -34,7 +34,7 @@ struct Sight<'a> {
 }
 
 impl Outline {
-    /// What a sensor reads of it; `None`: it is not in its cone.
+    /// What a sensor would read of the outline; `None` if that is not in its cone.
     pub fn view(&self, sensor: usize, sensors: &Sensors) -> Option<View> {
         let sight = self.sight(sensor, sensors);
         if self.form == Form::Disc {
@@ -65,15 +65,16 @@ impl Outline {
 
     /// Innovation of a reading, metres, and its variance, square metres.
     pub fn innovation(&self, view: &View, read_m: f32, sensors: &Sensors) -> (f32, f32) {
-        // The reading bends with the direction of the edge, or with the place of a point across: second-order mean
-        // and variance.
+        // The reading is quadratic in the direction of the edge, or in the place of a point across the line of sight.
+        // Its mean and variance are of second order.
         let bend_m = 0.5 * view.bend * self.variance_of(view.across);
         let variance =
             self.variance_of(view.gradient) + 2.0 * bend_m * bend_m + sensors.variance_m2(view.gap_m);
         (read_m - view.gap_m - bend_m, variance)
     }
 
-    /// From where to where along the edge a sensor sees it within its range, metres; `None`: nowhere.
+    /// The stretch of the edge that a sensor sees within its range: its right and left end along the edge, metres.
+    /// `None` if it sees nothing.
     pub fn stretch(&self, sensor: usize, sensors: &Sensors) -> Option<[f32; 2]> {
         let sight = self.sight(sensor, sensors);
         let far_m2 = sensors.range_m * sensors.range_m - sight.height_m * sight.height_m;
@@ -94,8 +95,7 @@ impl Outline {
         Sight { of: self, radius_m: sensors.radius_m, cos, sin, height_m }
     }
 
-    /// Directions of the edges of a sensor's cone, the right one first: their shares along the normal and to its
-    /// left.
+    /// Directions of the sides of a sensor's cone, the right one first, in the axes of the outline.
     fn edges_of_cone(&self, sensor: usize, sensors: &Sensors) -> [Point; 2] {
         let axis = sensors.axes[sensor];
         let in_axes = Point::new(axis.dot(self.normal), axis.dot(self.normal.left()));
@@ -104,25 +104,26 @@ impl Outline {
 }
 
 impl Sight<'_> {
-    /// Where a ray meets the edge, to the left of the point that is straight ahead, metres.
+    /// Place where a ray meets the edge, metres to the left of the point straight ahead. [`FAR_M`] to a side if it
+    /// hardly meets it.
     fn meets_m(&self, ray: Point) -> f32 {
         if ray.x < LEAST_SLOPE { FAR_M.copysign(ray.y) } else { self.height_m * ray.y / ray.x }
     }
 
-    /// The edge is nearest straight ahead of the sensor.
+    /// The view of an edge that is nearest straight ahead of the sensor.
     fn foot(&self) -> View {
         let gradient = [1.0, -self.radius_m * self.sin, 0.0];
         View { gap_m: self.height_m, gradient, across: [0.0, 1.0, 0.0], bend: self.radius_m * self.cos }
     }
 
-    /// It is nearest where the edge of the cone meets it.
+    /// The view of an edge that is nearest where the side of the cone meets it.
     fn edge_of_cone(&self, ray: Point) -> View {
         let gap_m = self.height_m / ray.x;
         let gradient = [1.0 / ray.x, (-self.radius_m * self.sin - gap_m * ray.y) / ray.x, 0.0];
         View { gap_m, gradient, across: [0.0, 1.0, 0.0], bend: self.radius_m * self.cos / ray.x }
     }
 
-    /// A point of the edge is nearest: its end.
+    /// The view of an edge that is nearest at its end, `aside_m` to the left of the point straight ahead, metres.
     fn point(&self, aside_m: f32) -> View {
         let (height_m, of) = (self.height_m, self.of);
         let far_m = libm::sqrtf(height_m * height_m + aside_m * aside_m).max(1e-3);
@@ -136,7 +137,7 @@ impl Sight<'_> {
         }
     }
 
-    /// The rim of a disc, if its centre is in the cone.
+    /// The view of the rim of a disc; `None` if its centre is not in the cone.
     fn disc(&self, cone_cos: f32) -> Option<View> {
         let aside_m = self.of.along_m - self.radius_m * self.sin;
         let centre = self.point(aside_m);

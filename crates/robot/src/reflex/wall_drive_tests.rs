@@ -14,7 +14,7 @@ const SPEED_MPS: f32 = 0.27;
 const RUNS: usize = 500;
 const STEPS: usize = 60;
 
-/// What came of many drives.
+/// Results of many drives.
 #[derive(Debug, Default)]
 struct Tally {
     touched: usize,
@@ -37,7 +37,7 @@ fn drive(mut wall: Wall, dice: &mut Dice, tally: &mut Tally) {
         let limit = reflex.limit(Wish { speed_mps: SPEED_MPS, told_mps, dt: DT }, None);
         let most_mps = limit.map_or(SPEED_MPS, |mps| mps as f32);
         tally.slowed += usize::from(most_mps < SPEED_MPS - 0.001);
-        // Tyres lose at most this much in a step.
+        // Tyres lose at most this speed in a step.
         now_mps = told_mps.max(now_mps - 0.188);
         told_mps = most_mps;
     }
@@ -60,7 +60,8 @@ fn a_robot_stops_before_a_wall_from_any_angle() {
     }
 }
 
-/// Measured: 2 to 3 % of the steps. Where discs stood for the wall, the robot was slowed in all steps up to 8 mm from it.
+/// Measured: the robot is slowed in 2 to 3 % of the steps. Where discs stood for the wall, it was slowed in all steps
+/// up to 8 mm from the wall.
 #[test]
 fn a_wall_abeam_hardly_slows_a_robot() {
     for gap_m in [0.004, 0.008, 0.015] {

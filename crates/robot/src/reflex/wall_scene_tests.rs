@@ -1,5 +1,5 @@
-//! How good the estimates of walls and no-go edges are, and how honest their covariances. Robots that are no walls:
-//! side_by_side_tests.rs.
+//! How good the estimates of walls and no-go edges are, and how well their covariances match the errors. That robots
+//! are not taken for walls: side_by_side_tests.rs.
 
 extern crate std;
 
@@ -18,7 +18,7 @@ use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 const HALF_CONE_RAD: f32 = ProximitySensors::ELISA_3.half_cone_rad;
 /// Steps of which the errors count in each scene.
 const STEPS: usize = 10_000;
-/// What the wheels lose or gain of their way in an episode, 1 sigma, as a share: `NeighbourModel::odometry_share`.
+/// Share of their way that the wheels lose or gain in an episode, 1 sigma: `NeighbourModel::odometry_share`.
 const SLIP: f32 = 0.04;
 
 /// A straight piece of wall in body space, from end to end.
@@ -26,7 +26,7 @@ const SLIP: f32 = 0.04;
 pub(super) struct Wall([Point; 2]);
 
 impl Wall {
-    /// The nearest point to a place.
+    /// The point of the wall that is nearest to a place.
     pub fn nearest(&self, to: Point) -> Point {
         let [from, end] = self.0;
         let span = end.minus(from);
@@ -34,7 +34,7 @@ impl Wall {
         from.plus(span.times(share.clamp(0.0, 1.0)))
     }
 
-    /// Where a ray from a place meets it.
+    /// The point where a ray from a place meets the wall.
     fn hit(&self, from: Point, towards: Point) -> Option<Point> {
         let [start, end] = self.0;
         let (span, normal) = (end.minus(start), towards.left());
@@ -58,7 +58,7 @@ impl Wall {
         points.map(|at| at.minus(eye).length()).filter(|&gap_m| gap_m < 0.03).fold(f32::INFINITY, f32::min)
     }
 
-    /// Its nearest point, which slides along it as the robot drives, but not off its end.
+    /// The wall's nearest point, which slides along the wall as the robot drives, but not off its end.
     fn truth(&self, own: &OwnMotion) -> Disc {
         let at = self.nearest(Point::ZERO);
         let span = self.0[1].minus(self.0[0]);
@@ -68,7 +68,7 @@ impl Wall {
         Disc { at, velocity: if is_end { Point::ZERO } else { along.times(own_mps) } }
     }
 
-    /// A step in which the robot moved by `own`.
+    /// Carries the wall over a step in which the robot moved by `own`.
     pub fn advance(&mut self, own: &OwnMotion) {
         self.0 = self.0.map(|end| own.carry(end));
     }
@@ -77,15 +77,15 @@ impl Wall {
 /// What was measured in a scene.
 #[derive(Debug)]
 struct Measured {
-    /// See `Tally::figures`: of the nearest point of the wall.
+    /// The figures of `Tally::figures` for the nearest point of the wall.
     figures: [f32; 4],
     /// Gap to the nearest track less gap to the wall, metres: the 5 % and the 95 % quantile.
     gaps_m: [f32; 2],
-    /// Share of the steps in which it is known for a straight edge that goes on to both sides.
+    /// Share of the steps in which the wall is known to be a straight edge that goes on to both sides.
     flat: f32,
 }
 
-/// Episodes of at most 25 steps, of which those from the sixth on count in which a sensor sees the wall. The robot's
+/// Runs episodes of at most 25 steps. The steps from the sixth on in which a sensor sees the wall count. The robot's
 /// wheels slip by `SLIP`.
 fn scene(make: impl Fn(&mut Dice) -> (Wall, OwnMotion)) -> Measured {
     let sensors = Sensors::new(&ProximitySensors::ELISA_3, f64::from(RADIUS_M));
@@ -121,27 +121,27 @@ fn scene(make: impl Fn(&mut Dice) -> (Wall, OwnMotion)) -> Measured {
     Measured { figures: tally.figures(), gaps_m, flat: flats as f32 / off_m.len() as f32 }
 }
 
-/// The tracks take a step of which the plan knows nothing.
+/// Passes readings to the tracks for a step in which the plan has no neighbour in sight.
 pub(super) fn look(tracks: &mut Tracks, gaps_m: &[f32; SENSORS], own: &OwnMotion, sensors: &Sensors) {
     let of = &NeighbourModel::DEFAULT;
     tracks.step(&Scan { gaps_m, own, planned: &[], sensors, planned_sigma_m: 0.0009, of });
 }
 
-/// A piece of wall in a direction, radians, whose line is `gap_m` off the rim, from a place on it, metres to the
-/// left, to 1 m.
+/// A piece of wall in the direction `towards_rad`, whose line is `gap_m` off the robot's rim. Along that line it goes
+/// from `from_m` to 1 m to the left, metres.
 pub(super) fn wall_at(towards_rad: f32, gap_m: f32, from_m: f32) -> Wall {
     let towards = Point::unit(towards_rad);
     let foot = towards.times(RADIUS_M + gap_m);
     Wall([from_m, 1.0].map(|along_m| foot.plus(towards.left().times(along_m))))
 }
 
-/// The same in any direction, 10 to 30 mm off the rim.
+/// A piece of wall in any direction, 10 to 30 mm off the rim, that begins at `from_m` along its line.
 fn wall_from(from_m: f32, dice: &mut Dice) -> Wall {
     wall_at(dice.between(-PI, PI), dice.between(0.01, 0.03), from_m)
 }
 
-/// Median errors of place and velocity of the wall's nearest point are at most 2 mm and 20 mm/s, and the 95 % ellipse
-/// holds 92 to 98 % of the errors. In 90 % of the steps the gap is wrong by -2.5 to 1.5 mm.
+/// Checks that the median errors of the wall's nearest point are at most 2 mm and 20 mm/s. The 95 % ellipse must hold
+/// 92 to 98 % of the errors. In 90 % of the steps the gap is wrong by -2.5 to 1.5 mm.
 #[track_caller]
 fn expect(measured: &Measured) {
     let [place_m, speed_mps, held, followed] = measured.figures;
