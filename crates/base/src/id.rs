@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// A robot's name on the wire, usually a UUID. Allowed are 1 to 36 bytes of printable ASCII without space, `/`, `+`, `#` and
-/// `|`, because the name is a topic level and a field of reports (R3).
+/// A robot's name on the wire, usually a UUID: 1 to 36 bytes of printable ASCII without space, `/`, `+`, `#` and `|`.
+/// The name is a topic level and a field of reports (R3).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RobotId {
     bytes: [u8; Self::MAX_LEN],

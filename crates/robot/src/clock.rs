@@ -47,7 +47,8 @@ const ANSWERED: usize = 8;
 const WORST_DRIFT: f64 = 300e-6;
 /// Random walk of the drift with temperature: variance per second, as a share squared.
 const WANDER: f64 = 0.3e-6 * 0.3e-6;
-/// Noise of the quickest answer, microseconds, 1 sigma. Below, the filter becomes surer than scheduling of a board allows.
+/// Noise of the quickest answer, microseconds, 1 sigma. Below, the filter becomes more certain than scheduling of a
+/// board allows.
 const BEST_US: f64 = 100.0;
 /// Growth of the shortest known round trip per answer, as a share, because routes through a network change.
 const LEAK: f64 = 1e-5;
@@ -85,7 +86,7 @@ pub(crate) struct ClockFilter {
     shortest_us: f64,
     mean_us: f64,
     delays: LeastDelays,
-    /// Questions answered lately, a ring.
+    /// When the questions that were answered last were sent, own clock: a ring.
     answered: [Instant; ANSWERED],
 }
 

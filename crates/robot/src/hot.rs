@@ -18,8 +18,8 @@ use crate::supervise::Supervisor;
 /// outage. Above, a robot drives on without fixes for longer.
 const OVERDUE: Span = Span::from_millis(16);
 
-/// All state that a step reads or writes while no neighbour is in sight and the light is a straight line of colours: one
-/// piece of memory, 1.8 KB.
+/// All state that a step reads or writes while no neighbour is in sight and the light is a straight line of colours. It
+/// is one piece of memory, 1.8 KB.
 ///
 /// A simulator of thousands of robots may load it into the cache by its address and size before the robot's turn.
 /// Otherwise a step waits longer for memory than it computes.

@@ -25,7 +25,7 @@ pub(crate) struct Light {
     shown: Rgb,
     /// Whether a fade, a stretch, live light, blinking or flashes may change the light. Otherwise it stays at `shown`.
     busy: bool,
-    /// The running fade, behind the colour at which it began.
+    /// The colour at which the running fade began, and that fade.
     running: Option<(Rgb, Fade)>,
     /// Fades that have not begun, in order of time.
     waiting: heapless::Vec<Fade, WAITING>,

@@ -232,7 +232,8 @@ impl LightAhead {
     }
 
     fn begin(&mut self, kept: Kept, shown: Rgb) {
-        // A stretch that waits for a moment belongs to the drive before, or this stretch was sent in its place.
+        // Stretches that wait for a moment are dropped: they belong to the drive before, or this stretch was sent later
+        // in their place.
         let is_replaced = |other: &Kept| kept.seq.is_some() || is_earlier(other.number, kept.number);
         self.waiting.retain(|other| other.seq.is_some() || !is_replaced(other));
         let is_new = |playing: &Playing| playing.kept.from != kept.from;

@@ -179,8 +179,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Stops the robot or ends its route where it must not drive on, and asks for the time in a silence. Being lost or
-    /// faulty ends a route, because the others drive on. A target survives that, as with an original robot.
+    /// Stops the robot or ends its route where it must not drive on, and sends questions for the time during a silence.
+    /// Being lost or faulty ends a route, because the others drive on. A target survives that, as with an original
+    /// robot.
     fn supervise(&mut self, now: Instant) {
         self.stop_in_time(now);
         let drives = self.drives();

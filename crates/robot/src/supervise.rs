@@ -16,10 +16,10 @@ const ASK_AGAIN: Span = Span::from_millis(150);
 
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
 
-/// What the robot is doing, as far as the link matters to it.
+/// What the robot is driving, as far as it matters to the link's supervision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Drives {
-    /// It stands and will not drive without a message.
+    /// Nothing: the robot stands and will not drive without a message.
     Not,
     /// To a target. Its controller may be an original one, which sends nothing meanwhile.
     Target,
@@ -78,12 +78,12 @@ impl Supervisor {
         self.down_since.is_none()
     }
 
-    /// Whether the link has been down for longer than the robot's patience.
+    /// Whether the link has been down for longer than `Config::silence`.
     pub(crate) fn is_down(&self, now: Instant) -> bool {
         self.down_since.is_some_and(|since| now - since > self.silence)
     }
 
-    /// Whether no message came for longer than the robot's patience.
+    /// Whether no message came for longer than `Config::silence`.
     pub(crate) fn is_silent(&self, now: Instant) -> bool {
         now - self.heard > self.silence
     }
@@ -140,7 +140,7 @@ impl Supervisor {
         core::mem::take(&mut self.untold)
     }
 
-    /// Whether it stands because the link was lost during a run.
+    /// Whether the robot stands because the link was lost during a drive.
     pub(crate) fn is_cut(&self) -> bool {
         self.cut
     }

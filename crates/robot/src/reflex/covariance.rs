@@ -147,8 +147,8 @@ impl Covariance {
         self.gain(place, velocity, innovation, variance)
     }
 
-    /// Updates by a measurement with these covariances with `place` and `velocity`. Returns the corrections of place
-    /// and velocity.
+    /// Updates by a measurement and returns the corrections of place and velocity. `place` and `velocity`: their
+    /// covariances with the measurement. `variance`: variance of the innovation.
     fn gain(&mut self, place: Point, velocity: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let share = 1.0 / variance;
         self.place.minus_outer(place, share);

@@ -1,20 +1,20 @@
-//! Whether a planned neighbour has left its plan: a generalised likelihood ratio test (Willsky and Jones, *A Generalized
-//! Likelihood Ratio Approach to the Detection and Estimation of Jumps in Linear Systems*, 1976).
+//! Detection that a planned neighbour has left its plan, by a generalised likelihood ratio test. Source: Willsky and
+//! Jones, *A Generalized Likelihood Ratio Approach to the Detection and Estimation of Jumps in Linear Systems*, 1976.
 //!
-//! The null hypothesis: the neighbour drives by plan, but for an offset of the readings that drifts slowly (a first-order
-//! Gauss-Markov process, Bar-Shalom, Li and Kirubarajan, section 4.2). The alternatives: it stopped dead at one of the
-//! last places of its path. Each hypothesis has an offset filter of its own and gathers the logarithm of its likelihood
-//! ratio, so that readings of several steps count together.
+//! The null hypothesis: the neighbour drives by plan, but the readings have an offset that drifts slowly. The offset is
+//! a first-order Gauss-Markov process (Bar-Shalom, Li and Kirubarajan, section 4.2). The alternatives: the neighbour
+//! stopped dead at one of the last places of its path. Each hypothesis has an offset filter of its own and gathers the
+//! logarithm of its likelihood ratio, so that readings of several steps count together.
 
 use super::motion::OwnMotion;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 
-/// Number of places at which a neighbour may have stopped that are followed at once. Fewer: a robot that drives slowly
-/// leaves all of them before readings can tell.
+/// Number of places at which a neighbour may have stopped that are followed at once. Fewer: by plan a slow neighbour
+/// has left all of them before readings can tell.
 const STOPS: usize = 6;
-/// Distance on the path between two such places, metres. More: the place of the stop is known less well. Less: the
-/// places cover fewer steps.
+/// Distance on the path between two places of [`STOPS`], metres. More: the place of the stop is known less well. Less:
+/// the places cover fewer steps.
 const STOP_EVERY_M: f32 = 0.002;
 /// Share of a log-likelihood ratio that remains after a step. The model of the offset is only approximate, and small
 /// misfits add up in seconds. At 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline, braked

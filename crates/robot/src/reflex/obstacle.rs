@@ -15,7 +15,7 @@ use crate::config::{NeighbourModel, SENSORS};
 const HYPOTHESES: usize = 24;
 /// Largest error with which a hypothesis explains a reading, in sigma.
 const EXPLAINS_SIGMAS: f32 = 4.0;
-/// Natural logarithm of a hypothesis's share in the likelihood of all below which it is dropped.
+/// A hypothesis is dropped when the natural logarithm of its share in the likelihood of all falls below this.
 const GIVEN_UP_LOG: f32 = -8.0;
 /// Error of the direction of an edge that one sensor sees, 1 sigma, radians. The direction is evenly spread up to where
 /// the next sensor is nearer to the edge.

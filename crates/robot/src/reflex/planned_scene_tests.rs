@@ -14,8 +14,8 @@ use super::sensors::Sensors;
 use super::tracks::Tracks;
 use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
-/// How far a neighbour is off its plan as this robot sees it, 1 sigma in each axis, metres: measured in rehearsals
-/// with standard conditions on 2026-11-24.
+/// How far a neighbour is off its plan as this robot sees it, 1 sigma in each axis, metres. Measured in rehearsals with
+/// standard conditions on 2026-11-24.
 const OFFSET_M: f32 = 0.00075;
 /// Correlation time of the offset, seconds: measured with `OFFSET_M`.
 const OFFSET_S: f32 = 0.3;

@@ -16,7 +16,7 @@ const ABEAM: f32 = 0.05;
 /// The motion that the robot wants along its front; negative is backwards.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
-    /// The speed that its route or target asks for, m/s.
+    /// The speed of the setpoint for its route or target, m/s.
     pub speed_mps: f32,
     /// The speed that its wheels were commanded a step ago, which acts now, m/s.
     pub told_mps: f32,

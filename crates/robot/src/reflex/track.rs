@@ -1,9 +1,9 @@
-//! One neighbour that the sensors see: an extended Kalman filter of its place and velocity (Bar-Shalom, Li and
-//! Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001: the nearly constant velocity model
-//! of section 6.3, the second-order measurement of 10.3, the manoeuvre detection of 11.2).
+//! One neighbour that the sensors see: an extended Kalman filter of its place and velocity. Source: Bar-Shalom, Li and
+//! Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001. It has the nearly constant velocity
+//! model of section 6.3, the second-order measurement of 10.3 and the manoeuvre detection of 11.2.
 //!
-//! The state is relative in place and absolute in velocity: the centre of the neighbour in body space, and its
-//! velocity over the floor along the axes of body space. A standing neighbour is the special case of velocity zero.
+//! The place is relative and the velocity absolute: the centre of the neighbour is in body space. The velocity is over
+//! the floor, along the axes of body space. A standing neighbour is the special case of velocity zero.
 
 use super::covariance::Covariance;
 use super::departure::Departure;
