@@ -43,7 +43,7 @@ pub(crate) enum MessageKind {
 #[derive(Debug)]
 pub(crate) struct Outbox {
     introduction: bool,
-    /// Since when it waits to introduce itself unasked.
+    /// When it began to wait for its place to introduce itself unasked.
     newcomer: Option<Instant>,
     /// Whether its last introduction was without a place.
     introduced_without_place: bool,

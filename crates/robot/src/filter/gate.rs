@@ -30,7 +30,8 @@ pub(super) enum GateResult {
 /// Recent outliers, and the times of the last inliers.
 #[derive(Debug, Default)]
 pub(super) struct OutlierGate {
-    /// Innovation of the latest outlier.
+    /// Innovation of the latest of the outliers that are counted, metres. Another outlier agrees if its innovation is
+    /// near this one.
     odd_off: Vec2,
     last_jump: Option<Instant>,
     /// When the last place came that was no outlier.
@@ -69,7 +70,8 @@ impl OutlierGate {
         if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
-    /// Tests the innovation of a heading. The first heading replaces the estimate.
+    /// Tests the innovation of a heading. The first heading replaces the estimate, and so does the last of [`OUTLIERS`]
+    /// in a row, whether they agree or not.
     #[inline]
     pub(super) fn heading(&mut self, now: Instant, off: f64, variance: f64, first: bool) -> GateResult {
         let odd = off * off > GATE * GATE * variance && off * off > GATE_FLOOR_RAD * GATE_FLOOR_RAD;

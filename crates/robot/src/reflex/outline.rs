@@ -43,7 +43,7 @@ pub(crate) struct Outline {
 /// The nearest point of an object, the motion of that point, and their covariance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NearestPoint {
-    /// Body space, metres.
+    /// Place of the point in body space, metres.
     pub at: Point,
     /// Velocity over the floor along the axes of body space, m/s.
     pub velocity: Point,
