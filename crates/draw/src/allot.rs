@@ -1,4 +1,4 @@
-//! How many robots each part gets.
+//! Decides how many robots each part gets.
 
 use crate::geometry::hexagonal_count;
 use crate::ground::Ground;
@@ -7,13 +7,13 @@ use crate::layout::Style;
 /// What a part needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
-    /// Robots are shared in proportion to it.
+    /// Weight of the part: robots are allotted in proportion to it.
     pub demand: f64,
-    /// Robots that it has in any case.
+    /// Number of robots that it gets in any case.
     pub least: usize,
 }
 
-/// Robots that each part takes at the spacing at which all of them together take `count`.
+/// Returns the demand of each part in robots, at the spacing at which all parts together take `count` robots.
 pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f64> {
     let at = |spacing: f64| grounds.iter().map(|ground| demand(ground, style, spacing)).collect::<Vec<f64>>();
     let size = grounds.iter().map(|ground| ground.size).fold(0.0, f64::max);
@@ -25,7 +25,7 @@ pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f6
     at(high)
 }
 
-/// Robots that a part takes at a spacing.
+/// Number of robots that a part takes at a spacing; may be fractional.
 fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     let filling = |area: f64| hexagonal_count(area, spacing);
     let (lines, edge) = (ground.lines.length(), ground.outline.length());
@@ -38,13 +38,15 @@ fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     }
 }
 
-/// Shares `count` robots in proportion to the demands, one by one to the part with the greatest demand for each robot that
-/// it has. Each part with a demand gets its first robot before others get a second one, the greatest demand first.
+/// Allots `count` robots in proportion to the demands. Each next robot goes to the part with the greatest demand per
+/// robot that it has. Every part with a demand gets a first robot before any part gets a second one, the part of
+/// greatest demand first.
 pub(crate) fn allot(shares: &[Share], count: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = shares.iter().map(|share| share.least).collect();
     let given: usize = counts.iter().sum();
     for _ in given..count {
-        // Between the rules of Adams (+ 0) and Webster (+ 0.5): neither small nor large parts are starved.
+        // Divisor 0.3, between the rules of Adams (0) and Webster (0.5): neither small nor large parts get too few
+        // robots.
         let value = |index: &usize| shares[*index].demand / (counts[*index] as f64 + 0.3);
         let order = |a: &usize, b: &usize| {
             (counts[*a] == 0).cmp(&(counts[*b] == 0)).then(value(a).total_cmp(&value(b))).then(b.cmp(a))

@@ -7,33 +7,33 @@ use crate::buckets::Buckets;
 use crate::lines::LineSet;
 use crate::symmetry::Pairing;
 
-/// Most rounds of moving close pairs.
+/// Largest number of rounds.
 const ROUNDS: usize = 150;
 
-/// What holds a place.
+/// How a place may move.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Freedom {
-    /// Nothing: it may move within the drawing.
+    /// Anywhere within the drawing.
     Free,
-    /// It may slide along the lines.
+    /// Along the lines only.
     Line,
-    /// It stays: a corner, an end, a place that a user chose.
+    /// Not at all: a corner, an end, or a place that a user chose.
     Fixed,
 }
 
 /// Where places may go.
 pub(crate) struct Room<'a> {
-    /// Places inside of the drawing, close together.
+    /// Buckets of `points`.
     pub inside: &'a Buckets<'a>,
-    /// The same as points.
+    /// Points of a dense grid inside the drawing.
     pub points: &'a [Vec2],
-    /// Greatest distance of an inside place from the nearest point.
+    /// A free place farther than this from every point is outside the drawing and moves to the nearest point.
     pub slack: f64,
     /// Lines for places that slide.
     pub track: &'a LineSet,
-    /// The points of the track.
+    /// Buckets of the points of `track`.
     pub on_track: &'a Buckets<'a>,
-    /// Which places mirror each other.
+    /// Which places are mirror images of each other, if they are to stay symmetric.
     pub pairing: Option<&'a Pairing>,
 }
 
@@ -49,8 +49,8 @@ pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, 
     }
 }
 
-/// Moves places of several parts until no pair is nearer than `distance`, or the rounds are over. `rooms` has the room of
-/// each part, `owners` the part of each place.
+/// Moves places of several parts until no pair is nearer than `distance`, or the rounds are over. `rooms` has an entry
+/// for each part; `owners` has the part of each place.
 pub(crate) fn push_parts_apart(
     places: &mut [Vec2],
     holds: &[Freedom],
@@ -65,7 +65,7 @@ pub(crate) fn push_parts_apart(
     }
 }
 
-/// One round; answers whether any pair was too near.
+/// Runs one round and returns whether any pair was too near.
 fn push_once<'r, 'b: 'r>(
     places: &mut [Vec2],
     holds: &[Freedom],
@@ -77,7 +77,7 @@ fn push_once<'r, 'b: 'r>(
     Buckets::new(places, distance).pairs(distance * 0.999, |a, b, length| {
         close = true;
         let (share_a, share_b) = shares(&holds[a], &holds[b]);
-        // Two places in one point part along a direction that depends on their numbers alone.
+        // Two places on one point move apart in a direction that depends on their indices alone.
         let way = (places[a] - places[b]).normalized().unwrap_or_else(|| Vec2::unit((a + 3 * b) as f64));
         pushes[a] += way * ((distance - length) * share_a);
         pushes[b] -= way * ((distance - length) * share_b);
@@ -90,7 +90,7 @@ fn push_once<'r, 'b: 'r>(
     close
 }
 
-/// How much of the missing distance each of two places moves.
+/// Returns the shares of the missing distance by which two places move.
 fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
     match (a, b) {
         (Freedom::Fixed, Freedom::Fixed) => (0.0, 0.0),
@@ -103,7 +103,7 @@ fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
 }
 
 impl Room<'_> {
-    /// The nearest place that a place may move to.
+    /// Returns the place nearest to `at` that `hold` allows.
     fn nearest(&self, at: Vec2, hold: &Freedom) -> Vec2 {
         match hold {
             Freedom::Fixed => at,

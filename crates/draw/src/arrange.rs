@@ -1,4 +1,4 @@
-//! Shares robots between the parts of a drawing and lays each part out.
+//! Allots robots to the parts of a drawing and lays each part out.
 
 use lightbots_base::Vec2;
 
@@ -13,27 +13,30 @@ use crate::layout::{Layout, LayoutTask, Style, separate};
 use crate::settings::{PlaceSettings, PlacedLight};
 use crate::thick::{BandLoad, thickened};
 
-/// Areas that are wider than this number of spacings, on average, get an edge and a filling. Narrower ones would zigzag.
+/// Areas wider than this number of spacings on average get an edge and a filling. In narrower areas such a filling
+/// would zigzag.
 const WIDE: f64 = 2.0;
 
-/// Up to this number of robots a letter, an edge leaves too few for the filling: with 30 robots six shapes are read at 0.86
-/// to 0.96 with an edge, at 0.99 to 1.00 without; with 60 at 0.96 to 0.98, and the edge is crisper (`make --style`).
+/// Up to this number of robots for each part with areas, no edge is drawn, because it leaves too few robots for the
+/// filling. Six shapes of 30 robots are read at 0.86 to 0.96 with an edge, at 0.99 to 1.00 without. With 60 robots they
+/// are read at 0.96 to 0.98, and the edge is crisper (`make --style`).
 const FEW_FOR_EDGES: usize = 50;
 
-/// Up to this number of robots a letter, a filling is read better than strokes (measured with 36 signs: 12 to 13).
+/// Up to this number of robots for each part with areas, a filling is read better than strokes (measured with 36 signs:
+/// 12 to 13).
 const FEW_FOR_LINES: usize = 13;
 
-/// A part of a drawing that is all areas or all lines, and its number in the drawing.
+/// A part of a drawing that has only areas or only lines, and its index in the drawing.
 struct Piece {
     number: usize,
     part: DrawingPart,
     ground: Ground,
 }
 
-/// Lights on a drawing that is in stage metres already.
+/// Places lights on a drawing that is in stage metres already.
 ///
 /// # Errors
-/// A drawing of which nothing is on the floor.
+/// No part of the drawing is on the floor and outside no-go areas.
 pub(crate) fn arrange(
     drawing: &Drawing,
     floor: &PictureFloor,
@@ -67,7 +70,7 @@ pub(crate) fn arrange(
     Ok(lights)
 }
 
-/// The parts, with areas and strokes of one part apart.
+/// Makes pieces of all parts; areas and strokes of one part become two pieces.
 fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Vec<Piece> {
     let allowed = |at: Vec2| floor.allows(at);
     let each = settings.robots / drawing.parts.len().max(1) + 1;
@@ -87,7 +90,7 @@ fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> 
     pieces
 }
 
-/// Makes bands of lines that are too short for the robots.
+/// Widens lines to bands if the lines have no room for all robots.
 fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings) {
     let is_line = |piece: &Piece| piece.ground.samples.is_empty();
     let sum = |lines: bool, of: fn(&Ground) -> f64, pieces: &[Piece]| -> f64 {
@@ -107,7 +110,7 @@ fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings)
     }
 }
 
-/// The style of the areas: one for all of them, so that the letters of a word look alike.
+/// Chooses the style of the areas. It is the same for all of them, which makes the letters of a word look alike.
 fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     if settings.style != Style::Auto {
         return settings.style;
@@ -130,7 +133,7 @@ fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     }
 }
 
-/// Kept places, by the piece that each is nearest to.
+/// Kept places, grouped by the piece to which each is nearest.
 fn kept_by_piece(grounds: &[&Ground], settings: &PlaceSettings) -> Vec<Vec<Vec2>> {
     let mut kept = vec![Vec::new(); grounds.len()];
     for light in &settings.kept {

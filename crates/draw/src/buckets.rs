@@ -1,17 +1,17 @@
-//! Points sorted into square buckets, to find the nearest one and all near pairs.
+//! Sorts points into square buckets, to find the nearest point and all near pairs.
 
 use lightbots_base::Vec2;
 
-/// Buckets of one point each would be many and mostly empty for a thin drawing: at most this many.
+/// Largest number of buckets. A thin drawing would otherwise have many buckets, most of them empty.
 const MOST: f64 = 4e6;
 
 #[cfg(test)]
 thread_local! {
-    /// Buckets and points that searches of this thread have looked at: tests bound the work by it.
+    /// Number of buckets and points that searches of this thread have looked at. Tests limit the work by it.
     pub(crate) static LOOKED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
 }
 
-/// Points in buckets. Indices are those of the points it was made from.
+/// Points in buckets. Indices are those of the list of points that it was made from.
 pub(crate) struct Buckets<'a> {
     points: &'a [Vec2],
     min: Vec2,
@@ -67,7 +67,7 @@ impl<'a> Buckets<'a> {
         (index(at.x - self.min.x, self.columns), index(at.y - self.min.y, self.rows))
     }
 
-    /// Index of the nearest point and the square of its distance; `None` without points.
+    /// Returns the index of the nearest point and the square of its distance. `None` if there are no points.
     pub fn nearest(&self, at: Vec2) -> Option<(usize, f64)> {
         let (column, row) = self.bucket(at);
         let mut best: Option<(usize, f64)> = None;
@@ -86,7 +86,8 @@ impl<'a> Buckets<'a> {
         best
     }
 
-    /// Square of the least distance from `at` to points in the buckets of a ring and beyond; infinite where there are none.
+    /// Returns a lower bound of the squared distance from `at` to points in the buckets of a ring or beyond. It is
+    /// infinite if there are no such buckets.
     fn square_to_ring(&self, at: Vec2, column: i64, row: i64, ring: i64) -> f64 {
         let gap = |value: f64, index: i64, count: i64| {
             let low = value - (index - ring + 1) as f64 * self.pitch;
@@ -94,7 +95,7 @@ impl<'a> Buckets<'a> {
             let low = if index >= ring { low } else { f64::INFINITY };
             low.min(if index + ring < count { high } else { f64::INFINITY })
         };
-        // Of a query outside of the box around the buckets, no point is nearer than the box.
+        // A query outside the box around the buckets is at least as far from every point as from the box.
         let outside = |value: f64, count: i64| (-value).max(value - count as f64 * self.pitch).max(0.0);
         let at = at - self.min;
         let (x, y) = (gap(at.x, column, self.columns), gap(at.y, row, self.rows));
@@ -102,7 +103,7 @@ impl<'a> Buckets<'a> {
         (x * x + out_y * out_y).min(y * y + out_x * out_x)
     }
 
-    /// All points in the buckets at Chebyshev distance `ring` from a bucket.
+    /// Calls `found` for all points in the buckets at Chebyshev distance `ring` from a bucket.
     fn ring(&self, column: i64, row: i64, ring: i64, found: &mut impl FnMut(usize)) {
         let (first, last) = ((column - ring).max(0), (column + ring).min(self.columns - 1));
         for y in (row - ring).max(0)..=(row + ring).min(self.rows - 1) {
@@ -128,7 +129,7 @@ impl<'a> Buckets<'a> {
         }
     }
 
-    /// Calls `found` for each pair nearer than `distance`, the smaller index first, with the distance.
+    /// Calls `found` for each pair nearer than `distance`: both indices, the smaller first, and the distance.
     pub fn pairs(&self, distance: f64, mut found: impl FnMut(usize, usize, f64)) {
         let reach = (distance / self.pitch).ceil() as i64;
         for (index, point) in self.points.iter().enumerate() {
@@ -146,7 +147,7 @@ impl<'a> Buckets<'a> {
     }
 }
 
-/// Distance of each point from its nearest other point; infinite for a single point.
+/// Distances of points from their nearest other point; infinite for a single point. `pitch` is the first search radius.
 pub(crate) fn nearest_distances(points: &[Vec2], pitch: f64) -> Vec<f64> {
     let mut distances = vec![f64::INFINITY; points.len()];
     let buckets = Buckets::new(points, pitch);

@@ -1,4 +1,4 @@
-//! The colour of a drawing at a place.
+//! Finds the colour of a drawing at a place.
 
 use lightbots_base::shape::point_to_segment;
 use lightbots_base::{Rgb, Vec2};
@@ -9,7 +9,7 @@ use crate::geometry::{contains, edges};
 /// Colours of a part.
 pub(crate) struct Paint<'a> {
     part: &'a DrawingPart,
-    /// The colour, where the part has only one.
+    /// The colour, if the whole part has only one.
     single: Option<Rgb>,
 }
 
@@ -24,7 +24,8 @@ impl<'a> Paint<'a> {
         Self { part, single }
     }
 
-    /// The colour at a place: of the picture, of the last area that covers it, else of what is nearest.
+    /// Returns the colour at a place: that of the picture, else of the last area that covers the place, else of the
+    /// nearest area or line.
     pub fn at(&self, at: Vec2) -> Rgb {
         if let Some(color) = self.single {
             return color;

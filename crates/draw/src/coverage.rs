@@ -1,11 +1,11 @@
-//! The exact share of an area in each cell of a grid, as weighted samples for the relaxation.
+//! Computes the share of each cell of a grid that an area covers, as weighted samples for the relaxation.
 
 use lightbots_base::Vec2;
 
 use crate::drawing::{Area, DrawingPart, FillRule, Raster};
 use crate::geometry::bounds;
 
-/// Lines on which a cell's share is integrated. Along a line it is exact.
+/// Number of scan lines in a cell on which its covered share is measured. Along each line the share is exact.
 const LINES: usize = 4;
 
 /// A cell of the grid where something is drawn.
@@ -13,11 +13,12 @@ const LINES: usize = 4;
 pub(crate) struct Sample {
     /// Centroid of what is drawn in the cell.
     pub at: Vec2,
-    /// Area of what is drawn in the cell, times its weight.
+    /// Area of what is drawn in the cell, times the square of its weight.
     pub mass: f64,
 }
 
-/// What is drawn in a cell: its share of the cell times its weight, and the first moments about the cell's corner.
+/// What is drawn in a cell: the covered share times the square of the weight, and its first moments about the cell's
+/// lower left corner.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     share: f64,
@@ -33,8 +34,8 @@ struct Grid {
     cells: Vec<Cell>,
 }
 
-/// Samples of a part's areas, or of its picture if it has no areas, from cells of side `pitch`. Later areas cover
-/// earlier ones.
+/// Returns samples of a part's areas, or of its picture if there are no areas, from cells of side `pitch`. Later areas
+/// cover earlier ones.
 pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     if part.areas.is_empty() {
         return part.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
@@ -48,8 +49,8 @@ pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     grid.samples()
 }
 
-/// Point density grows with the square root of the mass in a centroidal tessellation (Gersho 1979), so the mass is the
-/// square of the weight that is asked for.
+/// Returns samples of a picture. Point density grows with the square root of the mass in a centroidal tessellation
+/// (Gersho 1979). The mass is therefore the square of the weight.
 fn of_raster(raster: &Raster, pitch: f64) -> Vec<Sample> {
     let size = raster.max - raster.min;
     let columns = (size.x / pitch).ceil().max(1.0) as usize;
@@ -76,7 +77,7 @@ impl Grid {
         Self { min, pitch, columns, rows, cells: vec![Cell::default(); columns * rows] }
     }
 
-    /// Draws an area over what is there.
+    /// Draws an area over the areas drawn before.
     fn cover(&mut self, area: &Area) {
         let mut shares = vec![Cell::default(); self.cells.len()];
         for (line, crossings) in self.crossings(area).iter().enumerate() {
@@ -93,7 +94,8 @@ impl Grid {
         }
     }
 
-    /// Where each line crosses the area's rings, in cells from the left, and which way the ring goes there.
+    /// Returns for each scan line where it crosses the area's rings: the distance from the left in cells, and 1 where
+    /// the ring goes up, −1 where it goes down.
     fn crossings(&self, area: &Area) -> Vec<Vec<(f64, i32)>> {
         let mut lines = vec![Vec::new(); self.rows * LINES];
         let scaled = |point: Vec2| {
@@ -117,7 +119,7 @@ impl Grid {
         lines
     }
 
-    /// Adds a piece of a line to the cells under it.
+    /// Adds a piece of a scan line to the cells under it.
     fn add(&self, shares: &mut [Cell], line: usize, from: f64, to: f64) {
         let row = line / LINES;
         let y = ((line % LINES) as f64 + 0.5) / LINES as f64;
@@ -146,7 +148,7 @@ impl Grid {
     }
 }
 
-/// Pieces of a line that lie inside.
+/// Returns the pieces of a scan line that lie inside.
 fn inside(crossings: &[(f64, i32)], rule: FillRule) -> Vec<(f64, f64)> {
     let mut sorted = crossings.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));

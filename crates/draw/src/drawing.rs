@@ -1,4 +1,4 @@
-//! What robots are to show: lines and areas with colours, before anybody knows how many robots there are.
+//! What robots are to show: lines and areas with colours, independent of the number of robots.
 
 use lightbots_base::{Rgb, Vec2};
 
@@ -19,42 +19,43 @@ pub struct Drawing {
 pub struct DrawingPart {
     /// Name for people and for pins; unique in its drawing.
     pub name: String,
-    /// The letter that the part is, for the measure of readability.
+    /// The letter that the part shows, if it is one: readability is then measured as that of a letter.
     pub letter: Option<char>,
-    /// Areas to be outlined or filled.
+    /// Areas to outline or to fill.
     pub areas: Vec<Area>,
-    /// Lines to be followed.
+    /// Lines along which robots stand.
     pub strokes: Vec<Stroke>,
-    /// Lines that stand for the areas where robots are few, such as the single strokes of a letter. Empty: there are none.
+    /// Lines that replace the areas when robots are few, such as the single strokes of a letter. Empty if there are
+    /// none.
     pub spine: Vec<Stroke>,
-    /// Colours and weights of a picture. Areas and strokes take their colours from it where it is given; without areas and
-    /// strokes robots are spread by its weights.
+    /// Colours and weights of a picture. If given, areas and strokes take their colours from it. In a part without
+    /// areas and strokes, its weights set how densely robots stand.
     pub raster: Option<Raster>,
 }
 
 /// A filled area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Area {
-    /// Closed lines, without repetition of their first point.
+    /// Closed lines; the first point is not repeated at the end.
     pub rings: Vec<Vec<Vec2>>,
-    /// What is inside where rings overlap.
+    /// Which points are inside where rings overlap.
     pub rule: FillRule,
     /// Colours of its lights.
     pub ink: Ink,
-    /// How densely it is filled, relative to the others; positive.
+    /// How densely it is filled, relative to other areas; positive.
     pub weight: f64,
 }
 
 /// A line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// Points along it, at least two, straight in between.
+    /// Points along the line, at least two, joined by straight segments.
     pub points: Vec<Vec2>,
     /// Whether its last point is joined to its first.
     pub closed: bool,
     /// Colours of its lights.
     pub ink: Ink,
-    /// How densely it is occupied, relative to the others; positive.
+    /// How densely robots stand along it, relative to other lines; positive.
     pub weight: f64,
 }
 
@@ -67,9 +68,9 @@ pub struct Raster {
     pub max: Vec2,
     /// Cells in a row.
     pub columns: usize,
-    /// Colours, `columns` for each row.
+    /// Colours of the cells, `columns` of them for each row.
     pub colors: Vec<Rgb>,
-    /// How densely robots stand in each cell: 0 is empty, 1 is densest.
+    /// How densely robots stand in each cell, in the order of `colors`: 0 is empty, 1 is densest.
     pub weights: Vec<f32>,
 }
 
@@ -79,7 +80,8 @@ impl Raster {
         self.colors.len().checked_div(self.columns).unwrap_or(0)
     }
 
-    /// Index of the cell at a place; the nearest cell outside of the picture; `None` for an empty picture.
+    /// Returns the index of the cell at a place. Outside the picture this is the nearest cell. `None` for an empty
+    /// picture.
     pub fn cell(&self, at: Vec2) -> Option<usize> {
         let rows = self.rows();
         if rows == 0 {
@@ -93,7 +95,7 @@ impl Raster {
 }
 
 impl DrawingPart {
-    /// All points of its lines and areas, and the corners of its picture.
+    /// All points of the part's lines and areas, and two opposite corners of its picture.
     pub fn points(&self) -> impl Iterator<Item = &Vec2> {
         let areas = self.areas.iter().flat_map(|area| area.rings.iter().flatten());
         let strokes = self.strokes.iter().chain(&self.spine).flat_map(|stroke| &stroke.points);
@@ -108,7 +110,8 @@ impl Drawing {
         self.parts.iter().flat_map(DrawingPart::points)
     }
 
-    /// The smallest rectangle around everything: its corners with the smaller and the larger x and y. `None`: empty.
+    /// Returns the smallest rectangle around all parts: its corners with the smaller and the larger x and y. `None` if
+    /// the drawing is empty.
     pub fn bounds(&self) -> Option<(Vec2, Vec2)> {
         bounds(self.points())
     }

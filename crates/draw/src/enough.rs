@@ -1,4 +1,4 @@
-//! The number of robots that would do.
+//! Finds the number of robots with which a drawing becomes readable.
 
 use crate::drawing::Drawing;
 use crate::fit::PictureFloor;
@@ -7,13 +7,13 @@ use crate::place::place;
 use crate::readability::READABLE;
 use crate::settings::PlaceSettings;
 
-/// Beyond this number a picture that still cannot be read is too fine for robots.
+/// Largest number of robots that is tried. A picture that cannot be read with it is too fine for robots.
 const MOST: usize = 1_000;
 
-/// The least number of robots that shows a drawing readably: first by growing steps, then one by one. `None`: not even
-/// a thousand do.
+/// Searches the least number of robots with which a drawing is readable: first in growing steps, then one by one within
+/// the last step. `None` if no step up to a thousand robots is readable.
 pub fn enough_robots(drawing: &Drawing, settings: &PlaceSettings) -> Option<usize> {
-    // A large floor: whether the robots find room is another question.
+    // A large floor, because room for the robots is not in question here.
     let floor = PictureFloor::new(1_000.0, 1_000.0, 0.0);
     let reads = |robots: usize| {
         let settings = PlaceSettings {

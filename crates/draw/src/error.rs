@@ -1,4 +1,4 @@
-//! What could not be drawn, and why.
+//! Errors and notes about sources that cannot be drawn in whole or in part.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::drawing::Drawing;
 pub struct DrawError {
     /// Stable name for programs, such as `picture-cut-off`.
     pub code: &'static str,
-    /// For people: what is wrong, where, and what to do.
+    /// Text for people: what is wrong, where, and what to do.
     pub message: String,
 }
 
@@ -18,7 +18,7 @@ pub struct DrawError {
 pub struct Note {
     /// Stable name for programs, such as `svg-image`.
     pub code: &'static str,
-    /// For people: what is missing, how often, and what to do.
+    /// Text for people: what is missing, how often, and what to do.
     pub message: String,
 }
 
@@ -27,14 +27,14 @@ pub struct Note {
 pub struct Made {
     /// The drawing.
     pub drawing: Drawing,
-    /// What is missing.
+    /// Notes about what is missing.
     pub notes: Vec<Note>,
 }
 
 impl DrawError {
-    /// An error with a code for programs and a message for people, which becomes one line.
+    /// Makes an error with a code for programs and a message for people. The message is joined into one line.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        // What libraries say may end with a line break.
+        // Messages of libraries may end with a line break.
         let message = message.into().replace("\n.", ".").lines().collect::<Vec<_>>().join(" ");
         Self { code, message }
     }

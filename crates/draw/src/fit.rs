@@ -7,10 +7,11 @@ use crate::drawing::{Drawing, DrawingPart, Stroke};
 use crate::error::DrawError;
 use crate::settings::PlaceSettings;
 
-/// Share of the floor that a picture takes where nothing else is asked for.
+/// Share of the largest size on the floor that a picture takes if no size is set.
 const SHARE: f64 = 0.8;
 
-/// A spacing beyond which lights no longer look like one picture from the edge of the floor, in least spacings.
+/// Largest spacing of lights in a picture without a set size, in least spacings. With a larger one they do not look
+/// like one picture from the edge of the floor.
 const LOOSE: f64 = 4.0;
 
 /// Where lights may stand.
@@ -31,21 +32,21 @@ pub enum NoGo {
     Disc {
         /// Centre, stage metres.
         at: Vec2,
-        /// Radius, metres: that of the area and the robot's own.
+        /// Radius, metres. It includes the distance that a robot's centre keeps from the area.
         radius_m: f64,
     },
-    /// A rectangle with sides along the axes and rounded corners.
+    /// A rectangle with sides along the axes, enlarged by a margin with rounded corners.
     Rect {
-        /// Corner with the smaller x and y, stage metres.
+        /// Corner of the area with the smaller x and y, stage metres.
         min: Vec2,
-        /// Corner with the larger x and y, stage metres.
+        /// Corner of the area with the larger x and y, stage metres.
         max: Vec2,
-        /// Distance that a robot's centre keeps, metres.
+        /// Distance that a robot's centre keeps from the area, metres.
         margin_m: f64,
     },
 }
 
-/// The map from a drawing's units to the floor.
+/// The map from a drawing's units to stage metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
     middle: Vec2,
@@ -83,7 +84,11 @@ impl NoGo {
 }
 
 impl Placement {
-    /// The size that was asked for, else one that suits floor and number of robots.
+    /// Chooses the size that was asked for, at most the largest on the floor. Without one it chooses a size that suits
+    /// the floor and the number of robots.
+    ///
+    /// # Errors
+    /// A drawing without extent, or a picture whose centre is not on the floor.
     pub fn new(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Self, DrawError> {
         let drawn = drawing.bounds().ok_or_else(|| {
             DrawError::new("nothing-to-draw", "there is nothing to draw; choose another source")
@@ -117,7 +122,7 @@ impl Placement {
         Ok(placement)
     }
 
-    /// The largest scale with which the turned box stays on the floor.
+    /// Returns the largest scale at which the box, after its turn, stays on the floor.
     fn largest(&self, floor: &PictureFloor) -> f64 {
         let (cos, sin) = (libm::cos(self.turn).abs(), libm::sin(self.turn).abs());
         let width = self.extent.x * cos + self.extent.y * sin;
@@ -132,13 +137,15 @@ impl Placement {
         self.scale * self.extent.x.max(self.extent.y)
     }
 
-    /// Whether the picture can grow by a factor.
+    /// Whether the picture can grow by a factor and stay on the floor.
     pub fn has_room(&self, factor: f64) -> bool {
         self.scale * factor * 1.002 <= self.most
     }
 
-    /// Makes the picture larger by a factor and returns the factor that the floor allows, or says which number of robots
-    /// would fit.
+    /// Makes the picture larger by about a factor, as far as the floor allows, and returns the factor that was applied.
+    ///
+    /// # Errors
+    /// The picture fills the floor already; the message says which number of robots would fit.
     pub fn enlarge(
         &mut self,
         factor: f64,
@@ -186,7 +193,8 @@ impl Placement {
     }
 }
 
-/// Says how many robots would fit, or on what floor, where the closest pair of a picture keeps this share of the spacing.
+/// Returns an error that says how many robots would fit, or on what floor. `share` is the distance of the closest pair
+/// as a share of the spacing.
 fn no_room(floor: &PictureFloor, settings: &PlaceSettings, robots: usize, share: f64) -> DrawError {
     let size = floor.max - floor.min;
     let refused = format!(

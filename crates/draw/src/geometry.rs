@@ -1,18 +1,19 @@
-//! Boxes, windings and hexagonal grids.
+//! Bounding boxes, winding numbers and hexagonal grids.
 
 use lightbots_base::Vec2;
 
-/// What is inside of rings that overlap, as in SVG.
+/// Which points are inside where rings overlap, as in SVG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FillRule {
-    /// Where the rings wind around a point at all.
+    /// Points around which the rings wind at least once in total: the winding number is not 0.
     #[default]
     NonZero,
-    /// Where a ray from the point crosses the rings an odd number of times.
+    /// Points from which a ray crosses the rings an odd number of times.
     EvenOdd,
 }
 
-/// The smallest rectangle around points: its corners with the smaller and the larger x and y. `None` without points.
+/// Returns the smallest rectangle around points: its corners with the smaller and the larger x and y. `None` if there
+/// are no points.
 pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Option<(Vec2, Vec2)> {
     points.into_iter().map(|point| (*point, *point)).reduce(|(low, high), (point, _)| {
         let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
@@ -20,7 +21,7 @@ pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Option<(Vec2, V
     })
 }
 
-/// Edges of closed rings.
+/// Edges of closed rings: pairs of neighbouring points, the last with the first.
 pub(crate) fn edges(rings: &[Vec<Vec2>]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
     rings.iter().flat_map(|ring| ring.iter().copied().zip(ring.iter().copied().cycle().skip(1)))
 }
@@ -34,7 +35,8 @@ pub(crate) fn contains(rings: &[Vec<Vec2>], rule: FillRule, point: Vec2) -> bool
     }
 }
 
-/// How an edge winds around a point: 1 where it passes upwards to the right of it, −1 downwards, else 0.
+/// Returns an edge's contribution to the winding number of a point. It is 1 if the edge passes upwards on the right of
+/// the point, −1 if it passes downwards there, else 0.
 fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
     let left = (b - a).cross(point - a);
     match (a.y <= point.y, b.y <= point.y) {
@@ -44,7 +46,7 @@ fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
     }
 }
 
-/// Distance between neighbours of a hexagonal grid of `count` places in an area: the ideal of an even filling.
+/// Distance between neighbours of a hexagonal grid of `count` places in an area, the most even way of filling it.
 pub(crate) fn hexagonal_spacing(area: f64, count: usize) -> f64 {
     (2.0 * area / (3.0_f64.sqrt() * count.max(1) as f64)).sqrt()
 }

@@ -1,4 +1,4 @@
-//! A part made ready for places: samples of its areas, its lines, its mirror axis.
+//! Prepares a part for placing: samples of its areas, its lines, its mirror axis.
 
 use lightbots_base::Vec2;
 
@@ -11,7 +11,7 @@ use crate::lines::{LineSet, Polyline};
 use crate::symmetry::Mirror;
 use crate::unique::unique;
 
-/// Most samples of an area: a second of work for ten thousand places.
+/// Largest number of samples of a part. Ten thousand places on them take about a second.
 const MOST_SAMPLES: f64 = 1_000_000.0;
 
 /// How much work goes into places.
@@ -25,7 +25,7 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// Samples for each place. A cell of fewer than 30 samples has a coarse centroid (measured).
+    /// Number of samples for each place. With fewer than 30 the centroid of a cell is coarse (measured).
     fn samples(self, count: usize) -> f64 {
         match self {
             Self::Quick => 30.0,
@@ -34,7 +34,7 @@ impl Quality {
         }
     }
 
-    /// Least samples of an area: with fewer, small parts of a letter are coarse.
+    /// Least number of samples of a part. With fewer, small details of a letter are coarse.
     fn least(self) -> f64 {
         match self {
             Self::Quick => 1_200.0,
@@ -42,7 +42,7 @@ impl Quality {
         }
     }
 
-    /// Rounds of relaxation.
+    /// Number of rounds of relaxation.
     pub(crate) fn rounds(self) -> usize {
         match self {
             Self::Quick => 12,
@@ -51,11 +51,11 @@ impl Quality {
     }
 }
 
-/// A part with all that places depend on.
+/// A part with all data that its places depend on.
 pub(crate) struct Ground {
     /// Samples of the areas or of the picture.
     pub samples: Vec<Sample>,
-    /// The samples' places.
+    /// Places of the samples.
     pub inside: Vec<Vec2>,
     /// Distance between samples.
     pub pitch: f64,
@@ -63,7 +63,7 @@ pub(crate) struct Ground {
     pub mass: f64,
     /// Outlines of the areas.
     pub outline: LineSet,
-    /// Strokes, or the lines that stand for the areas.
+    /// Strokes of the part, or the lines that replace its areas, each stretch only once.
     pub lines: LineSet,
     /// Larger side of the box around the part.
     pub size: f64,
@@ -72,7 +72,7 @@ pub(crate) struct Ground {
 }
 
 impl Ground {
-    /// A part for `count` places, without what lies where `allowed` is false.
+    /// Prepares a part for `count` places. Points for which `allowed` is false are left out.
     pub fn new(part: &DrawingPart, count: usize, quality: Quality, allowed: &dyn Fn(Vec2) -> bool) -> Self {
         let (low, high) = bounds(part.points()).unwrap_or_default();
         let size = (high.x - low.x).max(high.y - low.y);
@@ -103,7 +103,7 @@ impl Ground {
         Buckets::new(&self.inside, 2.0 * self.pitch)
     }
 
-    /// Where places of this part may go; `inside` and `on_track` are the buckets of its samples and of the track.
+    /// Returns where places of this part may go. `inside` are the buckets of its samples, `on_track` those of `track`.
     pub fn room<'a>(
         &'a self,
         inside: &'a Buckets<'a>,
@@ -122,13 +122,14 @@ impl Ground {
         Mirror::of(&points, step)
     }
 
-    /// Ideal distance of `count` places that fill the areas.
+    /// Ideal distance between `count` places that fill the areas.
     pub fn spacing(&self, count: usize) -> f64 {
         hexagonal_spacing(self.mass, count)
     }
 }
 
-/// Distance between samples: from the area's size, measured coarsely first.
+/// Returns the distance between samples that gives the wanted number of them. The area is measured with coarse samples
+/// first.
 fn pitch(part: &DrawingPart, count: usize, quality: Quality, size: f64) -> f64 {
     let coarse = (size / 100.0).max(1e-9);
     let area = samples(part, coarse).len() as f64 * coarse * coarse;
@@ -145,7 +146,7 @@ fn rings(area: &crate::drawing::Area) -> impl Iterator<Item = Stroke> + '_ {
     })
 }
 
-/// The parts of strokes that are allowed.
+/// Returns the pieces of strokes at whose points `allowed` is true.
 fn clipped(strokes: &[Stroke], step: f64, allowed: &dyn Fn(Vec2) -> bool) -> Vec<Stroke> {
     let mut parts = Vec::new();
     for stroke in strokes {

@@ -1,13 +1,13 @@
-//! Colours of areas and lines: one, or a gradient.
+//! Colours of areas and lines: a single colour or a gradient.
 
 use lightbots_base::{Rgb, Vec2};
 
 /// What an area or a line is painted with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ink {
-    /// The colour; of a gradient its mean.
+    /// The colour. If there is a gradient, the mean of its colours.
     pub color: Rgb,
-    /// How the colour changes over the drawing; `None`: it does not.
+    /// How the colour changes over the drawing. `None` for a single colour.
     pub gradient: Option<Gradient>,
 }
 
@@ -23,7 +23,7 @@ impl Ink {
         self.gradient.as_ref().map_or(self.color, |gradient| gradient.at(place))
     }
 
-    /// The ink of a drawing whose places were moved by an affine map.
+    /// Returns the ink for a drawing whose points are moved by an affine map.
     pub fn mapped(&self, map: impl Fn(Vec2) -> Vec2) -> Self {
         let gradient = self
             .gradient
@@ -36,45 +36,45 @@ impl Ink {
 /// Colours along a line or around a point, as SVG 2 defines them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// Where the points (0, 0), (1, 0) and (0, 1) of the gradient's own coordinates are in the drawing.
+    /// Positions in the drawing of the points (0, 0), (1, 0) and (0, 1) of the gradient's own coordinates.
     pub frame: [Vec2; 3],
     /// Its shape in its own coordinates.
     pub shape: GradientShape,
-    /// What is beyond its ends.
+    /// Colours beyond offsets 0 and 1.
     pub spread: GradientSpread,
-    /// Offsets from 0 to 1 that do not fall, and colours; at least one.
+    /// Colour stops: offsets from 0 to 1 in ascending order, each with a colour; at least one.
     pub stops: Vec<(f64, Rgb)>,
 }
 
 /// The shape of a gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GradientShape {
-    /// Along a line: its offsets 0 and 1.
+    /// Along a line from offset 0 to offset 1.
     Linear {
         /// Where offset 0 is.
         from: Vec2,
         /// Where offset 1 is.
         to: Vec2,
     },
-    /// From a focus, offset 0, to a circle around another point, offset 1.
+    /// From a focus, which has offset 0, to a circle, which has offset 1.
     Radial {
         /// Middle of the circle of offset 1.
         center: Vec2,
         /// Its radius.
         radius: f64,
-        /// Where offset 0 is.
+        /// The focus, where offset 0 is.
         focus: Vec2,
     },
 }
 
-/// How a gradient goes on beyond its ends.
+/// How a gradient continues beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GradientSpread {
-    /// With its last colour.
+    /// The colour of the nearer end.
     Pad,
-    /// Back and forth.
+    /// The gradient backwards, then forwards, and on like this.
     Reflect,
-    /// From the start again.
+    /// The gradient again from its start.
     Repeat,
 }
 
@@ -93,7 +93,7 @@ impl Gradient {
         self.color(if offset.is_nan() { 0.0 } else { offset })
     }
 
-    /// A place in the gradient's own coordinates; `None`: its frame has no extent.
+    /// Returns a place in the gradient's own coordinates. `None` if the gradient's frame has no area.
     fn own(&self, place: Vec2) -> Option<Vec2> {
         let [origin, x, y] = self.frame;
         let (x, y, at) = (x - origin, y - origin, place - origin);
@@ -121,7 +121,8 @@ impl GradientShape {
                 (at - from).dot(along) / along.length_squared()
             }
             Self::Radial { center, radius, focus } => {
-                // The circle of the offset goes through the place: |at - focus - offset (center - focus)| = offset radius.
+                // Solves |at - focus - offset (center - focus)| = offset radius: the circle of this offset passes
+                // through `at`.
                 let (shift, off) = (center - focus, at - focus);
                 let a = shift.length_squared() - radius * radius;
                 let b = off.dot(shift);

@@ -1,4 +1,4 @@
-//! Places for one part in one style.
+//! Finds places for one part of a drawing in one style.
 
 use lightbots_base::Vec2;
 
@@ -13,68 +13,74 @@ use crate::relax::{Lloyd, energy};
 use crate::seeds::seeds;
 use crate::symmetry::{Mirror, Pairing, symmetric_share};
 
-/// How areas are shown.
+/// How robots show areas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// Chosen for each part by its size and number of robots.
+    /// [`Style::Both`], [`Style::Lines`] or [`Style::Filled`], the same for all parts. The choice depends on their size
+    /// and the number of robots.
     #[default]
     Auto,
     /// Evenly filled.
     Filled,
-    /// Along the edge of areas.
+    /// Along the edges of areas.
     Outline,
     /// Along the edge, and evenly filled inside.
     Both,
-    /// Along the strokes, or along the middle of letters.
+    /// Along strokes. For areas, along the lines that replace them, such as the middle lines of a letter.
     Lines,
 }
 
-/// Nearest distance that is aimed at, in ideal spacings. More would leave too little room to move.
+/// Nearest distance to which places are pushed apart, in ideal spacings. A larger one would leave too little room to
+/// move.
 const APART: f64 = 0.88;
 
-/// A symmetric arrangement may be this much less even than the best other one.
+/// Energy of a symmetric arrangement, as a multiple of that of the asymmetric one, up to which the symmetric one is
+/// preferred.
 const SYMMETRY_WORTH: f64 = 1.25;
 
-/// Mean squared distance from the middle of a hexagon of area 1: 5 / (18 √3), the least of all cells that fill a plane.
+/// Mean squared distance from the middle of a hexagon of area 1, which is 5 / (18 √3): the least of all cells that fill
+/// a plane.
 const HEXAGON: f64 = 0.160_375;
 
-/// Cells that are at most this much worse than hexagons are even: the drawing's edges alone cost that.
+/// Multiple of the hexagons' energy up to which an arrangement is even enough. The drawing's edges alone cost that.
 const EVEN: f64 = 1.2;
 
-/// Nearest distance of places on an outline, in spacings. Nearer ones on both sides of a tip go inside.
+/// Least distance between places on an outline, in spacings. At a tip, a place nearer than this to another moves into
+/// the area.
 const EDGE_APART: f64 = 0.82;
 
-/// Nearest distance of places along lines, in spacings. Beside the tip of a star of five they are 0.66 apart and are pushed
-/// apart later.
+/// Least distance between places along lines, in spacings. Beside the tip of a five-pointed star they are 0.66 apart
+/// and are pushed apart later.
 const LINE_APART: f64 = 0.6;
 
-/// Up to this number of places all symmetric arrangements are tried.
+/// Number of places up to which several numbers of places on the axis are tried, and always an asymmetric arrangement.
 const FEW: usize = 60;
 
-/// Places of one part, and what holds each.
+/// Places of one part, and how each may move.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layout {
     pub places: Vec<Vec2>,
     pub holds: Vec<Freedom>,
-    /// Whether places that slide do so along the outline, else along the lines.
+    /// Whether places that slide do so along the outline. If not, they slide along the lines.
     pub is_on_outline: bool,
 }
 
-/// One part that is to get places.
+/// One part that needs places.
 pub(crate) struct LayoutTask<'a> {
     pub ground: &'a Ground,
-    /// Places that stay and count first.
+    /// Places that stay where they are. They come first in every list.
     pub kept: &'a [Vec2],
-    /// All places, with the kept ones.
+    /// Number of all places, with the kept ones.
     pub count: usize,
-    /// Places to begin with instead of new ones, such as those of the picture before; with the kept ones first.
+    /// Places to begin with instead of new ones, such as those of the previous picture, with the kept ones first.
+    /// Ignored unless their number fits.
     pub start: &'a [Vec2],
     pub quality: Quality,
     pub seed: u64,
 }
 
 impl LayoutTask<'_> {
-    /// Places in a style. Exactly `count`, unless the part is empty.
+    /// Returns places in a style: exactly `count`, unless the part is empty.
     pub fn layout(&self, style: Style) -> Layout {
         let ground = self.ground;
         let (has_areas, has_lines) = (!ground.samples.is_empty(), !ground.lines.lines.is_empty());
@@ -100,8 +106,8 @@ impl LayoutTask<'_> {
         layout
     }
 
-    /// `count` places along lines, none much nearer to another than the spacing: where lines meet at a small angle, some of
-    /// the places find room elsewhere.
+    /// Returns `count` places along lines, none much nearer to another than the spacing. Where lines meet at a small
+    /// angle, some places are left out and others are added elsewhere.
     fn spread(&self, track: &LineSet, count: usize, spacing: f64) -> Vec<LinePlace> {
         let all = |count: usize| occupy(track, count, self.ground.size, self.ground.mirror);
         for more in 0..=count / 4 {
@@ -116,7 +122,7 @@ impl LayoutTask<'_> {
         all(count)
     }
 
-    /// Outline and filling at one spacing.
+    /// Places robots on the outline and inside, with the same spacing on both.
     fn both(&self) -> Layout {
         let ground = self.ground;
         let spacing = balanced_spacing(ground.outline.length(), ground.mass, self.count);
@@ -134,7 +140,8 @@ impl LayoutTask<'_> {
         layout
     }
 
-    /// Places on the outline: as many as the spacing asks for, or a few more or less where these are more symmetric.
+    /// Returns places on the outline, about as many as the spacing calls for. The number changes by up to two if that
+    /// is more symmetric.
     fn edge(&self, spacing: f64) -> Vec<LinePlace> {
         let ground = self.ground;
         let usual = (ground.outline.length() / spacing).round() as usize;
@@ -177,7 +184,8 @@ impl LayoutTask<'_> {
         push_apart(&mut layout.places, &layout.holds, distance, &room);
     }
 
-    /// The fixed places and `count` more in the areas, relaxed; symmetric where the areas are.
+    /// Returns the fixed places and `count` more in the areas, after relaxation. They are symmetric if the areas are,
+    /// unless this makes them less even by more than [`SYMMETRY_WORTH`].
     fn relaxed(&self, fixed: &[Vec2], count: usize, spacing: f64) -> (Vec<Vec2>, Option<Pairing>) {
         if count == 0 || self.ground.samples.is_empty() {
             return (fixed.to_vec(), None);
@@ -203,7 +211,7 @@ impl LayoutTask<'_> {
         if value(&places) <= SYMMETRY_WORTH * value(&free) { (places, Some(pairing)) } else { (free, None) }
     }
 
-    /// The places to begin with, moved onto the drawing as a whole: what they show may have moved since.
+    /// Returns the places to begin with, moved together onto the drawing, which may have moved since.
     fn aligned_start(&self) -> Vec<Vec2> {
         let middle = |points: &[Vec2]| bounds(points).map_or(Vec2::ZERO, |(low, high)| low.lerp(high, 0.5));
         let shift = middle(&self.ground.inside) - middle(self.start);
@@ -221,7 +229,7 @@ impl LayoutTask<'_> {
         places
     }
 
-    /// `single` places on the axis and the others in pairs.
+    /// Places `single` lights on the axis and the others in pairs.
     fn symmetric(
         &self,
         fixed: &[Vec2],
@@ -246,8 +254,8 @@ impl LayoutTask<'_> {
     }
 }
 
-/// Moves places of different parts apart that are nearer to each other than any two of one part, as where a line leads
-/// behind an area.
+/// Pushes places of different parts apart until none are nearer than the closest pair within a part. Such pairs occur
+/// where a line leads behind an area.
 pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     let distance =
         layouts.iter().map(|layout| closest_distance(&layout.places)).fold(f64::INFINITY, f64::min);
@@ -275,7 +283,8 @@ pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     }
 }
 
-/// Places on lines without those that slide and stand too near to another, as on both sides of a sharp tip.
+/// Returns places on lines without those that may slide and are nearer to another than `distance`. Such places occur on
+/// both sides of a sharp tip.
 fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
     let at: Vec<Vec2> = places.iter().map(|(at, _)| *at).collect();
     let mut stays = vec![true; places.len()];
@@ -288,7 +297,8 @@ fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
     places.into_iter().zip(stays).filter(|(_, stays)| *stays).map(|(place, _)| place).collect()
 }
 
-/// Numbers of places on the axis that are worth trying.
+/// Numbers of places on the axis that are worth a try: near the density of the drawing there, and even or odd as
+/// `count` is.
 fn singles(samples: &[Sample], mirror: Mirror, count: usize, spacing: f64) -> Vec<usize> {
     let near: f64 =
         samples.iter().filter(|s| mirror.side(s.at).abs() < spacing / 2.0).map(|s| s.mass).sum::<f64>();
@@ -303,7 +313,7 @@ fn singles(samples: &[Sample], mirror: Mirror, count: usize, spacing: f64) -> Ve
     options
 }
 
-/// `count` places on the axis, as dense as what is drawn there.
+/// Returns `count` places on the axis, as dense as the drawing is there.
 fn on_axis(samples: &[Sample], mirror: Mirror, count: usize, pitch: f64) -> Vec<Vec2> {
     let mut near: Vec<Vec2> =
         samples.iter().map(|s| s.at).filter(|at| mirror.side(*at).abs() < 1.5 * pitch).collect();

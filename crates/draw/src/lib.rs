@@ -1,9 +1,9 @@
-//! Words, drawings and pictures become places and colours for any number of robots.
+//! Turns words, drawings and pictures into places and colours for any number of robots.
 //!
-//! The crate does no IO: bytes and numbers in, places and colours out, with the same bits for the same input and seed.
-//! In reading order: [`text`], [`svg`], [`picture`], [`animation`], [`list`] and [`draw_shape`] make a [`Drawing`] of
-//! parts with areas, lines and colours. [`place`] puts lights on it, [`enough_robots`] says how many would do, and
-//! [`refit`] changes their number.
+//! The crate does no IO: bytes and numbers in, places and colours out. The same input and seed give the same bits.
+//! In reading order: [`text`], [`svg`], [`picture`], [`animation`], [`list`] and [`draw_shape`] read or make a source.
+//! All but [`list`] make a [`Drawing`] of parts with areas, lines and colours. [`place`] puts lights on a drawing,
+//! [`enough_robots`] says how many robots make it readable, and [`refit`] changes the number of lights of a picture.
 
 mod allot;
 pub mod animation;

@@ -1,11 +1,11 @@
-//! Lights and drawings as blurred grey pictures that can be compared.
+//! Draws lights and drawings as blurred grey pictures that can be compared.
 
 use lightbots_base::Vec2;
 
-/// Distance of the picture's cells, in sigmas of the blur. At one sigma a Gaussian is sampled without visible steps.
+/// Side of a cell, in sigmas of the blur. A Gaussian sampled at every sigma shows no visible steps.
 const CELL: f64 = 0.6;
 
-/// How far a Gaussian reaches, in sigmas.
+/// Distance at which a Gaussian is cut off, in sigmas.
 const REACH: f64 = 3.5;
 
 /// A grey picture.
@@ -18,7 +18,8 @@ pub(crate) struct LightImage {
 }
 
 impl LightImage {
-    /// Points of light of different strength, each a Gaussian of `sigma`, seen in a box with a margin around it.
+    /// Draws points of light of given strength, each as a Gaussian of width `sigma`, in the box `low` to `high` with a
+    /// margin around it.
     pub fn new(points: impl Iterator<Item = (Vec2, f64)>, low: Vec2, high: Vec2, sigma: f64) -> Self {
         let pitch = CELL * sigma;
         let margin = Vec2::new(REACH, REACH) * sigma;
@@ -32,7 +33,7 @@ impl LightImage {
         image
     }
 
-    /// Shares the strength of a point between the four cells around it, so that its place is kept.
+    /// Distributes the strength of a point over the four cells around it, which keeps its centroid.
     fn splat(&mut self, at: Vec2, strength: f64) {
         let cell = (at - self.min) * (1.0 / self.pitch);
         let (x, y) = (cell.x.floor(), cell.y.floor());
@@ -59,7 +60,7 @@ impl LightImage {
         self.values = convolved(&self.values, rows, self.columns, self.columns, 1, &kernel);
     }
 
-    /// Normalised cross-correlation with a picture of the same box: 1 where both are alike up to brightness.
+    /// Normalised cross-correlation with a picture of the same box. It is 1 if both are equal up to brightness.
     pub fn correlation(&self, other: &Self) -> f64 {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let scale = (dot(&self.values, &self.values) * dot(&other.values, &other.values)).sqrt();
@@ -67,7 +68,8 @@ impl LightImage {
     }
 }
 
-/// Each line of `length` values that lie `step` apart, folded with a kernel; lines begin `stride` apart.
+/// Convolves lines of values with a kernel. A line has `length` values that are `step` apart in the list; lines begin
+/// `stride` apart.
 fn convolved(
     values: &[f64],
     length: usize,
@@ -102,7 +104,7 @@ mod tests {
         };
         assert!((image(0.2).correlation(&image(0.2)) - 1.0).abs() < 1e-12);
         assert!(image(0.2).correlation(&image(2.0)) < 1e-6);
-        // Two Gaussians at a distance d overlap by exp(−d²/4σ²). Sharing between cells widens them by 3 %.
+        // Two Gaussians at a distance d overlap by exp(−d²/4σ²). Distribution over cells widens them by 3 %.
         let expected = libm::exp(-0.25);
         assert!((image(0.5).correlation(&image(0.57)) - expected).abs() < 0.02);
     }

@@ -5,33 +5,33 @@ use lightbots_base::Vec2;
 use crate::buckets::Buckets;
 use crate::drawing::Stroke;
 
-/// A line cut into short straight pieces.
+/// A line cut into short straight segments.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Polyline {
     /// Points along it. A closed line repeats its first point at the end.
     pub points: Vec<Vec2>,
     /// Length along the line up to each point.
     pub arcs: Vec<f64>,
-    /// Whether its end is its beginning.
+    /// Whether the line ends where it begins.
     pub closed: bool,
-    /// How densely it is occupied.
+    /// How densely lights stand along it, relative to other lines.
     pub weight: f64,
 }
 
 /// Lines along which places slide.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LineSet {
-    /// The lines, with pieces of at most the pitch.
+    /// The lines, with segments of at most `pitch`.
     pub lines: Vec<Polyline>,
     /// All points of all lines.
     points: Vec<Vec2>,
-    /// Line and number within the line of each point.
+    /// For each point, the index of its line and its index within that line.
     owners: Vec<(usize, usize)>,
     pitch: f64,
 }
 
 impl Polyline {
-    /// A stroke in pieces of at most `pitch`. `None` for one without length.
+    /// Cuts a stroke into segments of at most `pitch`. `None` if the stroke has no length.
     pub fn new(stroke: &Stroke, pitch: f64) -> Option<Self> {
         let mut ends = stroke.points.clone();
         ends.dedup_by(|a, b| a.distance(*b) < 1e-9);
@@ -52,18 +52,19 @@ impl Polyline {
         (length > 1e-9).then_some(Self { points, arcs, closed: stroke.closed, weight: stroke.weight })
     }
 
-    /// Length along the line.
+    /// Total length of the line.
     pub fn length(&self) -> f64 {
         self.arcs.last().copied().unwrap_or(0.0)
     }
 
-    /// Distance along the line of two lengths along it, the shorter way round on a closed line.
+    /// Returns the distance along the line between two positions, which are lengths from its start. On a closed line it
+    /// is the shorter way round.
     pub fn apart(&self, a: f64, b: f64) -> f64 {
         let direct = (a - b).abs();
         if self.closed { direct.min(self.length() - direct) } else { direct }
     }
 
-    /// The place at a length along the line: its end beyond it, going round on a closed line.
+    /// Returns the place at a length along the line. Beyond an end it is that end; on a closed line it goes round.
     pub fn at(&self, arc: f64) -> Vec2 {
         let arc = if self.closed { arc.rem_euclid(self.length()) } else { arc.clamp(0.0, self.length()) };
         let next = self.arcs.partition_point(|end| *end < arc).clamp(1, self.points.len() - 1);
@@ -72,8 +73,8 @@ impl Polyline {
         self.points[next - 1].lerp(self.points[next], share)
     }
 
-    /// Change of direction at a length along the line, radians, measured over `window` before and after it. Open lines have
-    /// none near their ends.
+    /// Change of direction at a length along the line, radians, measured over `window` before and after it. It is 0
+    /// within `window` of the ends of an open line.
     pub fn turn(&self, arc: f64, window: f64) -> f64 {
         if !self.closed && (arc < window || arc > self.length() - window) {
             return 0.0;
@@ -85,7 +86,7 @@ impl Polyline {
 }
 
 impl LineSet {
-    /// Strokes in pieces of at most `pitch`.
+    /// Cuts strokes into segments of at most `pitch`.
     pub fn new(strokes: &[Stroke], pitch: f64) -> Self {
         let lines: Vec<Polyline> = strokes.iter().filter_map(|stroke| Polyline::new(stroke, pitch)).collect();
         let (mut points, mut owners) = (Vec::new(), Vec::new());
@@ -111,13 +112,13 @@ impl LineSet {
         &self.points
     }
 
-    /// Line and length along it of a point of [`LineSet::points`].
+    /// Returns the line of a point of [`LineSet::points`], and the length along that line.
     pub fn arc_of(&self, point: usize) -> (usize, f64) {
         let (line, number) = self.owners[point];
         (line, self.lines[line].arcs[number])
     }
 
-    /// The nearest place on one of the two pieces at the nearest point; `at` itself without lines.
+    /// Returns the nearest place on the two segments at the nearest point. Without lines it returns `at`.
     pub fn project(&self, at: Vec2, buckets: &Buckets<'_>) -> Vec2 {
         let Some((nearest, _)) = buckets.nearest(at) else { return at };
         let (line, number) = self.owners[nearest];

@@ -1,4 +1,4 @@
-//! Lists of lights: a place and a colour on each line, as spreadsheets write them.
+//! Reads lists of lights: one place and colour per line, as spreadsheets write them.
 
 use std::str::FromStr;
 
@@ -7,7 +7,7 @@ use lightbots_base::{Rgb, Vec2};
 use crate::error::DrawError;
 use crate::settings::MAX_ROBOTS;
 
-/// Lights at exact places, in units of the list.
+/// Lights at exact places. The list sets the unit of length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightList {
     /// Place and colour of each light, in the order of the list.
@@ -20,12 +20,16 @@ const BYTES_MAX: usize = 4_000_000;
 const COORDINATE_MAX: f64 = 1e6;
 /// Colour of lights without one.
 const WHITE: Rgb = Rgb::new(255, 255, 255);
-/// What a line should look like, for messages.
+/// Example of a correct line, for messages.
 const EXAMPLE: &str = "Write a line for each light, such as 1.5, 2.0, #ff8800.";
 
-/// The lights in a list `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red, green and blue from 0
-/// to 255; without a colour lights are white. Columns are parted by semicolons, tabs, commas or spaces; with semicolons and
-/// tabs numbers may have decimal commas. A first line with names may put the columns in another order.
+/// Reads the lights of a list `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red, green and blue
+/// from 0 to 255. Lights without a colour are white. Columns are separated by semicolons, tabs, commas or spaces. With
+/// semicolons or tabs, numbers may have decimal commas. A first line with the names of the columns may change their
+/// order.
+///
+/// # Errors
+/// A list that is empty, too long or not UTF-8, or the first line that is wrong.
 pub fn read(bytes: &[u8]) -> Result<LightList, DrawError> {
     if bytes.len() > BYTES_MAX {
         return Err(too_long());
@@ -80,18 +84,18 @@ fn too_long() -> DrawError {
     DrawError::new("list-too-long", message)
 }
 
-/// Lines that are neither empty nor comments, with their numbers.
+/// Lines that are neither empty nor comments, with their line numbers from 1. Comments begin with `#`.
 fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).enumerate();
     lines.map(|(n, line)| (n + 1, line)).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// What parts the columns of a line.
+/// Returns the character that separates the columns of a line.
 fn separator(line: &str) -> char {
     [';', '\t', ','].into_iter().find(|separator| line.contains(*separator)).unwrap_or(' ')
 }
 
-/// The columns of a line. Quotation marks keep separators inside of a column.
+/// Splits a line into columns. Separators within quotation marks do not split.
 fn fields(line: &str, separator: char) -> Vec<String> {
     let mut fields = vec![String::new()];
     let mut quoted = false;
@@ -108,7 +112,7 @@ fn fields(line: &str, separator: char) -> Vec<String> {
     fields.filter(|field| separator != ' ' || !field.is_empty()).collect()
 }
 
-/// Numbers of the columns.
+/// Indices of the columns.
 #[derive(Clone, Copy)]
 struct Columns {
     x: usize,
@@ -123,7 +127,7 @@ impl Default for Columns {
 }
 
 impl Columns {
-    /// The columns in a line of names; `None`: its first column is a number.
+    /// Finds the columns in a line of names. `None` if it has no columns named x and y.
     fn named(names: &[String]) -> Option<Self> {
         let find = |wanted: &[&str]| {
             names.iter().position(|name| {
@@ -137,7 +141,7 @@ impl Columns {
     }
 }
 
-/// The light on a line, or what is wrong with it.
+/// Reads the light on a line. The error says what is wrong.
 fn light(fields: &[String], columns: Columns, separator: char) -> Result<(Vec2, Rgb), String> {
     let number = |name: &str, column: usize| {
         let field = fields.get(column).map_or("", String::as_str);
@@ -156,7 +160,7 @@ fn light(fields: &[String], columns: Columns, separator: char) -> Result<(Vec2, 
     Ok((at, color(fields.get(columns.color..).unwrap_or(&[]))?))
 }
 
-/// The colour at the start of some columns.
+/// Reads the colour at the start of the remaining columns; white if there is none.
 fn color(fields: &[String]) -> Result<Rgb, String> {
     let Some(first) = fields.first().filter(|first| !first.is_empty()) else { return Ok(WHITE) };
     let wrong = |text: &str| format!("the colour \"{}\" is unknown.", shortened(text));

@@ -1,4 +1,4 @@
-//! How well places cover a drawing, in numbers that can be compared between methods.
+//! Measures how well places cover a drawing, in numbers that can be compared between methods.
 
 use lightbots_base::Vec2;
 
@@ -7,25 +7,25 @@ use crate::drawing::DrawingPart;
 use crate::ground::{Ground, Quality};
 use crate::pins::{self, CORNER_RAD};
 
-/// Figures of places on a part. Distances are in ideal spacings: those of a hexagonal grid of as many places in the same
-/// area, or the length of the lines for each place.
+/// Figures of places on a part. Distances are in ideal spacings. For areas, that is the spacing of a hexagonal grid
+/// with this number of places; for lines, their length divided by the number of places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// Standard deviation of the distances to the nearest neighbour over their mean.
+    /// Standard deviation of the distances to the nearest neighbour, divided by their mean.
     pub variation: f64,
     /// Distance of the closest pair. It sets the size of the picture on the floor.
     pub closest: f64,
-    /// Distance of the drawing's farthest point from its nearest place.
+    /// Largest distance of a point of the drawing from its nearest place.
     pub farthest_point: f64,
-    /// Distance of the farthest place from the drawing.
+    /// Largest distance of a place from the drawing.
     pub farthest_place: f64,
     /// Share of the drawing within half a spacing of a place.
     pub covered: f64,
-    /// Share of the corners (turns over 35°) with a place within a quarter of a spacing; 1 without corners.
+    /// Share of the corners (turns over 35°) with a place within a quarter of a spacing; 1 if there are no corners.
     pub corners: f64,
 }
 
-/// Figures of places on a part; `None` without places or drawing.
+/// Returns the figures of places on a part. `None` if there are no places or nothing is drawn.
 pub fn figures(part: &DrawingPart, places: &[Vec2]) -> Option<Figures> {
     let ground = Ground::new(part, places.len(), Quality::Full, &|_| true);
     let (drawn, spacing): (Vec<(Vec2, f64)>, f64) = if ground.samples.is_empty() {

@@ -1,4 +1,4 @@
-//! Places along lines: ends, crossings and corners first, then evenly in between.
+//! Places lights along lines: first at ends, crossings and corners, then evenly in between.
 
 use std::collections::BTreeMap;
 
@@ -9,33 +9,35 @@ use crate::lines::{LineSet, Polyline};
 use crate::pins::{self, Pin};
 use crate::symmetry::Mirror;
 
-/// A pin nearer than this share of the spacing to a better one is dropped: both would be one blob of light.
+/// A pin nearer than this share of the spacing to one of higher rank is dropped, because both would look like one
+/// light.
 const PIN_GAP: f64 = 0.6;
 
-/// A light of one line within this share of the spacing of another line is a light of both.
+/// A light this near to another line, as a share of the spacing, counts as a light of both lines.
 const BESIDE: f64 = 0.45;
 
-/// Pins nearer than this share of the spacing are one light for several lines.
+/// Pins nearer to each other than this share of the spacing are one light that several lines share.
 const SAME: f64 = 0.08;
 
-/// A piece of a line between pins or free ends.
+/// A piece of a line between pins or ends of the line.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     line: usize,
     from: f64,
     length: f64,
-    /// Number of its ends that have a light already: 0 to 2. A closed line without pins has 0.
+    /// Whether its start and its end have a light already.
     pinned: [bool; 2],
-    /// A whole closed line.
+    /// Whether it is a whole closed line without pins.
     round: bool,
-    /// Lights between its ends.
+    /// Number of lights between its ends.
     lights: usize,
 }
 
-/// A place on a line, and whether it may slide.
+/// A place on a line, and how it may move.
 pub(crate) type LinePlace = (Vec2, Freedom);
 
-/// `count` places along the lines of a drawing of this height; symmetric where the lines are symmetric about the axis.
+/// Returns `count` places along the lines of a drawing of this height. They are symmetric if the lines are symmetric
+/// about the axis `mirror`.
 pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<Mirror>) -> Vec<LinePlace> {
     if count == 0 || track.lines.is_empty() {
         return Vec::new();
@@ -52,7 +54,8 @@ pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<
     places
 }
 
-/// Places of lights at pins, at most `count`, and where each line is cut by one.
+/// Returns the places of lights at pins, at most `count`, and the lengths along each line at which such a light cuts
+/// it.
 fn nodes(
     track: &LineSet,
     pins: &[Pin],
@@ -79,7 +82,7 @@ fn nodes(
     (nodes, cuts)
 }
 
-/// Cuts lines where a light of another line stands on them or beside them: it is a light of theirs too.
+/// Cuts lines where a light of another line is on them or beside them, because such a light counts for them too.
 fn cut_by_others(track: &LineSet, nodes: &[Vec2], spacing: f64, cuts: &mut BTreeMap<usize, Vec<f64>>) {
     for node in nodes {
         for (line, polyline) in track.lines.iter().enumerate() {
@@ -134,7 +137,8 @@ fn edges(track: &LineSet, cuts: &BTreeMap<usize, Vec<f64>>, mirror: Option<Mirro
     edges
 }
 
-/// Where lights on a closed line begin: on the mirror axis, so that they come out symmetric; else at the top.
+/// Returns where lights on a closed line begin, as a length along it: at its top, or with a mirror axis near that axis,
+/// which keeps the lights symmetric.
 fn beginning(line: &Polyline, mirror: Option<Mirror>) -> f64 {
     let high = |at: Vec2| match mirror {
         Some(Mirror::UpDown(_)) => at.x,
@@ -148,7 +152,7 @@ fn beginning(line: &Polyline, mirror: Option<Mirror>) -> f64 {
     best.map_or(0.0, |index| line.arcs[index])
 }
 
-/// Groups of edges that are mirror images of each other: pairs, and single ones.
+/// Groups edges that are mirror images of each other into pairs; every other edge is a group of its own.
 fn orbits(track: &LineSet, edges: &[Edge], mirror: Option<Mirror>, spacing: f64) -> Vec<Vec<usize>> {
     let middle = |edge: &Edge| track.lines[edge.line].at(edge.from + edge.length / 2.0);
     let mut orbits = Vec::new();
@@ -178,19 +182,20 @@ fn orbits(track: &LineSet, edges: &[Edge], mirror: Option<Mirror>, spacing: f64)
     orbits
 }
 
-/// Gives the lights that are left to the edges with the widest gaps, to both edges of a pair at once.
+/// Adds `count` lights one group at a time, to the edges with the widest gaps. Both edges of a pair get one each.
 fn fill(track: &LineSet, edges: &mut [Edge], orbits: &[Vec<usize>], count: usize) {
     let mut left = count;
     while left > 0 {
         let gap = |orbit: &&Vec<usize>| {
             let edge = &edges[orbit[0]];
             let more = Edge { lights: edge.lights + 1, ..*edge };
-            // The geometric mean of the gaps before and after: no gap ends up wider than twice the narrowest.
+            // The geometric mean of the gaps before and after a light is added keeps every gap within twice the
+            // narrowest.
             (edge.gap() * more.gap()).sqrt() * track.lines[edge.line].weight
         };
         let fitting = orbits.iter().filter(|orbit| orbit.len() <= left);
         let widest = fitting.max_by(|a, b| gap(a).total_cmp(&gap(b)));
-        // Only pairs are left for a single light: one side gets it.
+        // If only pairs are left for a single light, one edge of a pair gets it.
         let Some(orbit) = widest.or_else(|| orbits.iter().max_by(|a, b| gap(a).total_cmp(&gap(b)))) else {
             return;
         };
@@ -202,7 +207,7 @@ fn fill(track: &LineSet, edges: &mut [Edge], orbits: &[Vec<usize>], count: usize
 }
 
 impl Edge {
-    /// Distance of its lights: half a gap is left free at an end without a light.
+    /// Returns the distance between the edge's lights. At an end without a light, half a gap stays free.
     fn gap(&self) -> f64 {
         let ends = self.pinned.iter().filter(|pinned| **pinned).count();
         match (self.lights, ends) {

@@ -1,4 +1,4 @@
-//! Where a light says most on a line: at its ends, where lines cross, and at corners.
+//! Finds the places on lines where a light matters most: ends, crossings and corners.
 
 use core::f64::consts::PI;
 
@@ -8,26 +8,26 @@ use lightbots_base::shape::segment_to_segment;
 use crate::buckets::Buckets;
 use crate::lines::{LineSet, Polyline};
 
-/// A change of direction from which a place is a corner, radians.
+/// Least change of direction at which a place is a corner, radians.
 pub(crate) const CORNER_RAD: f64 = 35.0 * PI / 180.0;
 
-/// Lines nearer than this share of the drawing's height touch.
+/// Lines nearer to each other than this share of the drawing's height touch.
 const TOUCH: f64 = 0.004;
 
-/// A place on a line, and how much it says.
+/// A place on a line, and how much a light matters there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pin {
-    /// Number of the line.
+    /// Index of the line.
     pub line: usize,
-    /// Length along the line.
+    /// Length along the line up to the place.
     pub arc: f64,
     /// The place.
     pub at: Vec2,
-    /// What it is: larger says more. 2 is an end, 1 a crossing, below 1 a corner by its turn.
+    /// How much a light matters here: 2 at an end, 1 at a crossing, below 1 at a corner, where it grows with the turn.
     pub rank: f64,
 }
 
-/// All ends, crossings and corners, the ones that say most first. `height` is that of the whole drawing.
+/// Returns all ends, crossings and corners, those of highest rank first. `height` is that of the whole drawing.
 pub(crate) fn find(track: &LineSet, height: f64) -> Vec<Pin> {
     let window = 0.04 * height;
     let mut pins = Vec::new();
@@ -48,7 +48,7 @@ fn ends(line: usize, polyline: &Polyline) -> Vec<Pin> {
     vec![pin(0.0), pin(polyline.length())]
 }
 
-/// Places where the turn is greatest within the window around them.
+/// Finds corners: places with a greater turn than all others within `window` along the line.
 fn corners(line: usize, polyline: &Polyline, window: f64) -> Vec<Pin> {
     let turns: Vec<(f64, f64)> =
         polyline.arcs.iter().map(|arc| (*arc, polyline.turn(*arc, window))).collect();
@@ -96,7 +96,7 @@ fn longest_piece(track: &LineSet) -> f64 {
     pieces.map(|pair| pair[0].distance(pair[1])).fold(0.0, f64::max) * 1.01
 }
 
-/// Whether two points are on different lines, or far apart along the same one.
+/// Whether two points are on different lines, or far from each other along the same line.
 fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     let ((line_a, arc_a), (line_b, arc_b)) = (track.arc_of(a), track.arc_of(b));
     if line_a != line_b {
@@ -105,7 +105,7 @@ fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     track.lines[line_a].apart(arc_a, arc_b) > 3.0 * window
 }
 
-/// Whether one of the pieces at the first point comes near one at the second.
+/// Whether a segment that ends at the first point comes nearer than `touch` to one that ends at the second.
 fn pieces_touch(track: &LineSet, a: usize, b: usize, touch: f64) -> bool {
     let pieces = |point: usize| {
         let (line, arc) = track.arc_of(point);

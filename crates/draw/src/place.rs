@@ -1,4 +1,4 @@
-//! From a drawing and a number of robots to lights on the floor.
+//! Places lights on the floor for a drawing and a number of robots.
 
 use lightbots_base::Vec2;
 
@@ -11,13 +11,13 @@ use crate::layout::Style;
 use crate::readability::{Readability, readability};
 use crate::settings::{PlaceSettings, PlacedLight};
 
-/// How often a picture is made anew at a larger size before it is refused.
+/// Largest number of sizes that are tried, each larger than the one before, until the picture is refused.
 const TRIES: usize = 5;
 
 /// A picture of lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// The lights: the kept ones first, then part by part.
+    /// The lights: the kept ones first, then those of each part in turn.
     pub lights: Vec<PlacedLight>,
     /// Larger side of the picture, metres.
     pub size_m: f64,
@@ -25,14 +25,15 @@ pub struct Placed {
     pub closest_m: f64,
     /// How well the lights show the drawing.
     pub readability: Readability,
-    /// What is different from what was asked for.
+    /// What differs from the settings, such as a larger size or a smaller spacing.
     pub notes: Vec<Note>,
 }
 
 /// Why a picture was refused.
 struct Refusal {
     error: DrawError,
-    /// Distance of the closest pair at the largest size, as a share of the spacing; `None`: there is no such picture.
+    /// Distance of the closest pair at the largest size, as a share of the spacing. `None` if a smaller spacing would
+    /// not help.
     share: Option<f64>,
 }
 
@@ -42,11 +43,11 @@ impl From<DrawError> for Refusal {
     }
 }
 
-/// Places lights on a floor. Where they do not fit in the automatic style, areas are filled; where they do not fit at the
-/// spacing, they come as close as they must, but not closer than the least spacing.
+/// Places lights on a floor. If they do not fit with [`Style::Auto`], areas are filled. If they still do not fit at
+/// `spacing_m`, they come closer, but not closer than `least_m`.
 ///
 /// # Errors
-/// A drawing of nothing, numbers out of range, or more robots than fit on the floor; each with the number that would do.
+/// An empty drawing, numbers out of range, a picture off the floor, or more robots than fit on the floor.
 pub fn place(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, DrawError> {
     settings.check()?;
     let refused = match attempts(drawing, floor, settings) {
@@ -68,7 +69,7 @@ pub fn place(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) 
     Ok(placed)
 }
 
-/// The wanted style, then a filling where the style is free.
+/// Tries the style of the settings. If it is [`Style::Auto`] and fails for lack of room, tries a filling next.
 fn attempts(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
     let first = attempt(drawing, floor, settings);
     let Err(refused) = first else { return first };
@@ -79,7 +80,7 @@ fn attempts(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -
     filled.map_err(|other| if other.share > refused.share { other } else { refused })
 }
 
-/// One style at one spacing.
+/// Tries one style at one spacing, at several sizes if needed.
 fn attempt(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
     let mut placement = Placement::new(drawing, floor, settings)?;
     for _ in 0..TRIES {

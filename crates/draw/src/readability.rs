@@ -1,7 +1,8 @@
-//! How well lights show a drawing: what a viewer sees of it from a distance.
+//! Measures how well lights show a drawing: what a viewer sees of it from a distance.
 //!
-//! Every light is a Gaussian of fixed width, and the drawing is blurred alike. The width belongs to the drawing, not to the
-//! spacing: otherwise three lights would be an A, because their blur would fill the gaps.
+//! Every light is a Gaussian of fixed width, and the drawing is blurred with the same width. The width depends on the
+//! drawing's size and not on the spacing of lights. Otherwise three lights would pass for an A, because their blur
+//! would fill the gaps.
 
 use lightbots_base::Vec2;
 
@@ -14,26 +15,26 @@ use crate::lines::LineSet;
 use crate::settings::PlacedLight;
 use crate::symmetry::{Mirror, symmetric_share};
 
-/// Width of a light's Gaussian, in heights of a letter, or of another drawing's larger side: a letter is seen from
+/// Width of a light's Gaussian, in heights of a letter or in larger sides of any other drawing. A letter is seen from
 /// the distance at which its strokes just stay apart (measured with templates of 36 signs).
 pub(crate) const SIGMA: f64 = 0.07;
 
-/// From this correlation on, guests read a picture without being told what it is.
+/// Least correlation at which guests read a picture without being told what it is.
 pub const READABLE: f64 = 0.90;
 
-/// Below this correlation a picture is not recognised.
+/// Correlation below which a picture is not recognised.
 pub const DOUBTFUL: f64 = 0.85;
 
 /// How well lights show a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readability {
-    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1: the worst part's.
+    /// Normalised cross-correlation between blurred lights and blurred drawing, 0 to 1: that of the worst part.
     pub correlation: f64,
-    /// Share of the lights that have a mirror image, where the drawing is mirror-symmetric; 1 for other drawings.
+    /// Share of the lights that have a mirror image, in the worst part; 1 for parts without mirror symmetry.
     pub symmetry: f64,
 }
 
-/// How well lights show a drawing in the same space.
+/// Measures how well lights show a drawing. Both have the same coordinates.
 pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readability {
     let mut worst = Readability { correlation: 1.0, symmetry: 1.0 };
     for (index, part) in drawing.parts.iter().enumerate() {
@@ -47,11 +48,11 @@ pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readabil
     worst
 }
 
-/// How well places show one part; `None` for an empty part.
+/// Measures how well places show one part. `None` for an empty part.
 pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
     let (low, high) = bounds(part.points())?;
     let size = high - low;
-    // A dash is a letter without height.
+    // A dash has almost no height, so half its width counts.
     let sigma = SIGMA * if part.letter.is_some() { size.y.max(0.5 * size.x) } else { size.x.max(size.y) };
     if sigma <= 0.0 {
         return None;
@@ -66,7 +67,8 @@ pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readabilit
     let likeness = |drawn: &[Sample]| {
         lights.correlation(&image(&mut drawn.iter().map(|sample| (sample.at, sample.mass))))
     };
-    // A letter of strokes is as readable as a bold one, and a star's edge as a filled star.
+    // A letter of strokes is as readable as a bold one, and a star's edge as readable as a filled star: the better
+    // likeness counts.
     let spine = along(&part.spine, pitch);
     let correlation = likeness(&drawn).max(if spine.is_empty() { 0.0 } else { likeness(&spine) });
     let mut distances = nearest_distances(places, pitch);
@@ -76,14 +78,14 @@ pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readabilit
     Some(Readability { correlation, symmetry })
 }
 
-/// What is drawn: areas, else the picture's weights, and strokes.
+/// Returns samples of what is drawn: areas, or a picture's weights if there are no areas, and strokes.
 pub(crate) fn drawn(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     let mut drawn = samples(part, pitch);
     drawn.extend(along(&part.strokes, pitch));
     drawn
 }
 
-/// Samples along lines. A line counts as wide as a light.
+/// Returns samples along lines, with the mass of a line as wide as a light.
 fn along(strokes: &[Stroke], pitch: f64) -> Vec<Sample> {
     let lines = LineSet::new(strokes, pitch);
     lines.points().iter().map(|at| Sample { at: *at, mass: 4.0 * pitch * pitch }).collect()

@@ -1,7 +1,8 @@
-//! Reads capital letters and digits from lights, as a viewer does who was not told what is written.
+//! Reads capital letters and digits from lights, as a viewer does without being told what is written.
 //!
-//! Templates of 36 signs in a bold and in a single-line face are blurred like the lights and compared by normalised
-//! cross-correlation, over scales and shifts. The blur belongs to the letter, as in [`crate::readability`].
+//! The templates are 36 signs in a bold face and in a single-line face, blurred like the lights. They are compared by
+//! normalised cross-correlation over several scales and shifts. The width of the blur depends on the letter's height,
+//! as in [`crate::readability`].
 
 use lightbots_base::Vec2;
 
@@ -14,29 +15,30 @@ use crate::text::{self, Font, TextSettings};
 /// The signs that the reader knows.
 const SIGNS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// One face with areas and one with lines, because people read both.
+/// A face with areas and a face with lines, because people read both.
 const FACES: [&str; 2] = ["lato", "hershey-sans"];
 
-/// Heights of templates, in heights of the letter that is read: lights lie inside of a letter's edge.
+/// Heights of templates, in heights of the letter that is read. Smaller ones are tried because lights lie inside a
+/// letter's edge.
 const SCALES: [f64; 5] = [0.76, 0.87, 1.0, 1.15, 1.32];
 
-/// Shifts between lights and templates, in heights of the letter.
+/// Step by which lights are shifted against templates, in heights of the letter.
 const SHIFT: f64 = 0.04;
 
-/// Half of the picture in which signs are compared, in heights of the letter.
+/// Half the width and half the height of the picture in which signs are compared, in heights of the letter.
 const HALF: Vec2 = Vec2::new(0.95, 0.75);
 
-/// Reads signs; its templates take some milliseconds to make, so it is kept.
+/// Reads signs. Making its templates takes some milliseconds, so keep it for further readings.
 pub struct SignReader {
     templates: Vec<(char, LightImage)>,
 }
 
-/// What lights look like.
+/// What lights were read as.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignRead {
-    /// The sign that is most like the lights.
+    /// The sign whose template is most like the lights.
     pub sign: char,
-    /// Normalised cross-correlation with it, 0 to 1.
+    /// Normalised cross-correlation with that template, 0 to 1.
     pub correlation: f64,
 }
 
@@ -60,8 +62,8 @@ impl SignReader {
         SIGNS.contains(sign)
     }
 
-    /// The sign that lights look like, among letters or among digits, whichever `sign` is. `height`: that of the letter,
-    /// in units of the places. `None`: there are no lights, or `sign` is unknown.
+    /// Returns the sign that lights look like. It searches among digits if `sign` is a digit, else among letters.
+    /// `height` is the letter's height in units of the places. `None` if there are no lights or `sign` is unknown.
     pub fn read(&self, places: &[Vec2], height: f64, sign: char) -> Option<SignRead> {
         if places.is_empty() || height <= 0.0 || !Self::knows(sign) {
             return None;
@@ -79,18 +81,18 @@ impl SignReader {
     }
 }
 
-/// A sign as drawn by a font; a capital's height is 1.
+/// Returns a sign as a font draws it, with capitals of height 1. `None` if the font cannot draw it.
 fn part(font: &Font, sign: char) -> Option<DrawingPart> {
     let words = sign.to_string();
     text::draw(&TextSettings::new(&words, font)).ok()?.drawing.parts.into_iter().next()
 }
 
-/// What is drawn of a part, with the strength of its light.
+/// Points of what is drawn of a part, each with the strength of its light.
 fn points(part: &DrawingPart) -> Vec<(Vec2, f64)> {
     drawn(part, SIGMA / 4.0).iter().map(|sample| (sample.at, sample.mass)).collect()
 }
 
-/// Points around the middle of their box, scaled, then shifted.
+/// Draws points around the middle of their box, scaled, then shifted.
 fn image(points: &[(Vec2, f64)], scale: f64, shift: Vec2) -> LightImage {
     let (low, high) = bounds(points.iter().map(|(at, _)| at)).unwrap_or_default();
     let middle = low.lerp(high, 0.5);

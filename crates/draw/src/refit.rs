@@ -1,4 +1,4 @@
-//! The same picture with fewer or more lights, from the places of its lights alone.
+//! Shows a picture with fewer or more lights, from the places of its lights alone.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::point_to_segment;
@@ -12,24 +12,24 @@ use crate::relax::Lloyd;
 use crate::seeds::{eliminate, seeds};
 use crate::settings::{MAX_ROBOTS, PlacedLight};
 
-/// Rounds of relaxation: more move lights farther and make the picture little more even (measured).
+/// Number of rounds of relaxation. More rounds move lights farther and make the picture little more even (measured).
 const ROUNDS: usize = 20;
 
-/// Lights up to this number of typical distances apart are joined by a line of the picture.
+/// Lights up to this distance apart are joined by a line of the picture; in typical distances.
 const JOINED: f64 = 1.45;
 
-/// Half the width of such a line, in typical distances, tried in this order. With the first one twice as many lights still
-/// stand in one row; where a row has no room to grow in length, the wider ones make several rows of it.
+/// Half the width of these lines, in typical distances, tried in this order. With the first width, twice as many lights
+/// still form a single row. Wider lines make several rows of it, where a single row has no room.
 const HALF_WIDTHS: [f64; 8] = [0.22, 0.5, 0.9, 1.4, 2.1, 3.2, 4.8, 7.0];
 
-/// Robots that find room, of those that do in an ideal filling: the closest pair of relaxed places keeps 0.7 of the ideal
+/// Share of the robots of an ideal filling that find room. The closest pair of relaxed places keeps 0.7 of the ideal
 /// spacing (Lloyd without pushing apart, measured).
 const RELAXED: f64 = 0.5;
 
-/// Above this multiple of an ideal filling no picture is tried. More than the ideal fits, because the picture may grow.
+/// Multiple of an ideal filling above which no picture is tried. It is above 1 because the picture may grow.
 const SPARE: f64 = 1.5;
 
-/// Samples along a typical distance.
+/// Number of samples along a typical distance.
 const FINENESS: f64 = 9.0;
 
 /// A light after a change of fleet.
@@ -37,15 +37,16 @@ const FINENESS: f64 = 9.0;
 pub struct RefitLight {
     /// The light.
     pub light: PlacedLight,
-    /// Index of the light that it was; `None`: it is new.
+    /// Index of the light before the change. `None` for a new light.
     pub from: Option<usize>,
 }
 
-/// The picture of `lights` with `robots` lights at least `spacing_m` apart. Lights for which `pinned` is true are kept
-/// longest and do not move. Each light that stays keeps its colour; a new one takes that of the nearest light.
+/// Returns the picture of `lights` with `robots` lights at least `spacing_m` apart. Lights for which `pinned` is true
+/// are removed last and do not move relative to each other. Each light that stays keeps its colour. A new one takes the
+/// colour of the nearest old light.
 ///
 /// # Errors
-/// No lights to begin with, more than [`MAX_ROBOTS`], or more lights than find room on the floor.
+/// No lights to begin with, no robots or more than [`MAX_ROBOTS`], or more lights than find room on the floor.
 pub fn refit(
     lights: &[PlacedLight],
     pinned: &[bool],
@@ -64,7 +65,7 @@ pub fn refit(
         return Err(DrawError::new("bad-setting", what));
     }
     let task = Refit::new(lights, pinned, robots, spacing_m, floor);
-    // Lights whose number stays do not move, whatever the width.
+    // If the number of lights does not change, no light moves, and the width does not matter.
     let widths = if robots == lights.len() { &HALF_WIDTHS[..1] } else { &HALF_WIDTHS };
     let mut refusal = None;
     for half_width in widths {
@@ -76,15 +77,15 @@ pub fn refit(
     Err(refusal.unwrap_or_else(|| no_room(robots, spacing_m, 0.0)))
 }
 
-/// What is asked of a picture, and what does not depend on the width of its lines.
+/// The task, and values that do not depend on the width of its lines.
 struct Refit<'a> {
     lights: &'a [PlacedLight],
     places: Vec<Vec2>,
     /// Median distance to the nearest neighbour, metres.
     typical: f64,
-    /// Lights that stay, the pinned ones first.
+    /// Indices of the lights that stay, the pinned ones first.
     staying: Vec<usize>,
-    /// Number of pinned ones among them.
+    /// Number of pinned lights among `staying`.
     kept: usize,
     robots: usize,
     spacing_m: f64,
@@ -108,7 +109,7 @@ impl<'a> Refit<'a> {
         Self { lights, typical: typical_distance(&places), places, staying, kept, robots, spacing_m, floor }
     }
 
-    /// The picture on lines of this half width, in typical distances.
+    /// Makes the picture with lines of this half width, in typical distances.
     fn with_lines(&self, half_width: f64) -> Result<Vec<RefitLight>, DrawError> {
         let Self { lights, places, typical, staying, kept, robots, spacing_m, floor } = self;
         let samples: Vec<Sample> = samples(places, *typical, half_width)
@@ -118,7 +119,7 @@ impl<'a> Refit<'a> {
         let mut now: Vec<Vec2> = staying.iter().map(|index| places[*index]).collect();
         let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
         let spacing = hexagonal_spacing(mass, *robots);
-        // Finding out by trying takes seconds for thousands of robots.
+        // An estimate, because a trial takes seconds for thousands of robots.
         let rows = mass / (2.0 * half_width * typical * spacing_m);
         let fitting = hexagonal_count(mass, *spacing_m).max(rows);
         if *robots > staying.len() && *robots as f64 > SPARE * fitting {
@@ -139,7 +140,7 @@ impl<'a> Refit<'a> {
     }
 }
 
-/// Lights that stay, the pinned ones first: of the others the most crowded go.
+/// Returns the indices of the lights that stay, the pinned ones first. Of the others, the most crowded are removed.
 fn staying(places: &[Vec2], order: &[usize], robots: usize, is_pinned: impl Fn(usize) -> bool) -> Vec<usize> {
     if robots >= places.len() {
         return order.to_vec();
@@ -152,7 +153,7 @@ fn staying(places: &[Vec2], order: &[usize], robots: usize, is_pinned: impl Fn(u
     staying
 }
 
-/// The median distance to the nearest neighbour, metres; 0.3 m for a single light.
+/// Returns the median distance to the nearest neighbour, metres; 0.3 m for a single light.
 fn typical_distance(places: &[Vec2]) -> f64 {
     let mut distances = nearest_distances(places, 0.1);
     distances.retain(|distance| distance.is_finite());
@@ -160,7 +161,7 @@ fn typical_distance(places: &[Vec2]) -> f64 {
     distances.get(distances.len() / 2).copied().unwrap_or(0.3).max(1e-3)
 }
 
-/// Samples of the picture that lights make: lines between neighbours, which close up to areas where lights fill one.
+/// Samples the picture that lights make: lines between neighbours, which merge into an area where lights fill one.
 fn samples(places: &[Vec2], typical: f64, half_width: f64) -> Vec<Sample> {
     let mut lines: Vec<(Vec2, Vec2)> = places.iter().map(|at| (*at, *at)).collect();
     Buckets::new(places, typical).pairs(JOINED * typical, |a, b, _| lines.push((places[a], places[b])));
@@ -184,13 +185,17 @@ fn center(x: i64, y: i64, pitch: f64) -> Vec2 {
     Vec2::new((x as f64 + 0.5) * pitch, (y as f64 + 0.5) * pitch)
 }
 
-/// The shortest way that brings a box onto the floor, if it has room there.
+/// Returns the shortest shift that brings a box onto the floor, if the box fits there.
 fn onto_floor(low: Vec2, high: Vec2, floor: &PictureFloor) -> Vec2 {
     let shift = |low: f64, high: f64, min: f64, max: f64| (min - low).max(0.0) - (high - max).max(0.0);
     Vec2::new(shift(low.x, high.x, floor.min.x, floor.max.x), shift(low.y, high.y, floor.min.y, floor.max.y))
 }
 
-/// Spreads places from their middle until the closest pair keeps its distance, and moves them back onto the floor.
+/// Scales places about their centroid until the closest pair has the distance `spacing_m`, then shifts them back onto
+/// the floor.
+///
+/// # Errors
+/// The scaled places are not all allowed on the floor.
 fn spread(places: &mut [Vec2], spacing_m: f64, floor: &PictureFloor) -> Result<(), DrawError> {
     let closest = closest_distance(places);
     if closest >= spacing_m {

@@ -1,5 +1,5 @@
-//! Lloyd's relaxation: each place moves to the centroid of the part of the drawing that is nearest to it (Lloyd 1982;
-//! weighted as in Secord, Weighted Voronoi Stippling, 2002).
+//! Lloyd's relaxation: each place moves to the centroid of its cell, the part of the drawing that is nearest to it
+//! (Lloyd 1982; weighted as in Secord, Weighted Voronoi Stippling, 2002).
 
 use lightbots_base::Vec2;
 
@@ -7,28 +7,29 @@ use crate::buckets::Buckets;
 use crate::coverage::Sample;
 use crate::symmetry::Pairing;
 
-/// How far a place moves beyond the way to its centroid: 1.8 needs about a quarter of the rounds.
+/// Over-relaxation: each step is this multiple of the way to the centroid. With 1.8 about a quarter of the rounds is
+/// enough.
 const OVER: f64 = 1.8;
 
-/// How a relaxation runs.
+/// A relaxation and its settings.
 pub(crate) struct Lloyd<'a> {
-    /// What is to be covered.
+    /// Samples of the drawing to cover.
     pub samples: &'a [Sample],
     /// Number of places at the beginning of the list that stay where they are.
     pub kept: usize,
     /// Ideal distance between neighbours, same units as places.
     pub spacing: f64,
-    /// Most rounds.
+    /// Largest number of rounds.
     pub rounds: usize,
-    /// Which places mirror each other, for drawings with a mirror axis.
+    /// Which places are mirror images of each other, for drawings with a mirror axis.
     pub pairing: Option<&'a Pairing>,
 }
 
 impl Lloyd<'_> {
-    /// Moves places until the largest move is below 1 % of the spacing or the rounds are over.
+    /// Moves places until the longest step is below 1 % of the spacing or the rounds are over.
     pub fn run(&self, places: &mut [Vec2]) {
         for round in 0..self.rounds {
-            // The last rounds go to the centroids themselves: over-relaxed places swing about them.
+            // The last rounds step to the centroids themselves, because over-relaxed places oscillate about them.
             let over = if round + 4 < self.rounds { OVER } else { 1.0 };
             let moved = self.round(places, over);
             if moved < 0.01 * self.spacing && over == OVER {
@@ -38,8 +39,8 @@ impl Lloyd<'_> {
         }
     }
 
-    /// One round; returns the longest move. It is infinite where places without a cell were moved, because these have yet to
-    /// reach their centroids.
+    /// Runs one round and returns the longest step. It is infinite if places without a cell were moved, because they
+    /// have yet to reach their centroids.
     fn round(&self, places: &mut [Vec2], over: f64) -> f64 {
         let cells = self.cells(places);
         let mut longest: f64 = if self.recall_strays(places, &cells) { f64::INFINITY } else { 0.0 };
@@ -57,9 +58,9 @@ impl Lloyd<'_> {
         longest
     }
 
-    /// Moves places without a cell, which are off the drawing or on one point with another, into the cells with the largest
-    /// distortion, one into each: there, places are missing most. In the best arrangement all cells have the same distortion
-    /// (Gersho 1979). Returns whether there were any.
+    /// Moves places without a cell, which are off the drawing or share a point with another place. Each goes into one
+    /// of the cells with the largest distortion, where places are missing most. In the best arrangement all cells have
+    /// the same distortion (Gersho 1979). Returns whether there were any such places.
     fn recall_strays(&self, places: &mut [Vec2], cells: &[Cell]) -> bool {
         let strays: Vec<usize> =
             (self.kept..places.len()).filter(|index| cells[*index].centroid().is_none()).collect();
@@ -74,7 +75,7 @@ impl Lloyd<'_> {
         true
     }
 
-    /// The cell of each place.
+    /// Returns the cell of each place.
     fn cells(&self, places: &[Vec2]) -> Vec<Cell> {
         let mut cells = vec![Cell::default(); places.len()];
         let buckets = Buckets::new(places, 0.8 * self.spacing);
@@ -87,7 +88,7 @@ impl Lloyd<'_> {
     }
 }
 
-/// The samples that are nearer to a place than to all others.
+/// The samples that are nearer to one place than to all others.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cell {
     mass: f64,
@@ -95,7 +96,7 @@ struct Cell {
     moment: Vec2,
     /// Sum of the squared distances from the place times the masses.
     distortion: f64,
-    /// Largest share of one sample in the distortion, and where that sample is.
+    /// Largest contribution of one sample to the distortion, and below it the place of that sample.
     most: f64,
     farthest: Vec2,
 }
@@ -112,13 +113,14 @@ impl Cell {
         }
     }
 
-    /// `None` for an empty cell.
+    /// Returns the centroid. `None` for an empty cell.
     fn centroid(&self) -> Option<Vec2> {
         (self.mass > 0.0).then(|| self.moment * (1.0 / self.mass))
     }
 }
 
-/// Energy of places: mean over the samples of the squared distance from the nearest place. Smaller is more even.
+/// Energy of places: mean squared distance of the samples from their nearest place, weighted by mass. Smaller is more
+/// even.
 pub(crate) fn energy(samples: &[Sample], places: &[Vec2], spacing: f64) -> f64 {
     let buckets = Buckets::new(places, 0.8 * spacing);
     let (mut sum, mut mass) = (0.0, 0.0);

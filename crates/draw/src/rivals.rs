@@ -1,4 +1,4 @@
-//! Simple ways of placing robots, against which the engine is measured: random, on a grid, farthest point.
+//! Simple methods of placing robots, to compare the engine with: random, on a grid, farthest point.
 
 use lightbots_base::Vec2;
 
@@ -8,13 +8,14 @@ use crate::geometry::bounds;
 use crate::ground::{Ground, Quality};
 use crate::seeds::unit;
 
-/// Offsets of the grid that are tried in each direction.
+/// Number of offsets of the grid that are tried in each direction.
 const OFFSETS: usize = 4;
 
-/// Halvings of the grid's pitch.
+/// Number of bisection steps in the search for the grid's pitch.
 const HALVINGS: usize = 30;
 
-/// `count` places on a part by each simple way, with its name. A part of lines has no grid. Empty: nothing is drawn.
+/// Returns `count` places on a part by each method, with the method's name. A part without areas has no grid. Empty if
+/// nothing is drawn.
 pub fn rivals(part: &DrawingPart, count: usize, seed: u64) -> Vec<(&'static str, Vec<Vec2>)> {
     let ground = Ground::new(part, count, Quality::Full, &|_| true);
     let mut state = seed;
@@ -40,13 +41,13 @@ fn pick(points: &[Vec2], state: &mut u64) -> Vec2 {
     points[((unit(state) * points.len() as f64) as usize).min(points.len() - 1)]
 }
 
-/// Places that know nothing of each other.
+/// Picks each place at random, independent of the others.
 fn random(points: &[Vec2], count: usize, state: &mut u64) -> Vec<Vec2> {
     (0..count).map(|_| pick(points, state)).collect()
 }
 
-/// Each place as far as can be from those before it (Gonzalez, Clustering to Minimize the Maximum Intercluster Distance,
-/// 1985).
+/// Picks each place as far as possible from those before it (Gonzalez, Clustering to Minimize the Maximum Intercluster
+/// Distance, 1985).
 fn farthest(points: &[Vec2], count: usize, state: &mut u64) -> Vec<Vec2> {
     let mut places = vec![pick(points, state)];
     let mut gaps = vec![f64::INFINITY; points.len()];
@@ -64,8 +65,8 @@ fn farthest(points: &[Vec2], count: usize, state: &mut u64) -> Vec<Vec2> {
     places
 }
 
-/// The square grid with the largest pitch that has `count` nodes inside, at its best offset; nodes too many are left out
-/// from the end.
+/// Returns the square grid with the largest pitch that has at least `count` nodes inside, at its best offset. Surplus
+/// nodes at the end are left out.
 fn grid(ground: &Ground, count: usize) -> Vec<Vec2> {
     let inside = Buckets::new(&ground.inside, ground.pitch);
     let (low, high) = bounds(&ground.inside).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! First places in an area, by weighted sample elimination (Yuksel, Sample Elimination for Generating Poisson Disk Sample
-//! Sets, 2015).
+//! Chooses first places in an area by weighted sample elimination (Yuksel, Sample Elimination for Generating Poisson
+//! Disk Sample Sets, 2015).
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -10,19 +10,19 @@ use lightbots_base::random::split_mix;
 use crate::buckets::Buckets;
 use crate::coverage::Sample;
 
-/// Candidates for each place.
+/// Number of candidates for each place.
 const CANDIDATES: usize = 5;
 
 /// Exponent of the weight between two candidates, from the paper.
 const EXPONENT: i32 = 8;
 
-/// A number in 0..1.
+/// Returns a random number from 0 up to, but not including, 1.
 pub(crate) fn unit(state: &mut u64) -> f64 {
     (split_mix(state) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// `count` places in the samples, none near another, at the ideal distance `spacing`, also from the places that are `kept`.
-/// The result is without the kept ones. Fewer only if there are no samples.
+/// Returns `count` places in the samples, spread evenly at about the distance `spacing` from each other and from the
+/// places `kept`. The kept places are not in the result. Empty if there are no samples.
 pub(crate) fn seeds(samples: &[Sample], kept: &[Vec2], count: usize, spacing: f64, seed: u64) -> Vec<Vec2> {
     if samples.is_empty() || count == 0 {
         return Vec::new();
@@ -34,7 +34,7 @@ pub(crate) fn seeds(samples: &[Sample], kept: &[Vec2], count: usize, spacing: f6
     left.into_iter().map(|index| candidates[index]).collect()
 }
 
-/// Random candidates, as dense as the samples' mass. They are spread within a small disc because samples form a grid.
+/// Draws random candidates, as dense as the samples' mass. Small random shifts hide the grid that the samples form.
 fn drawn(samples: &[Sample], count: usize, spacing: f64, state: &mut u64) -> Vec<Vec2> {
     let mut total = 0.0;
     let sums: Vec<f64> = samples
@@ -44,7 +44,7 @@ fn drawn(samples: &[Sample], count: usize, spacing: f64, state: &mut u64) -> Vec
             total
         })
         .collect();
-    // One candidate from each of as many equal shares of the mass leaves no large gap by bad luck.
+    // Each candidate comes from an equal share of the mass, because independent draws could leave a large gap.
     let pick = |index: usize, state: &mut u64| {
         let target = (index as f64 + unit(state)) / count as f64 * total;
         let at = samples[sums.partition_point(|sum| *sum < target).min(samples.len() - 1)].at;
@@ -73,8 +73,8 @@ impl PartialOrd for Crowded {
     }
 }
 
-/// Takes away the most crowded candidate until `count` are left, and returns the numbers of these. The first `kept`
-/// candidates stay and do not count.
+/// Removes the most crowded candidate until `count` are left, and returns their indices. The first `kept` candidates
+/// are never removed and do not count.
 pub(crate) fn eliminate(candidates: &[Vec2], kept: usize, count: usize, spacing: f64) -> Vec<usize> {
     let reach = 1.3 * spacing;
     let mut near: Vec<Vec<(u32, f64)>> = vec![Vec::new(); candidates.len()];

@@ -1,4 +1,4 @@
-//! What is wanted of a picture of lights.
+//! Settings for placing lights on a drawing.
 
 use lightbots_base::{Rgb, Vec2};
 
@@ -6,36 +6,38 @@ use crate::error::DrawError;
 use crate::ground::Quality;
 use crate::layout::Style;
 
-/// Most robots of a drawing.
+/// Largest number of robots in a drawing.
 pub const MAX_ROBOTS: usize = 10_000;
 
-/// What is wanted of a picture.
+/// What a picture of lights is to be like.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceSettings {
     /// Number of lights.
     pub robots: usize,
     /// Least distance between two lights, metres.
     pub spacing_m: f64,
-    /// Distance down to which lights may come where they find no room otherwise, metres.
+    /// Distance to which `spacing_m` may shrink if the lights do not fit otherwise, metres.
     pub least_m: f64,
     /// How areas are shown.
     pub style: Style,
-    /// Larger side of the picture, metres; `None`: chosen by floor and number of robots.
+    /// Larger side of the picture, metres. If `None`, it is chosen by floor and number of robots.
     pub size_m: Option<f64>,
     /// Centre of the picture, stage metres.
     pub center: Vec2,
     /// Turn of the picture, radians counter-clockwise.
     pub turn: f64,
-    /// The part of the drawing that makes up the picture's box: corners with the smaller and the larger x and y, in the
-    /// drawing's units; `None`: the box around all of it. Pictures of a series keep one scale by it.
+    /// The part of the drawing that fills the picture's box: corners with the smaller and the larger x and y, in the
+    /// drawing's units. If `None`, the box around the whole drawing. With one view, the pictures of a series keep the
+    /// same scale.
     pub view: Option<(Vec2, Vec2)>,
-    /// Lights that stay where they are and count first.
+    /// Lights that stay where they are. They count as the first of `robots`.
     pub kept: Vec<PlacedLight>,
-    /// Places to begin with, such as those of the picture before; empty: new ones.
+    /// Places with which the relaxation begins, such as those of the previous picture. If empty, it begins with new
+    /// ones.
     pub start: Vec<Vec2>,
-    /// How much work is done.
+    /// How much work goes into the places.
     pub quality: Quality,
-    /// Seed of all choices by chance.
+    /// Seed of all random choices.
     pub seed: u64,
 }
 
@@ -65,12 +67,15 @@ pub struct PlacedLight {
     pub at: Vec2,
     /// Colour.
     pub color: Rgb,
-    /// Number of its part in the drawing.
+    /// Index of its part in the drawing.
     pub part: usize,
 }
 
 impl PlaceSettings {
-    /// Whether the numbers are in range.
+    /// Checks that the numbers are in range.
+    ///
+    /// # Errors
+    /// The first number that is out of range.
     pub(crate) fn check(&self) -> Result<(), DrawError> {
         let fail = |what: String| Err(DrawError::new("bad-setting", what));
         if self.robots == 0 || self.robots > MAX_ROBOTS {

@@ -1,4 +1,4 @@
-//! What a file is, told from its bytes: names of files are often wrong.
+//! Tells the kind of a file from its bytes, because names of files are often wrong.
 
 use crate::error::DrawError;
 use crate::list;
@@ -6,7 +6,7 @@ use crate::list;
 /// Kinds of files that become drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// Areas and lines.
+    /// A vector drawing: areas and lines.
     Svg,
     /// A picture.
     Png,
@@ -16,14 +16,14 @@ pub enum FileKind {
     Webp,
     /// An animation.
     Gif,
-    /// Places and colours.
+    /// A list of places and colours.
     Csv,
 }
 
-/// Bytes in which the first element of an SVG is looked for, after long comments and licences.
+/// Number of bytes in which the first element of an SVG is searched, because long comments and licences may precede it.
 const SVG_WITHIN: usize = 16_384;
 
-/// The kind of a file; `None`: it cannot be drawn, see [`unsupported`].
+/// Returns the kind of a file. `None` if it cannot be drawn; [`unsupported`] says why.
 pub fn sniff(bytes: &[u8]) -> Option<FileKind> {
     if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         Some(FileKind::Png)
@@ -51,7 +51,7 @@ fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
     bytes.windows(wanted.len()).position(|window| window == wanted)
 }
 
-/// A format that cannot be drawn, by bytes at an offset.
+/// A format that cannot be drawn, recognised by its bytes at an offset.
 struct Foreign {
     at: usize,
     bytes: &'static [u8],
@@ -68,7 +68,7 @@ const AS_PICTURE: &str = "Save it as PNG or JPEG.";
 const AS_VIDEO: &str = "Drop it into the browser app, or save it as GIF.";
 const AS_TEXT: &str = "Choose it as the font of a word.";
 
-/// Well-known formats that cannot be drawn. Those with a longer mark come first.
+/// Well-known formats that cannot be drawn. The first match counts: marks that begin with another mark come before it.
 const FOREIGN: [Foreign; 19] = [
     foreign(0, &[0x1f, 0x8b], "a compressed file, such as svgz", AS_SVG),
     foreign(0, b"%PDF", "a PDF", AS_SVG),
@@ -96,7 +96,7 @@ const FOREIGN: [Foreign; 19] = [
     foreign(0, b"wOF2", "a font", AS_TEXT),
 ];
 
-/// Why a file of no known kind cannot be drawn, and what to do.
+/// Returns the error for a file of no known kind: what the file is, if that is known, and what to do.
 pub fn unsupported(bytes: &[u8]) -> DrawError {
     let known = FOREIGN
         .iter()

@@ -1,11 +1,11 @@
-//! Mirror-symmetric drawings get mirror-symmetric places: an H with three lights left and four right looks wrong.
+//! Gives mirror-symmetric drawings mirror-symmetric places: an H with three lights left and four right looks wrong.
 
 use lightbots_base::Vec2;
 
 use crate::buckets::Buckets;
 use crate::coverage::Sample;
 
-/// Share of the mass that must have its mirror image in the drawing.
+/// Least share of the drawing's mass whose mirror image is in the drawing as well.
 const SYMMETRIC: f64 = 0.97;
 
 /// A mirror axis through the drawing.
@@ -17,14 +17,14 @@ pub(crate) enum Mirror {
     UpDown(f64),
 }
 
-/// Which of a list of places mirror each other.
+/// Which places of a list are mirror images of each other.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pairing {
     /// The axis.
     pub mirror: Mirror,
-    /// Places on the axis.
+    /// Indices of places on the axis.
     pub single: Vec<usize>,
-    /// Places and their mirror images.
+    /// Indices of places and of their mirror images.
     pub pairs: Vec<(usize, usize)>,
 }
 
@@ -37,7 +37,7 @@ impl Mirror {
         }
     }
 
-    /// Distance from the axis, positive to the right of it or above it.
+    /// Signed distance from the axis: positive to the right of it or above it.
     pub fn side(self, at: Vec2) -> f64 {
         match self {
             Self::LeftRight(x) => at.x - x,
@@ -53,7 +53,8 @@ impl Mirror {
         }
     }
 
-    /// The axis of a drawing, left and right before up and down; `None` if it has neither. `pitch` is the samples' distance.
+    /// Finds the axis of a drawing, left-right before up-down. `None` if the drawing is symmetric about neither.
+    /// `pitch` is the distance between samples.
     pub fn of(samples: &[Sample], pitch: f64) -> Option<Self> {
         let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
         let sum = samples.iter().fold(Vec2::ZERO, |sum, sample| sum + sample.at * sample.mass);
@@ -74,8 +75,8 @@ impl Mirror {
 }
 
 impl Pairing {
-    /// Places that mirror each other exactly, made from places on one side of the axis and on it: first both places of
-    /// each pair, then the single ones.
+    /// Makes exactly symmetric places from places on one side of the axis and from single ones on it. Both places of
+    /// each pair come first, then the single ones.
     pub fn unfold(mirror: Mirror, side: &[Vec2], single: &[Vec2]) -> (Vec<Vec2>, Self) {
         let mut places = Vec::with_capacity(2 * side.len() + single.len());
         for place in side {
@@ -87,14 +88,14 @@ impl Pairing {
         (places, Self { mirror, single, pairs })
     }
 
-    /// The same places behind `count` others.
+    /// Shifts all indices by `count`, for a list in which `count` other places come first.
     pub fn after(mut self, count: usize) -> Self {
         self.single.iter_mut().for_each(|index| *index += count);
         self.pairs.iter_mut().for_each(|(a, b)| (*a, *b) = (*a + count, *b + count));
         self
     }
 
-    /// Makes places symmetric again after each has moved by itself.
+    /// Makes places symmetric again after they moved independently of each other.
     pub fn apply(&self, places: &mut [Vec2]) {
         for index in &self.single {
             places[*index] = self.mirror.onto(places[*index]);
@@ -107,7 +108,7 @@ impl Pairing {
     }
 }
 
-/// Share of the places that have a mirror image within `reach`.
+/// Returns the share of places that have another place, or themselves, within `reach` of their mirror image.
 pub(crate) fn symmetric_share(mirror: Mirror, places: &[Vec2], reach: f64) -> f64 {
     let buckets = Buckets::new(places, reach);
     let near = |place: &&Vec2| {

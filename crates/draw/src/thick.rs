@@ -1,4 +1,4 @@
-//! Lines as bands, for more robots than stand behind one another along them.
+//! Widens lines to bands, for more robots than fit in a single row along them.
 
 use core::f64::consts::PI;
 
@@ -7,30 +7,33 @@ use lightbots_base::Vec2;
 use crate::drawing::{Area, DrawingPart, FillRule, Stroke};
 use crate::geometry::{hexagonal_area, hexagonal_count};
 
-/// Corners of half a circle at each end of a piece.
+/// Segments of the half circle at each end of a band.
 const ROUND: usize = 6;
 
-/// The nearest pair of a filling, in ideal spacings: bands are made this much wider, so that no pair is nearer than wanted.
+/// Least distance between places of a filling, in ideal spacings. Bands are made this much wider, to keep the distance
+/// that is asked for.
 const NEAREST: f64 = 0.85;
 
-/// Share of the places along lines that can be used: where lines meet, places of one are in the way of the other.
+/// Share of the places along lines that can be used. Where lines meet, places of one line are too near to those of the
+/// other.
 const USABLE: f64 = 0.8;
 
-/// What bands have to hold.
+/// What bands must hold.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BandLoad {
     /// Number of robots.
     pub robots: usize,
-    /// Their least distance, same units as the drawing.
+    /// Least distance between robots, in units of the drawing.
     pub spacing: f64,
     /// Total length of the lines.
     pub length: f64,
-    /// Total of the areas, which take robots as well.
+    /// Total size of the areas, which hold robots as well.
     pub area: f64,
 }
 
 impl BandLoad {
-    /// Width of bands that have room for all robots; `None` where the lines have room.
+    /// Returns the width of bands that hold all robots. `None` if the lines hold them as they are, or if there are no
+    /// lines.
     pub fn width(&self) -> Option<f64> {
         let ideal = self.spacing / NEAREST;
         let on_lines = USABLE * self.length / self.spacing;
@@ -41,7 +44,7 @@ impl BandLoad {
     }
 }
 
-/// A part whose lines are bands of this width.
+/// Returns a part whose strokes have become bands of this width.
 pub(crate) fn thickened(part: &DrawingPart, width: f64) -> DrawingPart {
     let areas = part.strokes.iter().map(|stroke| band(stroke, width)).collect();
     DrawingPart { areas, strokes: Vec::new(), spine: part.strokes.clone(), ..part.clone() }
@@ -54,7 +57,7 @@ fn band(stroke: &Stroke, width: f64) -> Area {
     Area { rings, rule: FillRule::NonZero, ink: stroke.ink.clone(), weight: stroke.weight }
 }
 
-/// The outline of all that is within `reach` of a straight piece, anticlockwise.
+/// Returns the outline of all points within `reach` of a straight segment, anticlockwise.
 fn around(from: Vec2, to: Vec2, reach: f64) -> Vec<Vec2> {
     let along = (to - from).angle();
     let cap = |center: Vec2, first: f64| {
@@ -88,7 +91,7 @@ mod tests {
         let stroke = Stroke { points, closed: false, ink: Rgb::BLACK.into(), weight: 1.0 };
         let part = DrawingPart { strokes: vec![stroke], ..DrawingPart::default() };
         let mass: f64 = samples(&thickened(&part, 0.2), 0.01).iter().map(|sample| sample.mass).sum();
-        // Two bands of 1 × 0.2, three quarters of a circle's sector at the corner, two half circles at the ends.
+        // Two bands of 1 × 0.2 without their overlap, a quarter of a disc at the corner, half a disc at each end.
         let exact = 0.4 - 0.01 + PI * 0.01 / 4.0 + PI * 0.01;
         assert!((mass - exact).abs() < 0.01, "{mass} {exact}");
     }

@@ -1,5 +1,5 @@
-//! Lines without the stretches that run over other lines again: a pen may retrace its way, but two lights on one place
-//! would collide.
+//! Removes stretches of lines that run over other lines. A pen may retrace its path, but two robots in one place would
+//! collide.
 
 use lightbots_base::Vec2;
 
@@ -10,10 +10,10 @@ use crate::lines::Polyline;
 /// Lines nearer than this share of the drawing's size are one line.
 const SAME: f64 = 0.015;
 
-/// Shorter stretches side by side are crossings, in distances at which lines are one.
+/// A shared stretch shorter than this is a crossing and stays. The unit is the distance below which lines are one.
 const CROSSING: f64 = 5.0;
 
-/// The strokes of a drawing of this size, each stretch only once.
+/// Returns the strokes of a drawing of this size, with every stretch only once.
 pub(crate) fn unique(strokes: &[Stroke], size: f64) -> Vec<Stroke> {
     let distance = SAME * size;
     let mut lines = Vec::new();
@@ -42,7 +42,8 @@ pub(crate) fn unique(strokes: &[Stroke], size: f64) -> Vec<Stroke> {
     kept
 }
 
-/// The stretches of a line that are not covered, each with the first covered point beside it, so that joints stay closed.
+/// Returns the stretches of a line that are not covered. Each includes the covered point next to it, which keeps joints
+/// closed.
 fn runs(stroke: &Stroke, points: &[Vec2], covered: &[bool], shortest: usize) -> Vec<Stroke> {
     let long = long_runs(covered, shortest);
     if !long.iter().any(|covered| *covered) {
@@ -67,7 +68,7 @@ fn runs(stroke: &Stroke, points: &[Vec2], covered: &[bool], shortest: usize) -> 
     parts
 }
 
-/// Covered points that belong to stretches of at least `shortest` covered points.
+/// Marks covered points in runs of at least `shortest` covered points.
 fn long_runs(covered: &[bool], shortest: usize) -> Vec<bool> {
     let mut long = vec![false; covered.len()];
     let mut from = 0;

@@ -1,4 +1,4 @@
-//! Shapes with an inside: their rings.
+//! Shapes with an inside, as rings.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -6,10 +6,10 @@ use lightbots_base::Vec2;
 
 use super::kinds::{ShapeKind, ShapeSettings};
 
-/// Points of a round line: their chords are 0.03 % inside of it.
+/// Number of points of a round line: its chords are at most 0.03 % of the radius inside the circle.
 const ROUND: usize = 128;
 
-/// The rings of a shape; `None` for shapes that are lines or places.
+/// Returns the rings of a shape. `None` for kinds that are lines or places.
 pub(super) fn rings(settings: &ShapeSettings) -> Option<Vec<Vec<Vec2>>> {
     let wide = |ring: Vec<Vec2>| ring.into_iter().map(|at| Vec2::new(at.x * settings.aspect, at.y)).collect();
     let ring = match settings.kind {
@@ -26,7 +26,7 @@ pub(super) fn rings(settings: &ShapeSettings) -> Option<Vec<Vec<Vec2>>> {
     Some(vec![wide(ring)])
 }
 
-/// Corners on a circle, the first at the top.
+/// Returns corners on a circle, the first at the top.
 pub(super) fn polygon(corners: usize, radius: f64) -> Vec<Vec2> {
     (0..corners).map(|index| Vec2::unit(FRAC_PI_2 + TAU * index as f64 / corners as f64) * radius).collect()
 }
@@ -38,7 +38,7 @@ fn star(tips: usize, inner: f64) -> Vec<Vec2> {
         .collect()
 }
 
-/// The heart curve x = 16 sin³ t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, one unit wide.
+/// Returns the heart curve x = 16 sin³ t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, one unit wide.
 fn heart() -> Vec<Vec2> {
     let point = |index: usize| {
         let t = TAU * index as f64 / ROUND as f64;
@@ -50,7 +50,7 @@ fn heart() -> Vec<Vec2> {
     (0..ROUND).map(point).collect()
 }
 
-/// An arrow to the right.
+/// Returns an arrow that points to the right.
 fn arrow() -> Vec<Vec2> {
     [(-0.5, -0.12), (0.1, -0.12), (0.1, -0.35), (0.5, 0.0), (0.1, 0.35), (0.1, 0.12), (-0.5, 0.12)]
         .map(|(x, y)| Vec2::new(x, y))

@@ -8,13 +8,13 @@ use super::closed::polygon;
 use super::kinds::{ShapeKind, ShapeSettings};
 use crate::geometry::bounds;
 
-/// Points of a full turn.
+/// Number of points of a full turn.
 const TURN: f64 = 96.0;
 
-/// Points between two points of a curve.
+/// Number of segments between two given points of a curve.
 const BETWEEN: usize = 12;
 
-/// The lines of a shape, each with whether it is closed.
+/// Returns the lines of a shape, each with whether it is closed.
 pub(super) fn lines(settings: &ShapeSettings) -> Vec<(Vec<Vec2>, bool)> {
     let points = &settings.points;
     match settings.kind {
@@ -58,7 +58,8 @@ fn curve(points: &[Vec2], closed: bool) -> Vec<Vec2> {
     line
 }
 
-/// Every point that is far enough from the one before: a hand trembles at the distance of mouse events.
+/// Returns the points that are far enough from the point before, and the last one. Mouse events are close together and
+/// follow every tremble of the hand.
 fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     let (low, high) = bounds(points).unwrap_or_default();
     let least = 0.02 * (high - low).length();
@@ -76,7 +77,7 @@ fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     kept
 }
 
-/// An arc that is symmetric about the upward direction.
+/// Returns an arc that is symmetric about the upward direction.
 fn arc(span: f64) -> Vec<Vec2> {
     let pieces = (span / TAU * TURN).ceil().max(2.0) as usize;
     let angle = |index: usize| FRAC_PI_2 + span * (0.5 - index as f64 / pieces as f64);
@@ -90,7 +91,7 @@ fn rings(settings: &ShapeSettings) -> Vec<(Vec<Vec2>, bool)> {
     (0..count).map(|index| (polygon(TURN as usize, radius(index)), true)).collect()
 }
 
-/// An Archimedean spiral from the inside out.
+/// Returns an Archimedean spiral from the inside out.
 fn spiral(settings: &ShapeSettings) -> Vec<Vec2> {
     let pieces = (settings.turns * TURN).ceil().max(8.0) as usize;
     let point = |index: usize| {
@@ -101,7 +102,7 @@ fn spiral(settings: &ShapeSettings) -> Vec<Vec2> {
     (0..=pieces).map(point).collect()
 }
 
-/// A sine over the width, one unit high.
+/// Returns a sine over the width, one unit high.
 fn wave(settings: &ShapeSettings) -> Vec<Vec2> {
     let pieces = (settings.turns * TURN).ceil().max(8.0) as usize;
     let point = |index: usize| {

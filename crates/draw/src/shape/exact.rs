@@ -1,4 +1,4 @@
-//! Shapes whose places depend on their number: grids and chance.
+//! Shapes whose places depend on the number of robots: grids and random places.
 
 use lightbots_base::Vec2;
 
@@ -6,10 +6,11 @@ use super::kinds::{ShapeKind, ShapeSettings};
 use crate::coverage::Sample;
 use crate::seeds::seeds;
 
-/// Samples along each side of the field for places by chance.
+/// Number of samples along each side of the field in which random places are drawn.
 const FIELD: usize = 160;
 
-/// Places of a grid or of places by chance, about one unit between neighbours; `None` for other shapes.
+/// Returns the places of a grid, or random places, with about one unit between neighbours. `None` for other kinds of
+/// shapes.
 pub fn exact_places(settings: &ShapeSettings, count: usize, seed: u64) -> Option<Vec<Vec2>> {
     match settings.kind {
         ShapeKind::Grid => Some(rows(count, settings.aspect, 1.0, 0.0)),
@@ -19,14 +20,15 @@ pub fn exact_places(settings: &ShapeSettings, count: usize, seed: u64) -> Option
     }
 }
 
-/// Rows of equal length, as near to the aspect as possible; the last row is centred. Every second row is shifted.
+/// Returns rows of equal length with about the aspect, width over height. The last row is centred; every second row is
+/// shifted.
 fn rows(count: usize, aspect: f64, height: f64, shift: f64) -> Vec<Vec2> {
     let columns = ((count as f64 * aspect * height).sqrt().round() as usize).clamp(1, count.max(1));
     let rows = count.div_ceil(columns);
     let place = |index: usize| {
         let (row, column) = (index / columns, index % columns);
         let here = if row + 1 == rows { count - row * columns } else { columns };
-        // A centred last row of a hexagonal grid may fall between its neighbours only by a half step.
+        // A centred last row of a hexagonal grid fits between its neighbours only if it moves by whole steps.
         let missing = (columns - here) as f64 / 2.0;
         let centred = if shift > 0.0 { missing.floor() } else { missing };
         let offset = if row % 2 == 1 { shift } else { 0.0 };

@@ -4,7 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 
 use crate::error::DrawError;
 
-/// Most points of a shape that is drawn by hand.
+/// Largest number of points of a shape that is drawn by hand.
 pub const MAX_SHAPE_POINTS: usize = 10_000;
 
 /// A kind of shape.
@@ -16,7 +16,7 @@ pub enum ShapeKind {
     Polyline,
     /// A smooth line through points.
     Curve,
-    /// A line as it was drawn by hand, smoothed a little.
+    /// A line drawn by hand, smoothed a little.
     Freehand,
     /// A rectangle.
     Rectangle,
@@ -26,7 +26,7 @@ pub enum ShapeKind {
     Circle,
     /// A part of a circle.
     Arc,
-    /// Circles with one middle.
+    /// Concentric circles.
     Rings,
     /// A spiral with equal distances between its turns.
     Spiral,
@@ -42,7 +42,7 @@ pub enum ShapeKind {
     Grid,
     /// A hexagonal grid.
     Hexagons,
-    /// Places by chance, apart from each other.
+    /// Random places, apart from each other.
     Random,
 }
 
@@ -67,38 +67,38 @@ pub const SHAPES: [(ShapeKind, &str); 17] = [
     (ShapeKind::Random, "random"),
 ];
 
-/// A shape and its settings. Each kind uses those that it needs.
+/// A shape and its settings. Each kind uses only some of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeSettings {
-    /// What it is.
+    /// The kind of shape.
     pub kind: ShapeKind,
-    /// Width over height, for rectangles, ellipses, arrows, waves and grids.
+    /// Width divided by height, for all closed shapes, waves, grids and random places.
     pub aspect: f64,
-    /// Corners of a polygon, tips of a star, circles of rings.
+    /// Number of corners of a polygon, of tips of a star, or of circles of rings.
     pub count: usize,
-    /// Turns of a spiral, periods of a wave.
+    /// Number of turns of a spiral, or of periods of a wave.
     pub turns: f64,
-    /// Inner radius of a star or of rings, as a share of the outer one.
+    /// Inner radius of a star, of rings or of a spiral, as a share of the outer one.
     pub inner: f64,
     /// Angle of an arc, radians.
     pub span: f64,
-    /// Points of polyline, curve and freehand line, any units, y up.
+    /// Points of a line, polyline, curve or freehand line, in any units, y up.
     pub points: Vec<Vec2>,
-    /// Whether the last point is joined to the first.
+    /// Whether a polyline, curve or freehand line joins its last point to its first.
     pub closed: bool,
     /// Colour of its lights.
     pub color: Rgb,
 }
 
 impl ShapeKind {
-    /// The name in files and commands.
+    /// The name of the kind in files and commands.
     pub fn name(self) -> &'static str {
         SHAPES.into_iter().find(|(known, _)| *known == self).map_or("shape", |(_, name)| name)
     }
 }
 
 impl ShapeSettings {
-    /// A kind with its usual settings.
+    /// Returns a kind with its default settings.
     pub fn new(kind: ShapeKind) -> Self {
         let (count, turns, inner) = match kind {
             ShapeKind::Star => (5, 1.0, 0.4),
@@ -120,7 +120,7 @@ impl ShapeSettings {
         }
     }
 
-    /// Whether the settings are in range.
+    /// Checks that the settings are in range.
     pub(super) fn check(&self) -> Result<(), DrawError> {
         let fail = |what: &str| Err(DrawError::new("bad-shape", what));
         if !(0.01..=100.0).contains(&self.aspect) {
@@ -142,7 +142,7 @@ impl ShapeSettings {
     }
 }
 
-/// The kind of that name.
+/// Returns the kind of that name. `None` if there is none.
 pub fn shape_named(name: &str) -> Option<ShapeKind> {
     SHAPES.into_iter().find(|(_, known)| *known == name).map(|(kind, _)| kind)
 }

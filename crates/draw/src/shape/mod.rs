@@ -13,8 +13,8 @@ use crate::error::DrawError;
 pub use exact::exact_places;
 pub use kinds::{MAX_SHAPE_POINTS, SHAPES, ShapeKind, ShapeSettings, shape_named};
 
-/// The drawing of a shape, about one unit in size. Grids and places by chance depend on the number of robots: these come
-/// from [`exact_places`].
+/// Returns the drawing of a shape, about one unit in size. Grids and random places have no drawing, because they depend
+/// on the number of robots; use [`exact_places`].
 ///
 /// # Errors
 /// Settings out of range, or a line of fewer than two points.
@@ -22,7 +22,7 @@ pub fn draw_shape(settings: &ShapeSettings) -> Result<Drawing, DrawError> {
     settings.check()?;
     let mut part = DrawingPart { name: settings.kind.name().into(), ..DrawingPart::default() };
     if let Some(rings) = closed::rings(settings) {
-        // A picture of few robots shows the edge alone.
+        // With few robots only the edge is shown.
         part.spine = rings.iter().map(|ring| stroke(ring.clone(), true, settings.color)).collect();
         part.areas = vec![Area { rings, rule: FillRule::EvenOdd, ink: settings.color.into(), weight: 1.0 }];
     } else {
