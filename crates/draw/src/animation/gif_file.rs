@@ -1,4 +1,5 @@
-//! GIF files, composed small: each picture changes a part of the one before.
+//! Reads GIF files and composes their pictures at reduced size. In a GIF, each picture changes a part of the one
+//! before.
 
 use std::num::NonZeroU64;
 
@@ -12,10 +13,13 @@ use crate::picture::Bitmap;
 
 /// Longest side of the canvas, pixels.
 const CANVAS_MAX: u32 = 4096;
-/// Memory of a picture, bytes.
+/// Largest memory of the decoder for one picture, bytes.
 const MEMORY_MAX: NonZeroU64 = NonZeroU64::new(64 << 20).expect("64 MiB are not zero");
 
-/// The pictures in a GIF file. A file cut off in its middle gives those before.
+/// Reads the pictures of a GIF file. A file that is cut off in its middle gives the pictures before that point.
+///
+/// # Errors
+/// A canvas that is too large, or a file without a whole picture.
 pub fn stills(bytes: &[u8]) -> Result<Stills, DrawError> {
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);
@@ -49,7 +53,7 @@ pub fn stills(bytes: &[u8]) -> Result<Stills, DrawError> {
     if found.stills.is_empty() { Err(damaged("it has no pictures")) } else { Ok(found) }
 }
 
-/// What is on the canvas of a GIF, in small.
+/// What is on the canvas of a GIF, at reduced size.
 struct SmallCanvas {
     width: usize,
     height: usize,
@@ -62,7 +66,7 @@ impl SmallCanvas {
         Self { width, height, shown: Bitmap { columns, rows, pixels: vec![[0; 4]; columns * rows] } }
     }
 
-    /// The canvas with a frame on it. Keeps what is to be left for the next.
+    /// Draws a frame on the canvas and returns the result. The canvas is left as the frame's disposal method says.
     fn show(&mut self, frame: &Frame) -> Bitmap {
         let before = self.shown.clone();
         let mut after = before.clone();

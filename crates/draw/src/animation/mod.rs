@@ -1,4 +1,4 @@
-//! Animations become drawings with times: GIF, animated WebP, or a list of pictures.
+//! Turns animations into drawings with times: GIF, animated WebP, or a list of pictures.
 
 mod gif_file;
 mod moments;
@@ -14,46 +14,47 @@ use crate::error::{DrawError, Note};
 use crate::picture::{self, BitMask, Bitmap, PictureSettings, Separation};
 use crate::sniff::{FileKind, sniff, unsupported};
 
-/// A moment of an animation.
+/// A picture of an animation with its time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnimationFrame {
     /// When it begins, seconds from the start.
     pub at_s: f64,
     /// How long it is shown, seconds.
     pub lasts_s: f64,
-    /// What it shows, in pixels of the animation with y upwards: all frames have the same corner.
+    /// What it shows, in pixels of the animation, y upwards. All frames have the same origin.
     pub drawing: Drawing,
-    /// Brightness of the picture in cells of a coarse grid, to compare it with others.
+    /// Brightness of the picture in the cells of a coarse grid, to compare it with other pictures.
     shade: Vec<f32>,
 }
 
 /// An animation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
-    /// At least one, in order of time.
+    /// The frames in order of time; at least one.
     pub frames: Vec<AnimationFrame>,
-    /// What is missing.
+    /// Notes about what is missing.
     pub notes: Vec<Note>,
 }
 
-/// Cells of the coarse grid on each side.
+/// Number of cells of the coarse grid along each side.
 const GRID: usize = 24;
 
 impl Animation {
-    /// How much two frames differ: half of 1 less the correlation of their brightness, so that 0 is the same and 1 the
-    /// opposite.
+    /// Returns how much two frames differ, from 0 for equal frames to 1 for opposite ones: half of 1 minus the
+    /// correlation of their brightness.
     pub fn change(&self, a: usize, b: usize) -> f64 {
         let shade = |n: usize| self.frames.get(n).map_or(&[][..], |frame| frame.shade.as_slice());
         (1.0 - correlation(shade(a), shade(b))) / 2.0
     }
 
-    /// When the frames begin, seconds from the start.
+    /// Returns the times at which the frames begin, seconds from the start.
     pub fn times_s(&self) -> Vec<f64> {
         self.frames.iter().map(|frame| frame.at_s).collect()
     }
 }
 
-/// The pixels of a file: one picture of a PNG, JPEG or WebP file, the pictures of an animation in GIF or WebP; at least one.
+/// Reads the pixels of a file: the single picture of a PNG, JPEG or WebP file, or the pictures of a GIF or animated
+/// WebP file. There is at least one.
 ///
 /// # Errors
 /// Files without pixels, damaged files, and pictures that are too large.
@@ -71,12 +72,15 @@ pub fn stills(bytes: &[u8]) -> Result<Vec<Still>, DrawError> {
     }
 }
 
-/// Whether a WebP file is an animation: its header says so in bit 1 of the flags.
+/// Whether a WebP file is an animation. Its header has a flag for that, bit 1.
 pub fn webp_moves(bytes: &[u8]) -> bool {
     bytes.get(12..16) == Some(b"VP8X") && bytes.get(20).is_some_and(|flags| flags & 2 != 0)
 }
 
-/// The animation in a GIF or WebP file.
+/// Reads the animation of a GIF or WebP file.
+///
+/// # Errors
+/// Other kinds of files, damaged or too large files, and animations that show nothing.
 pub fn read(bytes: &[u8], settings: &PictureSettings) -> Result<Animation, DrawError> {
     let stills = match sniff(bytes) {
         Some(FileKind::Gif) => gif_file::stills(bytes)?,
@@ -90,7 +94,8 @@ pub fn read(bytes: &[u8], settings: &PictureSettings) -> Result<Animation, DrawE
     drawn(stills, settings)
 }
 
-/// The animation of pictures that are each shown for `lasts_s` seconds. All take the size of the first.
+/// Makes an animation of pictures that are each shown for `lasts_s` seconds. All pictures are scaled to the size of the
+/// first.
 pub fn of_pictures(
     files: &[&[u8]],
     lasts_s: f64,
@@ -121,7 +126,7 @@ fn resized(bitmap: &Bitmap, columns: usize, rows: usize) -> Bitmap {
     Bitmap { columns, rows, pixels: (0..columns * rows).map(pixel).collect() }
 }
 
-/// Draws all pictures in the same way, each silhouette smoothed over three of them.
+/// Draws all pictures in the same way, each silhouette smoothed over three pictures.
 fn drawn(stills: Stills, settings: &PictureSettings) -> Result<Animation, DrawError> {
     let separations: Vec<Separation> =
         stills.stills.iter().map(|still| picture::separated(&still.bitmap, settings)).collect();
@@ -160,7 +165,8 @@ fn notes(cut: bool, empty: usize, frames: usize) -> Vec<Note> {
     cut.into_iter().chain(empty).collect()
 }
 
-/// What most of three masks in a row have inside; the mask itself where that leaves less than half of it.
+/// Returns the pixels that are inside in at least two of three consecutive masks. If that leaves less than half of the
+/// mask `at`, returns that mask unchanged.
 fn smoothed(masks: &[BitMask], at: usize) -> BitMask {
     let own = masks[at].clone();
     let sides = at.checked_sub(1).and_then(|before| masks.get(before)).zip(masks.get(at + 1));
@@ -173,7 +179,8 @@ fn smoothed(masks: &[BitMask], at: usize) -> BitMask {
     if mixed.count() * 2 < own.count() { own } else { mixed }
 }
 
-/// Mean brightness in cells of a coarse grid: of what robots show, which is dark outside of the thing.
+/// Returns the mean brightness of what robots show in the cells of a coarse grid. Outside the thing that is shown it is
+/// 0.
 fn shade(bitmap: &Bitmap, drawing: &Drawing) -> Vec<f32> {
     let weights = drawing.parts.first().and_then(|part| part.raster.as_ref()).map(|raster| &raster.weights);
     let mut sums = vec![(0.0f32, 0.0f32); GRID * GRID];
@@ -189,7 +196,7 @@ fn shade(bitmap: &Bitmap, drawing: &Drawing) -> Vec<f32> {
     sums.into_iter().map(|(sum, count)| sum / count.max(1.0)).collect()
 }
 
-/// Normalised cross-correlation, −1 to 1; 1 for two pictures without contrast.
+/// Normalised cross-correlation, −1 to 1. It is 1 if both pictures have no contrast, 0 if only one has none.
 fn correlation(a: &[f32], b: &[f32]) -> f64 {
     let mean =
         |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;

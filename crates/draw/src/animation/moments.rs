@@ -1,8 +1,8 @@
-//! Which pictures of an animation robots show: key frames with enough time to move between them.
+//! Chooses the pictures of an animation that robots show: key frames with enough time to move between them.
 
-/// Price of a move, in units of change: few long moves look calmer than many short ones.
+/// Cost of a move, in units of change. It makes few long moves better than many short ones, because they look calmer.
 const MOVE_PRICE: f64 = 0.01;
-/// Share of the change that a faithful animation keeps.
+/// Least share of the change that a faithful animation shows.
 const FAITHFUL: f64 = 0.8;
 /// Factors of slow motion that are tried.
 const SLOWDOWNS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0];
@@ -10,29 +10,30 @@ const SLOWDOWNS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0];
 /// Key frames of an animation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyMoments {
-    /// Numbers of the pictures that robots form, ascending, from the first to the last.
+    /// Indices of the pictures that robots show, ascending. The first and the last picture are among them.
     pub moments: Vec<usize>,
-    /// Factor by which the animation must be slowed down so that robots have time for the moves; 1: as it is.
+    /// Factor by which the animation must be slowed down to give robots time for the moves. 1 if it need not be slowed
+    /// down.
     pub slowdown: f64,
-    /// Share of the change between pictures that robots show, 0 to 1.
+    /// Share of the change between pictures that robots show at `slowdown`, 0 to 1.
     pub kept: f64,
-    /// Least factor tried that keeps 80 % of the change; `None`: more than 16.
+    /// Smallest of the tried factors at which robots show 80 % of the change. `None` if 16 is not enough.
     pub faithful_slowdown: Option<f64>,
 }
 
 /// A move between two pictures.
 #[derive(Clone, Copy)]
 struct Step {
-    /// Change of the picture less the price of the move.
+    /// Change of the picture minus the cost of the move.
     gain: f64,
-    /// Time that robots need over time that there is.
+    /// Time that robots need divided by the time that they have.
     slowness: f64,
 }
 
-/// The key frames that keep most of the change while robots have time between them. `times_s` are the moments of the
-/// pictures, ascending. `change` says how much two pictures differ, 0 to 1, and `cost_s` how long robots move from one to
-/// the other; both are asked at most once for each pair of pictures not more than `reach` apart. `None`: there are no
-/// pictures, or times that do not ascend.
+/// Chooses the key frames with most of the change between which robots have enough time. `times_s` are the times of the
+/// pictures, ascending. `change` returns how much two pictures differ, 0 to 1. `cost_s` returns how long robots move
+/// from one to the other, seconds. Both are called once for each pair of pictures that are at most `reach` apart.
+/// `None` if there are no pictures or the times do not ascend.
 pub fn key_moments(
     times_s: &[f64],
     reach: usize,
@@ -69,7 +70,7 @@ pub fn key_moments(
     Some(KeyMoments { moments, slowdown, kept, faithful_slowdown })
 }
 
-/// The least factor, 1 or more, at which moves lead from the first picture to the last.
+/// Returns the least factor, 1 or more, at which a chain of moves leads from the first picture to the last.
 fn least_slowdown(steps: &[Vec<Step>]) -> f64 {
     let mut least: Vec<f64> = Vec::with_capacity(steps.len());
     for (to, moves) in steps.iter().enumerate() {
@@ -80,7 +81,8 @@ fn least_slowdown(steps: &[Vec<Step>]) -> f64 {
     least.last().map_or(1.0, |slowness| slowness.max(1.0))
 }
 
-/// The sum of gains and the pictures on the way with the largest sum, of moves at most as slow as `slowdown`.
+/// Finds the chain of moves with the largest sum of gains, of moves whose slowness is at most `slowdown`. Returns the
+/// sum and the pictures of the chain. `None` if there is no chain.
 fn best(steps: &[Vec<Step>], slowdown: f64) -> Option<(f64, Vec<usize>)> {
     let mut sums: Vec<Option<(f64, usize)>> = Vec::with_capacity(steps.len());
     for (to, moves) in steps.iter().enumerate() {
@@ -106,8 +108,8 @@ fn best(steps: &[Vec<Step>], slowdown: f64) -> Option<(f64, Vec<usize>)> {
 mod tests {
     use super::*;
 
-    /// Pictures a second apart of a thing that moves by 1 for each picture, then stands. Robots move by `speed` in a second
-    /// and need 0.5 s to start and stop.
+    /// Pictures of a thing, one second apart. It moves by 1 from picture to picture, then stands. Robots move at
+    /// `speed` per second and need 0.5 s to start and stop.
     fn moved(speed: f64) -> Option<KeyMoments> {
         let times: Vec<f64> = (0..9).map(f64::from).collect();
         let place = |n: usize| n.min(4) as f64;

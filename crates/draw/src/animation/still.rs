@@ -1,13 +1,13 @@
-//! Small pictures with times.
+//! Reduced pictures with times.
 
 use crate::error::DrawError;
 use crate::picture::Bitmap;
 
-/// Longer side of the pictures of an animation, pixels: 300 of them with their masks and colours take 150 MB.
+/// Longer side of the reduced pictures, pixels. With 300 pictures, masks and colours take 150 MB.
 pub const SIDE_MAX: usize = 192;
-/// Pictures of an animation, at most.
+/// Largest number of pictures of an animation.
 pub const STILLS_MAX: usize = 300;
-/// Pixels of the file's pictures, at most, added up: 200 million take about 2 s.
+/// Largest number of pixels of all pictures in the file together. 200 million take about 2 s.
 pub const PIXELS_MAX: u64 = 200_000_000;
 
 /// A picture of an animation.
@@ -22,13 +22,13 @@ pub struct Still {
 /// The pictures of an animation.
 #[derive(Default)]
 pub struct Stills {
-    /// In order of time.
+    /// The pictures in order of time.
     pub stills: Vec<Still>,
-    /// Whether more pictures follow.
+    /// Whether the file has more pictures, or is cut off.
     pub cut: bool,
 }
 
-/// Columns and rows of the small picture.
+/// Returns columns and rows of the reduced picture.
 pub fn small(width: usize, height: usize) -> (usize, usize) {
     let longer = width.max(height).max(1);
     if longer <= SIDE_MAX {
@@ -38,23 +38,23 @@ pub fn small(width: usize, height: usize) -> (usize, usize) {
     (scaled(width), scaled(height))
 }
 
-/// The pixel of a large side in the middle of a small pixel.
+/// Returns the index along a large side that corresponds to the middle of pixel `at` of the small side.
 pub fn sample(at: usize, small: usize, large: usize) -> usize {
     ((2 * at + 1) * large / (2 * small.max(1))).min(large.saturating_sub(1))
 }
 
-/// Seconds that a picture is shown. Browsers show those of up to 10 ms for 100 ms.
+/// Returns how long a picture is shown, seconds. As in browsers, up to 10 ms become 100 ms.
 pub fn lasts_s(milliseconds: u32) -> f64 {
     if milliseconds <= 10 { 0.1 } else { f64::from(milliseconds) / 1000.0 }
 }
 
-/// The refusal of an animation without pictures, or one that is cut off at once.
+/// The error for an animation without pictures, or one cut off before its first picture ends.
 pub fn damaged(reason: &str) -> DrawError {
     let message = format!("The animation is damaged or cut off: {reason}. Copy or download the file again.");
     DrawError::new("animation-cut-off", message)
 }
 
-/// The refusal of an animation whose pictures are too large.
+/// The error for an animation whose pictures are too large.
 pub fn too_large(width: u32, height: u32, side_max: u32) -> DrawError {
     let message = format!(
         "The animation has {width} × {height} pixels, at most {side_max} × {side_max} are possible. Make it smaller; \

@@ -11,7 +11,7 @@ use crate::picture::PictureSettings;
 /// Black, white and red.
 const PALETTE: [u8; 9] = [0, 0, 0, 255, 255, 255, 255, 0, 0];
 
-/// A GIF of frames over a canvas, with its sides in pixels.
+/// A GIF of frames on a square canvas with sides of `canvas` pixels.
 fn gif(canvas: u16, frames: &[Frame<'static>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, canvas, canvas, &PALETTE).expect("the palette is small");
@@ -82,7 +82,7 @@ fn frames_are_composed_by_their_disposal() {
         (count(1), count(2))
     };
     assert_eq!(rings(DisposalMethod::Keep), (2, 2));
-    // What a single picture shows is smoothed away.
+    // What only a single picture shows is smoothed away.
     assert_eq!(rings(DisposalMethod::Previous), (1, 1));
     // A transparent hole in the canvas.
     assert_eq!(rings(DisposalMethod::Background), (1, 2));
@@ -127,7 +127,7 @@ fn pictures_in_a_row_are_an_animation() {
 
 #[test]
 fn webp_headers_are_bounded() {
-    // The 30 bytes of a header with the flag of animation, and a canvas of 8,000 pixels on each side.
+    // The 30 bytes of a header with the animation flag, and a canvas of 8,000 pixels on each side.
     let side = &(8_000u32 - 1).to_le_bytes()[..3];
     let extended = [b"VP8X".as_slice(), &10u32.to_le_bytes(), &[2, 0, 0, 0], side, side].concat();
     let control = [b"ANIM".as_slice(), &6u32.to_le_bytes(), &[0; 6]].concat();

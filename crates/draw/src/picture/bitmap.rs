@@ -9,20 +9,21 @@ pub struct Bitmap {
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    /// Red, green, blue and opacity, 0 to 255.
+    /// Red, green, blue and opacity of each pixel, 0 to 255.
     pub pixels: Vec<[u8; 4]>,
 }
 
-/// One yes or no for each pixel, row by row from the top left.
+/// A flag for each pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BitMask {
     /// Pixels in a row.
     pub columns: usize,
-    /// Yes: it belongs to the thing that is shown.
+    /// For each pixel, whether it belongs to the thing that is shown.
     pub inside: Vec<bool>,
 }
 
-/// A colour in Oklab (Ottosson 2020): lightness 0 to 1, green to red, blue to yellow. Distances are as people see them.
+/// A colour in Oklab (Ottosson 2020): lightness 0 to 1, green to red, blue to yellow. Equal distances look about
+/// equally large.
 pub type Oklab = [f32; 3];
 
 impl Bitmap {
@@ -31,7 +32,7 @@ impl Bitmap {
         self.pixels.iter().map(|[r, g, b, _]| Rgb::new(*r, *g, *b))
     }
 
-    /// Numbers of the pixels along the edge.
+    /// Indices of the pixels along the edge.
     pub fn edge(&self) -> impl Iterator<Item = usize> + '_ {
         let (columns, rows) = (self.columns, self.rows);
         (0..columns * rows).filter(move |index| {
@@ -53,7 +54,7 @@ impl BitMask {
     }
 }
 
-/// The neighbours of a pixel above, to the left, to the right and below.
+/// Returns the indices of the pixels above, to the left, to the right and below, as far as they exist.
 pub fn neighbours(index: usize, columns: usize, pixels: usize) -> impl Iterator<Item = usize> {
     let x = index % columns.max(1);
     let above = index.checked_sub(columns);
@@ -63,12 +64,12 @@ pub fn neighbours(index: usize, columns: usize, pixels: usize) -> impl Iterator<
     [above, left, right, below].into_iter().flatten()
 }
 
-/// Light of a channel of sRGB, 0 to 1 (IEC 61966-2-1).
+/// Converts a channel of sRGB to linear light, 0 to 1 (IEC 61966-2-1).
 pub fn linear(channel: u8) -> f64 {
     srgb_decoded(f64::from(channel) / 255.0)
 }
 
-/// Colours in Oklab.
+/// Converts colours to Oklab.
 pub fn oklab(colors: impl Iterator<Item = Rgb>) -> Vec<Oklab> {
     let light: Vec<f64> = (0..=255).map(linear).collect();
     let of = |channel: u8| light.get(usize::from(channel)).copied().unwrap_or(1.0);
@@ -88,7 +89,7 @@ pub fn oklab(colors: impl Iterator<Item = Rgb>) -> Vec<Oklab> {
         .collect()
 }
 
-/// Distance of two colours; 0.02 is just seen, black and white are 1 apart.
+/// Returns the distance of two colours. 0.02 is just visible; black and white are 1 apart.
 pub fn difference(a: Oklab, b: Oklab) -> f32 {
     let square = |n: usize| (a[n] - b[n]) * (a[n] - b[n]);
     (square(0) + square(1) + square(2)).sqrt()

@@ -1,17 +1,18 @@
-//! The border of a thing as smooth rings.
+//! Traces the border of a thing as smooth rings.
 
 use lightbots_base::Vec2;
 
 use crate::picture::bitmap::BitMask;
 
-/// Rounds of smoothing a mask before its border is drawn, each over three pixels: a slanted edge has no steps then.
+/// Rounds of smoothing before the border of a mask is traced, each over three pixels. They remove the steps of slanted
+/// edges.
 const SMOOTHINGS: usize = 2;
-/// Largest distance of a dropped point from the ring, pixels.
+/// Largest distance of a dropped point from the simplified ring, pixels.
 const TOLERANCE: f64 = 0.5;
-/// Points of a ring, at least.
+/// Least number of points of a ring.
 const POINTS_MIN: usize = 3;
 
-/// Rings around everything inside a mask, in pixels with y upwards from the lower edge. Outer rings run
+/// Returns the border of a mask as rings, in pixels with y upwards from the lower edge. Outer rings run
 /// counter-clockwise, holes clockwise.
 pub fn rings(mask: &BitMask) -> Vec<Vec<Vec2>> {
     let field = Field::new(mask);
@@ -25,10 +26,10 @@ pub fn rings(mask: &BitMask) -> Vec<Vec<Vec2>> {
         .collect()
 }
 
-/// Empty pixels around the picture, one more than smoothing fills.
+/// Width of the empty frame around the picture, pixels: one more than smoothing fills.
 const FRAME: usize = SMOOTHINGS + 1;
 
-/// How much of the thing is at each pixel, 0 to 1, with an empty frame around.
+/// How much of the thing is at each pixel, 0 to 1, with an empty frame around the picture.
 struct Field {
     columns: usize,
     rows: usize,
@@ -62,8 +63,8 @@ impl Field {
         }
     }
 
-    /// Marching squares: each cell of four pixels adds the pieces of line between the thing and the rest. An edge between
-    /// two pixels is crossed once at most, so that it names the place.
+    /// Finds rings by marching squares: each cell of four pixels adds the segments between the thing and the rest. The
+    /// border crosses an edge between two pixels at most once. The edge's number therefore identifies the crossing.
     fn rings(&self) -> Vec<Vec<Vec2>> {
         const NONE: u32 = u32::MAX;
         let mut next = vec![NONE; self.values.len() * 2];
@@ -94,13 +95,13 @@ impl Field {
         self.values[index] >= 0.5
     }
 
-    /// Pieces of line in the cell whose upper left pixel is `corner`, from edge to edge. Edges are numbered by their upper
-    /// or left pixel: twice its index, one more for vertical edges.
+    /// Returns the segments in the cell whose upper left pixel is `corner`, from edge to edge. An edge has twice the
+    /// index of its upper or left pixel as its number, plus one if it is vertical.
     fn pieces(&self, corner: usize) -> Vec<(usize, usize)> {
         let below = corner + self.columns;
         let [a, b, c, d] = [corner, corner + 1, below + 1, below].map(|index| self.is_inside(index));
         let [top, right, bottom, left] = [corner * 2, corner * 2 + 3, below * 2, corner * 2 + 1];
-        // As seen with y downwards, the thing is on the left of each piece.
+        // Seen with y downwards, the thing is on the left of each segment.
         match (a, b, c, d) {
             (false, false, false, false) | (true, true, true, true) => vec![],
             (true, false, false, false) => vec![(top, left)],
@@ -133,7 +134,8 @@ impl Field {
     }
 }
 
-/// A ring without points that are within [`TOLERANCE`] of the line between those that stay (Douglas and Peucker 1973).
+/// Returns a ring without the points that are within [`TOLERANCE`] of the lines between the remaining ones (Douglas and
+/// Peucker 1973).
 fn simplified(ring: &[Vec2]) -> Vec<Vec2> {
     let Some(first) = ring.first() else { return Vec::new() };
     let farthest =

@@ -1,4 +1,5 @@
-//! Files of pictures become small bitmaps: within limits of size and memory, turned upright, and whole.
+//! Decodes files of pictures into small upright bitmaps, within limits of size and memory. Pictures that are cut off
+//! are refused.
 
 use std::io::Cursor;
 
@@ -8,14 +9,17 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Li
 use crate::error::DrawError;
 use crate::picture::bitmap::Bitmap;
 
-/// Longer side of the bitmap, pixels: five for each of 100 robots in a row.
+/// Longer side of the bitmap, pixels: about five for each robot in a row of 100.
 pub const SIDE_MAX: u32 = 512;
 /// Longest side of the file's picture, pixels.
 const FILE_SIDE_MAX: u32 = 8192;
-/// Memory of the decoded picture, bytes: 44 million pixels of three channels.
+/// Largest memory of the decoded picture, bytes: 44 million pixels of three channels.
 const MEMORY_MAX: u64 = 128 << 20;
 
-/// The picture in a PNG, JPEG or WebP file, made small.
+/// Decodes the picture in a PNG, JPEG or WebP file and reduces it to at most [`SIDE_MAX`].
+///
+/// # Errors
+/// Other formats, pictures that are too large, damaged or cut off.
 pub fn decode(bytes: &[u8]) -> Result<Bitmap, DrawError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|_| unknown())?;
     match reader.format() {
@@ -43,7 +47,7 @@ pub fn decode(bytes: &[u8]) -> Result<Bitmap, DrawError> {
     Ok(Bitmap { columns, rows, pixels: small.pixels().map(|pixel| pixel.0).collect() })
 }
 
-/// Whether a JPEG has its end marker, outside of the small preview that cameras put at its beginning.
+/// Whether a JPEG has its end marker. That of the small preview which cameras put at the beginning does not count.
 fn ends(bytes: &[u8]) -> bool {
     let mut at = 2;
     while let (Some(0xff), Some(marker)) = (bytes.get(at), bytes.get(at + 1)) {
@@ -60,13 +64,14 @@ fn ends(bytes: &[u8]) -> bool {
                 at += 2 + length;
             }
         }
-        // Image data follows some segments and may lie between others: markers there are 0xff before anything but 0.
+        // Image data follows some segments and may lie between others. A marker in it is 0xff before any byte but 0 and
+        // 0xd0 to 0xd7.
         at += bytes.get(at..).map_or(0, to_marker);
     }
     false
 }
 
-/// Bytes before the next marker.
+/// Returns the number of bytes before the next marker.
 fn to_marker(data: &[u8]) -> usize {
     let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0x00 | 0xd0..=0xd7);
     data.windows(2).position(is_marker).unwrap_or(data.len())

@@ -1,26 +1,28 @@
-//! Colours and weights of the lights that show a picture.
+//! Chooses colours and weights of the lights that show a picture.
 
 use lightbots_base::{Rgb, Vec2};
 
 use crate::drawing::Raster;
 use crate::picture::bitmap::{BitMask, Bitmap, neighbours};
 
-/// Brightest channel that a light has at least, 0 to 255: below it is hardly seen beside others.
+/// Least value of a light's brightest channel, 0 to 255. A darker light is hardly visible beside others.
 const BRIGHT_MIN: u8 = 90;
-/// A thing whose middle pixel is darker than this in all channels, 0 to 255, is drawn in black.
+/// A pixel below this in all channels, 0 to 255, is black. A thing that is mostly black is shown in white.
 const BLACK: u8 = 40;
-/// Rounds in which colours of the thing are carried over its border, where they mix with the background.
+/// Number of rounds in which colours of the thing spread across its border, where pixels mix with the background. One
+/// pixel each.
 const CARRIES: usize = 6;
-/// Shares of pixels that are taken for black and for white.
+/// Shares of all pixels that are darker than the values taken as black and as white.
 const ENDS: [f64; 2] = [0.02, 0.98];
-/// Least difference of brightness between black and white, 0 to 1: flatter pictures stay flat.
+/// Least difference of brightness between black and white, 0 to 1. Flatter pictures are not stretched to full contrast.
 const CONTRAST_MIN: f64 = 0.1;
-/// Exponent from brightness as stored to density: between light as measured, 2.2, and as perceived, 1; chosen by eye.
+/// Exponent from stored brightness to density of robots, chosen by eye. It lies between that of measured light, 2.2,
+/// and that of perceived light, 1.
 const DENSITY: f64 = 1.5;
-/// Weights below this are 0: no robots stand in what is nearly black.
+/// Weights below this become 0: no robots stand where the picture is nearly black.
 const WEIGHT_MIN: f64 = 0.05;
 
-/// The colours of a thing, carried over its border; its weights are 1 inside.
+/// Returns the colours of a thing, spread across its border. Weights are 1 inside and 0 outside.
 pub fn painted(bitmap: &Bitmap, mask: &BitMask) -> Raster {
     let mut colors: Vec<Rgb> = bitmap.colors().collect();
     let core = eroded(mask);
@@ -35,7 +37,7 @@ pub fn painted(bitmap: &Bitmap, mask: &BitMask) -> Raster {
     raster(bitmap, colors, weights)
 }
 
-/// The tones of a picture: robots stand densely where it is light, or where it is dark if it is `inverted`.
+/// Returns the tones of a picture. Robots stand densely where it is light, or where it is dark if `inverted`.
 pub fn tones(bitmap: &Bitmap, inverted: bool) -> Raster {
     let value = |[r, g, b, _]: &[u8; 4]| {
         (0.2126 * f64::from(*r) + 0.7152 * f64::from(*g) + 0.0722 * f64::from(*b)) / 255.0
@@ -60,21 +62,21 @@ fn raster(bitmap: &Bitmap, colors: Vec<Rgb>, weights: Vec<f32>) -> Raster {
     Raster { min: Vec2::ZERO, max, columns: bitmap.columns, colors, weights }
 }
 
-/// The values that a share of all are below.
+/// Returns the values below which the shares [`ENDS`] of all values are.
 fn ends(values: &[f64]) -> [f64; 2] {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     ENDS.map(|share| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0))
 }
 
-/// Whether most of a thing is black.
+/// Whether most pixels of a thing are black.
 fn is_black(colors: &[Rgb], mask: &BitMask) -> bool {
     let black = |color: &Rgb| color.r.max(color.g).max(color.b) < BLACK;
     let inside = colors.iter().zip(&mask.inside).filter(|(_, inside)| **inside);
     inside.filter(|(color, _)| black(color)).count() * 2 > mask.count()
 }
 
-/// A colour bright enough for a light: dark ones keep their hue, black becomes grey.
+/// Makes a colour bright enough for a light. Dark colours keep their hue; nearly black becomes grey.
 pub fn lifted(color: Rgb) -> Rgb {
     let brightest = color.r.max(color.g).max(color.b);
     if brightest >= BRIGHT_MIN {
@@ -87,7 +89,7 @@ pub fn lifted(color: Rgb) -> Rgb {
     Rgb::new(lift(color.r), lift(color.g), lift(color.b))
 }
 
-/// The light of a dark place: its hue at full brightness, white for greys.
+/// Returns the light for a dark place of an inverted picture: its hue at full brightness, or white for greys and black.
 fn opposite(color: Rgb) -> Rgb {
     let (brightest, darkest) = (color.r.max(color.g).max(color.b), color.r.min(color.g).min(color.b));
     if brightest < BLACK || brightest - darkest < BLACK {
@@ -97,7 +99,7 @@ fn opposite(color: Rgb) -> Rgb {
     Rgb::new(lift(color.r), lift(color.g), lift(color.b))
 }
 
-/// The pixels of a mask whose neighbours are all inside.
+/// Returns the pixels of a mask whose neighbours are all inside.
 fn eroded(mask: &BitMask) -> BitMask {
     let surrounded = |index: usize| {
         mask.inside[index]
@@ -106,7 +108,7 @@ fn eroded(mask: &BitMask) -> BitMask {
     BitMask { columns: mask.columns, inside: (0..mask.inside.len()).map(surrounded).collect() }
 }
 
-/// Carries the colours of a mask outwards, each round by a pixel.
+/// Spreads the colours inside a mask outwards, by one pixel in each round.
 fn carry(colors: &mut [Rgb], mask: &BitMask) {
     let mut known = mask.inside.clone();
     for _ in 0..CARRIES {

@@ -1,4 +1,4 @@
-//! Pictures become drawings: the silhouette of what they show, its outline, or its tones from dark to light.
+//! Turns pictures into drawings: the silhouette of the thing they show, its outline, or the tones from dark to light.
 
 mod bitmap;
 mod contour;
@@ -17,30 +17,34 @@ pub(crate) use crate::picture::bitmap::BitMask;
 pub use crate::picture::bitmap::Bitmap;
 pub(crate) use crate::picture::separate::Separation;
 
-/// How a picture is shown.
+/// What robots show of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureWay {
-    /// The silhouette where a background is found, else the tones.
+    /// The silhouette if a plain background is found, else the tones.
     #[default]
     Auto,
     /// The area of the thing, in its colours, without the background.
     Silhouette,
     /// The border of the thing.
     Outline,
-    /// All of the picture: robots stand densely where it is light.
+    /// The whole picture: robots stand densely where it is light.
     Tones,
 }
 
-/// What is wanted of a picture.
+/// How to show a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PictureSettings {
-    /// How it is shown.
+    /// What robots show of it.
     pub way: PictureWay,
-    /// For a silhouette or outline: of the background. For tones: robots stand densely where it is dark.
+    /// For a silhouette or an outline: the background is shown instead of the thing. For tones: robots stand densely
+    /// where it is dark.
     pub inverted: bool,
 }
 
-/// The drawing of a picture in PNG, JPEG or WebP.
+/// Draws a picture in PNG, JPEG or WebP.
+///
+/// # Errors
+/// Files that cannot be decoded, and pictures in which nothing would be lit.
 pub fn draw(bytes: &[u8], settings: &PictureSettings) -> Result<Made, DrawError> {
     let bitmap = decode::decode(bytes)?;
     let separation = separated(&bitmap, settings);
@@ -48,12 +52,13 @@ pub fn draw(bytes: &[u8], settings: &PictureSettings) -> Result<Made, DrawError>
     drawn(&bitmap, separation.mask, settings, clear)
 }
 
-/// The small bitmap of a picture in PNG, JPEG or WebP.
+/// Decodes a picture in PNG, JPEG or WebP into a small bitmap.
 pub(crate) fn bitmap(bytes: &[u8]) -> Result<Bitmap, DrawError> {
     decode::decode(bytes)
 }
 
-/// The thing in a bitmap, or its background if that is wanted.
+/// Separates the thing in a bitmap from its background. If the settings are inverted, the background is returned as the
+/// thing.
 pub(crate) fn separated(bitmap: &Bitmap, settings: &PictureSettings) -> Separation {
     let mut separation = separate::separate(bitmap);
     if settings.inverted {
@@ -62,7 +67,7 @@ pub(crate) fn separated(bitmap: &Bitmap, settings: &PictureSettings) -> Separati
     separation
 }
 
-/// The drawing of a bitmap with the thing in it; `clear`: its background is plain.
+/// Draws a bitmap in which `mask` is the thing. `clear` says whether its background is plain.
 pub(crate) fn drawn(
     bitmap: &Bitmap,
     mask: BitMask,

@@ -1,15 +1,15 @@
-//! Pieces of a thing: small spots are dropped and small holes filled.
+//! Drops small spots of a thing and fills its small holes.
 
 use crate::picture::bitmap::{BitMask, neighbours};
 
-/// Share of the largest piece that a piece or hole has at least.
+/// Least size of a piece or a hole, as a share of the largest piece.
 const SMALLEST: f64 = 0.004;
-/// Pixels that a piece or hole has at least.
+/// Least size of a piece or a hole, pixels.
 const PIXELS_MIN: usize = 12;
-/// Pieces, at most: the largest.
+/// Largest number of pieces; smaller ones are dropped.
 const PIECES_MAX: usize = 200;
 
-/// Removes small pieces and fills small holes. Returns how many pieces were removed.
+/// Removes small pieces and fills small holes. The largest piece always stays. Returns the number of removed pieces.
 pub fn tidy(mask: &mut BitMask) -> usize {
     let mut pieces = connected(mask, true);
     pieces.sort_by_key(|piece| std::cmp::Reverse(piece.len()));
@@ -37,7 +37,7 @@ fn on_edge(mask: &BitMask, index: usize) -> bool {
     x == 0 || y == 0 || x + 1 == mask.columns || y + 1 == mask.rows()
 }
 
-/// Sets of pixels that are joined at their sides: those inside, or those outside.
+/// Returns sets of pixels that are connected at their sides: pixels of the thing if `inside`, else all others.
 fn connected(mask: &BitMask, inside: bool) -> Vec<Vec<usize>> {
     let mut seen = vec![false; mask.inside.len()];
     let mut pieces = Vec::new();

@@ -1,44 +1,46 @@
-//! The thing in a picture is separated from its background.
+//! Separates the thing in a picture from its background.
 
 use crate::picture::bitmap::{BitMask, Bitmap, Oklab, difference, neighbours, oklab};
 
-/// Opacity from which on a pixel belongs to the thing.
+/// Least opacity of a pixel of the thing, 0 to 255.
 const OPAQUE: u8 = 128;
-/// Share of transparent pixels from which on opacity decides alone.
+/// Share of transparent pixels above which opacity alone separates the thing from its background.
 const TRANSPARENT: f32 = 0.005;
-/// Difference from the middle colour of the edge up to which a pixel of the edge is background.
+/// Largest difference from the median colour of the edge at which a pixel of the edge is background.
 const EDGE_ALIKE: f32 = 0.15;
-/// Differences of thing and background between which Otsu's threshold is believed.
+/// Range to which Otsu's threshold between background and thing is limited.
 const THRESHOLDS: [f32; 2] = [0.06, 0.35];
-/// Otsu's share of variance of values without two groups, and of two clear groups: measured on 25 pictures on 2026-11-24.
+/// Share of the variance that Otsu's threshold explains for values without two groups, and for two clear groups.
+/// Measured on 25 pictures on 2026-11-24.
 const SEPARABLE: [f32; 2] = [0.6, 0.9];
-/// Bins of the histogram of differences, from 0 to 1.
+/// Number of bins of the histogram of differences from 0 to 1.
 const BINS: usize = 200;
 
-/// Certainty that there is a background, 0 to 1, from which on a silhouette is chosen. On 2026-11-24 photographs of whole
-/// scenes reached 0.0 to 0.6, things before sky or paper 0.7 to 1.0; a brick wall was taken for a background, with 0.75.
+/// Least certainty of a background, 0 to 1, for a silhouette. On 2026-11-24 photographs of whole scenes reached 0.0 to
+/// 0.6, things before sky or paper 0.7 to 1.0. A brick wall was taken for a background, with 0.75.
 const CERTAIN: f32 = 0.65;
-/// Share of the picture that a thing covers at least and at most, for its silhouette to be chosen.
+/// Least and largest share of the picture that the thing covers, for a silhouette.
 const COVERS: [f64; 2] = [0.005, 0.95];
 
-/// A thing and how surely it was told from its background.
+/// The thing in a picture, and how certain its separation from the background is.
 #[derive(Clone, Debug)]
 pub struct Separation {
-    /// The thing.
+    /// The pixels of the thing.
     pub mask: BitMask,
-    /// 0: no background was found, 1: thing and background do not mix.
+    /// 0 if no background was found, 1 if thing and background are clearly different.
     pub certainty: f32,
 }
 
 impl Separation {
-    /// Whether the thing is sure and large enough for its silhouette.
+    /// Whether the separation is certain enough for a silhouette, and the thing neither too small nor too large.
     pub fn is_clear(&self) -> bool {
         let covers = self.mask.count() as f64 / self.mask.inside.len().max(1) as f64;
         self.certainty >= CERTAIN && (COVERS[0]..=COVERS[1]).contains(&covers)
     }
 }
 
-/// The thing in a picture: what is opaque, or what differs from the colours along the edge.
+/// Separates the thing in a picture. If parts of the picture are transparent, the thing is the rest. Else it is what
+/// differs from the colours along the edge.
 pub fn separate(bitmap: &Bitmap) -> Separation {
     let clear = bitmap.pixels.iter().filter(|pixel| pixel[3] < OPAQUE).count();
     if clear as f32 > TRANSPARENT * bitmap.pixels.len() as f32 {
@@ -59,22 +61,22 @@ pub fn separate(bitmap: &Bitmap) -> Separation {
     Separation { mask, certainty: if empty { 0.0 } else { share * apart * contrast } }
 }
 
-/// Colours of the background all over a picture, guessed from its edge.
+/// Colours of the background at every pixel, estimated from the edge of the picture.
 struct Background {
     columns: usize,
     rows: usize,
-    /// `[column]`, from the left.
+    /// Colours along the top edge, by column.
     top: Vec<Oklab>,
-    /// `[column]`, from the left.
+    /// Colours along the bottom edge, by column.
     bottom: Vec<Oklab>,
-    /// `[row]`, from above.
+    /// Colours along the left edge, by row from the top.
     left: Vec<Oklab>,
-    /// `[row]`, from above.
+    /// Colours along the right edge, by row from the top.
     right: Vec<Oklab>,
 }
 
 impl Background {
-    /// The background, and the share of the edge that shows it.
+    /// Estimates the background. Also returns the share of the edge that is like the edge's median colour.
     fn of(bitmap: &Bitmap, lab: &[Oklab]) -> (Self, f32) {
         let (columns, rows) = (bitmap.columns, bitmap.rows);
         let edge: Vec<Oklab> = bitmap.edge().filter_map(|index| lab.get(index).copied()).collect();
@@ -96,7 +98,7 @@ impl Background {
         (background, share)
     }
 
-    /// The colour at a pixel: of the four sides, the nearer the more.
+    /// Returns the colour at a pixel: a mean of the four sides, in which nearer ones weigh more.
     fn at(&self, index: usize) -> Oklab {
         let (x, y) = (index % self.columns, index / self.columns);
         let weight = |distance: usize| 1.0 / (1.0 + distance as f32);
@@ -117,7 +119,7 @@ impl Background {
     }
 }
 
-/// The middle value of each channel.
+/// Returns the median of each channel.
 fn middle(colors: &[Oklab]) -> Oklab {
     [0, 1, 2].map(|n| {
         let mut values: Vec<f32> = colors.iter().map(|color| color[n]).collect();
@@ -126,7 +128,8 @@ fn middle(colors: &[Oklab]) -> Oklab {
     })
 }
 
-/// Colours along a side as means over a sixteenth of it. Where the thing reaches the edge, the `middle` colour counts.
+/// Smooths colours along a side over a sixteenth of it. Colours unlike `middle`, where the thing reaches the edge, are
+/// replaced by `middle`.
 fn smooth(colors: &[Oklab], middle: Oklab) -> Vec<Oklab> {
     let alike = |color: &Oklab| if difference(*color, middle) < EDGE_ALIKE { *color } else { middle };
     let colors: Vec<Oklab> = colors.iter().map(alike).collect();
@@ -138,8 +141,8 @@ fn smooth(colors: &[Oklab], middle: Oklab) -> Vec<Oklab> {
     (0..colors.len()).map(mean).collect()
 }
 
-/// The threshold between small and large values with the largest variance between both (Otsu 1979), and the share of
-/// that in the whole variance.
+/// Returns the threshold between small and large values that maximises the variance between both groups (Otsu 1979).
+/// Also returns the share of this variance in the total variance.
 fn otsu(values: &[f32]) -> (f32, f32) {
     let mut bins = [0.0f64; BINS];
     for value in values {
@@ -163,7 +166,7 @@ fn otsu(values: &[f32]) -> (f32, f32) {
         if below > 0.0 && above > 0.0 {
             let apart = sum / below - (first - sum) / above;
             let between = below * above * apart * apart / (count * count);
-            // Empty bins between both groups are equally good: the threshold is in their middle.
+            // Empty bins between both groups are equally good; the threshold is in their middle.
             best = match between.total_cmp(&best.0) {
                 std::cmp::Ordering::Greater => (between, n + 1, n + 1),
                 std::cmp::Ordering::Equal => (between, best.1, n + 1),
@@ -175,7 +178,8 @@ fn otsu(values: &[f32]) -> (f32, f32) {
     ((best.1 + best.2) as f32 / (2 * BINS) as f32, separable as f32)
 }
 
-/// The pixels that a flood from the edge through background does not reach, without holes of the background's colour.
+/// Returns the pixels that a flood from the edge through background does not reach, except holes of the background's
+/// colour.
 fn not_flooded(bitmap: &Bitmap, away: &[f32], threshold: f32) -> Vec<bool> {
     let mut inside = vec![true; away.len()];
     let mut queue: Vec<usize> = bitmap.edge().filter(|index| away[*index] < threshold).collect();
@@ -188,7 +192,7 @@ fn not_flooded(bitmap: &Bitmap, away: &[f32], threshold: f32) -> Vec<bool> {
             }
         }
     }
-    // A hole shows the background itself; paler parts of the thing differ a little from it.
+    // A hole shows the background itself; pale parts of the thing differ a little from it.
     let hole = threshold * 0.5;
     inside.iter_mut().zip(away).for_each(|(inside, away)| *inside &= *away >= hole);
     inside

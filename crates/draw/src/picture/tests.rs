@@ -8,7 +8,7 @@ use lightbots_base::random::split_mix;
 use super::{PictureSettings, PictureWay, draw};
 use crate::drawing::DrawingPart;
 
-/// A red disc in the upper left quarter of a picture twice as wide as high.
+/// A red disc in the upper left quarter of a picture that is twice as wide as high.
 fn disc(ground: [u8; 4]) -> DynamicImage {
     let pixel = |x: u32, y: u32| {
         let away = libm::hypot(f64::from(x) - 30.0, f64::from(y) - 20.0);
@@ -133,7 +133,7 @@ fn headers_of_huge_pictures_are_refused() {
     let frame = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]).expect("it is a baseline JPEG");
     jpeg[frame + 5..frame + 9].copy_from_slice(&[0xff, 0xdc, 0xff, 0xdc]);
     assert_eq!(refusal(&jpeg), Some("picture-too-large"));
-    // A lossless WebP of 38 bytes: 14 bits each for width and height less one.
+    // A lossless WebP of 38 bytes: 14 bits each for the width minus one and the height minus one.
     let size = (8_000u32 - 1) | (8_000 - 1) << 14;
     let chunk = [b"VP8L".as_slice(), &18u32.to_le_bytes(), &[0x2f], &size.to_le_bytes(), &[0; 13]].concat();
     let webp = [b"RIFF".as_slice(), &(chunk.len() as u32 + 4).to_le_bytes(), b"WEBP", &chunk].concat();
@@ -144,7 +144,7 @@ fn headers_of_huge_pictures_are_refused() {
 fn files_cut_off_anywhere_are_refused() {
     for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP] {
         let bytes = file(&disc([240, 240, 240, 255]), format);
-        // The end mark of a PNG and the padding of a WebP hold nothing of the picture.
+        // The end mark of a PNG and the padding of a WebP hold no part of the picture.
         let spare = match format {
             ImageFormat::Png => 12,
             ImageFormat::WebP => 1,

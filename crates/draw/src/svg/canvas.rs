@@ -1,18 +1,18 @@
-//! A page that is painted from back to front: later areas hide what is below them.
+//! A page that is painted from back to front. Later areas hide what is below them.
 
 use crate::ink::Ink;
 use crate::svg::flatten::FlatLine;
 use crate::svg::region::{Region, bounds};
 
-/// Fainter paint is left out: it would only dim other lights.
+/// Least opacity of paint that is drawn. Fainter paint would only dim other lights.
 const FAINT: f64 = 0.1;
-/// Paint from this opacity on hides what is below it.
+/// Least opacity of paint that hides what is below it.
 const OPAQUE: f64 = 0.9;
-/// Difference of a channel, 0 to 255, that is not seen as another colour.
+/// Difference of a channel, 0 to 255, below which two colours look the same.
 const SHADE: i16 = 24;
-/// Share of the page that a background covers at least.
+/// Least share of the page that a background covers.
 const BACKGROUND: f64 = 0.98;
-/// Points of areas that are cut by others, at most, counted for each cut. Beyond, areas stay whole.
+/// Largest sum of points of areas and lines that are cut, counted for each cut. Beyond it, areas and lines stay whole.
 const WORK_MAX: usize = 3_000_000;
 
 /// A visible area of one colour.
@@ -22,7 +22,7 @@ pub struct Surface {
     pub region: Region,
     /// Its colours.
     pub ink: Ink,
-    /// Whether it began as an area over the whole page.
+    /// Whether it was painted as an area over nearly the whole page.
     pub background: bool,
 }
 
@@ -35,43 +35,44 @@ pub struct Line {
     pub ink: Ink,
 }
 
-/// What is painted.
+/// What is visible on a page after painting.
 #[derive(Debug)]
 pub struct Canvas {
-    /// Areas that do not overlap.
+    /// Visible areas. They do not overlap unless the canvas is overworked.
     pub surfaces: Vec<Surface>,
-    /// Lines that no area hides.
+    /// Visible parts of lines.
     pub lines: Vec<Line>,
-    /// Areas and lines fainter than [`FAINT`].
+    /// Number of areas and lines fainter than [`FAINT`].
     pub faint: usize,
-    /// Areas and lines that are wholly hidden.
+    /// Number of areas and lines that are wholly hidden.
     pub hidden: usize,
-    /// Number of points that were cut already, see [`WORK_MAX`].
+    /// Number of points in the cuts made, for [`WORK_MAX`].
     work: usize,
-    /// Square units of the page.
+    /// Area of the page, square units of the page.
     page_area: f64,
-    /// Thinnest area and shortest line, units of the page.
+    /// Width of the thinnest area and length of the shortest line that are kept, units of the page.
     thinnest: f64,
 }
 
 impl Canvas {
-    /// An empty page.
+    /// Makes an empty page.
     pub fn new(page_area: f64, thinnest: f64) -> Self {
         let (surfaces, lines) = (Vec::new(), Vec::new());
         Self { surfaces, lines, faint: 0, hidden: 0, work: 0, page_area, thinnest }
     }
 
-    /// An empty page of the same size, such as for a mask.
+    /// Makes an empty page of the same size, such as for a mask, with the same count of work.
     pub fn fresh(&self) -> Self {
         Self { work: self.work, ..Self::new(self.page_area, self.thinnest) }
     }
 
-    /// Takes over the work that went into another page.
+    /// Takes over the count of work from a page made by [`Self::fresh`].
     pub fn spend(&mut self, other: &Self) {
         self.work = other.work;
     }
 
-    /// All areas at least as bright as a share of white.
+    /// Takes all areas and joins those whose green is at least a share of 255; for greys this is their brightness.
+    /// `None` if there are none.
     pub fn bright(&mut self, least: f64) -> Option<Region> {
         let surfaces = std::mem::take(&mut self.surfaces);
         let bright = surfaces.into_iter().filter(|surface| f64::from(surface.ink.color.g) >= least * 255.0);
@@ -79,18 +80,18 @@ impl Canvas {
         Region::all(&regions, self.thinnest)
     }
 
-    /// Whether there was too much to cut: areas may overlap.
+    /// Whether the limit of work was exceeded. Areas may overlap then.
     pub fn is_overworked(&self) -> bool {
         self.work > WORK_MAX
     }
 
-    /// Counts a cut, and tells whether it may be made.
+    /// Adds a cut of `points` to the count of work and returns whether it may be made.
     pub fn affords(&mut self, points: usize) -> bool {
         self.work = self.work.saturating_add(points);
         !self.is_overworked()
     }
 
-    /// Paints an area.
+    /// Paints an area. Areas and lines below it are cut or mixed with it.
     pub fn fill(&mut self, region: Region, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;
@@ -125,7 +126,8 @@ impl Canvas {
         self.surfaces.extend(fresh);
     }
 
-    /// Keeps what an upper area leaves of a lower one, and returns what remains to be painted of the upper one.
+    /// Keeps the part of a lower area that stays visible below an upper one. Returns the part of the upper area that is
+    /// still to paint.
     fn cover(&mut self, mut lower: Surface, mut upper: Surface, opacity: f64) -> Option<Surface> {
         let thinnest = self.thinnest;
         let mixed = if opacity >= OPAQUE {
@@ -160,7 +162,7 @@ impl Canvas {
         rest.map(|region| Surface { region, ..upper })
     }
 
-    /// Removes the parts of lines below an area.
+    /// Removes the parts of lines that are below an area.
     fn hide_lines(&mut self, region: &Region) {
         for line in std::mem::take(&mut self.lines) {
             let (low, high) = region.bounds();
@@ -177,7 +179,7 @@ impl Canvas {
         }
     }
 
-    /// Paints a line. Areas of other colours recede from its `outline`.
+    /// Paints a line. Areas of other colours lose the part inside its `outline`.
     pub fn stroke(&mut self, line: FlatLine, outline: Option<&Region>, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;

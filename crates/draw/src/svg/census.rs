@@ -1,4 +1,4 @@
-//! What an SVG has that cannot be drawn: it is counted, so that people learn what is missing and what to do.
+//! Counts the elements of an SVG that cannot be drawn. The notes tell people what is missing and what to do.
 
 use usvg::roxmltree::{Document, Node};
 
@@ -8,7 +8,7 @@ use crate::error::Note;
 struct Missing {
     code: &'static str,
     elements: &'static [&'static str],
-    /// For one, and for several after their number.
+    /// Words for one element, and for several after their number.
     names: (&'static str, &'static str),
     remedy: &'static str,
 }
@@ -41,7 +41,7 @@ const MISSING: [Missing; 4] = [
     },
 ];
 
-/// A note for each kind of thing that is left out.
+/// Returns a note for each kind of element that is left out.
 pub fn notes(document: &Document) -> Vec<Note> {
     let count = |elements: &[&str]| {
         let named = |node: &Node| node.is_element() && elements.contains(&node.tag_name().name());
@@ -62,7 +62,7 @@ pub fn notes(document: &Document) -> Vec<Note> {
     missing.chain(outside).collect()
 }
 
-/// The words for one, or for several after their number; `None` for none.
+/// Returns the words for one, or the number and the words for several. `None` for 0.
 pub fn counted(count: usize, one: &str, several: &str) -> Option<String> {
     match count {
         0 => None,
@@ -71,7 +71,7 @@ pub fn counted(count: usize, one: &str, several: &str) -> Option<String> {
     }
 }
 
-/// References of an element to other files.
+/// Counts an element's references to other files.
 fn outside(node: &Node) -> usize {
     let is_outside =
         |value: &str| !value.starts_with(['#']) && !value.starts_with("data:") && !value.is_empty();

@@ -1,4 +1,4 @@
-//! How many elements an SVG becomes once its references are followed.
+//! Limits the number of elements that an SVG has once its references are followed.
 
 use std::collections::HashMap;
 
@@ -8,13 +8,13 @@ use crate::error::DrawError;
 use crate::svg::css::{self, CssRule, Reference};
 use crate::svg::scan::{DEPTH_MAX, too_deep, too_large};
 
-/// Elements after all references are followed, at most: 10⁵ of them took 4.3 s and 170 MB on 2026-11-23.
+/// Largest number of elements after all references are followed. 10⁵ elements took 4.3 s and 170 MB on 2026-11-23.
 const EXPANDED_MAX: u64 = 100_000;
-/// Comparisons of elements with rules of style sheets, at most: 10⁷ of them took 0.7 s on 2026-11-23.
+/// Largest number of comparisons of elements with rules of style sheets. 10⁷ comparisons took 0.7 s on 2026-11-23.
 const COMPARISONS_MAX: u64 = 10_000_000;
-/// Cost of an element; a gradient's stop and 16 bytes of attributes cost 1.
+/// Cost of an element. A gradient's stop costs 1, as do 16 bytes of attributes.
 const ELEMENT: u64 = 16;
-/// Elements that are drawn only where others refer to them.
+/// Elements that are drawn only where other elements refer to them.
 const UNDRAWN: [&str; 11] = [
     "defs",
     "symbol",
@@ -28,10 +28,10 @@ const UNDRAWN: [&str; 11] = [
     "style",
     "metadata",
 ];
-/// Properties that hold for the element itself. All others are inherited by the shapes inside it.
+/// Properties that apply to the element itself. All others are inherited by the shapes inside it.
 const NOT_INHERITED: [&str; 3] = ["clip-path", "mask", "filter"];
 
-/// Refuses a document whose nesting, references or style sheets would take too long.
+/// Refuses a document whose nesting, references or style sheets would take too long to process.
 pub fn check(document: &Document) -> Result<(), DrawError> {
     let deepest = deepest(document);
     if deepest > DEPTH_MAX as u64 {
@@ -54,7 +54,7 @@ pub fn check(document: &Document) -> Result<(), DrawError> {
     compare(each, expanded)
 }
 
-/// Refuses too many comparisons of rules with elements.
+/// Refuses a document with too many comparisons. `rules` is the number for each element.
 fn compare(rules: u64, elements: u64) -> Result<(), DrawError> {
     if rules.saturating_mul(elements) > COMPARISONS_MAX {
         return Err(too_large(format!(
@@ -64,7 +64,7 @@ fn compare(rules: u64, elements: u64) -> Result<(), DrawError> {
     Ok(())
 }
 
-/// Levels of elements.
+/// Returns the number of levels of elements.
 fn deepest(document: &Document) -> u64 {
     let mut depths: Vec<u64> = Vec::new();
     for node in document.descendants() {
@@ -74,23 +74,23 @@ fn deepest(document: &Document) -> u64 {
     depths.into_iter().max().unwrap_or(0)
 }
 
-/// What an element becomes, with everything in it and everything it refers to.
+/// The cost of an element, including everything in it and everything it refers to.
 #[derive(Clone, Copy, Debug, Default)]
 struct Total {
-    /// In units of 1/[`ELEMENT`].
+    /// Cost of all elements, in units of 1/[`ELEMENT`] of an element.
     cost: u64,
-    /// Elements without elements inside, which inherit paint and markers.
+    /// Number of shapes: elements without elements inside, which inherit paint and markers.
     shapes: u64,
-    /// Points of their lines, each of which may get a marker.
+    /// Number of points of their lines, each of which may get a marker.
     points: u64,
-    /// Levels below the element.
+    /// Number of levels below the element.
     height: usize,
 }
 
 /// Totals of the elements of a document.
 struct Expansion<'a, 'input> {
     rules: Vec<CssRule<'a>>,
-    /// `[node]`; `None`: not begun.
+    /// Total of each node, by its number. `None` if its count has not begun.
     totals: Vec<Option<Total>>,
     ids: HashMap<&'a str, Node<'a, 'input>>,
 }
@@ -103,7 +103,8 @@ impl<'a, 'input> Expansion<'a, 'input> {
         Self { rules, totals: vec![None; nodes.count()], ids }
     }
 
-    /// The total of an element. One that is in the making refers to itself: usvg leaves such references out.
+    /// Returns the total of an element. An element whose total is not finished refers to itself and counts as empty,
+    /// because usvg leaves such references out.
     fn total(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Total, DrawError> {
         let index = node.id().get_usize();
         if let Some(total) = self.totals.get(index).copied().flatten() {
@@ -125,11 +126,11 @@ impl<'a, 'input> Expansion<'a, 'input> {
         }
     }
 
-    /// The element and the elements in it.
+    /// Returns the total of the element and the elements in it, without references.
     fn inside(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Total, DrawError> {
         let bytes: usize = node.attributes().map(|attribute| attribute.value().len()).sum();
         let own = if node.tag_name().name() == "stop" { 1 } else { ELEMENT + bytes as u64 / ELEMENT };
-        // Each sign of a text becomes an area.
+        // Each character of a text becomes an area.
         let signs = if node.tag_name().name() == "text" { signs(node) } else { 0 };
         let mut total = Total { cost: own + ELEMENT * signs, ..Total::default() };
         for child in node.children().filter(Node::is_element) {
@@ -171,7 +172,7 @@ impl<'a, 'input> Expansion<'a, 'input> {
         self.ids.get(id).copied()
     }
 
-    /// References by attributes, by `style` and by rules that may match.
+    /// Returns the references in attributes, in `style` and in rules that may match.
     fn references(&self, node: Node<'a, 'input>) -> Vec<Reference<'a>> {
         let attributes = node.attributes().filter_map(|attribute| {
             css::referred(attribute.value()).map(|id| Reference { property: attribute.name(), id })
@@ -193,12 +194,12 @@ impl Total {
     }
 }
 
-/// Signs of a text, with those of the elements in it.
+/// Returns the number of bytes of a text and of the elements in it, at least the number of its characters.
 fn signs(node: Node) -> u64 {
     node.descendants().filter_map(|inner| inner.text()).map(|text| text.len() as u64).sum()
 }
 
-/// Points of the line of an element, at most: the shortest segment, such as `h1`, has two characters.
+/// Returns an upper bound of the points of an element's line. The shortest segment, such as `h1`, has two characters.
 fn points(node: Node) -> u64 {
     let line = node.attribute("d").or(node.attribute("points"));
     line.map_or(2, |line| line.len() as u64 / 2 + 1)
@@ -215,7 +216,7 @@ mod tests {
         check(&document).err().map(|error| error.code)
     }
 
-    /// Definitions that each use the one before twice.
+    /// Definitions each of which uses the one before it twice.
     fn doubling(levels: usize, element: &str, property: &str) -> String {
         let level = |n: usize| {
             let rect = format!("<rect width='9' height='9' {property}='url(#e{})'/>", n - 1);

@@ -1,26 +1,26 @@
-//! What style sheets cost, and what they refer to. usvg does the styling itself.
+//! Estimates the cost of style sheets and finds their references. usvg does the styling itself.
 
 use usvg::roxmltree::Node;
 
 /// A rule of a style sheet, with one selector.
 pub struct CssRule<'a> {
     subject: Subject<'a>,
-    /// Compounds of its selector, such as 3 in `g .a > path`.
+    /// Number of compound selectors, such as 3 in `g .a > path`.
     compounds: u32,
-    /// What its declarations refer to.
+    /// References in its declarations.
     pub refers: Vec<Reference<'a>>,
 }
 
 /// A property whose value is `url(#…)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reference<'a> {
-    /// Such as `mask`.
+    /// Name of the property, such as `mask`.
     pub property: &'a str,
-    /// Identifier in its value.
+    /// Identifier after `#` in its value.
     pub id: &'a str,
 }
 
-/// The last compound of a selector, or the part of it that decides most.
+/// The last compound of a selector, reduced to one class, identifier or element name.
 enum Subject<'a> {
     Class(&'a str),
     Id(&'a str),
@@ -28,7 +28,7 @@ enum Subject<'a> {
     Any,
 }
 
-/// The rules of a style sheet's text. Rules inside of `@media` count too.
+/// Returns the rules in the text of a style sheet, one for each selector. Rules inside `@media` count too.
 pub fn rules(sheet: &str) -> Vec<CssRule<'_>> {
     let mut found = Vec::new();
     let mut rest = sheet;
@@ -62,7 +62,7 @@ fn subject(compound: &str) -> Subject<'_> {
     }
 }
 
-/// The references in declarations such as `fill: url(#a); mask: url(#b)`.
+/// Returns the references in declarations such as `fill: url(#a); mask: url(#b)`.
 pub fn declared(body: &str) -> impl Iterator<Item = Reference<'_>> {
     body.split(';').filter_map(|declaration| {
         let (property, value) = declaration.split_once(':')?;
@@ -70,7 +70,7 @@ pub fn declared(body: &str) -> impl Iterator<Item = Reference<'_>> {
     })
 }
 
-/// The identifier in a value with `url(#…)`.
+/// Returns the identifier in a value with `url(#...)`.
 pub fn referred(value: &str) -> Option<&str> {
     let after = &value[value.find("url(")? + 4..];
     let inside = after.trim_start().trim_start_matches(['"', '\'']).strip_prefix('#')?;
@@ -78,7 +78,7 @@ pub fn referred(value: &str) -> Option<&str> {
 }
 
 impl CssRule<'_> {
-    /// Whether the rule may hold for an element; never false where it does.
+    /// Whether the rule may apply to an element. Only the rule's `subject` is compared.
     pub fn may_match(&self, element: Node) -> bool {
         match self.subject {
             Subject::Class(class) => element
@@ -90,7 +90,8 @@ impl CssRule<'_> {
         }
     }
 
-    /// Comparisons with an element `depth` deep, at most: each `a b` may try every ancestor.
+    /// Returns the largest number of comparisons with an element `depth` levels deep. Each `a b` may try every
+    /// ancestor.
     pub fn comparisons(&self, depth: u64) -> u64 {
         depth.max(2).saturating_pow(self.compounds.saturating_sub(1))
     }

@@ -1,4 +1,4 @@
-//! Curves become lines of points.
+//! Approximates curves by lines of points.
 
 use usvg::tiny_skia_path::{Path, PathSegment, Point, Transform};
 
@@ -8,21 +8,22 @@ pub type Spot = [f64; 2];
 /// A line of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatLine {
-    /// At least two points; a closed line does not repeat its first.
+    /// At least two points. A closed line does not repeat its first point.
     pub points: Vec<Spot>,
     /// Whether the last point is joined to the first.
     pub closed: bool,
 }
 
-/// Largest turn between neighbouring chords of a curve, radians: finer than the corners robots could show.
+/// Largest turn between neighbouring chords of a curve, radians. It is finer than corners that robots could show.
 const TURN_MAX: f64 = 0.2;
-/// Chords of one curve, at most.
+/// Largest number of chords of one curve.
 const CHORDS_MAX: f64 = 64.0;
 
-/// Points of one line from which on curves become single chords, so that memory is bounded by the file's size.
+/// Number of points of a line above which each further curve becomes a single chord. This keeps memory in proportion to
+/// the file's size.
 const POINTS_FINE: usize = 200_000;
 
-/// The lines of a path. Chords of curves are off by `tolerance` at most, units of the page.
+/// Returns the lines of a path. Chords deviate from curves by at most about `tolerance`, units of the page.
 pub fn polylines(path: &Path, transform: Transform, tolerance: f64) -> Vec<FlatLine> {
     let place = |point: Point| -> Spot {
         let (x, y) = (f64::from(point.x), f64::from(point.y));
@@ -62,7 +63,7 @@ pub fn polylines(path: &Path, transform: Transform, tolerance: f64) -> Vec<FlatL
     lines
 }
 
-/// Keeps a line without points that are nearly the same.
+/// Adds a line to `lines` without points that nearly coincide. A line whose ends nearly coincide is closed.
 fn finish(lines: &mut Vec<FlatLine>, mut points: Vec<Spot>, closed: bool, tolerance: f64) {
     let near = |a: &Spot, b: &Spot| distance(*a, *b) < tolerance * 0.1;
     points.dedup_by(|b, a| near(a, b));
@@ -81,7 +82,7 @@ fn curve(points: &mut Vec<Spot>, control: [Spot; 4], tolerance: f64) {
     points.extend((1..=chords).map(|n| cubic(control, n as f64 / chords as f64)));
 }
 
-/// How many chords keep the distance to the curve below the tolerance and the turns below [`TURN_MAX`].
+/// Returns the number of chords that keeps the distance to the curve below `tolerance` and turns below [`TURN_MAX`].
 fn chords([a, b, c, d]: [Spot; 4], tolerance: f64) -> usize {
     let bend = |p: Spot, q: Spot, r: Spot| libm::hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1]);
     // The distance of a curve from its chord is at most an eighth of its largest second derivative.
@@ -118,7 +119,7 @@ mod tests {
     fn chords_of_a_circle_stay_within_the_tolerance() {
         let mut builder = PathBuilder::new();
         builder.move_to(1.0, 0.0);
-        // Four cubic curves with this handle are off a circle by 0.03 % at most.
+        // Four cubic curves with this handle deviate from a circle by at most 0.03 %.
         let handle = 0.5523;
         for [x, y] in [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0f32]] {
             builder.cubic_to(x - y * handle, y + x * handle, -y + x * handle, x + y * handle, -y, x);

@@ -1,4 +1,4 @@
-//! Which colours of a page are lit: paper and black are not.
+//! Decides which colours of a page are lit: not those of the paper, and not black.
 
 use lightbots_base::Rgb;
 
@@ -7,12 +7,14 @@ use crate::ink::Ink;
 use crate::picture::lifted;
 use crate::svg::canvas::{Canvas, Line, Surface};
 
-/// A colour whose brightest channel is below this, 0 to 255, is a light that is off, such as the black of printers, #231f20.
+/// A colour whose brightest channel is below this, 0 to 255, would be a light that is off. An example is printers'
+/// black, #231f20.
 const DARK_BELOW: u8 = 40;
-/// A colour whose darkest channel is at least this is paper.
+/// A colour whose darkest channel is at least this, 0 to 255, is that of paper.
 const PAPER_FROM: u8 = 225;
 
-/// Removes the background and what looks like it, and lights black lines and areas white.
+/// Removes the background and parts that look like it, and lights black lines and areas white. Returns notes about
+/// both.
 pub fn light(canvas: &mut Canvas) -> Vec<Note> {
     lift_gradients(canvas);
     let background = remove_background(canvas);
@@ -53,13 +55,13 @@ fn lift_gradients(canvas: &mut Canvas) {
     }
 }
 
-/// What all areas and lines are painted with.
+/// Inks of all areas and lines.
 fn inks_mut(canvas: &mut Canvas) -> impl Iterator<Item = &mut Ink> {
     let areas = canvas.surfaces.iter_mut().map(|surface| &mut surface.ink);
     areas.chain(canvas.lines.iter_mut().map(|line| &mut line.ink))
 }
 
-/// Removes areas that covered the page, unless nothing else is there. Returns the colour of the largest.
+/// Removes background areas, unless there is nothing else. Returns the colour of the largest.
 fn remove_background(canvas: &mut Canvas) -> Option<Rgb> {
     let others = canvas.surfaces.iter().any(|surface| !surface.background) || !canvas.lines.is_empty();
     if !others {
@@ -72,13 +74,13 @@ fn remove_background(canvas: &mut Canvas) -> Option<Rgb> {
     largest
 }
 
-/// Whether something has such a colour.
+/// Whether the colour of any area or line passes the test.
 fn count(canvas: &Canvas, test: impl Fn(Rgb) -> bool) -> bool {
     let areas = canvas.surfaces.iter().map(|surface| surface.ink.color);
     areas.chain(canvas.lines.iter().map(|line| line.ink.color)).any(test)
 }
 
-/// Removes everything of such a colour, unless nothing else is there.
+/// Removes all areas and lines whose colour passes the test, unless there is nothing else.
 fn remove(canvas: &mut Canvas, test: impl Fn(Rgb) -> bool) {
     if count(canvas, |color| !test(color)) {
         canvas.surfaces.retain(|surface: &Surface| !test(surface.ink.color));

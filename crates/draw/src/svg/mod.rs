@@ -1,4 +1,4 @@
-//! SVG files become drawings: filled areas with their colours, strokes as lines, without what is hidden.
+//! Turns SVG files into drawings: filled areas with their colours, strokes as lines, without hidden parts.
 
 mod canvas;
 mod census;
@@ -24,13 +24,15 @@ use crate::svg::canvas::Canvas;
 use crate::svg::flatten::{FlatLine, Spot};
 use crate::svg::walk::Walk;
 
-/// Elements, texts and comments, at most: they take 150 MB, measured on 2026-11-23.
+/// Largest number of elements, texts and comments. They take 150 MB, measured on 2026-11-23.
 const NODES_MAX: u32 = 200_000;
 /// Largest side of a page, in units of the page.
 const PAGE_MAX: f32 = 1e6;
 
-/// The drawing in an SVG file, and what of the file cannot be drawn. The file needs no others: what it refers to outside
-/// of itself is left out.
+/// Draws an SVG file, with notes about what cannot be drawn. Files that it refers to are not read.
+///
+/// # Errors
+/// Files that are compressed, damaged, too large or too complex, and files without visible areas or lines.
 pub fn draw(bytes: &[u8]) -> Result<Made, DrawError> {
     if bytes.starts_with(&[0x1f, 0x8b]) {
         let message = "The SVG file is compressed (svgz). Unpack it, or save it as plain SVG.";
@@ -68,7 +70,7 @@ fn unparsed(error: usvg::roxmltree::Error) -> DrawError {
     DrawError::new("svg-xml", message)
 }
 
-/// Options under which no file, address or picture is read.
+/// Options with which usvg reads no other file, address or picture.
 fn closed_options() -> Options<'static> {
     Options {
         resources_dir: None,
@@ -121,7 +123,7 @@ fn left_out(canvas: &Canvas) -> Vec<Note> {
     hidden.into_iter().chain(faint).chain(overlap).collect()
 }
 
-/// What is on a canvas, with y upwards.
+/// Makes a drawing of a canvas, with y upwards.
 fn drawing(canvas: &Canvas, height: f64) -> Drawing {
     let place = |spot: &Spot| Vec2::new(spot[0], height - spot[1]);
     let flip = |at: Vec2| Vec2::new(at.x, height - at.y);

@@ -1,4 +1,4 @@
-//! The colours of a fill or stroke.
+//! Finds the colours of a fill or stroke.
 
 use lightbots_base::{Rgb, Vec2};
 use usvg::tiny_skia_path::Transform;
@@ -6,7 +6,7 @@ use usvg::{BaseGradient, Group, LinearGradient, Node, Paint, RadialGradient, Spr
 
 use crate::ink::{Gradient, GradientShape, GradientSpread, Ink};
 
-/// Levels of patterns inside of patterns that are looked into.
+/// Largest depth of patterns inside patterns that is followed.
 const PATTERNS_MAX: usize = 4;
 
 /// A colour and its opacity, 0 to 1.
@@ -18,8 +18,8 @@ struct Tint {
     opacity: f64,
 }
 
-/// The ink of a paint on the page, and its opacity. `transform` leads from the coordinates of the painted thing to the page.
-/// `None`: an empty pattern.
+/// Returns the ink of a paint on the page, and its opacity. `transform` maps coordinates of the painted element to the
+/// page. `None` for an empty pattern.
 pub fn ink(paint: &Paint, transform: Transform) -> Option<(Ink, f64)> {
     let Tint { color, opacity } = tint(paint)?;
     let gradient = match paint {
@@ -56,7 +56,8 @@ fn vec2(x: f32, y: f32) -> Vec2 {
     Vec2::new(f64::from(x), f64::from(y))
 }
 
-/// The colour of a paint: of a gradient its mean, of a pattern the mean of the areas in it. `None`: an empty pattern.
+/// Returns the colour of a paint. For a gradient it is the mean, for a pattern the mean of the areas in it. `None` for
+/// an empty pattern.
 fn tint(paint: &Paint) -> Option<Tint> {
     at_level(paint, 0)
 }
@@ -79,7 +80,7 @@ fn rgb(color: usvg::Color) -> Rgb {
     Rgb::new(color.red, color.green, color.blue)
 }
 
-/// The stops of a gradient, each with the share of the gradient that is nearest to it.
+/// Stops of a gradient, each with the share of the gradient to which it is the nearest stop.
 fn stops(gradient: &BaseGradient) -> impl Iterator<Item = (Tint, f64)> + '_ {
     let stops = gradient.stops();
     let offset = |n: usize| stops.get(n).map(|stop| f64::from(stop.offset().get()));
@@ -92,7 +93,7 @@ fn stops(gradient: &BaseGradient) -> impl Iterator<Item = (Tint, f64)> + '_ {
     })
 }
 
-/// The fills in a pattern, each with the area of the box around it.
+/// Adds the paints in a pattern to `found`, each with the area of the box around its path.
 fn areas(group: &Group, level: usize, found: &mut Vec<(Tint, f64)>) {
     for node in group.children() {
         match node {
@@ -110,7 +111,7 @@ fn areas(group: &Group, level: usize, found: &mut Vec<(Tint, f64)>) {
     }
 }
 
-/// The mean of colours by weight and opacity.
+/// Returns the mean of colours, weighted by share and opacity. `None` if the weights sum to 0.
 fn mean(tints: impl Iterator<Item = (Tint, f64)>) -> Option<Tint> {
     let mut sum = [0.0; 3];
     let (mut light, mut weight) = (0.0, 0.0);

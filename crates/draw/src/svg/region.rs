@@ -1,4 +1,4 @@
-//! Areas of a page, and what is left of them under others.
+//! Areas of a page, and operations that combine them.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -12,7 +12,7 @@ use lightbots_base::random::split_mix;
 use crate::drawing::FillRule as Rule;
 use crate::svg::flatten::{FlatLine, Spot, distance};
 
-/// An area that is not empty: outer rings run one way, holes the other.
+/// An area that is not empty. Outer rings run in one direction, holes in the other.
 #[derive(Clone, Debug)]
 pub struct Region {
     rings: Vec<Vec<Spot>>,
@@ -20,17 +20,18 @@ pub struct Region {
     high: Spot,
 }
 
-/// Crossings of lines, at most, for which areas are cut: each takes memory and time of its own.
+/// Largest number of crossings of lines for which areas are cut. Each crossing takes memory and time.
 const CROSSINGS_MAX: f64 = 1e5;
-/// Lines below this number cannot cross each other more often.
+/// Fewer lines than this have fewer than [`CROSSINGS_MAX`] pairs, and therefore fewer crossings.
 const LINES_FEW: usize = 440;
-/// Pairs of lines by which crossings are estimated, at least and at most.
+/// Least and largest number of random pairs of lines from which the number of crossings is estimated.
 const SAMPLES: [f64; 2] = [100.0, 200_000.0];
-/// Crossings among these pairs if there are [`CROSSINGS_MAX`] in all.
+/// Expected number of crossings among these pairs if there are [`CROSSINGS_MAX`] in all.
 const HITS: f64 = 20.0;
 
 impl Region {
-    /// The area inside of rings. `None`: it is thinner than `thinnest`, in units of the page, or a tangle of lines.
+    /// Returns the area inside rings. `None` if it is thinner than `thinnest`, in units of the page, or if its lines
+    /// cross too often.
     pub fn new(rings: &Vec<Vec<Spot>>, rule: Rule, thinnest: f64) -> Option<Self> {
         let rule = match rule {
             Rule::NonZero => FillRule::NonZero,
@@ -42,7 +43,7 @@ impl Region {
         Self::from_shapes(rings.simplify_shape(rule), thinnest)
     }
 
-    /// A rectangle between its corners with the smaller and the larger coordinates.
+    /// Makes a rectangle from its corners with the smaller and the larger coordinates.
     pub fn rectangle(low: Spot, high: Spot) -> Self {
         Self { rings: vec![vec![low, [high[0], low[1]], high, [low[0], high[1]]]], low, high }
     }
@@ -57,32 +58,32 @@ impl Region {
         Some(Self { rings, low, high })
     }
 
-    /// Its rings, to be filled by [`Rule::NonZero`].
+    /// The rings of the area, to be filled by [`Rule::NonZero`].
     pub fn rings(&self) -> &[Vec<Spot>] {
         &self.rings
     }
 
-    /// Its corners with the smaller and the larger coordinates.
+    /// Corners of the box around the area, with the smaller and the larger coordinates.
     pub fn bounds(&self) -> (Spot, Spot) {
         (self.low, self.high)
     }
 
-    /// Square units of the page.
+    /// Size of the area, square units of the page.
     pub fn area(&self) -> f64 {
         self.rings.iter().map(|ring| signed_area(ring)).sum::<f64>().abs()
     }
 
-    /// Number of points of its rings.
+    /// Number of points of all rings.
     pub fn points(&self) -> usize {
         self.rings.iter().map(Vec::len).sum()
     }
 
-    /// Whether the rectangles around two areas overlap.
+    /// Whether the boxes around two areas overlap.
     pub fn is_near(&self, other: &Self) -> bool {
         (0..2).all(|axis| self.low[axis] < other.high[axis] && other.low[axis] < self.high[axis])
     }
 
-    /// Whether it is a rectangle along the axes with all of a box inside.
+    /// Whether the area is a rectangle along the axes that contains the whole box from `low` to `high`.
     pub fn frames(&self, low: Spot, high: Spot) -> bool {
         let on_edge =
             |spot: &Spot| (0..2).all(|axis| spot[axis] == self.low[axis] || spot[axis] == self.high[axis]);
@@ -91,22 +92,22 @@ impl Region {
         rectangle && (0..2).all(|axis| self.low[axis] <= low[axis] && high[axis] <= self.high[axis])
     }
 
-    /// What is in this area and not in the other.
+    /// Returns what is in this area and not in the other. `None` if nothing is.
     pub fn minus(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Difference, thinnest)
     }
 
-    /// What is in both areas.
+    /// Returns what is in both areas. `None` if nothing is.
     pub fn common(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Intersect, thinnest)
     }
 
-    /// What is in one of the areas.
+    /// Returns what is in either area.
     pub fn joined(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Union, thinnest)
     }
 
-    /// What is in any of several areas.
+    /// Returns what is in any of several areas. `None` if there is nothing, or if their lines cross too often.
     pub fn all(regions: &[Self], thinnest: f64) -> Option<Self> {
         if let [only] = regions {
             return Some(only.clone());
@@ -115,7 +116,7 @@ impl Region {
         Self::new(&rings, Rule::NonZero, thinnest)
     }
 
-    /// The area stays as it is where the lines of both are a tangle.
+    /// Combines both areas by a rule. If their lines cross too often, returns this area unchanged.
     fn overlaid(&self, other: &Self, rule: OverlayRule, thinnest: f64) -> Option<Self> {
         if is_tangled(&self.rings, &other.rings) {
             return Some(self.clone());
@@ -123,7 +124,8 @@ impl Region {
         Self::from_shapes(self.rings.overlay(&other.rings, rule, FillRule::NonZero), thinnest)
     }
 
-    /// The parts of a line that are inside or outside of the area, at least as long as `shortest`.
+    /// Returns the parts of a line that are inside or outside the area and at least as long as `shortest`. A line that
+    /// is nearly all kept, or that crosses too often, is returned unchanged.
     pub fn parts(&self, line: &FlatLine, inside: bool, shortest: f64) -> Vec<FlatLine> {
         let mut path = line.points.clone();
         if line.closed {
@@ -146,7 +148,7 @@ impl Region {
     }
 }
 
-/// Whether lines cross each other too often, estimated by pairs taken by chance.
+/// Whether lines cross each other too often, estimated from random pairs.
 fn is_tangled(first: &[Vec<Spot>], second: &[Vec<Spot>]) -> bool {
     let count = first.iter().chain(second).map(Vec::len).sum::<usize>();
     if count < LINES_FEW {
@@ -165,7 +167,7 @@ fn is_tangled(first: &[Vec<Spot>], second: &[Vec<Spot>]) -> bool {
     crossing as f64 / samples * pairs > CROSSINGS_MAX
 }
 
-/// Whether two lines cross between their ends.
+/// Whether two line segments cross between their ends.
 fn cross(a: (Spot, Spot), b: (Spot, Spot)) -> bool {
     let side = |line: (Spot, Spot), point: Spot| {
         let (from, to) = line;
@@ -174,7 +176,7 @@ fn cross(a: (Spot, Spot), b: (Spot, Spot)) -> bool {
     side(a, b.0) * side(a, b.1) < 0.0 && side(b, a.0) * side(b, a.1) < 0.0
 }
 
-/// The corners of the box around points.
+/// Corners of the box around points. `None` if there are no points.
 pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Spot>) -> Option<(Spot, Spot)> {
     points.into_iter().map(|spot| (*spot, *spot)).reduce(|(low, high), (spot, _)| {
         ([low[0].min(spot[0]), low[1].min(spot[1])], [high[0].max(spot[0]), high[1].max(spot[1])])

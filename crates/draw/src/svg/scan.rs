@@ -1,4 +1,4 @@
-//! Guards that need only the bytes of an SVG, before any parser sees them.
+//! Checks the bytes of an SVG before any parser reads them.
 
 use crate::error::DrawError;
 
@@ -6,10 +6,14 @@ use crate::error::DrawError;
 const BYTES_MAX: usize = 10_000_000;
 /// Deepest nesting of elements. usvg itself stops at 1,024 and needs more of the stack for each level.
 pub const DEPTH_MAX: usize = 256;
-/// Attributes of an element, at most: the parser compares each with each (10⁵ attributes took over 25 s on 2026-11-23).
+/// Largest number of attributes of an element. The parser compares every pair of them (10⁵ attributes took over 25 s on
+/// 2026-11-23).
 const ATTRIBUTES_MAX: usize = 500;
 
-/// The text of an SVG that is neither too long, nor too deep, nor has an element with too many attributes.
+/// Returns the text of an SVG.
+///
+/// # Errors
+/// A file that is too large, not UTF-8, nested too deeply, or has an element with too many attributes.
 pub fn text(bytes: &[u8]) -> Result<&str, DrawError> {
     if bytes.len() > BYTES_MAX {
         return Err(too_large(format!(
@@ -40,7 +44,7 @@ pub fn text(bytes: &[u8]) -> Result<&str, DrawError> {
     Ok(text)
 }
 
-/// The refusal of elements nested too deeply.
+/// The error for elements that are nested too deeply.
 pub fn too_deep() -> DrawError {
     let message = format!(
         "The SVG file nests elements more than {DEPTH_MAX} deep. Ungroup its parts in the program that made it."
@@ -48,14 +52,14 @@ pub fn too_deep() -> DrawError {
     DrawError::new("svg-too-deep", message)
 }
 
-/// The refusal of a file that would take too long or too much memory.
+/// The error for a file that would take too long or too much memory.
 pub fn too_large(reason: String) -> DrawError {
     let message =
         format!("The SVG file is too large to draw: {reason}. Simplify it in the program that made it.");
     DrawError::new("svg-too-large", message)
 }
 
-/// What a tag does to the nesting.
+/// How a tag changes the nesting.
 enum TagKind {
     Opens,
     Closes,
@@ -65,11 +69,11 @@ enum TagKind {
 /// A tag.
 struct Tag {
     kind: TagKind,
-    /// Equals signs outside of quotation marks.
+    /// Number of equals signs outside quotation marks.
     attributes: usize,
 }
 
-/// The tags in a text. Tags inside of entities count too, comments and character data do not.
+/// Returns the tags in a text. Tags inside entities count too; comments and character data do not.
 fn tags(text: &str) -> impl Iterator<Item = Tag> + '_ {
     let mut rest = text;
     std::iter::from_fn(move || {
@@ -91,7 +95,7 @@ fn tags(text: &str) -> impl Iterator<Item = Tag> + '_ {
     })
 }
 
-/// The tag at the start of a text, after its `<`, and what follows it.
+/// Reads the tag at the start of a text, after its `<`. Also returns the text that follows.
 fn tag(text: &str) -> (Tag, &str) {
     let mut quote = None;
     let mut attributes = 0;

@@ -1,4 +1,4 @@
-//! Whole files: what is drawn, what is noted, and what is refused.
+//! Tests with whole files: what is drawn, what is noted, and what is refused.
 
 use lightbots_base::random::split_mix;
 
@@ -21,7 +21,7 @@ fn part(inside: &str) -> DrawingPart {
     made(inside).drawing.parts.remove(0)
 }
 
-/// Areas as colour and size, square units.
+/// Areas, as colour and size in square units.
 fn areas(inside: &str) -> Vec<(u32, f64)> {
     let size = |ring: &Vec<lightbots_base::Vec2>| {
         let next = ring.iter().cycle().skip(1);
@@ -39,7 +39,7 @@ fn notes(inside: &str) -> Vec<&'static str> {
     made(inside).notes.into_iter().map(|note| note.code).collect()
 }
 
-/// The code of the refusal, or `None`.
+/// The code of the error. `None` if the file is drawn.
 fn refusal(file: &[u8]) -> Option<&'static str> {
     draw(file).err().map(|error| {
         assert!(error.message.ends_with('.'), "{}", error.message);
@@ -178,7 +178,7 @@ fn texts_are_drawn_in_fonts_that_are_inside() {
     let drawn = areas(text);
     assert_eq!(drawn.iter().map(|area| area.0).collect::<Vec<_>>(), [0xff0000]);
     assert_eq!(notes(text), [""; 0]);
-    // Two bars, 0.72 of 40 high and about an eighth of it wide.
+    // Two bars that are 0.72 of 40 high, and about an eighth of that wide.
     assert!((150.0..600.0).contains(&drawn[0].1), "{drawn:?}");
     let moved = format!("<g transform='translate(5 20) scale(0.5)'>{text}</g>");
     assert!((areas(&moved)[0].1 * 4.0 - drawn[0].1).abs() < 0.02 * drawn[0].1);
@@ -272,7 +272,7 @@ fn numbers_that_are_none_are_left_out() {
     }
 }
 
-/// A file with most of what SVG has.
+/// A file with most features of SVG.
 fn rich() -> String {
     page(
         "<style>.a > path, #b { fill: url(#g) } @media x { * { stroke: red } }</style><defs><linearGradient id='g' \

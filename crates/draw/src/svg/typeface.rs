@@ -1,4 +1,4 @@
-//! The fonts for texts in SVG files. Fonts of the machine are not read: a drawing is the same everywhere.
+//! The fonts for texts in SVG files. Fonts installed on the machine are not used: a drawing is the same everywhere.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
@@ -9,13 +9,13 @@ use usvg::{FontFamily, Group, Node};
 use crate::error::Note;
 use crate::text::outline_files;
 
-/// Missing fonts that a note names, at most.
+/// Largest number of missing fonts that a note names.
 const NAMED: usize = 3;
 
-/// The family that stands in for all that are not inside.
+/// The family used for all fonts that are not built in.
 pub const FAMILY: &str = "Lato";
 
-/// All fonts inside that have outlines.
+/// All built-in fonts that have outlines.
 pub fn faces() -> Arc<Database> {
     static FACES: OnceLock<Arc<Database>> = OnceLock::new();
     FACES
@@ -34,7 +34,7 @@ pub fn faces() -> Arc<Database> {
         .clone()
 }
 
-/// Says which fonts of texts are not inside.
+/// Returns a note that names fonts of texts which are not built in. `None` if all are.
 pub fn missing(root: &Group) -> Option<Note> {
     let mut families = BTreeSet::new();
     collect(root, &mut families);
@@ -54,7 +54,7 @@ pub fn missing(root: &Group) -> Option<Note> {
     Some(Note::new("svg-font", message))
 }
 
-/// The first family that each text asks for.
+/// Collects the first font family of each text.
 fn collect(group: &Group, families: &mut BTreeSet<String>) {
     for node in group.children() {
         match node {

@@ -1,4 +1,4 @@
-//! The elements of an SVG are painted one after the other.
+//! Paints the elements of an SVG one after the other.
 
 use lightbots_base::Rgb;
 use usvg::tiny_skia_path::{Path as Outline, Transform};
@@ -15,24 +15,26 @@ use crate::svg::scan::too_large;
 
 /// Largest coordinate, units of the page. Larger ones come from broken files.
 const COORDINATE_MAX: f32 = 1e6;
-/// Tolerance of chords, in sizes of the picture: finer than a tenth of the spacing of 10,000 robots.
+/// Tolerance of chords, as a share of the picture's longer side. It is finer than a tenth of the spacing of 10,000
+/// robots.
 const TOLERANCE: f64 = 1.0 / 2_000.0;
-/// A stroke at least this wide, in sizes of the picture, becomes an area. Icons of 24 pixels have lines of 2.
+/// Width from which a stroke becomes an area, as a share of the picture's longer side. Icons of 24 pixels have lines of
+/// 2.
 const WIDE: f64 = 0.15;
-/// Areas recede from a stroke at least this wide, in sizes of the picture.
+/// Width from which other areas are cut back beside a stroke, as a share of the picture's longer side.
 const VISIBLE: f64 = 0.015;
-/// Areas and lines, at most: more than robots could show.
+/// Largest number of areas and lines: more than robots could show.
 const PARTS_MAX: usize = 20_000;
-/// Points of areas and lines, at most.
+/// Largest number of points of all areas and lines.
 const POINTS_MAX: usize = 500_000;
-/// Brightness from which on a mask lets through what is below it, 0 to 1.
+/// Least brightness at which a mask keeps what it covers, 0 to 1.
 const MASK_MIN: f64 = 0.5;
 
-/// A walk through the elements of an SVG.
+/// A walk through the elements of an SVG, which paints them.
 pub struct Walk {
-    /// What is painted.
+    /// The page with all that is painted.
     pub canvas: Canvas,
-    /// Areas and lines with coordinates beyond [`COORDINATE_MAX`].
+    /// Number of paths with coordinates beyond [`COORDINATE_MAX`].
     pub beyond: usize,
     /// Longer side of the picture, units of the page.
     size: f64,
@@ -40,20 +42,23 @@ pub struct Walk {
     points: usize,
 }
 
-/// What holds for all elements of a group.
+/// Settings for all elements of a group.
 #[derive(Clone)]
 struct Context {
-    /// From the group to the page.
+    /// Transform from the group to the page.
     transform: Transform,
-    /// What is outside of one of these is cut off.
+    /// Areas outside of each of which paint is cut off.
     clips: Vec<Region>,
     opacity: f64,
-    /// How brightness of a mask is measured; `None`: this is no mask.
+    /// How a mask's brightness is measured. `None` outside masks and clip paths.
     mask: Option<MaskType>,
 }
 
 impl Walk {
-    /// Paints a group on an empty page between two corners; `size` is the longer side of what is on it.
+    /// Paints a group on an empty page between two corners. `size` is the longer side of its content.
+    ///
+    /// # Errors
+    /// Too many areas, lines or points.
     pub fn paint(root: &Group, page: (Spot, Spot), size: f64) -> Result<Self, DrawError> {
         let edge = Region::rectangle(page.0, page.1);
         let canvas = Canvas::new(edge.area(), size * TOLERANCE);
@@ -96,7 +101,7 @@ impl Walk {
             match node {
                 Node::Group(inner) => self.group(inner, context)?,
                 Node::Path(path) if path.is_visible() => self.path(path, context)?,
-                // Its letters have their place in the coordinates of the group already.
+                // The letters of a text already have their places in the coordinates of the group.
                 Node::Text(text) => self.group(text.flattened(), context)?,
                 Node::Path(_) | Node::Image(_) => {}
             }
@@ -132,12 +137,12 @@ impl Walk {
         }
     }
 
-    /// The area inside of a path.
+    /// Returns the area inside a path. `None` if it is too thin or its lines cross too often.
     fn filled(&mut self, data: &Outline, context: &Context, rule: Rule) -> Result<Option<Region>, DrawError> {
         let lines = self.flattened(data, context)?;
         let rings: Vec<Vec<Spot>> = lines.into_iter().map(|line| line.points).collect();
         let region = Region::new(&rings, rule, self.tolerance());
-        // Crossings of its own lines are points too.
+        // Points where its own lines cross count too.
         self.points += region.as_ref().map_or(0, Region::points);
         Ok(region)
     }
@@ -198,7 +203,7 @@ impl Walk {
         Ok(())
     }
 
-    /// The area that a stroke covers.
+    /// Returns the area that a stroke covers.
     fn outline(
         &mut self,
         path: &Path,
@@ -211,7 +216,7 @@ impl Walk {
         self.filled(&data, context, Rule::NonZero)
     }
 
-    /// The parts of a line that are not cut off.
+    /// Returns the parts of a line that are inside all clips.
     fn clipped(&mut self, line: FlatLine, context: &Context) -> Vec<FlatLine> {
         let shortest = self.tolerance();
         let count = |lines: &[FlatLine]| lines.iter().map(|line| line.points.len()).sum::<usize>();
@@ -224,7 +229,7 @@ impl Walk {
         })
     }
 
-    /// The area that a clip path leaves. `None`: none.
+    /// Returns the area that a clip path keeps. `None` if it keeps nothing.
     fn clip(&mut self, clip: &ClipPath, transform: Transform) -> Result<Option<Region>, DrawError> {
         let inner = transform.pre_concat(clip.transform());
         let own = self.bright(clip.root(), inner, MaskType::Alpha)?;
@@ -234,7 +239,7 @@ impl Walk {
         Ok(own.zip(other).and_then(|(own, other)| own.common(&other, thinnest)))
     }
 
-    /// The area that a mask leaves. `None`: none.
+    /// Returns the area that a mask keeps. `None` if it keeps nothing.
     fn mask(&mut self, mask: &Mask, transform: Transform) -> Result<Option<Region>, DrawError> {
         let own = self.bright(mask.root(), transform, mask.kind())?;
         let Some(linked) = mask.mask() else { return Ok(own) };
@@ -243,7 +248,8 @@ impl Walk {
         Ok(own.zip(other).and_then(|(own, other)| own.common(&other, thinnest)))
     }
 
-    /// The bright area of a mask, or the whole of a clip path.
+    /// Paints a mask or a clip path on a page of its own. Returns the bright area of the mask, or the whole area of the
+    /// clip path.
     fn bright(
         &mut self,
         root: &Group,
@@ -261,7 +267,7 @@ impl Walk {
     }
 }
 
-/// The brightness of a mask's paint as a grey.
+/// Returns the brightness of a mask's paint as a grey.
 fn brightness(Rgb { r, g, b }: Rgb, opacity: f64, kind: MaskType) -> Rgb {
     let light = match kind {
         MaskType::Luminance => {
