@@ -1,4 +1,4 @@
-//! Answers as JSON, and errors and notes as values.
+//! Writes answers as JSON, and turns errors and notes into values.
 
 use lightbots_api::MakeRemark;
 use lightbots_draw::{DrawError, Note};
@@ -6,9 +6,9 @@ use lightbots_exchange::ReadError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// The answer as JSON.
+/// Returns an answer as JSON.
 pub(crate) fn text<T: Serialize>(answer: &T) -> String {
-    // Answers are plain lists, texts and finite or null numbers, which JSON always holds.
+    // Answers consist of lists, texts and finite or null numbers, which can always be written as JSON.
     serde_json::to_string(answer).unwrap_or_default()
 }
 
@@ -18,17 +18,17 @@ pub(crate) fn request<T: DeserializeOwned>(request: &str) -> Result<T, MakeRemar
         .map_err(|error| MakeRemark { code: "bad-request".to_owned(), message: error.to_string() })
 }
 
-/// An error of drawing.
+/// Converts an error of drawing.
 pub(crate) fn drawing(error: DrawError) -> MakeRemark {
     MakeRemark { code: error.code.to_owned(), message: error.message }
 }
 
-/// An error of reading a show.
+/// Converts an error of reading a show.
 pub(crate) fn reading(error: &ReadError) -> MakeRemark {
     MakeRemark { code: error.code.to_owned(), message: error.to_string() }
 }
 
-/// Notes for people and programs.
+/// Converts notes of drawing.
 pub(crate) fn notes(notes: &[Note]) -> Vec<MakeRemark> {
     let remark = |note: &Note| MakeRemark { code: note.code.to_owned(), message: note.message.clone() };
     notes.iter().map(remark).collect()

@@ -1,9 +1,9 @@
-//! What the settings of sources may name.
+//! Fonts and shapes that the settings of a source can name.
 
 use lightbots_api::{MakeChoices, MakeFont, MakeShape};
 use lightbots_draw::{SHAPES, ShapeKind, ShapeSettings, text};
 
-/// Fonts inside, and all shapes.
+/// Returns the built-in fonts that people can choose, and all shapes.
 pub fn choices() -> MakeChoices {
     let offered = text::FONTS.iter().filter(|font| font.offered);
     MakeChoices {

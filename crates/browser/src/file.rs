@@ -1,4 +1,4 @@
-//! Files that were dropped or chosen.
+//! Identifies files that were dropped or chosen.
 
 use lightbots_api::MakeFile;
 use lightbots_draw::animation::webp_moves;
@@ -11,8 +11,8 @@ use crate::answer;
 /// First bytes of fonts: OpenType, TrueType, TrueType of Apple, collections, and the two web formats.
 const FONTS: [&[u8]; 6] = [b"OTTO", b"\0\x01\0\0", b"true", b"ttcf", b"wOFF", b"wOF2"];
 
-/// What a file is, told from its bytes, and its hash, by which shows name it: pages without encryption have no function
-/// of the browser for that.
+/// Returns the kind of a file, found from its bytes, and its hash, which identifies it in shows. Hashing is done here
+/// because browsers offer no hash function to pages without encryption.
 pub fn file(bytes: &[u8]) -> MakeFile {
     let hash = lightbots_exchange::hash_of(bytes).to_string();
     match kind_of(bytes) {
@@ -44,15 +44,15 @@ fn kind_of(bytes: &[u8]) -> Result<&'static str, DrawError> {
     Err(unsupported(bytes))
 }
 
-/// Whether a file begins as music does. Whether it can be played, only the browser's decoder knows.
+/// Whether a file begins like music. Only the browser's decoder can tell whether it can be played.
 fn is_music(bytes: &[u8]) -> bool {
     match bytes {
         [b'I', b'D', b'3', 0..=9, ..] => true,
-        // A frame of MP3 or AAC.
+        // The start of a frame of MP3 or AAC.
         [0xff, second, ..] if second & 0xe0 == 0xe0 => true,
         [b'O', b'g', b'g', b'S', ..] | [b'f', b'L', b'a', b'C', ..] => true,
         [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'A', b'V', b'E', ..] => true,
-        // MPEG-4; still pictures have it too.
+        // MPEG-4. Still pictures share the `ftyp` mark, and the brand after it tells them apart.
         [_, _, _, _, b'f', b't', b'y', b'p', brand @ ..] => {
             [b"M4A ", b"mp42", b"mp41", b"isom", b"iso2", b"dash"]
                 .iter()

@@ -1,4 +1,4 @@
-//! Frames of animations.
+//! Makes the frames of animations.
 
 use lightbots_api::{FilmAnswer, FilmPicture, MakeRemark};
 use lightbots_base::Vec2;
@@ -7,8 +7,8 @@ use lightbots_make::{FilmFrame, Recipe, film, make_frame_from};
 use crate::answer;
 use crate::make::{FrameWish, full, readability, remark};
 
-/// Makes the frames of an animation: a `MakeRequest` as JSON whose frame has the animation as its source, and the bytes of
-/// the file.
+/// Makes the frames of an animation. `request` is a `MakeRequest` as JSON whose frame has the animation as its source;
+/// `bytes` are the file.
 pub fn film_answer(request: &str, bytes: &[u8]) -> FilmAnswer {
     made(request, bytes).unwrap_or_else(|error| FilmAnswer { error: Some(error), ..FilmAnswer::default() })
 }

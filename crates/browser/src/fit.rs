@@ -1,11 +1,11 @@
-//! Shows for another number of robots.
+//! Fits shows to another number of robots.
 
 use lightbots_api::{FitAnswer, MakeRemark};
 use lightbots_exchange::LIGHTBOTS;
 
 use crate::answer;
 
-/// Fits all frames of a show, the bytes of a file of any format, to a number of robots.
+/// Fits all frames of a show to a number of robots. `show` has the bytes of a show file in any format.
 pub fn fit_answer(show: &[u8], robots: usize) -> FitAnswer {
     fitted(show, robots).unwrap_or_else(|error| FitAnswer { error: Some(error), ..FitAnswer::default() })
 }

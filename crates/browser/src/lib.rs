@@ -1,11 +1,14 @@
-//! What the browser runs by itself as WebAssembly: frames from words, drawings and shapes, shows for other
-//! fleets, plans, and light.
+//! Functions that the browser runs itself, as WebAssembly: they make frames, fit shows to other fleets, plan, and
+//! compute light.
 //!
-//! JSON texts go in and out, in the types of `lightbots_api`, so that JavaScript needs no glue for each type. Errors are
-//! values in the answers. In reading order: [`make_answer`] makes a frame, [`film_answer`] those of an animation,
-//! [`fit_answer`] fits a show, [`plan_answer`] plans one, [`moved_answer`] moves a picture as one, [`PlannedLight`] has its
-//! colours with [`LightPictures`], [`FilmPainter`] paints films of it, [`choices`] lists what settings may name, [`file()`]
-//! tells what a file is, [`beats_answer`] finds beats of music; the functions below them are the same for JavaScript.
+//! Requests and answers are JSON texts, in the types of `lightbots_api`, so that JavaScript needs no glue for each
+//! type. Errors are values in the answers.
+//!
+//! In reading order: [`make_answer`] makes a frame and [`film_answer`] the frames of an animation. [`fit_answer`] fits
+//! a show, [`plan_answer`] plans one, and [`moved_answer`] moves a picture as a whole. [`PlannedLight`] computes a
+//! show's colours with [`LightPictures`], and [`FilmPainter`] paints films of it. [`choices`] lists what settings can
+//! name, [`file()`] identifies a file, and [`beats_answer`] finds beats of music. The functions below call these for
+//! JavaScript.
 
 mod answer;
 mod beats;
@@ -32,49 +35,52 @@ pub use moved::moved_answer;
 pub use plan::plan_answer;
 pub use show_film::FilmPainter;
 
-/// Makes a frame: a `MakeRequest` as JSON and the bytes of the source's file, empty without one; a `MakeAnswer` as JSON.
+/// Makes a frame. Takes a `MakeRequest` as JSON and the bytes of the source's file, empty if it has none. Returns a
+/// `MakeAnswer` as JSON.
 #[wasm_bindgen]
 pub fn make(request: &str, asset: &[u8]) -> String {
     answer::text(&make_answer(request, (!asset.is_empty()).then_some(asset)))
 }
 
-/// Makes the frames of an animation: a `MakeRequest` as JSON and the bytes of the file; a `FilmAnswer` as JSON.
+/// Makes the frames of an animation. Takes a `MakeRequest` as JSON and the bytes of the file. Returns a `FilmAnswer` as
+/// JSON.
 #[wasm_bindgen]
 pub fn film(request: &str, bytes: &[u8]) -> String {
     answer::text(&film_answer(request, bytes))
 }
 
-/// Fits a show to a number of robots: a show file of any format; a `FitAnswer` as JSON.
+/// Fits a show to a number of robots. Takes a show file of any format. Returns a `FitAnswer` as JSON.
 #[wasm_bindgen]
 pub fn fit(show: &[u8], robots: usize) -> String {
     answer::text(&fit_answer(show, robots))
 }
 
-/// Plans a show: a `PlanningRequest` as JSON; a `PlanAnswer` as JSON.
+/// Plans a show. Takes a `PlanningRequest` as JSON. Returns a `PlanAnswer` as JSON.
 #[wasm_bindgen]
 pub fn plan(request: &str) -> String {
     answer::text(&plan_answer(request))
 }
 
-/// Moves a picture as one: a show file of two frames, of which the second has the motion; a `MovedAnswer` as JSON.
+/// Moves a picture as a whole. Takes a show file of two frames, the second of which has the motion. Returns a
+/// `MovedAnswer` as JSON.
 #[wasm_bindgen]
 pub fn moved(show: &[u8]) -> String {
     answer::text(&moved_answer(show))
 }
 
-/// What settings may name: `MakeChoices` as JSON.
+/// Returns the fonts and shapes that settings can name: `MakeChoices` as JSON.
 #[wasm_bindgen]
 pub fn list() -> String {
     answer::text(&choices())
 }
 
-/// What a dropped or chosen file is: its bytes; a `MakeFile` as JSON.
+/// Identifies a dropped or chosen file by its bytes. Returns a `MakeFile` as JSON.
 #[wasm_bindgen]
 pub fn look(bytes: &[u8]) -> String {
     answer::text(&file(bytes))
 }
 
-/// Finds the beats of music: samples of one channel, and how many there are in a second; a `BeatsAnswer` as JSON.
+/// Finds the beats of music. Takes samples of one channel and their number per second. Returns a `BeatsAnswer` as JSON.
 #[wasm_bindgen]
 pub fn beats(samples: &[f32], rate_hz: f64) -> String {
     answer::text(&beats_answer(samples, rate_hz))

@@ -1,4 +1,4 @@
-//! Colours of a planned show's robots.
+//! Computes the colours of a planned show's robots.
 
 use lightbots_api::{LightAnswer, LightRequest, MakeRemark, Transition};
 use lightbots_base::{Piece, Span, Vec2};
@@ -11,26 +11,27 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answer;
 
-/// Most colours in one answer: a request for more gets fewer moments.
+/// Largest number of colours in one answer. If a request exceeds it, the answer has fewer moments.
 const COLOURS_MAX: usize = 2_000_000;
 
-/// Pictures that layers project on the floor, decoded. Files of others are read here, in a worker of the browser.
+/// Decoded pictures that layers project on the floor. Untrusted files are decoded here, in a worker of the browser.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct LightPictures {
-    /// By the hash of the file.
+    /// The pictures, by the hash of their file.
     decoded: BTreeMap<String, LayerPicture>,
 }
 
 #[wasm_bindgen]
 impl LightPictures {
-    /// No pictures.
+    /// Makes an empty collection.
     #[wasm_bindgen(constructor)]
     pub fn new() -> LightPictures {
         Self::default()
     }
 
-    /// Decodes a file. A `LightAnswer` as JSON: its error says what is wrong with the file.
+    /// Decodes a file and keeps its picture under `hash`. Returns a `LightAnswer` as JSON, whose error says what is
+    /// wrong with the file.
     pub fn add(&mut self, hash: &str, file: &[u8]) -> String {
         let decoded = if lightbots_exchange::is_sequence(file) {
             let remark = |message| MakeRemark { code: "bad-sequence".into(), message };
@@ -57,7 +58,7 @@ impl LightPictures {
     }
 }
 
-/// The light of a show, ready to be asked for moments.
+/// The light of a planned show, which returns colours at any moments.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct PlannedLight {
@@ -78,19 +79,19 @@ struct Drive {
 
 #[wasm_bindgen]
 impl PlannedLight {
-    /// Reads a `LightRequest` as JSON.
+    /// Reads a `LightRequest` as JSON. An error is kept for [`Self::answer`].
     #[wasm_bindgen(constructor)]
     pub fn new(request: &str, pictures: &LightPictures) -> PlannedLight {
         Self::read(request, pictures).unwrap_or_else(|error| Self { error: Some(error), ..Self::default() })
     }
 
-    /// What was read: a `LightAnswer` as JSON.
+    /// Returns the result of reading: a `LightAnswer` as JSON.
     pub fn answer(&self) -> String {
         answer::text(&LightAnswer { robots: self.robots, error: self.error.clone() })
     }
 
-    /// Takes other layers: those of a show in our format as JSON, whose other parts do not count, so that it may be without
-    /// pixels. A `LightAnswer` as JSON.
+    /// Replaces the layers by those of another show in our format as JSON. Nothing else of that show is used, and it
+    /// may have no pixels. Returns a `LightAnswer` as JSON.
     pub fn relight(&mut self, document: &str, pictures: &LightPictures) -> String {
         match shown(document) {
             Ok(other) => {
@@ -102,8 +103,9 @@ impl PlannedLight {
         }
     }
 
-    /// Colours at `count` moments `step_s` apart: for each moment, red, green and blue of each robot. `from_s` counts from
-    /// the start of the drive to the first frame. Robots that a frame does not have are dark.
+    /// Returns colours at moments `step_s` apart: red, green and blue of each robot, moment by moment. There are
+    /// `count` moments, or fewer if the answer would be too long. `from_s` is the first moment, seconds from the start
+    /// of the drive to the first frame. Robots that are not in a frame are dark.
     pub fn colours(&self, from_s: f64, step_s: f64, count: usize) -> Vec<u8> {
         self.with_planned(|planned| {
             let (mut scenes, mut scene, mut bytes) = (planned.scenes(), Vec::new(), Vec::new());
@@ -133,7 +135,7 @@ impl PlannedLight {
         Ok(Self { show, light, drives, robots, error: None })
     }
 
-    /// The show with its drives.
+    /// Calls `of` with the show and its drives.
     pub(crate) fn with_planned<T>(&self, of: impl FnOnce(&PlannedShow<'_>) -> T) -> T {
         let drives = self.drives.iter().map(Drive::as_planned).collect();
         of(&PlannedShow::of_drives(&self.show, drives, &self.light))
@@ -172,7 +174,7 @@ impl Drive {
         Self { pixels, paths, duration: Span::from_secs(way.duration_s) }
     }
 
-    /// Nothing was planned: robots stand on the pixels.
+    /// Returns a drive without a plan: robots stand on the pixels.
     fn standing(frame: &Frame) -> Self {
         let pixels = frame.pixels.iter().map(|pixel| Some(pixel.id)).collect();
         Self { pixels, paths: Vec::new(), duration: Span::ZERO }
@@ -211,7 +213,7 @@ mod tests {
 
     #[test]
     fn pixels_shine_in_their_own_colours_and_layers_over_them_at_show_time() {
-        // Show time begins with the first frame's air time, this long after the moment 0.
+        // Show time begins with the air time of the first frame, this long after moment 0.
         let (plain, first_s) = with_plan("");
         assert_eq!(plain.colours(first_s + 1.0, 100.0, 2), [255, 0, 0, 0, 0, 255]);
         let green = r##"{"kind": "solid", "from_s": 0.5, "to_s": 1, "settings": {"palette": ["#00ff00"]}}"##;
@@ -270,7 +272,7 @@ mod tests {
         assert!(cut.contains("damaged or cut off"), "{cut}");
         assert_eq!(PlannedLight::new(&request, &pictures).colours(0.5, 2.0, 2), own);
         assert_eq!(pictures.add(&hash, GIF), r#"{"robots":0,"error":null}"#);
-        // The robot stands on the centres of the picture's pixels, first on the left one.
+        // The robot stands on the centres of the picture's pixels, on the left one first.
         let lit = PlannedLight::new(&request, &pictures).colours(0.5, 2.0, 2);
         assert_eq!(lit, [0, 0, 255, 255, 0, 0]);
     }

@@ -1,4 +1,4 @@
-//! Frames from their sources.
+//! Makes frames from their sources.
 
 use lightbots_api::{MadePixel, MadeReadability, MakeAnswer, MakeQuality, MakeRemark, MakeRequest};
 use lightbots_draw::{PictureFloor, Quality, READABLE};
@@ -7,12 +7,12 @@ use lightbots_show::{Frame, Pixel};
 
 use crate::answer;
 
-/// Makes a frame: a `MakeRequest` as JSON, and the bytes of the source's file if it has one.
+/// Makes a frame. `request` is a `MakeRequest` as JSON; `asset` has the bytes of the source's file, if it has one.
 pub fn make_answer(request: &str, asset: Option<&[u8]>) -> MakeAnswer {
     made(request, asset).unwrap_or_else(|error| MakeAnswer { error: Some(error), ..MakeAnswer::default() })
 }
 
-/// A frame to be made: a request, read and checked.
+/// A request to make a frame, read from JSON.
 pub(crate) struct FrameWish {
     /// The frame with its source.
     pub frame: Frame,
@@ -22,7 +22,7 @@ pub(crate) struct FrameWish {
 }
 
 impl FrameWish {
-    /// Reads a `MakeRequest` as JSON.
+    /// Reads a `MakeRequest` as JSON and takes the first frame of its show.
     pub(crate) fn read(request: &str) -> Result<Self, MakeRemark> {
         let request: MakeRequest = answer::request(request)?;
         let document = request.show.to_string();
@@ -49,7 +49,7 @@ fn made(request: &str, asset: Option<&[u8]>) -> Result<MakeAnswer, MakeRemark> {
     Ok(full(&made, readability, enough))
 }
 
-/// How well the lights show the source.
+/// Returns how well the lights show the source. `None` if the source is an arrangement of lights.
 pub(crate) fn readability(made: &MadeFrame) -> Option<MadeReadability> {
     made.readability.map(|read| MadeReadability {
         correlation: read.correlation,
@@ -58,7 +58,7 @@ pub(crate) fn readability(made: &MadeFrame) -> Option<MadeReadability> {
     })
 }
 
-/// The answer with the pixels of a frame.
+/// Returns the answer with the pixels of a frame.
 pub(crate) fn full(
     made: &MadeFrame,
     readability: Option<MadeReadability>,
@@ -75,7 +75,8 @@ pub(crate) fn full(
     }
 }
 
-/// The number of robots that would do. The frame could be made, so errors do not happen here.
+/// Returns the number of robots that would make the source readable. Errors cannot occur, because the frame was made
+/// before.
 fn enough(frame: &Frame, asset: Option<&[u8]>) -> Option<usize> {
     enough_for(frame.sources.first()?, asset).ok().flatten()
 }
@@ -90,7 +91,7 @@ fn pixel(pixel: &Pixel) -> MadePixel {
     }
 }
 
-/// An error with a message for people.
+/// Makes an error with a message for people.
 pub(crate) fn remark(code: &str, what: impl ToString) -> MakeRemark {
     MakeRemark { code: code.to_owned(), message: what.to_string() }
 }

@@ -1,10 +1,10 @@
-//! Pictures that move as one.
+//! Moves pictures as a whole.
 
 use lightbots_api::{MakeRemark, MovedAnswer, MovedPixel};
 
 use crate::answer;
 
-/// Where the pixels of the first frame of a show are after the motion of the second.
+/// Returns the places of the first frame's pixels after the motion of the second frame.
 pub fn moved_answer(show: &[u8]) -> MovedAnswer {
     match moved(show) {
         Ok(pixels) => MovedAnswer { pixels, error: None },

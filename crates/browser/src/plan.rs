@@ -1,4 +1,4 @@
-//! Plans of shows.
+//! Plans shows.
 
 use lightbots_api::{MakeQuality, MakeRemark, Plan, PlanAnswer, PlanningRequest, plan_document};
 use lightbots_plan::ShowOptions;
@@ -6,7 +6,7 @@ use lightbots_show::{starting_places, validate};
 
 use crate::answer;
 
-/// Plans a show from its starting places: a `PlanningRequest` as JSON.
+/// Plans a show from its starting places. `request` is a `PlanningRequest` as JSON.
 pub fn plan_answer(request: &str) -> PlanAnswer {
     match planned(request) {
         Ok(plan) => PlanAnswer { plan: Some(plan), error: None },

@@ -1,4 +1,4 @@
-//! Films of a planned show.
+//! Paints films of a planned show.
 
 use lightbots_film::{FilmTimes, FilmView, Painter};
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -19,7 +19,8 @@ pub struct FilmPainter {
 
 #[wasm_bindgen]
 impl FilmPainter {
-    /// For a film of a show, from seats before the front edge or from above.
+    /// Prepares a film of a show, as seen from seats before the front edge or from above. Sides are limited to 16 to
+    /// 4,096 pixels.
     #[wasm_bindgen(constructor)]
     pub fn new(light: &PlannedLight, from_front: bool, width: u32, height: u32, fps: f64) -> FilmPainter {
         let view = if from_front { FilmView::Front } else { FilmView::Above };
@@ -28,17 +29,18 @@ impl FilmPainter {
         Self { painter: Painter::new(view, light.stage(), size), times, fps }
     }
 
-    /// Number of pictures.
+    /// Number of pictures of the film.
     pub fn pictures(&self) -> usize {
         self.times.pictures
     }
 
-    /// How long the music waits at the beginning, seconds.
+    /// Delay of the music after the start of the film, seconds.
     pub fn music_begins_s(&self) -> f64 {
         self.times.music_begins_s
     }
 
-    /// A picture, counted from 0: red, green, blue and a byte without meaning of each pixel, row by row from the top left.
+    /// Paints the picture of a number, counted from 0. Returns red, green, blue and 255 for each pixel, row by row from
+    /// the top left.
     pub fn picture(&mut self, light: &PlannedLight, number: usize) -> Vec<u8> {
         let at_s = self.times.begins_s + number as f64 / self.fps;
         let mut scene = Vec::new();

@@ -1,4 +1,4 @@
-//! Where places of the stage are in a picture.
+//! Projects places of the stage into a picture.
 
 use lightbots_base::Vec2;
 use lightbots_show::Stage;
@@ -6,29 +6,29 @@ use lightbots_show::Stage;
 /// Where the audience looks from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilmView {
-    /// From above: the picture is the floor.
+    /// From above: the picture shows the floor without perspective.
     #[default]
     Above,
     /// From seats before the front edge.
     Front,
 }
 
-/// A view of a stage in a picture of some size: a pinhole camera, which from above is infinitely far away.
+/// Projects a stage into a picture of a given size. It is a pinhole camera; from above it is infinitely far away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// The middle of the picture's coordinates, and pixels for a unit of the camera's plane.
+    /// Offset of the picture, and below it the scale: pixels per unit of the camera's plane.
     shift: (f64, f64),
     scale: f64,
-    /// The eye of a view from the front; `None`: from above.
+    /// The eye of a view from the front. `None` from above.
     eye: Option<Eye>,
 }
 
-/// Where a camera is and looks, stage metres with z up. It looks along y and down.
+/// Position and direction of a camera, stage metres with z up. It looks along y and down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Eye {
     y_m: f64,
     z_m: f64,
-    /// Components of its direction along y and z: a unit vector.
+    /// Components of the viewing direction along y and z, a unit vector.
     along_y: f64,
     along_z: f64,
 }
@@ -40,20 +40,20 @@ pub struct OnPicture {
     pub x: f64,
     /// Pixels from the top edge.
     pub y: f64,
-    /// Pixels of a metre across the view.
+    /// Pixels per metre across the view.
     pub per_m: f64,
-    /// Pixels of a metre of floor along the view, as a share of `per_m`.
+    /// Pixels per metre of floor along the view, as a share of `per_m`.
     pub flatness: f64,
 }
 
-/// Share of the picture that the floor takes.
+/// Share of the picture's width or height that the floor fills.
 const FILLED: f64 = 0.94;
-/// From the front edge back to the seats, and their height, both as shares of the larger side of the floor. Chosen: the
-/// far edge of a square floor is two thirds as wide as its front edge.
+/// Distance of the seats from the front edge, and their height, both as shares of the floor's larger side. Chosen: the
+/// far edge of a square floor looks two thirds as wide as its front edge.
 const SEATS: (f64, f64) = (1.0, 0.75);
 
 impl Camera {
-    /// The whole floor of a stage in a picture of `width` by `height` pixels.
+    /// Fits the whole floor of a stage into a picture of `width` by `height` pixels.
     pub fn new(view: FilmView, stage: &Stage, (width, height): (u32, u32)) -> Self {
         let larger_m = stage.width_m.max(stage.depth_m);
         let eye = (view == FilmView::Front).then(|| {
@@ -76,7 +76,7 @@ impl Camera {
         Self { shift, scale, eye }
     }
 
-    /// A place of the stage, `height_m` above the floor.
+    /// Projects a place of the stage, `height_m` above the floor.
     pub fn project(&self, place: Vec2, height_m: f64) -> OnPicture {
         let (x, y, distance) = self.plane(place, height_m);
         let nearer = self.plane(place - Vec2::new(0.0, 0.01), height_m).1;
@@ -89,7 +89,7 @@ impl Camera {
         }
     }
 
-    /// The place of the floor that a point of the picture shows; `None`: it is above the horizon.
+    /// Returns the place of the floor that a point of the picture shows. `None` for a point above the horizon.
     pub fn floor_at(&self, x: f64, y: f64) -> Option<Vec2> {
         let (x, y) = ((x - self.shift.0) / self.scale, (y - self.shift.1) / self.scale);
         let Some(eye) = self.eye else { return Some(Vec2::new(x, -y)) };
@@ -102,7 +102,8 @@ impl Camera {
         Some(Vec2::new(x * length, eye.y_m + length * (eye.along_y + y * eye.along_z)))
     }
 
-    /// A place in the camera's plane, downwards positive, and its distance along the view in units of the plane's.
+    /// Projects a place to the camera's plane. Returns x, y downwards, and the distance along the view, metres. From
+    /// above the distance is 1.
     fn plane(&self, place: Vec2, height_m: f64) -> (f64, f64, f64) {
         let Some(eye) = self.eye else { return (place.x, -place.y, 1.0) };
         let (y_m, z_m) = (place.y - eye.y_m, height_m - eye.z_m);

@@ -1,4 +1,4 @@
-//! All pictures of a show on one sheet, as PNG.
+//! Puts the frames of a show on one sheet, as PNG.
 
 use std::fmt::Write as _;
 
@@ -12,13 +12,13 @@ use crate::camera::FilmView;
 use crate::film::{FilmSize, ShowFilm};
 use crate::words::{numbered, short};
 
-/// Most frames on a sheet.
+/// Largest number of frames on a sheet.
 pub const SHEET_FRAMES_MAX: usize = 400;
-/// Most columns of pictures.
+/// Largest number of columns of pictures.
 const COLUMNS_MAX: usize = 8;
-/// Widest sheet, pixels.
+/// Width that the sheet's pictures share if no size is given, pixels.
 const WIDTH_MAX: usize = 3_200;
-/// Least and largest width of a picture, unless another is asked for, pixels.
+/// Least and largest width of a picture if no size is given, pixels.
 const PICTURE: (usize, usize) = (160, 480);
 /// Space around pictures, the line below each, and the heading, pixels.
 const GAP: usize = 16;
@@ -27,15 +27,15 @@ const HEADING: usize = 64;
 /// The paper, sRGB.
 const PAPER: u8 = 12;
 
-/// Where things are on a sheet, pixels.
+/// Positions and sizes on a sheet, pixels.
 struct Layout {
     columns: usize,
     picture: (usize, usize),
     size: (usize, usize),
 }
 
-/// A contact sheet: each frame in the middle of its air time, with number, name and moment. `size` is that of a picture;
-/// without it, it is chosen by the number of frames. Frames above [`SHEET_FRAMES_MAX`] are left out.
+/// Returns a contact sheet: each frame in the middle of its air time, with number, name and time. `size` is that of a
+/// picture; if `None`, it depends on the number of frames. Frames beyond [`SHEET_FRAMES_MAX`] are left out.
 pub fn contact_sheet(
     show: &Show,
     planned: &PlannedShow<'_>,
@@ -80,14 +80,14 @@ impl Layout {
         Self { columns, picture, size }
     }
 
-    /// Left and top of a frame's picture.
+    /// Returns left and top of a frame's picture.
     fn corner(&self, frame: usize) -> (usize, usize) {
         let (column, row) = (frame % self.columns, frame / self.columns);
         (GAP + column * (self.picture.0 + GAP), HEADING + row * (self.picture.1 + LINE + GAP))
     }
 }
 
-/// Writes the heading, and below each picture what it is.
+/// Writes the heading, and below each picture the frame's number, name and time.
 fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<'_>, frames: usize) {
     let (width, height) = layout.size;
     let mut svg = format!(
@@ -118,7 +118,7 @@ fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<
     }
     svg.push_str("</svg>");
     let options = Options { fontdb: font_faces(), ..Options::default() };
-    // The text is our own, and the sheet is bounded.
+    // The SVG is written by this function, and the size of the sheet is limited.
     let (Ok(tree), Some(mut text)) =
         (Tree::from_str(&svg, &options), Pixmap::new(width as u32, height as u32))
     else {

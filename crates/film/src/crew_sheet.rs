@@ -1,4 +1,4 @@
-//! What the crew needs on paper: where robots start, what happens when, and what to check.
+//! Prints what the crew needs on paper: where robots start, what happens when, and what to check.
 
 use lightbots_base::Vec2;
 use lightbots_lighting::{FrameTimes, PlannedShow};
@@ -14,10 +14,10 @@ const LETTERS: f32 = 9.0;
 const COLUMNS: usize = 3;
 /// Largest height of the map of starting places, points.
 const MAP_HEIGHT: f32 = 400.0;
-/// Most robots whose names fit on the map.
+/// Largest number of robots whose names are written on the map.
 const NAMED_MAX: usize = 200;
 
-/// What to do before a show. docs/operations.md says more.
+/// Checks before a show. docs/operations.md has the details.
 const CHECKLIST: [&str; 14] = [
     "Floor swept; size measured and the same as above; edges marked",
     "No-go areas free of cables and marked; audience behind its line",
@@ -35,7 +35,8 @@ const CHECKLIST: [&str; 14] = [
     "First run of a new show at 50 % speed",
 ];
 
-/// The sheet as PDF. `starts` are the robots' starting places, `names` what robots are called there, where that is known.
+/// Returns the sheet as PDF. `starts` are the starting places of the robots; `names` are the names of the robots there,
+/// where known.
 pub fn crew_sheet(
     show: &Show,
     planned: &PlannedShow<'_>,
@@ -70,7 +71,7 @@ pub fn crew_sheet(
 /// Pages that are filled from top to bottom.
 struct Sheet {
     pages: Vec<Vec<Mark>>,
-    /// Where the next line begins, points from the top.
+    /// Distance of the next line from the top, points.
     y: f32,
 }
 
@@ -81,7 +82,7 @@ impl Default for Sheet {
 }
 
 impl Sheet {
-    /// Makes room for something of that height; on a new page if there is none.
+    /// Begins a new page if something of that height does not fit on the current one.
     fn room(&mut self, height: f32) {
         if self.y + height > PAGE.1 - MARGIN {
             self.pages.push(Vec::new());
@@ -113,7 +114,7 @@ impl Sheet {
         self.y += ROW;
     }
 
-    /// A row of a table: words at columns, points from the left margin.
+    /// Writes a row of a table. Each text begins at its distance from the left margin, points.
     fn row(&mut self, columns: &[(f32, String)]) {
         self.room(ROW);
         for (x, words) in columns {
@@ -150,7 +151,7 @@ fn facts(show: &Show, planned: &PlannedShow<'_>) -> String {
     )
 }
 
-/// The floor from above with the front edge below.
+/// Draws the floor from above, with the front edge at the bottom.
 fn map(sheet: &mut Sheet, show: &Show, starts: &[Vec2], names: &[String]) {
     let (width_m, depth_m) = (show.stage.width_m as f32, show.stage.depth_m as f32);
     let per_m = ((PAGE.0 - 2.0 * MARGIN) / width_m).min(MAP_HEIGHT / depth_m);
@@ -213,7 +214,7 @@ fn cue_list(sheet: &mut Sheet, show: &Show, planned: &PlannedShow<'_>) {
     }
 }
 
-/// What ends a frame: GO, a loop until GO, or nothing.
+/// Returns what ends a frame: GO, a loop until GO, or nothing.
 fn then(show: &Show, index: usize, times: &FrameTimes) -> String {
     let id = show.frames[index].id.as_deref();
     let cue = show.cues.iter().find(|cue| match &cue.at {

@@ -1,4 +1,5 @@
-//! Films as GIF: one palette for all pictures, so that what does not move does not flicker, and only what changed.
+//! Writes films as GIF. All pictures share one palette, which keeps resting parts from flickering. Only changed pixels
+//! are written.
 
 use std::fmt;
 use std::io::Write;
@@ -6,18 +7,18 @@ use std::io::Write;
 use color_quant::NeuQuant;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 
-/// Colours of a palette; one index more means "as before".
+/// Number of colours of a palette. One more index means "unchanged".
 pub const GIF_COLOURS: usize = 255;
 const AS_BEFORE: u8 = GIF_COLOURS as u8;
-/// Pixels of which a palette is made, at most.
+/// Largest number of pixels of which a palette is made.
 const SAMPLES_MAX: usize = 300_000;
-/// Of pixels darker than this in all channels, one in `DARK_SHARE` is a sample: most of a floor is dark, and lights would
-/// get few colours.
+/// A pixel darker than this in all channels, 0 to 255, is dark. One in `DARK_SHARE` dark pixels is a sample: most of a
+/// floor is dark, and lights would otherwise get few colours.
 const DARK: u8 = 24;
 const DARK_SHARE: usize = 24;
-/// Learning looks at one sample in this number. 1 looks best; 10 is ten times as quick.
+/// Learning uses one sample in this number. With 1 the result looks best; with 10 learning is ten times as fast.
 const LEARNING: i32 = 3;
-/// Bits of each channel that choose a colour.
+/// Number of upper bits of each channel by which the nearest colour is chosen.
 const BITS: u32 = 6;
 const UNKNOWN: u16 = u16::MAX;
 
@@ -42,7 +43,7 @@ impl From<gif::EncodingError> for GifError {
 /// The colours of a film.
 pub struct GifPalette {
     colours: NeuQuant,
-    /// `[bits of red, green, blue]`: index of the nearest colour, once it was asked for.
+    /// Index of the nearest colour, by the upper bits of red, green and blue. [`UNKNOWN`] until it is first needed.
     nearest: Vec<u16>,
 }
 
@@ -53,7 +54,7 @@ impl fmt::Debug for GifPalette {
 }
 
 impl GifPalette {
-    /// The palette of some pictures of a film: red, green and blue of each pixel.
+    /// Makes the palette from some pictures of a film: red, green and blue of each pixel.
     pub fn new<'a>(pictures: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut samples = Vec::new();
         let mut dark = 0;
@@ -66,7 +67,7 @@ impl GifPalette {
         }
         let every = samples.len().div_ceil(SAMPLES_MAX).max(1);
         let mut samples: Vec<u8> = samples.into_iter().step_by(every).flatten().collect();
-        // Learning needs some pixels to look at.
+        // Learning needs a minimum number of pixels.
         samples.resize(samples.len().max(4 * 1024), 0);
         let colours = NeuQuant::new(LEARNING, GIF_COLOURS, &samples);
         Self { colours, nearest: vec![UNKNOWN; 1 << (3 * BITS)] }
@@ -75,7 +76,7 @@ impl GifPalette {
     fn index(&mut self, pixel: &[u8]) -> u8 {
         let key = pixel.iter().fold(0, |key, channel| key << BITS | usize::from(channel >> (8 - BITS)));
         if self.nearest[key] == UNKNOWN {
-            // The middle of the colours with this key, so that the index does not depend on which came first.
+            // The middle of all colours with this key. The index then does not depend on which of them came first.
             let middle = |channel: &u8| (channel >> (8 - BITS) << (8 - BITS)) | 1 << (7 - BITS);
             let [r, g, b] = [&pixel[0], &pixel[1], &pixel[2]].map(middle);
             self.nearest[key] = self.colours.index_of(&[r, g, b, 255]).min(GIF_COLOURS - 1) as u16;
@@ -84,14 +85,14 @@ impl GifPalette {
     }
 }
 
-/// Writes the pictures of a film.
+/// Writes the pictures of a film to a GIF.
 pub struct GifWriter<W: Write> {
     encoder: Encoder<W>,
     palette: GifPalette,
     size: (usize, usize),
-    /// Indices of the picture that stands.
+    /// Palette indices of the last picture.
     shown: Vec<u8>,
-    /// What was not written yet, because it may stand longer.
+    /// The last frame. It is not written yet because following equal pictures prolong it.
     waiting: Option<Frame<'static>>,
     fps: f64,
     /// Number of pictures that were added.
@@ -108,10 +109,10 @@ impl<W: Write> fmt::Debug for GifWriter<W> {
 }
 
 impl<W: Write> GifWriter<W> {
-    /// A film of `width` by `height` pixels that is repeated for ever.
+    /// Begins a film of `width` by `height` pixels that repeats for ever.
     ///
     /// # Errors
-    /// If it cannot be written, or is too large for a GIF.
+    /// The header cannot be written, or the picture is too large for a GIF.
     pub fn new(to: W, (width, height): (u32, u32), fps: f64, palette: GifPalette) -> Result<Self, GifError> {
         let (Ok(across), Ok(down)) = (u16::try_from(width), u16::try_from(height)) else {
             return Err(GifError(format!("a GIF has at most 65535 x 65535 pixels, not {width} x {height}")));
@@ -128,7 +129,7 @@ impl<W: Write> GifWriter<W> {
     /// Adds a picture: red, green and blue of each pixel, row by row from the top left.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// The picture before cannot be written.
     pub fn add(&mut self, picture: &[u8]) -> Result<(), GifError> {
         let next: Vec<u8> = picture.chunks_exact(3).map(|pixel| self.palette.index(pixel)).collect();
         let moment = |pictures: u64| (pictures as f64 * 100.0 / self.fps).round() as u64;
@@ -150,10 +151,10 @@ impl<W: Write> GifWriter<W> {
         Ok(())
     }
 
-    /// The end of the film.
+    /// Writes the last picture and ends the film.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// The last picture or the end cannot be written.
     pub fn finish(mut self) -> Result<W, GifError> {
         if let Some(last) = self.waiting.take() {
             self.encoder.write_frame(&last)?;
@@ -161,7 +162,8 @@ impl<W: Write> GifWriter<W> {
         self.encoder.into_inner().map_err(|error| GifError(error.to_string()))
     }
 
-    /// Left, top, right and bottom (exclusive) of what differs from the picture that stands.
+    /// Returns left, top, right and bottom (exclusive) of the area in which `next` differs from the last picture.
+    /// `None` if nothing differs.
     fn changed(&self, next: &[u8]) -> Option<[usize; 4]> {
         let mut area: Option<[usize; 4]> = None;
         for (index, _) in next.iter().zip(&self.shown).enumerate().filter(|(_, (new, old))| new != old) {
@@ -173,7 +175,7 @@ impl<W: Write> GifWriter<W> {
     }
 }
 
-/// The pixels of an area that differ; the others are as before.
+/// Returns a frame with the changed pixels of an area. All other pixels of the area are transparent.
 fn frame(
     width: usize,
     [left, top, right, bottom]: [usize; 4],
@@ -232,7 +234,7 @@ mod tests {
         options.set_color_output(ColorOutput::RGBA);
         let mut decoder = options.read_info(&bytes[..]).unwrap();
         let first = decoder.read_next_frame().unwrap().unwrap().clone();
-        // Two pictures that are the same are one: 3.33 and 6.67 hundredths of a second round to 7.
+        // Two equal pictures become one: 3.33 and 6.67 hundredths of a second round to 7.
         assert_eq!((first.width, first.height, first.delay), (40, 20, 7));
         let pixel = |x: usize, y: usize| &first.buffer[4 * (y * 40 + x)..][..3];
         let near = |found: &[u8], wanted: [u8; 3]| {
@@ -240,7 +242,7 @@ mod tests {
         };
         assert!(near(pixel(5, 7), [250, 20, 20]) && near(pixel(20, 15), [6, 6, 6]), "{:?}", pixel(5, 7));
         let second = decoder.read_next_frame().unwrap().unwrap();
-        // Only what changed: both squares.
+        // Only the changed area: both squares.
         assert_eq!((second.left, second.top, second.width, second.height), (3, 5, 11, 5));
         assert_eq!(second.delay, 3);
         assert!(decoder.read_next_frame().unwrap().is_none());

@@ -1,4 +1,4 @@
-//! Paints robots' lights in linear light.
+//! Paints robots' lights, computed in linear light.
 
 use lightbots_lighting::SeenRobot;
 use lightbots_show::Stage;
@@ -6,28 +6,28 @@ use lightbots_show::Stage;
 use crate::camera::{Camera, FilmView, OnPicture};
 use crate::tone;
 
-/// Linear light of the floor in the dark, red, green and blue: enough to see that there is one.
+/// Linear light of the floor in the dark, red, green and blue. It is just enough to make the floor visible.
 const FLOOR: [f32; 3] = [0.0042, 0.0046, 0.0060];
-/// Over how much of the floor its edge becomes dark, metres.
+/// Width of the strip along the edge over which the floor becomes dark, metres.
 const EDGE_M: f64 = 0.12;
-/// Radius of the light itself, in radii of a robot, and least radius in pixels of a picture 720 pixels high.
+/// Radius of the light itself, in radii of a robot, and its least radius in pixels for a picture 720 pixels high.
 const CORE: (f64, f64) = (0.62, 1.7);
 /// Height of the light above the floor, metres: that of an Elisa-3.
 const LIGHT_M: f64 = 0.03;
 
-/// Something that a light makes in the picture: a spot that fades to its rim.
+/// A spot of light in the picture that fades towards its rim.
 struct Spot {
-    /// Radius in radii of the light itself.
+    /// Radius, in radii of the light itself.
     radius: f64,
-    /// Its brightest share of the robot's colour.
+    /// Largest strength, as a share of the robot's colour.
     strength: f32,
 }
 
 /// The light scattered in eyes and lenses.
 const BLOOM: Spot = Spot { radius: 6.0, strength: 0.2 };
-/// The light on the floor, whose radius is in radii of a robot and which lies flat.
+/// The light on the floor, drawn flat. Its radius is in radii of a robot.
 const POOL: Spot = Spot { radius: 6.5, strength: 0.055 };
-/// The mirror image in the floor, as seen from the front.
+/// The mirror image of the light in the floor, in views from the front.
 const MIRRORED: Spot = Spot { radius: 2.2, strength: 0.22 };
 
 /// Paints pictures of one stage from one view.
@@ -38,14 +38,14 @@ pub struct Painter {
     view: FilmView,
     camera: Camera,
     radius_m: f64,
-    /// The dark floor, linear light, row by row from the top.
+    /// Linear light of the dark floor, row by row from the top.
     floor: Vec<[f32; 3]>,
     light: Vec<[f32; 3]>,
     bytes: Vec<u8>,
 }
 
 impl Painter {
-    /// For pictures of `width` by `height` pixels.
+    /// Prepares pictures of `width` by `height` pixels.
     pub fn new(view: FilmView, stage: &Stage, (width, height): (u32, u32)) -> Self {
         let camera = Camera::new(view, stage, (width, height));
         let half = (stage.width_m / 2.0, stage.depth_m / 2.0);
@@ -69,7 +69,7 @@ impl Painter {
         }
     }
 
-    /// The picture of robots: red, green and blue of each pixel, row by row from the top left.
+    /// Paints robots. Returns red, green and blue of each pixel, row by row from the top left.
     pub fn paint(&mut self, scene: &[SeenRobot]) -> &[u8] {
         self.light.copy_from_slice(&self.floor);
         for robot in scene {
@@ -101,7 +101,7 @@ impl Painter {
         self.disc(&lamp, core, colour);
     }
 
-    /// Adds light that fades to the rim of an ellipse.
+    /// Adds an ellipse of light that fades towards its rim.
     fn spot(&mut self, at: &OnPicture, (across, down): (f64, f64), strength: f32, colour: [f32; 3]) {
         let (rows, columns) = (rows(at.y, down, self.height), rows(at.x, across, self.width));
         let scale = (1.0 / across, 1.0 / down);
@@ -117,7 +117,7 @@ impl Painter {
         }
     }
 
-    /// Adds light to a disc. Pixels at its rim get the share that they cover.
+    /// Adds a disc of light. Pixels at its rim get the share of them that it covers.
     fn disc(&mut self, at: &OnPicture, radius: f64, colour: [f32; 3]) {
         for row in rows(at.y, radius + 0.5, self.height) {
             let y = row as f64 + 0.5 - at.y;
@@ -138,7 +138,7 @@ impl Painter {
     }
 }
 
-/// Rows (or columns) of pixels within `reach` of a point, of `count`.
+/// Returns the rows (or columns) of pixels within `reach` of a point, out of `count`.
 fn rows(at: f64, reach: f64, count: usize) -> std::ops::Range<usize> {
     let first = (at - reach).floor().max(0.0) as usize;
     let end = (at + reach).ceil().max(0.0) as usize;
@@ -168,7 +168,7 @@ mod tests {
             let at = painter.camera.project(Vec2::new(0.5, -0.4), LIGHT_M);
             let bytes = painter.paint(&[robot(0.5, -0.4, orange)]).to_vec();
             let shown = pixel(&bytes, &at, 640);
-            // Bloom and pool add to it.
+            // Bloom and pool add to the light.
             let off = |a: u8, b: u8| a.abs_diff(b);
             assert!(shown[0] == 255 && off(shown[1], 136) < 12 && shown[2] < 60, "{view:?} {shown:?}");
             let beside = pixel(&bytes, &OnPicture { x: at.x + 4.0, ..at }, 640);

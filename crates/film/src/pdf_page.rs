@@ -1,4 +1,4 @@
-//! Pages of A4 with text and simple figures.
+//! Writes A4 pages with text and simple figures.
 
 use krilla::Document;
 use krilla::color::rgb;
@@ -13,15 +13,15 @@ use lightbots_draw::text::{FONTS, FontInfo};
 pub(crate) const PAGE: (f32, f32) = (595.28, 841.89);
 /// Margin, points.
 pub(crate) const MARGIN: f32 = 42.0;
-/// Control points of a quarter of a circle, as a share of its radius.
+/// Distance of a control point from its end point for a quarter of a circle, as a share of the radius.
 const QUARTER: f32 = 0.552_284_8;
-/// The font, by its name among the fonts inside.
+/// Name of the built-in font.
 const FONT: &str = "lato";
 
 /// A grey, 0 black and 255 white.
 pub(crate) type Grey = u8;
 
-/// Something on a page; places are points from the top left corner.
+/// An element of a page. Places are points from the top left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mark {
     Text {
@@ -31,7 +31,7 @@ pub(crate) enum Mark {
         grey: Grey,
         words: String,
     },
-    /// A disc, filled or as a ring.
+    /// A disc, filled or as a circle.
     Disc {
         x: f32,
         y: f32,
@@ -39,7 +39,7 @@ pub(crate) enum Mark {
         grey: Grey,
         is_filled: bool,
     },
-    /// A rectangle as a line.
+    /// The outline of a rectangle.
     Frame {
         x: f32,
         y: f32,
@@ -54,7 +54,8 @@ pub(crate) enum Mark {
     },
 }
 
-/// The bytes of a file with these pages. The same pages give the same bytes: it has no dates.
+/// Returns a PDF file with these pages. It has no dates: the same pages give the same bytes. Empty if the font cannot
+/// be read or the file cannot be made.
 pub(crate) fn document(title: &str, pages: &[Vec<Mark>]) -> Vec<u8> {
     let file = FONTS.iter().find(|font| font.name == FONT).and_then(FontInfo::outline_file);
     let Some(font) = file.and_then(|file| Font::new(file.to_vec().into(), 0)) else { return Vec::new() };

@@ -1,34 +1,34 @@
-//! From linear light to the bytes of a picture.
+//! Converts linear light to the bytes of a picture.
 
 use std::sync::OnceLock;
 
 use lightbots_base::Rgb;
 use lightbots_light::Linear;
 
-/// Entries of the table: the steps are finer than a byte's where light is darkest.
+/// Number of steps of the table. Where light is darkest, they are finer than those of most bytes.
 const STEPS: usize = 1 << 14;
 
-/// sRGB code of linear light from 0 to 1, by steps.
+/// Returns the table of sRGB codes for linear light from 0 to 1, in [`STEPS`] steps.
 pub(crate) fn codes() -> &'static [u8] {
     static CODES: OnceLock<Vec<u8>> = OnceLock::new();
     let code = |step: usize| Linear::new(step as f64 / STEPS as f64, 0.0, 0.0).to_rgb().r;
     CODES.get_or_init(|| (0..=STEPS).map(code).collect())
 }
 
-/// The linear light of a colour.
+/// Converts a colour to linear light.
 pub(crate) fn light(colour: Rgb) -> [f32; 3] {
     let Linear { r, g, b } = Linear::from_rgb(colour);
     [r, g, b].map(|channel| channel as f32)
 }
 
-/// Light from which on colours become paler, as film and eyes do it: above that of one robot with all that it adds to
-/// itself.
+/// Linear light above which colours become paler, as in film and eyes. It is above that of one robot with its bloom and
+/// pool.
 const PALER_FROM: f32 = 1.5;
-/// How pale the brightest become.
+/// Largest share of white in the brightest light.
 const PALEST: f32 = 0.3;
 
-/// The bytes of one pixel. Light beyond what a screen shows keeps its hue and becomes paler, so that neither clipping
-/// changes colours where lights overlap nor a robot's own colour is changed.
+/// Converts the light of one pixel to bytes. Light beyond what a screen shows keeps its hue and becomes paler. Clipping
+/// would change the hue where lights overlap. The colour of a single robot does not change.
 pub(crate) fn bytes(codes: &[u8], [r, g, b]: [f32; 3]) -> [u8; 3] {
     let most = r.max(g).max(b);
     let [r, g, b] = if most > 1.0 {
@@ -46,7 +46,7 @@ mod tests {
 
     #[test]
     fn each_code_comes_back() {
-        // Below code 6 a step of the table is coarser than a code, which is far darker than any lamp.
+        // Below code 6 a step of the table is coarser than a code. No lamp is nearly that dark.
         for code in 6..=255 {
             assert_eq!(bytes(codes(), light(Rgb::new(code, code, code))), [code; 3]);
         }

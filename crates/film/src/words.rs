@@ -1,6 +1,7 @@
-//! Words on sheets.
+//! Shortens texts for sheets.
 
-/// At most `most` characters of a text, without control characters; the last is an ellipsis where more follow.
+/// Returns at most `most` characters of a text, without control characters. If there are more, the last one is an
+/// ellipsis.
 pub(crate) fn short(text: &str, most: usize) -> String {
     let mut letters = text.chars().filter(|letter| !letter.is_control());
     let mut kept: String = letters.by_ref().take(most).collect();
@@ -11,7 +12,7 @@ pub(crate) fn short(text: &str, most: usize) -> String {
     kept
 }
 
-/// `3 Heart`, or `3` for a frame without a name.
+/// Returns number and name of a frame, such as `3 Heart`, or `3` if it has no name, in at most `most` characters.
 pub(crate) fn numbered(index: usize, name: &str, most: usize) -> String {
     short(format!("{} {name}", index + 1).trim_end(), most)
 }

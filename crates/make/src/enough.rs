@@ -1,4 +1,4 @@
-//! The number of robots that would show a source readably.
+//! Finds the number of robots with which a source becomes readable.
 
 use lightbots_draw::{DrawError, PlaceSettings, enough_robots};
 use lightbots_show::FrameSource;
@@ -6,8 +6,8 @@ use lightbots_show::FrameSource;
 use crate::material::{Material, exact, material};
 use crate::recipe::Recipe;
 
-/// The least number of robots that shows a source readably. `None`: any number does, because the source is an
-/// arrangement by itself, or not even a thousand robots do.
+/// Searches the least number of robots with which a source is readable. `None` if the source is an arrangement of
+/// lights, for which any number does, or if not even a thousand robots do.
 ///
 /// # Errors
 /// Sources that cannot be drawn or read.

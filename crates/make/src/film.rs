@@ -1,4 +1,4 @@
-//! Animations become the frames that robots have time for.
+//! Turns animations into frames between which robots have time to move.
 
 use lightbots_base::{Limits, Vec2};
 use lightbots_draw::animation::{self, Animation, key_moments};
@@ -8,34 +8,34 @@ use lightbots_show::Frame;
 use crate::material::{Material, view_of};
 use crate::recipe::{Content, Recipe, style_of};
 
-/// Pictures that one move may leave out, at most.
+/// Largest number of pictures from one key frame to the next.
 const REACH: usize = 60;
 
-/// Time that every move takes besides its way, seconds: a quarter turn and a ramp.
+/// Time that every move takes in addition to its straight drive, seconds: a quarter turn and a ramp.
 const MOVE_S: f64 = 0.62;
 
-/// The frames that an animation becomes.
+/// The frames made of an animation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// At least one, in order of time.
+    /// The frames in order of time; at least one.
     pub frames: Vec<FilmFrame>,
-    /// Factor by which the animation is slowed down, so that robots have time to move; 1: as it is.
+    /// Factor by which the animation is slowed down to give robots time to move. 1 if it is not slowed down.
     pub slowdown: f64,
-    /// What is missing, or different from the animation.
+    /// Notes about what is missing, or different from the animation.
     pub notes: Vec<Note>,
 }
 
-/// A frame of a film, which waits for its robots.
+/// A frame of a film. Its pixels are not made yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFrame {
-    /// Name, air time, and the source with its moment, without the hash of the file.
+    /// Name, air time, and the source with its moment. The source has no hash of the file.
     pub frame: Frame,
-    /// The picture of the moment.
+    /// The picture of that moment.
     pub material: Material,
 }
 
-/// The frames of an animation: moments between which robots have time to move. `name` is that of the series; `recipe` has an
-/// animation as its content, whose moment does not count; `bytes` are the file.
+/// Chooses the frames of an animation between which robots have time to move. `name` is the name of the series.
+/// `recipe` has an animation as its content, whose moment is not used. `bytes` are the file.
 ///
 /// # Errors
 /// Files that are no animation, and pictures without room for `robots`.
@@ -72,7 +72,7 @@ pub fn film(
         frames.push(FilmFrame {
             frame: Frame {
                 name: format!("{name} {}", nth + 1),
-                // A moment stays for what the move to the next one leaves of its time.
+                // A frame stays for its time minus that of the drive to the next frame.
                 air_time_s: ((lasts_s - drive_s).max(0.0) * 100.0).round() / 100.0,
                 sources: vec![source],
                 ..Frame::default()
@@ -84,7 +84,8 @@ pub fn film(
     Ok(Film { frames, slowdown: keys.slowdown, notes })
 }
 
-/// When the picture before a key frame ends, seconds from the start; `None`: when the animation ends.
+/// Returns when the key frame before `next` ends, seconds from the start. If `next` is `None`, that is when the
+/// animation ends.
 fn end_s(animation: &Animation, next: Option<&usize>) -> f64 {
     let end_s = animation.frames.last().map_or(0.0, |frame| frame.at_s + frame.lasts_s);
     next.map_or(end_s, |next| animation.frames[*next].at_s)
@@ -99,7 +100,8 @@ fn notes(mut notes: Vec<Note>, slowdown: f64) -> Vec<Note> {
     notes
 }
 
-/// Places of the robots in each picture, each made from the one before it: the same number is the same robot.
+/// Returns the robots' places in each picture, each made from the places in the picture before. A robot has the same
+/// index in all of them.
 fn places(
     animation: &Animation,
     usual: &PlaceSettings,
@@ -124,7 +126,8 @@ mod tests {
     use super::*;
     use lightbots_draw::Style;
 
-    /// A GIF of a white square that goes to the right on black, `delay` hundredths of a second for each of four pictures.
+    /// A GIF of a white square that moves to the right on black. Each of its four pictures lasts `delay` hundredths of
+    /// a second.
     fn gif(delay: u16) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, 40, 40, &[0, 0, 0, 255, 255, 255]).unwrap();

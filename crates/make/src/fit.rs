@@ -1,4 +1,4 @@
-//! All frames of a show for another number of robots.
+//! Fits all frames of a show to another number of robots.
 
 use lightbots_draw::animation::{self, Animation};
 use lightbots_draw::picture::PictureSettings;
@@ -10,14 +10,15 @@ use crate::frame::make_frame_from;
 use crate::material::{Material, asset_of, material, moment};
 use crate::recipe::{Content, Recipe};
 
-/// Least distance of two lights of frames without a source, metres: below it, plans take longer (measured).
+/// Least distance of two lights in frames that are not made from a source, metres. With a smaller one, planning takes
+/// longer (measured).
 const SPACING_M: f64 = 0.0764;
 
-/// Fits every frame of a show to a number of robots. Frames with one source are made anew from it; others keep their
-/// lights as far as possible. Returns what is different from what might be expected.
+/// Fits every frame of a show to a number of robots. Frames with one source are made anew from it. Other frames keep
+/// their lights as far as possible. Returns notes about changes that people may not expect.
 ///
 /// # Errors
-/// A frame in which as many robots find no room, or none, with the frame's name.
+/// A frame in which this number of robots finds no room, or a frame without pixels; the message has the frame's name.
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
@@ -51,10 +52,11 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
     Ok(notes)
 }
 
-/// The film that was read last: its moments are frames one after the other, and each would read the whole file.
+/// The animation that was read last, by file and settings. Frames that follow each other often come from one animation,
+/// which need not be read for each.
 type Film = Option<((AssetHash, PictureSettings), Animation)>;
 
-/// The frame made anew from its source; `None`: it has no single source.
+/// Makes the frame anew from its source. `None` if it does not have exactly one source.
 fn made_anew(
     show: &Show,
     frame: &Frame,
@@ -82,7 +84,7 @@ fn material_of(show: &Show, source: &FrameSource, film: &mut Film) -> Result<Mat
     film.as_ref().map_or_else(|| material(&recipe, asset), |(_, animation)| moment(animation, *moment_s))
 }
 
-/// The frame with fewer or more of its lights; pins go last.
+/// Returns the frame with fewer or more lights. Pixels that are pinned to a robot are removed last.
 fn fitted(frame: &Frame, floor: &PictureFloor, robots: usize) -> Result<Frame, DrawError> {
     let lights: Vec<PlacedLight> =
         frame.pixels.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, part: 0 }).collect();

@@ -1,13 +1,14 @@
-//! Where the lights of a picture may stand.
+//! The floor on which the lights of a picture may stand.
 
 use lightbots_base::Vec2;
 use lightbots_draw::{NoGo, PictureFloor};
 use lightbots_show::{Obstacle, Stage};
 
-/// Room between a robot at rest and the edge of the floor or of a no-go area, metres: robots can turn and pass there.
+/// Gap between a robot at rest and the edge of the floor or of a no-go area, metres. It lets robots turn and pass
+/// there.
 const ROOM_M: f64 = 0.02;
 
-/// The part of a stage where robots may stand.
+/// Returns the part of a stage where the centres of robots may be.
 pub fn picture_floor(stage: &Stage) -> PictureFloor {
     let margin_m = stage.limits.radius_m + ROOM_M;
     let mut floor = PictureFloor::new(stage.width_m, stage.depth_m, margin_m);
@@ -22,7 +23,7 @@ fn no_go(obstacle: &Obstacle, margin_m: f64) -> NoGo {
     }
 }
 
-/// Middle and longer side of a box, metres.
+/// Returns the middle and the longer side of a box, metres.
 pub(crate) fn middle_and_side(min: Vec2, max: Vec2) -> (Vec2, f64) {
     (min.lerp(max, 0.5), (max.x - min.x).max(max.y - min.y))
 }

@@ -1,4 +1,4 @@
-//! The pixels of a frame from its source, again and again: moved pixels and pins stay.
+//! Makes the pixels of a frame from its source, and makes them again later. Moved pixels and pins stay.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::{
@@ -10,10 +10,10 @@ use lightbots_show::{Frame, FrameSource, Pixel, SourcePart};
 use crate::material::{Material, exact, material};
 use crate::recipe::Recipe;
 
-/// Exact arrangements are larger by this factor: files round places.
+/// Factor by which exact arrangements are enlarged, because files round places.
 const SLACK: f64 = 1.001;
 
-/// Robots stand at least this far apart, metres, whatever a list says.
+/// Least distance between robots, metres. Lists with a smaller one are scaled up.
 const LEAST_M: f64 = 0.06;
 
 /// A frame made from its source.
@@ -25,20 +25,20 @@ pub struct MadeFrame {
     pub size_m: f64,
     /// Distance of the closest two lights, metres; infinite for one light.
     pub closest_m: f64,
-    /// How well the lights show the source; `None`: it is an arrangement of lights by itself, such as a grid.
+    /// How well the lights show the source. `None` if the source is an arrangement of lights, such as a grid.
     pub readability: Option<Readability>,
-    /// What is missing or different.
+    /// Notes about what is missing or different from the settings.
     pub notes: Vec<Note>,
 }
 
-/// Makes a frame's pixels anew from its only source, for a number of robots. Name, times and source of the frame stay. So
-/// do pixels that were moved by hand, and pins go to the nearest pixel of the same part.
+/// Makes a frame's pixels anew from its only source, for a number of robots. Name, times and source of the frame stay,
+/// as do pixels that were moved by hand. Pins move to the nearest pixel of the same part.
 ///
-/// `asset` has the bytes of the source's file. `start` has places to begin with, such as those of the picture before; it is
-/// used where it has as many places as there are robots.
+/// `asset` has the bytes of the source's file. `start` has places to begin with, such as those of the previous picture.
+/// It is used only if it has one place for each robot.
 ///
 /// # Errors
-/// Sources that cannot be drawn or read, and more robots than find room; each message says what would do.
+/// A frame without exactly one source, sources that cannot be drawn or read, and more robots than find room.
 pub fn make_frame(
     before: &Frame,
     asset: Option<&[u8]>,
@@ -51,7 +51,7 @@ pub fn make_frame(
     make_frame_from(before, material, floor, robots, quality, start)
 }
 
-/// The same from a source that has been drawn already.
+/// Makes a frame as [`make_frame`] does, from a source that has been drawn already.
 ///
 /// # Errors
 /// As for [`make_frame`].
@@ -100,7 +100,7 @@ fn only_source(frame: &Frame) -> Result<&FrameSource, DrawError> {
     Ok(source)
 }
 
-/// Lights of a source with the names of its parts.
+/// Lights made from a source, with the names of its parts.
 struct Lights {
     lights: Vec<PlacedLight>,
     names: Vec<String>,
@@ -111,7 +111,7 @@ struct Lights {
 }
 
 impl Lights {
-    /// The same lights, but the nearest one for each kept light; the kept ones first.
+    /// Replaces the nearest light of each kept light by the kept one. The kept ones come first.
     fn with(mut self, kept: Vec<PlacedLight>) -> Self {
         for light in &kept {
             let distance = |index: &usize| self.lights[*index].at.distance(light.at);
@@ -143,7 +143,7 @@ fn names(drawing: &Drawing) -> Vec<String> {
     drawing.parts.iter().map(|part| part.name.clone()).collect()
 }
 
-/// A list of lights, with fewer or more of them where there are other numbers of robots.
+/// Places a list of lights. If its number of lights is not that of the robots, lights are added or removed.
 fn listed(
     list: &LightList,
     recipe: &Recipe,
@@ -162,8 +162,8 @@ fn listed(
     Ok(Lights { lights, closest_m, notes: vec![Note::new("list-fitted", what)], ..as_they_are })
 }
 
-/// An exact arrangement at its size on the floor. One `in_metres` stays where it is, if it can and nothing else is asked
-/// for; another has places one unit apart.
+/// Places an exact arrangement on the floor. If it is `in_metres`, it stays where it is, unless the settings change its
+/// size, place or turn, or it does not fit. Otherwise it is scaled to the size or the spacing of the settings.
 fn arranged(
     list: &LightList,
     recipe: &Recipe,
@@ -216,7 +216,8 @@ fn arranged(
     })
 }
 
-/// Pixels for lights. The first lights are the moved pixels, which keep their ids; the others take the free ids in order.
+/// Makes pixels for lights. The first lights are the moved pixels, which keep their ids. The others get free ids in
+/// order.
 fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[String]) -> Vec<Pixel> {
     let taken: Vec<u32> = moved.iter().map(|pixel| pixel.id).collect();
     let mut free = (0..).filter(|id| !taken.contains(id));
@@ -236,7 +237,8 @@ fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[Str
     pixels
 }
 
-/// Gives each pin to the nearest new pixel of the same part, else of any part. Pixels in `kept` have theirs.
+/// Moves each pin to the nearest new pixel without a pin, of the same part if there is one. Pixels with ids in `kept`
+/// already have their pins.
 fn pin(before: &Frame, kept: &[u32], pixels: &mut [Pixel]) {
     for old in before.pixels.iter().filter(|pixel| pixel.robot.is_some() && !kept.contains(&pixel.id)) {
         let same = |pixel: &Pixel| pixel.part == old.part;

@@ -1,4 +1,4 @@
-//! Files of pictures as layers of light project them on the floor: few pixels and few pictures.
+//! Reduces picture files to what layers of light project on the floor: few pixels and few pictures.
 
 use lightbots_base::Rgb;
 use lightbots_draw::DrawError;
@@ -7,15 +7,16 @@ use lightbots_draw::picture::Bitmap;
 use lightbots_light::Linear;
 use lightbots_show::LayerPicture;
 
-/// Longer side of a picture, pixels: a floor of 10,000 robots needs 100 x 100. Chosen.
+/// Longer side of a single picture, pixels. A floor of 10,000 robots needs 100 x 100. Chosen.
 const SIDE_MAX: usize = 256;
 /// Longer side of the pictures of a film, pixels. Chosen: with [`FILM_PICTURES_MAX`] a film has at most 3 MB.
 const FILM_SIDE_MAX: usize = 128;
-/// Most pictures of a film; of more, these are taken at equal distances. Chosen: 15 a second in a film of 4 s.
+/// Largest number of pictures of a film. From more pictures, these are sampled at equal times. Chosen: 15 a second for
+/// 4 s.
 const FILM_PICTURES_MAX: usize = 60;
 
-/// The picture or film in a PNG, JPEG, WebP or GIF file, made small. Transparent pixels are dark. Pictures of a film are
-/// each shown for the same time: one that lasts longer is there several times.
+/// Reads the picture or film in a PNG, JPEG, WebP or GIF file and reduces it. Transparent pixels become dark. All
+/// pictures of a film are shown for the same time: a picture that lasts longer is repeated.
 ///
 /// # Errors
 /// Files without pixels, damaged files, and pictures that are too large.
@@ -28,18 +29,18 @@ pub fn layer_picture(bytes: &[u8]) -> Result<LayerPicture, DrawError> {
     let (width, height) = size(&first.bitmap, side_max);
     let small: Vec<Vec<u8>> = stills.iter().map(|still| shrunk(&still.bitmap, width, height)).collect();
     let codes = moments(&stills).into_iter().flat_map(|number| small[number].iter().copied()).collect();
-    // Both are at most `SIDE_MAX`.
+    // Width and height are at most `SIDE_MAX`.
     Ok(LayerPicture { width: width as u32, height: height as u32, codes })
 }
 
-/// Columns and rows of the small picture.
+/// Returns columns and rows of the reduced picture.
 fn size(bitmap: &Bitmap, side_max: usize) -> (usize, usize) {
     let longer = bitmap.columns.max(bitmap.rows).max(1);
     let scaled = |side: usize| if longer <= side_max { side } else { side * side_max / longer };
     (scaled(bitmap.columns).max(1), scaled(bitmap.rows).max(1))
 }
 
-/// Numbers of the pictures that a film shows, each for the same time.
+/// Returns the indices of the pictures that a film shows, each for the same time.
 fn moments(stills: &[Still]) -> Vec<usize> {
     let lasts_s: f64 = stills.iter().map(|still| still.lasts_s).sum();
     let shortest_s = stills.iter().map(|still| still.lasts_s).fold(f64::INFINITY, f64::min);
@@ -58,7 +59,8 @@ fn moments(stills: &[Still]) -> Vec<usize> {
     (0..count).map(shown).collect()
 }
 
-/// Codes of a picture of `width` by `height` pixels, each the mean light of its share of the large picture.
+/// Reduces a picture to `width` by `height` pixels. Each is the mean light of its share of the large picture, as sRGB
+/// codes.
 fn shrunk(bitmap: &Bitmap, width: usize, height: usize) -> Vec<u8> {
     let (columns, rows) = (shares(bitmap.columns, width), shares(bitmap.rows, height));
     let mut codes = Vec::with_capacity(3 * width * height);
@@ -79,9 +81,10 @@ fn shrunk(bitmap: &Bitmap, width: usize, height: usize) -> Vec<u8> {
     codes
 }
 
-/// For each of `count` cells of a side of `length` pixels: the pixels in it, each with its share of the cell.
+/// Returns the pixels in each of `count` cells along a side of `length` pixels. Each pixel comes with its share of the
+/// cell.
 fn shares(length: usize, count: usize) -> Vec<Vec<(usize, f64)>> {
-    // In units of a pixel's `count`-th part, both pixels and cells begin at whole numbers.
+    // In units of a `count`-th of a pixel, both pixels and cells begin at whole numbers.
     let cell = |nth: usize| {
         let (from, to) = (nth * length, (nth + 1) * length);
         let part =

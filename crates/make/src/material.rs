@@ -1,4 +1,4 @@
-//! What a source gives before there are robots: a drawing, or lights at places of their own.
+//! Draws sources, independent of the number of robots: as a drawing, or as lights at exact places.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::animation::{self, Animation};
@@ -10,32 +10,33 @@ use lightbots_show::{Assets, FrameSource};
 
 use crate::recipe::{Content, Recipe, Scroll, TextRecipe};
 
-/// Colour of words where none is chosen: that of a warm lamp.
+/// Colour of words if none is chosen: that of a warm lamp.
 const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
 
-/// What a recipe gives before there are robots.
+/// A drawn source, independent of the number of robots.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Material {
     /// A drawing, on which any number of robots is placed.
     Drawing {
         /// The drawing, and what is missing from it.
         made: Made,
-        /// The box that stands for the whole picture, corners in the drawing's units; `None`: the box around it.
+        /// The box that is the whole picture, corners in the drawing's units. `None`: the box around the drawing.
         view: Option<(Vec2, Vec2)>,
     },
-    /// Lights at places of their own, in metres.
+    /// Lights at exact places, metres.
     Lights(LightList),
 }
 
-/// What a source gives before there are robots. `asset` has the bytes of its file.
+/// Draws a source. `asset` has the bytes of its file. Grids and random shapes give an empty drawing, because their
+/// places depend on the number of robots.
 ///
 /// # Errors
-/// Sources that cannot be drawn, and sources whose file is not there.
+/// Sources that cannot be drawn, and sources whose file is missing.
 pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawError> {
     let file = || asset.ok_or_else(missing);
     let made = match &recipe.content {
         Content::Text(words) => draw_text(words, asset)?,
-        // Its places depend on the number of robots.
+        // The places of the lights depend on the number of robots.
         Content::Shape(shape) if is_exact(shape) => Made::default(),
         Content::Shape(shape) => Made { drawing: draw_shape(shape)?, notes: Vec::new() },
         Content::Svg => svg::draw(file()?)?,
@@ -53,15 +54,15 @@ pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawE
     Ok(Material::Drawing { made, view })
 }
 
-/// The box of a line that was drawn by hand. A curve swings out of the points that people drag on the floor: these are its
-/// box, so that they stay where they are.
+/// Returns the box of the points of a line that was drawn by hand. A curve swings beyond the points that people drag on
+/// the floor. With the points' own box, the points stay where they are. `None` for other shapes.
 fn box_of_points(shape: &ShapeSettings) -> Option<(Vec2, Vec2)> {
     let drawn = [ShapeKind::Line, ShapeKind::Polyline, ShapeKind::Curve, ShapeKind::Freehand];
     let is_drawn = drawn.contains(&shape.kind) && shape.points.len() > 1;
     is_drawn.then(|| bounds(&shape.points)).flatten()
 }
 
-/// The picture of an animation that is shown at a moment.
+/// Returns the picture that an animation shows at a moment, seconds.
 pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
     let after = animation.frames.partition_point(|frame| frame.at_s <= moment_s + 1e-6);
     let frame = animation.frames.get(after.saturating_sub(1));
@@ -70,7 +71,7 @@ pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, D
     Ok(Material::Drawing { made, view: view_of(animation) })
 }
 
-/// The box around all pictures of an animation.
+/// Returns the box around all pictures of an animation. `None` if there is nothing in them.
 pub(crate) fn view_of(animation: &Animation) -> Option<(Vec2, Vec2)> {
     let corners: Vec<Vec2> = animation
         .frames
@@ -102,16 +103,16 @@ pub enum TextPages {
     Whole,
     /// A frame for each word.
     Words,
-    /// Steps of the text as it scrolls past.
+    /// A frame for each step of the text as it scrolls past.
     Scroll {
         /// Width of the window, cap heights.
         window: f64,
-        /// Number of steps of the whole way. Steps at which the window is empty are left out.
+        /// Number of steps from start to end. Steps in which the window is empty are left out.
         steps: usize,
     },
 }
 
-/// The recipe and the material of each frame of a text.
+/// Returns the recipe and the material of each frame of a text.
 ///
 /// # Errors
 /// As for [`material`].
@@ -154,7 +155,7 @@ fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
 }
 
 impl TextRecipe {
-    /// The window behind which the text scrolls past.
+    /// The window behind which the text scrolls. `None` if it does not scroll.
     fn view(&self) -> Option<(Vec2, Vec2)> {
         self.scroll.map(|scroll| (Vec2::ZERO, Vec2::new(scroll.window, 1.0)))
     }
@@ -175,12 +176,12 @@ impl TextRecipe {
     }
 }
 
-/// The bytes of a source's file, if the show has them.
+/// Returns the bytes of a source's file. `None` if the show does not have them.
 pub(crate) fn asset_of<'a>(source: &FrameSource, assets: &'a Assets) -> Option<&'a [u8]> {
     assets.get(source.asset.as_ref()?)?.content.as_deref()
 }
 
-/// Exact places of shapes that are no drawings, in units of their neighbours' distance.
+/// Returns the lights of a grid or a random shape, about one unit apart. `None` for other sources.
 pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<LightList> {
     let Content::Shape(shape) = &recipe.content else { return None };
     let places = lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed))?;

@@ -1,4 +1,4 @@
-//! What a frame is made from, with typed settings: read from and written to the sources of a show.
+//! The sources of a show with typed settings, read from and written to the show's named settings.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::picture::{PictureSettings, PictureWay};
@@ -9,7 +9,7 @@ use lightbots_show::{FrameSource, SourceKind};
 use crate::floor::middle_and_side;
 use crate::settings::{Reader, Writer};
 
-/// The font of words where none is chosen.
+/// The font of words if none is chosen.
 const USUAL_FONT: &str = "lato";
 
 const STYLES: [(&str, Style); 5] = [
@@ -30,18 +30,18 @@ const WAYS: [(&str, PictureWay); 4] = [
 const ALIGNS: [(&str, Align); 3] =
     [("center", Align::Centre), ("left", Align::Left), ("right", Align::Right)];
 
-/// What a frame is made from.
+/// The source of a frame, with typed settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recipe {
-    /// The kind of source and its own settings.
+    /// The kind of source and the settings of that kind.
     pub content: Content,
     /// How and where its lights are placed.
     pub placing: Placing,
-    /// Seed of everything random in placing.
+    /// Seed of all random choices.
     pub seed: u32,
 }
 
-/// The kind of a source and its own settings.
+/// The kind of a source and the settings of that kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Words.
@@ -58,38 +58,39 @@ pub enum Content {
     Animation {
         /// How its pictures are shown.
         picture: PictureSettings,
-        /// Seconds from its start.
+        /// The moment, seconds from the start of the animation.
         moment_s: f64,
     },
 }
 
-/// Words and how they are set.
+/// Words and how they are laid out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextRecipe {
     /// The words; lines are separated by `\n`.
     pub text: String,
-    /// Name of a font inside; the source's asset is the font where there is one.
+    /// Name of a built-in font. If the source has an asset, that is the font instead.
     pub font: String,
-    /// How lines stand to each other.
+    /// Where lines stand that are shorter than the longest one.
     pub align: Align,
-    /// Wanted width over height of the whole, by which words are put on lines; `None`: lines as they are.
+    /// Ratio of width to height that the text should fill, with line breaks between words. If `None`, only the line
+    /// breaks of `text` count.
     pub wrap: Option<f64>,
     /// Additional gap between letters, cap heights.
     pub letter_gap: f64,
-    /// Colours, letter by letter in turn.
+    /// Colours of the letters in turn. If empty, the usual colour.
     pub colors: Vec<Rgb>,
-    /// A step of a text that scrolls past; `None`: the text stands.
+    /// The step, if the text scrolls. `None` if it stands still.
     pub scroll: Option<Scroll>,
 }
 
-/// A step of a text that scrolls past behind a window.
+/// A step of a text that scrolls behind a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scroll {
     /// Width of the window, cap heights.
     pub window: f64,
-    /// Number of steps of the whole way.
+    /// Number of steps from start to end.
     pub steps: usize,
-    /// Number of this step, counted from 0.
+    /// Index of this step among those in which the window is not empty.
     pub step: usize,
 }
 
@@ -98,13 +99,14 @@ pub struct Scroll {
 pub struct Placing {
     /// How areas are shown.
     pub style: Style,
-    /// Longer side of the picture, metres; `None`: chosen by floor and fleet.
+    /// Longer side of the picture, metres. If `None`, it depends on floor and fleet.
     pub size_m: Option<f64>,
     /// Middle of the picture, stage metres.
     pub center: Vec2,
     /// Turn of the picture, radians counter-clockwise.
     pub turn: f64,
-    /// Least distance of two lights, metres; `None`: as far apart as drives are easy, closer where there is no room.
+    /// Least distance of two lights, metres. If `None`, a distance at which drives are easy, or less if there is no
+    /// room.
     pub spacing_m: Option<f64>,
 }
 
@@ -115,7 +117,7 @@ impl Default for Placing {
 }
 
 impl Placing {
-    /// Wanted and least distance of two lights, metres.
+    /// Wanted and least distance of two lights, metres. They are equal if a spacing is set.
     pub(crate) fn spacing(&self) -> (f64, f64) {
         let usual = PlaceSettings::default();
         self.spacing_m.map_or((usual.spacing_m, usual.least_m), |wanted| (wanted, wanted))
@@ -123,7 +125,7 @@ impl Placing {
 }
 
 impl TextRecipe {
-    /// Words with usual settings.
+    /// Returns words with default settings.
     pub fn new(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -138,7 +140,7 @@ impl TextRecipe {
 }
 
 impl Recipe {
-    /// What the placing engine is asked for: all lights free, in full quality.
+    /// Returns the settings for placing `robots` lights, with no kept lights and in full quality.
     pub fn place_settings(&self, robots: usize) -> PlaceSettings {
         let (spacing_m, least_m) = self.placing.spacing();
         let Placing { style, size_m, center, turn, .. } = self.placing;
@@ -156,15 +158,15 @@ impl Recipe {
         }
     }
 
-    /// A recipe with usual placing.
+    /// Returns a recipe with default placing.
     pub fn new(content: Content) -> Self {
         Self { content, placing: Placing::default(), seed: 1 }
     }
 
-    /// The recipe that a frame's source is.
+    /// Reads the recipe of a frame's source.
     ///
     /// # Errors
-    /// A setting with a value of a wrong kind.
+    /// A setting of a wrong type or with an unknown name as its value.
     pub fn read(source: &FrameSource) -> Result<Self, DrawError> {
         let reader = Reader(&source.settings);
         let content = match source.kind {
@@ -202,7 +204,7 @@ impl Recipe {
         Ok(Self { content, placing, seed: source.seed })
     }
 
-    /// The source of a show that says the same.
+    /// Writes the recipe as the source of a show. The source has no file.
     pub fn source(&self) -> FrameSource {
         let mut writer = Writer::default();
         let mut moment_s = None;
@@ -272,14 +274,14 @@ fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
     })
 }
 
-/// The style of a content. Areas of animations are filled where no style is chosen: robots of a film keep their numbers from
-/// picture to picture, which an edge of changing length would not let them.
+/// Returns the style for a content. Areas of animations are filled if no style is chosen. Robots of a film keep their
+/// indices from picture to picture, which is not possible with an edge of changing length.
 pub(crate) fn style_of(chosen: Style, content: &Content) -> Style {
     let is_animation = matches!(content, Content::Animation { .. });
     if is_animation && chosen == Style::Auto { Style::Filled } else { chosen }
 }
 
-/// The error for a name that no shape has.
+/// The error for an unknown name of a shape.
 pub fn unknown_shape(name: &str) -> DrawError {
     let known: Vec<&str> = SHAPES.iter().map(|(_, name)| *name).collect();
     let name: String = name.chars().take(40).collect();

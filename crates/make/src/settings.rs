@@ -1,4 +1,4 @@
-//! Typed values from and to the named settings of a source.
+//! Reads and writes typed values as the named settings of a source.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::DrawError;
@@ -8,7 +8,7 @@ use lightbots_show::{NamedSettings, Setting, setting};
 pub(crate) struct Reader<'a>(pub &'a NamedSettings);
 
 impl Reader<'_> {
-    /// A text; `usual` where it is not given.
+    /// Reads a text; `usual` if it is not set.
     pub fn text(&self, name: &str, usual: &str) -> Result<String, DrawError> {
         match setting(self.0, name) {
             None | Some(Setting::Null) => Ok(usual.to_owned()),
@@ -17,7 +17,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A truth value; `usual` where it is not given.
+    /// Reads a truth value; `usual` if it is not set.
     pub fn flag(&self, name: &str, usual: bool) -> Result<bool, DrawError> {
         match setting(self.0, name) {
             None | Some(Setting::Null) => Ok(usual),
@@ -26,7 +26,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A number; `None` where it is not given.
+    /// Reads a number; `None` if it is not set.
     pub fn number(&self, name: &str) -> Result<Option<f64>, DrawError> {
         match setting(self.0, name) {
             None | Some(Setting::Null) => Ok(None),
@@ -35,7 +35,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A whole number of at least 0; `usual` where it is not given.
+    /// Reads a whole number from 0 to 1,000,000; `usual` if it is not set.
     pub fn whole(&self, name: &str, usual: usize) -> Result<usize, DrawError> {
         match self.number(name)? {
             None => Ok(usual),
@@ -44,7 +44,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Colours such as `#ffa500`; one colour or a list; empty where it is not given.
+    /// Reads one colour such as `#ffa500`, or a list of colours; empty if it is not set.
     pub fn colors(&self, name: &str) -> Result<Vec<Rgb>, DrawError> {
         let color = |value: &Setting| match value {
             Setting::Text(text) => Rgb::from_hex(text).ok_or_else(|| wrong(name, "a colour such as #ffa500")),
@@ -57,7 +57,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Points `[x, y]`; empty where they are not given.
+    /// Reads a list of points `[x, y]`; empty if it is not set.
     pub fn points(&self, name: &str) -> Result<Vec<Vec2>, DrawError> {
         let point = |value: &Setting| match value {
             Setting::List(pair) => match pair.as_slice() {
@@ -73,7 +73,7 @@ impl Reader<'_> {
         }
     }
 
-    /// One of several words; the first where it is not given.
+    /// Reads one of several words and returns its value; that of the first word if it is not set.
     pub fn word<T: Copy>(&self, name: &str, words: &[(&str, T)]) -> Result<T, DrawError> {
         let usual = words.first().map_or("", |(word, _)| word);
         let text = self.text(name, usual)?;
@@ -83,38 +83,38 @@ impl Reader<'_> {
     }
 }
 
-/// Settings that are written where they differ from the usual ones.
+/// Collects settings. Those with their usual value are left out.
 #[derive(Default)]
 pub(crate) struct Writer(pub NamedSettings);
 
 impl Writer {
-    /// A value that is always written.
+    /// Adds a value in any case.
     pub fn put(&mut self, name: &str, value: Setting) {
         self.0.push((name.to_owned(), value));
     }
 
-    /// A text.
+    /// Adds a text, unless it is `usual`.
     pub fn text(&mut self, name: &str, text: &str, usual: &str) {
         if text != usual {
             self.put(name, Setting::Text(text.to_owned()));
         }
     }
 
-    /// A truth value.
+    /// Adds a truth value, unless it is `usual`.
     pub fn flag(&mut self, name: &str, flag: bool, usual: bool) {
         if flag != usual {
             self.put(name, Setting::Bool(flag));
         }
     }
 
-    /// A number.
+    /// Adds a number, unless it is `usual`.
     pub fn number(&mut self, name: &str, number: f64, usual: f64) {
         if number != usual {
             self.put(name, Setting::Number(number));
         }
     }
 
-    /// Colours, if there are any.
+    /// Adds a list of colours, unless it is empty.
     pub fn colors(&mut self, name: &str, colors: &[Rgb]) {
         if !colors.is_empty() {
             let text = |color: &Rgb| Setting::Text(color.to_string());
@@ -122,7 +122,7 @@ impl Writer {
         }
     }
 
-    /// Points, if there are any.
+    /// Adds a list of points, unless it is empty.
     pub fn points(&mut self, name: &str, points: &[Vec2]) {
         if !points.is_empty() {
             let point = |at: &Vec2| Setting::List(vec![Setting::Number(at.x), Setting::Number(at.y)]);
@@ -130,7 +130,7 @@ impl Writer {
         }
     }
 
-    /// One of several words; the first is usual and left out.
+    /// Adds the word for a value. The first word is the usual one and is left out.
     pub fn word<T: PartialEq>(&mut self, name: &str, value: &T, words: &[(&str, T)]) {
         let found = words.iter().skip(1).find(|(_, known)| known == value);
         if let Some((word, _)) = found {

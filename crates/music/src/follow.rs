@@ -1,38 +1,38 @@
-//! Beats by dynamic programming: strong onsets, a period apart (D. Ellis, "Beat Tracking by Dynamic Programming",
-//! Journal of New Music Research 36, 2007).
+//! Finds beats by dynamic programming: strong onsets that are a period apart (D. Ellis, "Beat Tracking by Dynamic
+//! Programming", Journal of New Music Research 36, 2007).
 
 use crate::onsets::{FRAMES_PER_S, Onsets, onsets};
 use crate::sound::{NoBeats, Sound};
 use crate::tempo::{largest, periods};
 
-/// How strictly beats keep the period: cost of ln(distance / period)², in standard deviations of the onsets.
+/// How strictly beats keep the period: weight of ln(distance / period)², in standard deviations of the onsets.
 const TIGHTNESS: f64 = 100.0;
 
-/// Beats are looked for between these shares of a period before a beat.
+/// The beat before is searched between these multiples of the period back.
 const BACK: [f64; 2] = [0.5, 2.0];
 
-/// At the ends, beats weaker than this share of the mean beat are left out: nothing is played there.
+/// Beats at both ends that are weaker than this share of the mean beat are left out, because no music plays there.
 const END_SHARE: f64 = 0.5;
 
-/// Beats move by half a beat where the bass is this much stronger there.
+/// Beats move by half a beat if the bass between them is this much stronger.
 const BASS_RATIO: f64 = 1.5;
 
-/// Onsets rise before the middle of a window reaches the note: found beats are early by this, seconds (measured).
+/// Correction added to beats, seconds (measured). Onsets rise before the middle of a window reaches the note.
 const EARLY_S: f64 = 0.006;
 
-/// Beats that were found.
+/// The beats of a piece of music.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundBeats {
-    /// Moments, seconds of the music, increasing.
+    /// Times of the beats, seconds of the music, increasing.
     pub times_s: Vec<f64>,
-    /// Tempo, beats a minute: the median.
+    /// Median tempo, beats per minute.
     pub bpm: f64,
 }
 
 /// Finds the beats of music.
 ///
 /// # Errors
-/// [`NoBeats::Silent`]: no note begins anywhere.
+/// [`NoBeats::Silent`] if no notes begin, or fewer than two beats are found.
 pub fn find_beats(sound: &Sound<'_>) -> Result<FoundBeats, NoBeats> {
     let onsets = onsets(sound);
     let periods = periods(&onsets);
@@ -67,7 +67,7 @@ fn deviation(onsets: &[f32]) -> f64 {
     (onsets.iter().map(|v| (f64::from(*v) - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-/// Onsets around a frame, weighted by a Gauss curve of a 32nd of a beat.
+/// Returns the sum of onsets around a frame, weighted by a Gaussian with a sigma of 1/32 beat.
 fn blurred(onsets: &[f32], frame: usize, period: f64) -> f64 {
     let width = period / 32.0;
     let reach = (3.0 * width).ceil() as usize;
@@ -76,7 +76,7 @@ fn blurred(onsets: &[f32], frame: usize, period: f64) -> f64 {
         .sum()
 }
 
-/// The chain of frames with the largest sum of strength less what uneven distances cost.
+/// Returns the chain of frames with the largest sum of strength minus the cost of uneven distances.
 fn best_chain(strength: &[f64], period_at: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut sums = strength.to_vec();
     let mut before: Vec<Option<usize>> = vec![None; strength.len()];
@@ -105,19 +105,19 @@ fn best_chain(strength: &[f64], period_at: impl Fn(usize) -> f64) -> Vec<usize> 
     chain
 }
 
-/// Whether the bass plays between the beats: then loud notes off the beat were taken for beats.
+/// Whether the bass is stronger between the beats than on them. Loud notes off the beat were then taken for beats.
 fn bass_is_between(beats: &[usize], bass: &[f32]) -> bool {
     let sum = |frames: &[usize]| -> f64 { frames.iter().map(|&frame| near(bass, frame)).sum() };
     sum(&between(beats)) > BASS_RATIO * sum(beats)
 }
 
-/// The largest value within two frames, which hands that are not exact stay in.
+/// Returns the largest value within two frames, because musicians do not play exactly.
 fn near(values: &[f32], frame: usize) -> f64 {
     let around = &values[frame.saturating_sub(2)..(frame + 3).min(values.len())];
     around.iter().fold(0.0, |a, b| f64::from(*b).max(a))
 }
 
-/// Frames half way between neighbours.
+/// Frames halfway between neighbouring beats.
 fn between(beats: &[usize]) -> Vec<usize> {
     beats.windows(2).map(|pair| pair[0].midpoint(pair[1])).collect()
 }
@@ -132,7 +132,7 @@ fn without_weak_ends(mut beats: Vec<usize>, strength: &[f64]) -> Vec<usize> {
     beats
 }
 
-/// The top of the parabola through a frame and its neighbours, frames.
+/// Returns the maximum of the parabola through a frame and its neighbours, as a fractional frame.
 fn peak(strength: &[f64], frame: usize) -> f64 {
     if frame == 0 || frame + 1 >= strength.len() {
         return frame as f64;

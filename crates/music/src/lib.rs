@@ -1,7 +1,7 @@
-//! Beats of music: samples in, moments of beats out.
+//! Finds beats of music: samples in, times of beats out.
 //!
 //! The crate decodes nothing and reads no file, so that the program and the browser find the same beats. docs/music.md
-//! says how. Reading order: [`Sound`], [`find_beats`], [`steady`].
+//! describes the method. Reading order: [`Sound`], [`find_beats`], [`steady`].
 //!
 //! ```
 //! use lightbots_music::{NoBeats, Sound, find_beats};

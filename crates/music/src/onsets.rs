@@ -1,55 +1,57 @@
-//! How strongly notes begin, over time: rises of the logarithmic spectrum in three bands.
+//! Measures how strongly notes begin over time, by rises of the logarithmic spectrum in three bands.
 
 use core::f64::consts::TAU;
 use realfft::RealFftPlanner;
 
 use crate::sound::Sound;
 
-/// Values a second: 256 samples of 22,050 a second, a usual hop of beat trackers.
+/// Frames per second: 256 samples at 22,050 per second, a usual hop of beat trackers.
 pub(crate) const FRAMES_PER_S: f64 = 22_050.0 / 256.0;
 
-/// Length of a window of sound, seconds: 1,024 samples of 22,050 a second. Windows have the power of two nearest to it.
+/// Length of a window of sound, seconds: 1,024 samples at 22,050 per second. At other rates, the nearest power of two
+/// samples is used.
 const WINDOW_S: f64 = 1_024.0 / 22_050.0;
 
-/// Magnitudes are compressed as ln(1 + `LOUD` × m), where 1 is a sine of full scale: 60 dB below it still counts.
+/// Magnitudes m are compressed as ln(1 + `LOUD` × m), where 1 is a sine of full scale. At -60 dB a sine still counts.
 const LOUD: f32 = 1_000.0;
 
-/// A band of the spectrum that is looked at by itself, so that a bass drum is heard beside cymbals.
+/// A band of the spectrum that is measured separately, so that a bass drum counts beside cymbals.
 struct Band {
-    /// Upper end, Hz.
+    /// Upper end of the band, Hz.
     to_hz: f64,
-    /// How much it counts.
+    /// Weight of the band in the sum of all bands.
     weight: f32,
 }
 
-/// Bass, voices and instruments, cymbals. Cymbals often play between beats.
+/// Bass; voices and instruments; cymbals, which often play between beats.
 const BANDS: [Band; 3] = [
     Band { to_hz: 150.0, weight: 1.0 },
     Band { to_hz: 4_000.0, weight: 0.9 },
     Band { to_hz: f64::INFINITY, weight: 0.25 },
 ];
 
-/// Rises are compared with their mean over this time, seconds.
+/// Time over which the mean of rises is taken, seconds.
 const MEAN_S: f64 = 1.0;
 
-/// Rises count up to this share of the largest within [`PEAK_S`], so that one crash does not hide the beats around it.
+/// Share of the largest rise within [`PEAK_S`] above which rises count equally. One crash then does not hide the beats
+/// around it.
 const PEAK_SHARE: f32 = 0.6;
 
-/// Time around a rise in which the largest is looked for, seconds.
+/// Length of the time around a rise in which the largest rise is searched, seconds.
 const PEAK_S: f64 = 4.0;
 
-/// The largest rise nearby counts as at least this share of the largest in the music, so that noise stays small.
+/// The largest rise nearby counts as at least this share of the largest in the music, which keeps noise small.
 const PEAK_LEAST: f32 = 0.05;
 
-/// Strength of beginning notes at each frame, [`FRAMES_PER_S`] a second; frame `i` is centred at `i / FRAMES_PER_S`.
+/// Strength of note onsets at each frame. Frame `i` is centred at `i / FRAMES_PER_S` seconds.
 pub(crate) struct Onsets {
-    /// Of all bands.
+    /// Weighted sum of all bands.
     pub all: Vec<f32>,
-    /// Of the bass alone, 0 to 1.
+    /// The bass alone, 0 to 1.
     pub bass: Vec<f32>,
 }
 
-/// Where notes begin in a sound.
+/// Measures the onsets of notes in a sound.
 pub(crate) fn onsets(sound: &Sound<'_>) -> Onsets {
     let levels = rises(sound).map(|rises| level(&rises));
     let sum = |frame: usize| BANDS.iter().zip(&levels).map(|(band, level)| band.weight * level[frame]).sum();
@@ -58,7 +60,7 @@ pub(crate) fn onsets(sound: &Sound<'_>) -> Onsets {
     Onsets { all, bass }
 }
 
-/// Rises of each band.
+/// Returns the rises of each band: for each frame, the mean rise of its bins since the frame before.
 fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
     let rate_hz = sound.rate_hz();
     let size = 1_usize << (WINDOW_S * rate_hz).log2().round() as u32;
@@ -90,7 +92,7 @@ fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
         let mut sums = [0.0_f32; 3];
         for ((value, last), &band) in spectrum.iter().zip(&mut last).zip(&band_of) {
             let now = (1.0 + LOUD * full_scale * value.norm()).ln();
-            // The first window has nothing before it: not all that sounds begins there.
+            // The first window has none before it. A sound at that point need not begin there.
             if frame > 0 {
                 sums[band] += (now - *last).max(0.0);
             }
@@ -103,7 +105,7 @@ fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
     rises
 }
 
-/// Rises above their mean, as a share of the largest nearby.
+/// Returns rises above their local mean, as a share of the largest nearby, at most 1.
 fn level(rises: &[f32]) -> Vec<f32> {
     let above: Vec<f32> = rises.iter().zip(mean(rises)).map(|(rise, mean)| (rise - mean).max(0.0)).collect();
     let largest = above.iter().copied().fold(0.0, f32::max);
@@ -120,7 +122,7 @@ fn level(rises: &[f32]) -> Vec<f32> {
         .collect()
 }
 
-/// Mean around each value over [`MEAN_S`].
+/// Returns the mean around each value, over [`MEAN_S`].
 fn mean(values: &[f32]) -> Vec<f32> {
     let reach = (MEAN_S * FRAMES_PER_S / 2.0) as usize;
     let mut sums = vec![0.0_f64];

@@ -1,24 +1,27 @@
-//! A steady tempo through beats, where they keep one.
+//! Fits a steady tempo to beats that keep one.
 
 /// Beats at a steady tempo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteadyBeats {
     /// Beats a minute.
     pub bpm: f64,
-    /// A beat, whole bars before the first found one: as early as the music allows, seconds.
+    /// Time of a beat, seconds. It is a whole number of bars before the first beat that was found, as early as the
+    /// music allows.
     pub offset_s: f64,
 }
 
-/// Beats are steady if this share of them is near to a steady tempo: a few are found beside the true ones.
+/// Least share of beats that are near a steady tempo, for beats to be steady. A few found beats are not true ones.
 const STEADY_SHARE: f64 = 0.95;
 
-/// How near, seconds: half of what counts as the same beat, and more than the errors of beats found in steady music.
+/// Largest distance from the steady tempo, seconds. It is half of what counts as the same beat, and more than the
+/// errors in steady music.
 const STEADY_S: f64 = 0.025;
 
-/// Beats of a bar in most music: the first beat that was found is taken for the first of a bar.
+/// Number of beats in a bar of most music. The first beat that was found is taken as the first of a bar.
 const BAR: f64 = 4.0;
 
-/// The steady tempo that beats keep (least squares), if they keep one.
+/// Fits a steady tempo to beats by least squares. `times_s` are their times, seconds. `None` if they keep no steady
+/// tempo or are fewer than eight.
 #[must_use]
 pub fn steady(times_s: &[f64]) -> Option<SteadyBeats> {
     if times_s.len() < 8 {

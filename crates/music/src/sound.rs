@@ -1,14 +1,15 @@
-//! Sound that beats are looked for in.
+//! The sound in which beats are searched.
 
 use core::fmt;
 
-/// The shortest sound that has a tempo, seconds: less than this is two bars of slow music.
+/// The shortest sound in which a tempo can be found, seconds.
 const SHORTEST_S: f64 = 4.0;
 
-/// The longest sound that is read, seconds. A show is shorter, and an hour of samples is already 635 MB in a browser.
+/// The longest sound in which beats are searched, seconds. Shows are shorter, and an hour of samples takes 635 MB in a
+/// browser.
 const LONGEST_S: f64 = 3600.0;
 
-/// Rates that sound files have, samples a second.
+/// Range of sample rates of sound files, samples per second.
 const RATES_HZ: core::ops::RangeInclusive<f64> = 8_000.0..=192_000.0;
 
 /// One channel of sound.
@@ -19,7 +20,8 @@ pub struct Sound<'a> {
 }
 
 impl<'a> Sound<'a> {
-    /// Sound of `samples` (1 is full scale; what is not finite counts as 0) at `rate_hz` samples a second.
+    /// Takes `samples` at `rate_hz` samples per second. A sample of 1 is full scale; one that is not finite counts as
+    /// 0.
     ///
     /// # Errors
     /// The sound is shorter than 4 s or longer than an hour, or its rate is not between 8 and 192 kHz.
@@ -37,18 +39,18 @@ impl<'a> Sound<'a> {
         Ok(Sound { samples, rate_hz })
     }
 
-    /// How long it lasts, seconds.
+    /// Length of the sound, seconds.
     #[must_use]
     pub fn lasts_s(&self) -> f64 {
         self.samples.len() as f64 / self.rate_hz
     }
 
-    /// Samples a second.
+    /// Samples per second.
     pub(crate) fn rate_hz(&self) -> f64 {
         self.rate_hz
     }
 
-    /// The sample of an index; silence before the start and after the end.
+    /// Returns the sample at an index; 0 before the start and after the end.
     pub(crate) fn sample(&self, index: i64) -> f32 {
         let sample = usize::try_from(index).ok().and_then(|i| self.samples.get(i)).copied();
         sample.filter(|value| value.is_finite()).unwrap_or(0.0)
@@ -58,13 +60,13 @@ impl<'a> Sound<'a> {
 /// Why no beats were found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoBeats {
-    /// The sound is shorter than 4 s; its length, seconds.
+    /// The sound is shorter than 4 s. The value is its length, seconds.
     Short(f64),
-    /// The sound is longer than an hour; its length, seconds.
+    /// The sound is longer than an hour. The value is its length, seconds.
     Long(f64),
-    /// No sound file has this rate, samples a second.
+    /// The sample rate is out of range. The value is the rate, samples per second.
     Rate(f64),
-    /// No note begins anywhere.
+    /// No notes begin, or fewer than two beats were found.
     Silent,
 }
 

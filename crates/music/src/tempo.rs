@@ -1,4 +1,5 @@
-//! The tempo at each second: a comb over the autocorrelation of the onsets, and the likeliest course through it.
+//! Estimates the tempo at each second: a comb over the autocorrelation of the onsets, and the most likely sequence of
+//! tempi.
 
 use crate::onsets::{FRAMES_PER_S, Onsets};
 
@@ -6,29 +7,30 @@ use crate::onsets::{FRAMES_PER_S, Onsets};
 const SLOWEST_BPM: f64 = 45.0;
 const FASTEST_BPM: f64 = 230.0;
 
-/// Tempi of an octave: steps of 1.5 %.
+/// Number of tempi per octave: steps of 1.5 %.
 const PER_OCTAVE: f64 = 48.0;
 
-/// Sound that one tempo is taken from, seconds.
+/// Length of sound from which one tempo is estimated, seconds.
 const SPAN_S: f64 = 8.0;
 
 /// Weights of one, two, three and four beats in the comb.
 const COMB: [f64; 4] = [1.0, 0.7, 0.5, 0.4];
 
-/// The tempo that people tap most readily, and how far from it they tap, octaves (standard deviation).
+/// The tempo that people tap most readily, beats per minute, and below it the standard deviation of tapped tempi,
+/// octaves.
 const USUAL_BPM: f64 = 115.0;
 const USUAL_OCTAVES: f64 = 0.7;
 
-/// How much the bass counts beside all bands: notes between beats seldom have bass.
+/// Weight of the bass relative to all bands. It counts extra because notes between beats seldom have bass.
 const BASS: f64 = 0.5;
 
-/// What a change of tempo costs, in units of a logarithm of the likeness, an octave.
+/// Cost of a change of tempo by one octave, in units of the logarithm of the likelihood.
 const CHANGE: f64 = 20.0;
 
-/// Likeness below which two tempi are equally unlikely: silence holds the tempo around it.
+/// Added to each likelihood. Below it all tempi are about equally unlikely, and silence keeps the tempo around it.
 const FLOOR: f64 = 0.05;
 
-/// Frames of a beat at each second of the music.
+/// Returns the length of a beat at each second of the music, frames.
 pub(crate) fn periods(onsets: &Onsets) -> Vec<f64> {
     let tempi = tempi();
     let seconds = (onsets.all.len() as f64 / FRAMES_PER_S).ceil().max(1.0) as usize;
@@ -44,18 +46,18 @@ pub(crate) fn periods(onsets: &Onsets) -> Vec<f64> {
     likeliest(&likeness).into_iter().map(|tempo| period(tempi[tempo])).collect()
 }
 
-/// Frames of a beat.
+/// Converts a tempo in beats per minute to the length of a beat, frames.
 fn period(bpm: f64) -> f64 {
     60.0 / bpm * FRAMES_PER_S
 }
 
-/// Tempi, beats a minute, rising.
+/// Returns the tempi that are tried, beats per minute, rising.
 fn tempi() -> Vec<f64> {
     let count = ((FASTEST_BPM / SLOWEST_BPM).log2() * PER_OCTAVE) as usize;
     (0..=count).map(|i| SLOWEST_BPM * (i as f64 / PER_OCTAVE).exp2()).collect()
 }
 
-/// Onsets of the span around the middle of a second; the whole span also at both ends.
+/// Returns the onsets of a span around the middle of a second. At both ends of the music the span has full length too.
 fn around(onsets: &[f32], second: usize) -> &[f32] {
     let span = ((SPAN_S * FRAMES_PER_S) as usize).min(onsets.len());
     let middle = ((second as f64 + 0.5) * FRAMES_PER_S) as usize;
@@ -63,13 +65,13 @@ fn around(onsets: &[f32], second: usize) -> &[f32] {
     &onsets[from..from + span]
 }
 
-/// How readily people tap a tempo, 0 to 1.
+/// Returns how readily people tap a tempo, 0 to 1.
 fn readiness(bpm: f64) -> f64 {
     let octaves = (bpm / USUAL_BPM).log2() / USUAL_OCTAVES;
     (-0.5 * octaves * octaves).exp()
 }
 
-/// How well each tempo fits a span of onsets, up to 1.
+/// Returns how well each tempo fits a span of onsets, up to 1.
 fn combs(onsets: &[f32], tempi: &[f64]) -> Vec<f64> {
     let correlation = autocorrelation(onsets);
     let weights: f64 = COMB.iter().sum();
@@ -82,10 +84,10 @@ fn combs(onsets: &[f32], tempi: &[f64]) -> Vec<f64> {
     tempi.iter().map(|&bpm| fit(bpm) / weights).collect()
 }
 
-/// Autocorrelation by lag in frames, 1 at lag 0.
+/// Returns the autocorrelation by lag in frames; 1 at lag 0.
 fn autocorrelation(onsets: &[f32]) -> Vec<f64> {
     let mean = onsets.iter().map(|v| f64::from(*v)).sum::<f64>() / onsets.len() as f64;
-    // A little wider than a frame, so that hands need not be exact.
+    // Smoothed a little wider than a frame, because musicians do not play exactly.
     let smooth: Vec<f64> = (0..onsets.len())
         .map(|i| {
             let value = |j: usize| f64::from(onsets[j.min(onsets.len() - 1)]);
@@ -105,14 +107,14 @@ fn autocorrelation(onsets: &[f32]) -> Vec<f64> {
     if whole <= 0.0 { vec![0.0; lags] } else { (0..lags).map(|lag| sum(lag) / whole).collect() }
 }
 
-/// A value between two frames.
+/// Interpolates a value between two frames.
 fn at(values: &[f64], frame: f64) -> f64 {
     let (index, part) = (frame as usize, frame.fract());
     let value = |i: usize| values.get(i).copied().unwrap_or(0.0);
     value(index) * (1.0 - part) + value(index + 1) * part
 }
 
-/// The course of tempi that fits best as a whole (Viterbi): an index at each second.
+/// Finds the most likely sequence of tempi (Viterbi). Returns an index of a tempo for each second.
 fn likeliest(likeness: &[Vec<f64>]) -> Vec<usize> {
     let count = likeness[0].len();
     let mut total: Vec<f64> = likeness[0].iter().map(|fit| (fit + FLOOR).ln()).collect();
@@ -130,7 +132,7 @@ fn likeliest(likeness: &[Vec<f64>]) -> Vec<usize> {
     course
 }
 
-/// The tempo to come from, and the sum with it.
+/// Returns the best tempo to come from, and the sum with the cost of the change.
 fn best_step(total: &[f64], to: usize) -> (usize, f64) {
     let cost = |from: usize| CHANGE * from.abs_diff(to) as f64 / PER_OCTAVE;
     let sums: Vec<f64> = total.iter().enumerate().map(|(from, sum)| sum - cost(from)).collect();

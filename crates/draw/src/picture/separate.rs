@@ -202,7 +202,8 @@ fn not_flooded(bitmap: &Bitmap, away: &[f32], threshold: f32) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    /// A disc of 12 pixels radius with a hole of 4 in a picture of 48, over a background that grows lighter to the right.
+    /// A disc of radius 12 pixels with a hole of radius 4 in a picture of 48. The background grows lighter to the
+    /// right.
     fn ring(alpha: bool) -> Bitmap {
         let pixel = |index: usize| {
             let (x, y) = (index % 48, index / 48);

@@ -1,4 +1,4 @@
-//! Single strokes of letters with accents: the strokes of the letter, and those of the accent.
+//! Single strokes of letters with accents, put together from the strokes of the letter and those of the accent.
 
 use lightbots_base::Vec2;
 use unicode_normalization::UnicodeNormalization;
@@ -9,11 +9,12 @@ use super::region::LetterArea;
 use super::strokes::StrokeLine;
 use crate::geometry::bounds;
 
-/// Height above or below the plain letter at which outlines belong to the accent, in cap heights: letters with accents may
-/// overshoot by a little.
+/// Height above or below the plain letter from which outlines belong to the accent, in cap heights. Letters with
+/// accents may overshoot the plain letter a little.
 const CLEAR: f64 = 0.02;
 
-/// Stroke widths between the outline of an accent and its line; accents are thinner than letters.
+/// Distance between the outline of an accent and its line, in stroke widths. It is below half a width because accents
+/// are thinner than letters.
 const INSET: f64 = 0.4;
 
 /// A letter with one accent.
@@ -22,10 +23,10 @@ pub(super) struct Parts {
     accent: char,
 }
 
-/// The bar of ł, which Unicode does not take apart, as the mark that would be put over an l.
+/// The bar of ł as a combining mark over an l. Unicode does not decompose ł.
 const BAR: char = '\u{337}';
 
-/// The parts of a character; `None`: it has no accent.
+/// Splits a character into letter and accent. `None` if it has no accent.
 pub(super) fn parts(character: char) -> Option<Parts> {
     match character {
         'ł' => return Some(Parts { letter: 'l', accent: BAR }),
@@ -38,7 +39,8 @@ pub(super) fn parts(character: char) -> Option<Parts> {
     Some(Parts { letter: if dotless && letter == 'i' { 'ı' } else { letter }, accent })
 }
 
-/// The strokes of both parts; `None` for an accent or a letter without strokes.
+/// Returns the strokes of letter and accent. `None` if no strokes are known for one of them, or if they do not fit the
+/// area.
 pub(super) fn composed(parts: &Parts, region: &LetterArea, outlines: &Outlines) -> Option<Vec<StrokeLine>> {
     let mut rings = outlines.rings_of(parts.letter);
     let by = Vec2::new(shift(parts.accent, region, &LetterArea::new(&rings)?)?, 0.0);
@@ -53,10 +55,10 @@ pub(super) fn composed(parts: &Parts, region: &LetterArea, outlines: &Outlines) 
     Some(lines)
 }
 
-/// Distance to the right of the letter in its accented form: some fonts give that form more room.
+/// Returns how far the accented form of the letter is shifted to the right. Some fonts give that form more room.
 fn shift(accent: char, region: &LetterArea, plain: &LetterArea) -> Option<f64> {
     let (low, high) = plain.extent;
-    // The bar of ł sticks out on both sides, so that only the top of the stem is comparable.
+    // The bar of ł sticks out on both sides, and only the top of the stem can be compared.
     let foot = if accent == BAR { high.y - CLEAR } else { low.y - CLEAR };
     let left = |region: &LetterArea| {
         let points =
@@ -70,7 +72,7 @@ fn is_below(accent: char) -> bool {
     matches!(accent, '\u{323}'..='\u{333}')
 }
 
-/// The strokes of an accent in the place where its outline is.
+/// Returns the strokes of an accent at the place of its outline. `None` for an unknown accent.
 fn accent(accent: char, region: &LetterArea, plain: &LetterArea) -> Option<Vec<StrokeLine>> {
     let lines: Vec<StrokeLine> =
         shape(accent)?.iter().map(|line| line.iter().map(|(x, y)| Vec2::new(*x, *y)).collect()).collect();
@@ -88,7 +90,7 @@ fn accent(accent: char, region: &LetterArea, plain: &LetterArea) -> Option<Vec<S
     Some(stretched(lines, from, to))
 }
 
-/// Strokes of accents in the unit square. Dots are short lines.
+/// Returns the strokes of an accent in the unit square. Dots are short lines. `None` for an unknown accent.
 fn shape(accent: char) -> Option<&'static [&'static [(f64, f64)]]> {
     Some(match accent {
         '\u{300}' => &[&[(0.0, 1.0), (1.0, 0.0)]],
@@ -119,7 +121,7 @@ fn shape(accent: char) -> Option<&'static [&'static [(f64, f64)]]> {
     })
 }
 
-/// The bar of ł: between the ends of the outline that are not the plain letter's.
+/// Returns the bar of ł as a line between the ends of the outline that do not belong to the plain letter.
 fn bar(region: &LetterArea, plain: &LetterArea) -> Option<Vec<StrokeLine>> {
     let own = |point: &Vec2| !plain.contains(*point) && plain.distance(*point) > CLEAR;
     let points: Vec<Vec2> = region.edges().map(|(a, _)| a).filter(own).collect();

@@ -1,15 +1,15 @@
-//! Letters cut at the edges of a window.
+//! Cuts letters at the edges of a window.
 
 use lightbots_base::Vec2;
 
 use super::letter::Letter;
 use super::strokes::StrokeLine;
 
-/// A letter between two values of x.
+/// Returns the part of a letter between two values of x.
 pub(super) fn clipped(letter: &Letter, from: f64, to: f64) -> Letter {
     let cut = |lines: &[StrokeLine], half: fn(&[StrokeLine]) -> Vec<StrokeLine>| {
         let beyond_left = half(&mapped(lines, |x| x - from));
-        // Mirrored, the right edge is a left one.
+        // After mirroring, the right edge is a left edge.
         let beyond_both = half(&mapped(&beyond_left, |x| to - (x + from)));
         mapped(&beyond_both, |x| to - x)
     };
@@ -26,12 +26,12 @@ fn mapped(lines: &[StrokeLine], x: impl Fn(f64) -> f64) -> Vec<StrokeLine> {
     lines.iter().map(|line| line.iter().map(|point| Vec2::new(x(point.x), point.y)).collect()).collect()
 }
 
-/// Where a line from a to b has x = 0.
+/// Returns the point of the line from a to b that has x = 0.
 fn crossing(a: Vec2, b: Vec2) -> Vec2 {
     Vec2::new(0.0, a.lerp(b, a.x / (a.x - b.x)).y)
 }
 
-/// The parts of lines with x of at least 0.
+/// Returns the parts of lines with x of at least 0.
 fn half_lines(lines: &[StrokeLine]) -> Vec<StrokeLine> {
     let mut kept: Vec<StrokeLine> = Vec::new();
     for line in lines {
@@ -41,7 +41,7 @@ fn half_lines(lines: &[StrokeLine]) -> Vec<StrokeLine> {
     kept
 }
 
-/// Pieces of one line with x of at least 0. The first begins inside or at the first entry.
+/// Returns the pieces of one line with x of at least 0, from the start of the line on.
 fn pieces(line: &[Vec2]) -> Vec<StrokeLine> {
     let mut pieces: Vec<StrokeLine> = Vec::new();
     let mut open: StrokeLine = line.first().filter(|point| point.x >= 0.0).copied().into_iter().collect();
@@ -61,7 +61,7 @@ fn pieces(line: &[Vec2]) -> Vec<StrokeLine> {
     pieces
 }
 
-/// Rings cut at x = 0. The cut edges join the pieces of all rings, so that gaps between strokes stay open.
+/// Returns rings cut at x = 0. Cut edges join the pieces of all rings, which keeps gaps between strokes open.
 fn half_rings(rings: &[Vec<Vec2>]) -> Vec<Vec<Vec2>> {
     let mut whole = Vec::new();
     let mut open: Vec<StrokeLine> = Vec::new();
@@ -69,7 +69,7 @@ fn half_rings(rings: &[Vec<Vec2>]) -> Vec<Vec<Vec2>> {
         match ring.iter().position(|point| point.x < 0.0) {
             None => whole.push(ring.clone()),
             Some(outside) => {
-                // The ring as a line that begins and ends outside: its pieces are whole.
+                // The ring as a line that begins and ends outside: none of its pieces is split.
                 let line: StrokeLine =
                     ring.iter().cycle().skip(outside).take(ring.len() + 1).copied().collect();
                 open.extend(pieces(&line).into_iter().filter(|piece| piece.len() >= 2));
@@ -89,8 +89,8 @@ struct End {
     leaves: bool,
 }
 
-/// Rings of pieces that begin and end on the cut. Along the cut, area lies between an end and its partner of the other kind,
-/// like between brackets.
+/// Joins pieces that begin and end on the cut to rings. Along the cut, the area lies between an end and its partner of
+/// the other kind, like text between brackets.
 fn joined(pieces: &[StrokeLine]) -> Vec<Vec<Vec2>> {
     let mut ends: Vec<End> = Vec::new();
     for (piece, line) in pieces.iter().enumerate() {

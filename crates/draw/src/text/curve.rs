@@ -1,18 +1,18 @@
-//! Curves become points. The arithmetic uses the four operations and square roots only, so that every machine gets the same
-//! bits; flatteners of libraries take powers and logarithms from the system.
+//! Approximates curves by points. The arithmetic uses only the four operations and square roots, which give the same
+//! bits on every machine. Flatteners of libraries take powers and logarithms from the system.
 
 use lightbots_base::Vec2;
 
-/// Largest distance between a curve and its points, in cap heights: a robot cannot show less.
+/// Largest distance between a curve and its chords, in cap heights. It is less than robots can show.
 const TOLERANCE: f64 = 0.005;
 
-/// Most points of one curve: enough for a half circle of 40 cap heights.
+/// Largest number of points of one curve: enough for a half circle of 40 cap heights.
 const STEPS_MAX: f64 = 200.0;
 
-/// Two points nearer than this, in cap heights, are one.
+/// Two points nearer than this, in cap heights, are one point.
 const SAME: f64 = 1e-9;
 
-/// An outline that is being received.
+/// An outline to which lines and curves are added one after the other. Calls take the largest number of points, `most`.
 #[derive(Default)]
 pub(super) struct Curve {
     rings: Vec<Vec<Vec2>>,
@@ -32,12 +32,12 @@ impl Curve {
         self.push(to, most);
     }
 
-    /// A straight line.
+    /// Adds a straight line.
     pub(super) fn line_to(&mut self, to: Vec2, most: usize) {
         self.push(to, most);
     }
 
-    /// A quadratic Bézier curve.
+    /// Adds a quadratic Bézier curve.
     pub(super) fn quad_to(&mut self, control: Vec2, to: Vec2, most: usize) {
         let from = self.last();
         let steps = steps((from - control * 2.0 + to).length() * 2.0);
@@ -48,7 +48,7 @@ impl Curve {
         }
     }
 
-    /// A cubic Bézier curve.
+    /// Adds a cubic Bézier curve.
     pub(super) fn cubic_to(&mut self, a: Vec2, b: Vec2, to: Vec2, most: usize) {
         let from = self.last();
         let bend = (from - a * 2.0 + b).length().max((a - b * 2.0 + to).length()) * 6.0;
@@ -60,7 +60,7 @@ impl Curve {
         }
     }
 
-    /// The rings, without repetition of their first points; lines and points are no rings.
+    /// Returns the rings, without repeating first points. Rings of fewer than three points are left out.
     pub(super) fn into_rings(self) -> Vec<Vec<Vec2>> {
         let closed = self.rings.into_iter().map(|mut ring| {
             while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < SAME {
@@ -91,7 +91,8 @@ impl Curve {
     }
 }
 
-/// Number of straight pieces for a curve whose second derivative is at most `bend`: the error of n pieces is bend/(8 n²).
+/// Number of straight pieces for a curve whose second derivative is at most `bend`. The error of n pieces is bend/(8
+/// n²).
 fn steps(bend: f64) -> usize {
     let wanted = (bend / (8.0 * TOLERANCE)).sqrt();
     if wanted > 1.0 { wanted.min(STEPS_MAX) as usize + 1 } else { 1 }

@@ -1,4 +1,4 @@
-//! Single strokes of a letter, fitted to the area of the same letter of another font.
+//! Fits the single strokes of a letter to the area of the same letter in another font.
 
 use lightbots_base::Vec2;
 
@@ -7,8 +7,8 @@ use super::region::{LetterArea, distance};
 use super::strokes::StrokeLine;
 use crate::geometry::bounds;
 
-/// Most points of a letter that gets a spine. The search is linear in them at every step; ornate letters have no strokes
-/// anyway.
+/// Largest number of points of a letter that gets a spine. Every step of the search takes time in proportion to it, and
+/// ornate letters have no strokes anyway.
 const POINTS_MAX: usize = 600;
 
 /// Largest width or height of a letter that gets a spine, in cap heights. The search divides it into small steps.
@@ -17,29 +17,29 @@ const SIZE_MAX: f64 = 4.0;
 /// Largest distance between points while lines are moved, in cap heights.
 const STEP: f64 = 0.06;
 
-/// Times that lines are moved to the middle; the second time corrects the directions of the first.
+/// Number of times that lines are moved to the middle. Each time uses the directions that the time before gave.
 const ROUNDS: usize = 3;
 
-/// Lines that deviate less than this from straight ones become straight, in cap heights.
+/// Deviation from a straight line, in cap heights, below which a line becomes straight.
 const STRAIGHT: f64 = 0.006;
 
-/// Least share of a spine inside of the area. Tuned on the three outline fonts inside, 2026-11-24.
+/// Least share of a spine that is inside the area. Tuned on the three built-in outline fonts, 2026-11-24.
 const INSIDE_MIN: f64 = 0.9;
 
 /// Least share of the outline that is near the spine.
 const COVERED_MIN: f64 = 0.85;
 
-/// Stroke widths within which an outline counts as near the spine: half a width is ideal, corners
-/// have 0.71, and a round dot, whose mean width is its radius, has 1.
+/// Distance within which an outline counts as near the spine, in stroke widths. Half a width is ideal, corners have
+/// 0.71. A round dot, whose mean width is its radius, has 1.
 const NEAR: f64 = 1.1;
 
-/// Whether a letter is small and simple enough for a search.
+/// Whether a letter is small and simple enough for the search.
 pub(super) fn is_common(area: &LetterArea) -> bool {
     let size = area.extent.1 - area.extent.0;
     area.points() <= POINTS_MAX && size.x.max(size.y) <= SIZE_MAX
 }
 
-/// Lines of a letter without accents: those of the single-line font that fits best.
+/// Returns lines for a letter without accents, from the single-line font that fits best. `None` if none fits.
 pub(super) fn base(character: char, area: &LetterArea) -> Option<Vec<StrokeLine>> {
     if !is_common(area) {
         return None;
@@ -65,7 +65,7 @@ fn is_dot(line: &StrokeLine) -> bool {
     bounds(line.iter()).is_some_and(|(low, high)| high.distance(low) < 2.0 * STEP)
 }
 
-/// Lines stretched to the middle of the outermost strokes, then moved into the middle of all strokes.
+/// Stretches lines to the middle of the outermost strokes of an area, then moves them into the middle of all strokes.
 fn fitted(lines: Vec<StrokeLine>, area: &LetterArea) -> Vec<StrokeLine> {
     let half = Vec2::new(area.stem, area.stem) / 2.0;
     let (mut dots, mut lines): (Vec<StrokeLine>, Vec<StrokeLine>) = lines.into_iter().partition(is_dot);
@@ -94,14 +94,14 @@ fn foot(line: &StrokeLine) -> f64 {
     line.first().map_or(0.0, |point| point.y)
 }
 
-/// A dot with its middle elsewhere.
+/// Moves a dot to another centre.
 fn moved_to(dot: StrokeLine, centre: Vec2) -> StrokeLine {
     let Some((low, high)) = bounds(dot.iter()) else { return dot };
     let by = centre - low.lerp(high, 0.5);
     dot.into_iter().map(|point| point + by).collect()
 }
 
-/// Lines stretched into a rectangle; where either has no width, they are centred.
+/// Stretches lines into a rectangle. In a direction in which lines or rectangle have no extent, lines are centred.
 pub(super) fn stretched(mut lines: Vec<StrokeLine>, low: Vec2, high: Vec2) -> Vec<StrokeLine> {
     let Some((from, to)) = bounds(lines.iter().flatten()) else { return lines };
     let axis = |value: f64, from: f64, to: f64, low: f64, high: f64| {
@@ -128,7 +128,8 @@ fn divided(line: &StrokeLine) -> StrokeLine {
     points
 }
 
-/// A line without the points at its ends that lie outside: strokes of fonts end in different directions.
+/// Returns a line without the points at its ends that lie outside. Strokes of different fonts end in different
+/// directions.
 fn trimmed<'a>(line: &'a [Vec2], area: &LetterArea) -> &'a [Vec2] {
     let inside = |point: &Vec2| area.contains(*point);
     match (line.iter().position(inside), line.iter().rposition(inside)) {
@@ -137,14 +138,14 @@ fn trimmed<'a>(line: &'a [Vec2], area: &LetterArea) -> &'a [Vec2] {
     }
 }
 
-/// Move of a point, and the direction across the line there.
+/// Distance that a point moves, and the direction across the line in which it moves.
 #[derive(Clone, Copy)]
 struct Move {
     by: f64,
     across: Vec2,
 }
 
-/// A line moved into the middle of the strokes that it lies on. Each piece between corners moves by itself.
+/// Moves a line into the middle of the strokes on which it lies. Each piece between corners moves independently.
 fn centred(line: &[Vec2], area: &LetterArea) -> StrokeLine {
     let last = line.len().saturating_sub(1);
     let mut corners = vec![0];
@@ -174,10 +175,11 @@ impl Move {
     }
 }
 
-/// Least cosine of a turn that is no corner: 35 degrees.
+/// Least cosine of a turn that is not a corner. A corner turns by 35 degrees or more.
 const CORNER_COSINE: f64 = 0.82;
 
-/// Least sine between two pieces that meet in a point of their own; nearly parallel lines meet anywhere.
+/// Least sine of the angle between two pieces for which their meeting point is used. Nearly parallel lines meet far
+/// away.
 const MEETING_SINE: f64 = 0.4;
 
 fn is_corner(a: Vec2, b: Vec2, c: Vec2) -> bool {
@@ -187,17 +189,18 @@ fn is_corner(a: Vec2, b: Vec2, c: Vec2) -> bool {
     }
 }
 
-/// Way of a corner whose two pieces move: to where they meet.
+/// Returns the displacement of a corner between two moved pieces: to the point where they meet.
 fn met(a: Move, b: Move) -> Vec2 {
     let sine = a.across.cross(b.across);
     if sine.abs() < MEETING_SINE {
         return (a.way() + b.way()) / 2.0;
     }
-    // The way d with d·across = by for both pieces.
+    // The displacement d with d·across = by for both pieces.
     Vec2::new(a.by * b.across.y - b.by * a.across.y, b.by * a.across.x - a.by * b.across.x) / sine
 }
 
-/// Moves of a piece without corners. Points at joints move like their neighbours.
+/// Returns the moves of a piece without corners. Points at joints, where no middle is found, move like their
+/// neighbours.
 fn moves(piece: &[Vec2], area: &LetterArea) -> Vec<Move> {
     let last = piece.len().saturating_sub(1);
     let across =
@@ -212,7 +215,7 @@ fn moves(piece: &[Vec2], area: &LetterArea) -> Vec<Move> {
     by.into_iter().zip(across).map(|(by, across)| Move { by, across }).collect()
 }
 
-/// Moves that are not known lie between those before and after them.
+/// Fills in unknown moves from the known ones before and after them.
 fn filled(moves: &[Option<f64>]) -> Vec<f64> {
     let known: Vec<(usize, f64)> =
         moves.iter().enumerate().filter_map(|(at, by)| by.map(|by| (at, by))).collect();
@@ -234,7 +237,7 @@ fn smoothed(moves: &[f64]) -> Vec<f64> {
     (0..moves.len()).map(|at| near(at) / 4.0).collect()
 }
 
-/// The line with the fewest points that stays within `STRAIGHT` (Douglas and Peucker 1973).
+/// Returns the line with few points that stays within `STRAIGHT` (Douglas and Peucker 1973).
 fn straightened(line: &[Vec2]) -> StrokeLine {
     let (Some(first), Some(last)) = (line.first(), line.last()) else { return StrokeLine::new() };
     let ways = line.iter().map(|point| distance(*point, *first, *last));
@@ -249,7 +252,8 @@ fn straightened(line: &[Vec2]) -> StrokeLine {
     }
 }
 
-/// How well lines stand for an area: share of them inside plus share of the outline that is near. `None`: too badly.
+/// Returns how well lines represent an area: the share of them inside plus the share of the outline near them. `None`
+/// if a share is too small or a point is too far outside.
 pub(super) fn quality(lines: &[StrokeLine], area: &LetterArea) -> Option<f64> {
     let points: Vec<Vec2> = lines.iter().flat_map(divided).collect();
     let inside = points.iter().filter(|point| area.contains(**point)).count() as f64 / points.len() as f64;

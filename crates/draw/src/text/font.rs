@@ -1,4 +1,4 @@
-//! Fonts: those inside, and the ones that people bring.
+//! Built-in fonts, and fonts from files.
 
 use std::sync::OnceLock;
 
@@ -6,10 +6,10 @@ use super::outline::Outlines;
 use super::strokes::StrokeFace;
 use crate::error::DrawError;
 
-/// Largest font file, in bytes. The largest common fonts, with all Chinese, Japanese and Korean signs, have about 20 MB.
+/// Largest font file, bytes. The largest common fonts, with all Chinese, Japanese and Korean signs, have about 20 MB.
 const FILE_MAX: usize = 32 << 20;
 
-/// A font: the outlines or the single strokes of its letters.
+/// A font with the outlines or the single strokes of its letters.
 #[derive(Clone)]
 pub struct Font {
     face: Face,
@@ -18,13 +18,13 @@ pub struct Font {
 /// How the letters of a font are drawn.
 #[derive(Clone)]
 pub(super) enum Face {
-    /// By areas.
+    /// As areas.
     Outlines(Outlines),
-    /// By lines.
+    /// As lines.
     Strokes(StrokeFace),
 }
 
-/// A font that LightBots brings along.
+/// A built-in font.
 #[derive(Clone, Copy, Debug)]
 pub struct FontInfo {
     /// Name for programs and documents.
@@ -33,7 +33,7 @@ pub struct FontInfo {
     pub title: &'static str,
     /// Licence, as an SPDX expression or in words. The full text is beside the font file.
     pub licence: &'static str,
-    /// Whether people choose it. The other fonts stand in for signs that the chosen font lacks.
+    /// Whether people can choose it. The other fonts supply signs that the chosen font lacks.
     pub offered: bool,
     file: File,
 }
@@ -44,7 +44,7 @@ enum File {
     Strokes(&'static str),
 }
 
-/// All fonts inside, in the order in which they are offered and stand in for each other.
+/// All built-in fonts, in the order in which they are offered.
 pub static FONTS: [FontInfo; 8] = [
     outlines("lato", "Lato Bold", true, include_bytes!("../../fonts/Lato-Bold.ttf")),
     outlines(
@@ -83,7 +83,7 @@ pub static FONTS: [FontInfo; 8] = [
     outlines("emoji", "Noto Emoji Bold, part", false, include_bytes!("../../fonts/NotoEmoji-Bold-part.ttf")),
 ];
 
-/// Fonts that stand in for signs that the chosen font lacks, best first.
+/// Names of fonts that supply signs which the chosen font lacks, best first.
 const STAND_INS: [&str; 4] = ["lato", "hebrew", "arabic", "emoji"];
 
 const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes: &'static [u8]) -> FontInfo {
@@ -91,7 +91,7 @@ const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes:
 }
 
 impl FontInfo {
-    /// The file of a font with outlines.
+    /// The bytes of a font with outlines. `None` for a font of strokes.
     pub fn outline_file(&self) -> Option<&'static [u8]> {
         match self.file {
             File::Outlines(bytes) => Some(bytes),
@@ -100,13 +100,13 @@ impl FontInfo {
     }
 }
 
-/// The files of all fonts with outlines, in the order of [`FONTS`].
+/// The bytes of all built-in fonts with outlines, in the order of [`FONTS`].
 pub(crate) fn outline_files() -> impl Iterator<Item = &'static [u8]> {
     FONTS.iter().filter_map(FontInfo::outline_file)
 }
 
 impl Font {
-    /// The font inside of that name; `None` for a name that is not in [`FONTS`].
+    /// Returns the built-in font of that name. `None` for a name that is not in [`FONTS`].
     pub fn built_in(name: &str) -> Option<Self> {
         let info = FONTS.iter().find(|info| info.name == name)?;
         let face = match info.file {
@@ -116,11 +116,11 @@ impl Font {
         Some(Self { face })
     }
 
-    /// A font from the bytes of a TTF, OTF or TTC file, of which the first font is taken.
+    /// Reads a font from the bytes of a TTF, OTF or TTC file. Of several fonts in a file, the first is read.
     ///
     /// # Errors
-    /// `font-too-large`, `font-web` for WOFF files, `font-cut-off`, `font-unreadable`, and `font-empty` without any
-    /// letter that can be drawn.
+    /// `font-too-large`, `font-web` for WOFF files, `font-cut-off`, `font-unreadable`, and `font-empty` for a font
+    /// whose first letters have no outlines.
     pub fn read(bytes: &[u8]) -> Result<Self, DrawError> {
         if bytes.len() > FILE_MAX {
             let mb = bytes.len() >> 20;
@@ -154,12 +154,12 @@ impl Font {
         Ok(Self { face: Face::Outlines(outlines) })
     }
 
-    /// How its letters are drawn.
+    /// How the font's letters are drawn.
     pub(super) fn face(&self) -> &Face {
         &self.face
     }
 
-    /// Whether the font has the character itself, without help by other fonts.
+    /// Whether the font itself has the character, without help from other fonts.
     pub fn has(&self, character: char) -> bool {
         self.face.has(character)
     }
@@ -171,7 +171,7 @@ impl Font {
 }
 
 impl Face {
-    /// Whether it has the character.
+    /// Whether the font has the character.
     pub(super) fn has(&self, character: char) -> bool {
         match self {
             Self::Outlines(outlines) => outlines.has(character),
@@ -180,7 +180,8 @@ impl Face {
     }
 }
 
-/// Whether the list of tables of a font names bytes beyond its end. Collections have no list at their beginning.
+/// Whether the table list of a font names bytes beyond its end. Collections have no such list at their beginning and
+/// give false.
 fn is_cut_off(bytes: &[u8]) -> bool {
     let collection = bytes.starts_with(b"ttcf");
     let number = |at: usize| bytes.get(at..at + 4)?.try_into().ok().map(u32::from_be_bytes);
@@ -196,13 +197,14 @@ fn is_cut_off(bytes: &[u8]) -> bool {
     ends.into_iter().any(|end| end.is_none_or(|end| end > bytes.len() as u64))
 }
 
-/// Fonts for signs that the chosen font lacks, read once.
+/// Returns the fonts for signs that the chosen font lacks, which are read once.
 pub(super) fn stand_ins() -> &'static [Font] {
     static READ: OnceLock<Vec<Font>> = OnceLock::new();
     READ.get_or_init(|| STAND_INS.iter().filter_map(|name| Font::built_in(name)).collect())
 }
 
-/// Single-line faces that lend their strokes to the areas of other fonts, best first.
+/// Returns the single-line fonts whose strokes are fitted to letters of other fonts, in the order of [`FONTS`]. They
+/// are read once.
 pub(super) fn spines() -> &'static [StrokeFace] {
     static READ: OnceLock<Vec<StrokeFace>> = OnceLock::new();
     READ.get_or_init(|| {

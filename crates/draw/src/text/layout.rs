@@ -1,4 +1,4 @@
-//! Letters on one line or several.
+//! Lays out letters on one or several lines.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::drawing::Drawing;
 use crate::error::{DrawError, Made, Note};
 use crate::geometry::bounds;
 
-/// Most characters that a note lists by name.
+/// Largest number of characters that a note lists by name.
 const NAMED_MAX: usize = 20;
 
 /// Colours of a rainbow: red, yellow, green, cyan, blue, magenta.
@@ -28,11 +28,11 @@ const RAINBOW: [Rgb; 6] = [
     Rgb::new(255, 0, 255),
 ];
 
-/// The words as one drawing: a part for each visible letter.
+/// Draws the words as one drawing, with a part for each visible letter.
 ///
 /// # Errors
-/// `text-empty` without any visible sign, `text-too-long`, `text-settings` for numbers out of range, `text-no-glyphs` if no
-/// sign can be drawn, `text-too-detailed` if the font has too many points.
+/// `text-empty` without any visible sign, `text-too-long`, `text-settings` for numbers out of range, `text-no-glyphs`
+/// if no sign can be drawn, `text-too-detailed` if the letters have too many points.
 pub fn draw(settings: &TextSettings) -> Result<Made, DrawError> {
     check(settings)?;
     let (letters, notes) = lay_out(settings)?;
@@ -67,9 +67,12 @@ pub(super) fn check(settings: &TextSettings) -> Result<(), DrawError> {
     Ok(())
 }
 
-/// Letters in their places, in the order of the text, and what is missing.
+/// Returns letters at their places, in the order of the text, and a note about missing signs.
+///
+/// # Errors
+/// `text-too-detailed` and `text-no-glyphs`, as for [`draw`].
 pub(super) fn lay_out(settings: &TextSettings) -> Result<(Vec<Letter>, Vec<Note>), DrawError> {
-    // Composed letters let fonts use their own accents.
+    // Composed characters let fonts use their own accented letters.
     let text: String = settings
         .words
         .nfc()
@@ -103,7 +106,8 @@ pub(super) fn lay_out(settings: &TextSettings) -> Result<(Vec<Letter>, Vec<Note>
     Ok((letters, notes))
 }
 
-/// Lines below each other. The distance of baselines is the smallest that leaves the wished gap everywhere.
+/// Stacks lines below each other. All baselines have the same distance, the smallest that leaves `line_gap` between any
+/// two lines.
 fn stacked(lines: Vec<Shaped>, settings: &TextSettings) -> Vec<Letter> {
     let boxes: Vec<Option<(Vec2, Vec2)>> =
         lines.iter().map(|line| bounds(line.letters.iter().flat_map(Letter::ink))).collect();
@@ -124,7 +128,7 @@ fn stacked(lines: Vec<Shaped>, settings: &TextSettings) -> Vec<Letter> {
     letters
 }
 
-/// Distance of baselines at which neighbouring lines touch, at least 1.
+/// Returns the distance of baselines at which the closest two neighbouring lines touch; at least 1.
 pub(super) fn pitch(boxes: &[Option<(Vec2, Vec2)>]) -> f64 {
     let touching = boxes.windows(2).filter_map(|pair| match pair {
         [Some((upper, _)), Some((_, lower))] => Some(lower.y - upper.y),
@@ -133,7 +137,7 @@ pub(super) fn pitch(boxes: &[Option<(Vec2, Vec2)>]) -> f64 {
     touching.fold(1.0, f64::max)
 }
 
-/// A drawing with one part for each letter, named by the letter and its number.
+/// Makes a drawing with one part for each letter, named by the letter and a count of that letter.
 pub(super) fn drawing(letters: &[Letter], colors: &Colors) -> Drawing {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let parts = letters.iter().enumerate().map(|(at, letter)| {
@@ -145,7 +149,7 @@ pub(super) fn drawing(letters: &[Letter], colors: &Colors) -> Drawing {
     Drawing { parts: parts.collect() }
 }
 
-/// Colour of a letter by its number.
+/// Returns the colour of the letter with the index `at` of `of` letters.
 fn color(colors: &Colors, at: usize, of: usize) -> Rgb {
     match colors {
         Colors::One(color) => *color,
@@ -161,7 +165,7 @@ fn color(colors: &Colors, at: usize, of: usize) -> Rgb {
     }
 }
 
-/// A note that names the characters that no font has; `None` if there are none.
+/// Returns a note that names the characters that no font has. `None` if there are none.
 fn missing(characters: &BTreeMap<char, usize>) -> Option<Note> {
     if characters.is_empty() {
         return None;

@@ -1,38 +1,38 @@
-//! Letters in their places.
+//! Letters at their places.
 
 use lightbots_base::{Rgb, Vec2};
 
 use crate::drawing::{Area, DrawingPart, FillRule, Stroke};
 
-/// A letter in its place.
+/// A letter at its place, in cap heights.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Letter {
     /// What it shows: one character with its marks, or the characters of a ligature.
     pub(super) text: String,
     /// Its position in the text, in bytes.
     pub(super) at: usize,
-    /// Rings of its area.
+    /// Rings of its area; empty in a single-line font.
     pub(super) rings: Vec<Vec<Vec2>>,
-    /// Its lines, in a single-line font.
+    /// Its lines in a single-line font; else empty.
     pub(super) lines: Vec<Vec<Vec2>>,
-    /// Lines that stand for its area.
+    /// Lines that replace its area when robots are few; may be empty.
     pub(super) spine: Vec<Vec<Vec2>>,
 }
 
 impl Letter {
-    /// The letter elsewhere.
+    /// Returns the letter moved by a vector.
     pub(super) fn moved(mut self, by: Vec2) -> Self {
         let lines = self.rings.iter_mut().chain(&mut self.lines).chain(&mut self.spine);
         lines.flatten().for_each(|point| *point += by);
         self
     }
 
-    /// Points of what is seen, without the spine.
+    /// All points that are visible: areas and lines without the spine.
     pub(super) fn ink(&self) -> impl Iterator<Item = &Vec2> {
         self.rings.iter().chain(&self.lines).flatten()
     }
 
-    /// The letter as a part of a drawing.
+    /// Makes the letter a part of a drawing.
     pub(super) fn part(&self, name: String, color: Rgb) -> DrawingPart {
         let strokes = |lines: &[Vec<Vec2>]| {
             let stroke = |line: &Vec<Vec2>| {

@@ -1,6 +1,6 @@
-//! Lines and words of a text, with their positions.
+//! Splits a text into lines and words, with their positions.
 
-/// Lines of a text with their positions in it, in bytes. Empty lines at both ends are dropped.
+/// Returns the lines of a text with their positions in it, in bytes. Blank lines at both ends are dropped.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let filled = |line: &&str| !line.trim().is_empty();
     let mut end = 0;
@@ -15,7 +15,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     all.into_iter().take(last).skip(first)
 }
 
-/// Words of a line with their positions in it.
+/// Returns the words of a line with their positions in the line, in bytes.
 pub(super) fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut from = 0;
     let all = line.split(char::is_whitespace).map(move |word| {

@@ -1,4 +1,4 @@
-//! Words become drawings: fonts, letters, lines, and one drawing for each word or step.
+//! Turns words into drawings: fonts, letters and lines. A text is one drawing, or one for each word or scrolling step.
 //!
 //! The height of capitals is 1, y points up, and the baseline of the first line is 0.
 

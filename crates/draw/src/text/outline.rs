@@ -8,13 +8,13 @@ use skrifa::{Font as FontFile, FontRef, GlyphId, MetadataProvider};
 
 use super::curve::Curve;
 
-/// Most points of one letter. Ornate letters have about a thousand; a hostile font could ask for millions.
+/// Largest number of points of one letter. Ornate letters have about a thousand; a malicious font could have millions.
 const POINTS_MAX: usize = 20_000;
 
-/// Height of capitals relative to the em of a font that does not say it: the mean of common sans faces.
+/// Height of capitals relative to the em, for fonts that do not state it: the mean of common sans faces.
 const CAP_SHARE: f64 = 0.7;
 
-/// Share of a letter's coordinates in cap heights beyond which it counts as broken.
+/// Largest coordinate of a sound glyph, in cap heights. A glyph with larger ones is broken.
 const EXTENT_MAX: f64 = 1_000.0;
 
 /// Number of mapped characters that are tried for an outline when a font is read.
@@ -26,12 +26,13 @@ pub(super) struct Outlines {
     file: FontFile,
     /// Font units in one cap height.
     pub(super) unit: f64,
-    /// Cap heights by which everything is moved up: signs of emoji fonts hang below the baseline.
+    /// Distance by which all glyphs are moved up, in cap heights. Emoji fonts need it because their signs hang below
+    /// the baseline.
     pub(super) lift: f64,
 }
 
 impl Outlines {
-    /// The first font of the bytes; `None` if there is none.
+    /// Reads the first font of a file. `None` if there is none.
     pub(super) fn read(bytes: impl Into<Source>) -> Option<Self> {
         let file = FontFile::new(bytes, 0)?;
         let mut outlines = Self { file, unit: 1.0, lift: 0.0 };
@@ -48,7 +49,7 @@ impl Outlines {
         Some(outlines)
     }
 
-    /// The file, for shaping.
+    /// The font file, for shaping.
     pub(super) fn file(&self) -> &FontFile {
         &self.file
     }
@@ -76,12 +77,12 @@ impl Outlines {
         mapped.into_iter().any(|glyph| !self.rings(glyph).is_empty())
     }
 
-    /// Rings of a character in cap heights, at the origin; empty if the font lacks it.
+    /// Returns the rings of a character in cap heights, at the origin. Empty if the font lacks the character.
     pub(super) fn rings_of(&self, character: char) -> Vec<Vec<Vec2>> {
         self.glyph(character).map_or_else(Vec::new, |glyph| self.rings(glyph))
     }
 
-    /// Rings of a glyph in cap heights, at the origin. Broken glyphs are empty.
+    /// Returns the rings of a glyph in cap heights, at the origin. Empty for a broken glyph.
     pub(super) fn rings(&self, glyph: GlyphId) -> Vec<Vec<Vec2>> {
         let Some(outline) = self.font().and_then(|font| font.outline_glyphs().get(glyph)) else {
             return Vec::new();
@@ -101,7 +102,7 @@ impl Outlines {
         self.span(character).map(|(_, high)| high)
     }
 
-    /// Lowest and highest y of a character.
+    /// Lowest and highest y of a character, in cap heights. `None` if the font lacks it.
     fn span(&self, character: char) -> Option<(f64, f64)> {
         let rings = self.rings_of(character);
         let heights = rings.iter().flatten().map(|point| (point.y, point.y));
@@ -109,13 +110,13 @@ impl Outlines {
     }
 }
 
-/// Height of an emoji in cap heights: a little more than a capital, as it has more detail.
+/// Height of an emoji, in cap heights. It is a little above that of a capital because an emoji has more detail.
 const EMOJI_HEIGHT: f64 = 1.1;
 
-/// Lowest point of an emoji in cap heights, so that it is centred on the capitals.
+/// Lowest point of an emoji, in cap heights. With it an emoji is centred on the capitals.
 const EMOJI_FOOT: f64 = -0.05;
 
-/// Receives an outline in font units.
+/// Receives an outline in font units and converts it to cap heights.
 struct Pen {
     curve: Curve,
     scale: f64,

@@ -1,4 +1,4 @@
-//! Questions to the area of a letter: what is inside, how thick it is, and where the middle is.
+//! Measures the area of a letter: what is inside, how thick its strokes are, and where their middle is.
 
 use lightbots_base::Vec2;
 
@@ -8,10 +8,10 @@ use crate::geometry::{bounds, contains, edges};
 /// Corners of a rectangle with the smaller and the larger x and y.
 pub(super) type Extent = (Vec2, Vec2);
 
-/// Largest size of a dot, in cap heights.
+/// Largest width or height of a dot, in cap heights.
 const BLOB_MAX: f64 = 0.4;
 
-/// Rings of a letter that overlap by the rule of fonts: inside is where they wind around a point at all.
+/// Area of a letter, given by rings that may overlap. Points around which the winding number is not 0 are inside.
 pub(super) struct LetterArea<'a> {
     rings: &'a [Vec<Vec2>],
     /// Mean width of its strokes, in cap heights.
@@ -21,7 +21,7 @@ pub(super) struct LetterArea<'a> {
 }
 
 impl<'a> LetterArea<'a> {
-    /// The region of rings; `None` without any area.
+    /// Returns the area of rings. `None` if they enclose no area.
     pub(super) fn new(rings: &'a [Vec<Vec2>]) -> Option<Self> {
         let extent = bounds(rings.iter().flatten())?;
         let mut region = Self { rings, stem: 0.0, extent };
@@ -32,8 +32,8 @@ impl<'a> LetterArea<'a> {
         (region.stem > 0.0).then_some(region)
     }
 
-    /// Rectangles around separate small parts, from the lowest up, and around all the rest. Holes belong to the parts that
-    /// they are in.
+    /// Returns the boxes around separate small parts, from the lowest up, and the box around the rest. Holes belong to
+    /// the part around them.
     pub(super) fn blobs(&self) -> (Vec<Extent>, Option<Extent>) {
         let boxes: Vec<Extent> = self.rings.iter().filter_map(|ring| bounds(ring.iter())).collect();
         let within = |a: &Extent, b: &Extent| {
@@ -66,7 +66,8 @@ impl<'a> LetterArea<'a> {
         self.edges().map(|(a, b)| distance(point, a, b)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Way along a direction to the middle of the nearest stroke; `None`: there is none within one stroke width.
+    /// Returns the distance from a point along a direction to the middle of the nearest stroke. `None` if there is none
+    /// within one stroke width.
     pub(super) fn middle(&self, point: Vec2, direction: Vec2) -> Option<f64> {
         let mut hits: Vec<f64> = self.edges().filter_map(|(a, b)| hit(point, direction, a, b)).collect();
         hits.sort_by(f64::total_cmp);
@@ -80,7 +81,8 @@ impl<'a> LetterArea<'a> {
     }
 }
 
-/// A cut longer than this many stroke widths runs along a stroke or through a joint, and its middle says nothing.
+/// Longest cut across a stroke, in stroke widths. A longer one runs along a stroke or through a joint, and its middle
+/// is not that of a stroke.
 const STROKE_MAX: f64 = 1.7;
 
 fn hit(point: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
@@ -91,7 +93,7 @@ fn hit(point: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
     Some(direction.dot(a.lerp(b, from / (from - to)) - point))
 }
 
-/// Distance of a point from the straight line between two others.
+/// Distance of a point from the straight segment between two others.
 pub(super) fn distance(point: Vec2, a: Vec2, b: Vec2) -> f64 {
     let along = b - a;
     let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);

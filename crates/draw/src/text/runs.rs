@@ -1,4 +1,4 @@
-//! A line of text becomes runs from left to right, each of one direction and one font.
+//! Splits a line of text into runs from left to right, each with one direction and one font.
 
 use std::ops::Range;
 
@@ -9,16 +9,16 @@ use super::font::{Face, Font, stand_ins};
 
 /// A part of a line with one direction and one font.
 pub(super) struct FontRun<'a> {
-    /// Bytes of the line.
+    /// Range of the run in the line, bytes.
     pub(super) bytes: Range<usize>,
-    /// Whether it is read from right to left.
+    /// Whether it runs from right to left.
     pub(super) backwards: bool,
-    /// The font's letters; `None`: no font has them.
+    /// The font's letters. `None` if no font has the characters.
     pub(super) face: Option<&'a Face>,
 }
 
-/// The runs of a line in the order in which they are seen, from left to right. Lines are read as paragraphs: their first
-/// letter with a direction decides where the line begins.
+/// Returns the runs of a line in visual order, from left to right. As in a paragraph, the first letter with a direction
+/// decides the direction of the line.
 pub(super) fn runs<'a>(line: &str, font: &'a Font) -> Vec<FontRun<'a>> {
     let bidi = BidiInfo::new(line, None);
     let mut runs = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn runs<'a>(line: &str, font: &'a Font) -> Vec<FontRun<'a>> {
     runs
 }
 
-/// Parts of one font each, in the order of the text.
+/// Splits a piece into parts of one font each, in the order of the text.
 fn by_face<'a>(line: &str, piece: Range<usize>, backwards: bool, font: &'a Font) -> Vec<FontRun<'a>> {
     let mut parts: Vec<FontRun<'a>> = Vec::new();
     for unit in units(line, piece) {
@@ -57,7 +57,7 @@ fn same(a: Option<&Face>, b: Option<&Face>) -> bool {
     }
 }
 
-/// Characters with the marks and joiners that follow them.
+/// Returns the ranges of characters, each with the marks and joiners that follow it.
 fn units(line: &str, piece: Range<usize>) -> Vec<Range<usize>> {
     let mut units: Vec<Range<usize>> = Vec::new();
     let text = line.get(piece.clone()).unwrap_or_default();
@@ -71,14 +71,15 @@ fn units(line: &str, piece: Range<usize>) -> Vec<Range<usize>> {
     units
 }
 
-/// Whether a character asks for nothing to be drawn: joiners, variation selectors, direction marks and controls.
+/// Whether a character draws nothing: joiners, variation selectors, direction marks and controls.
 pub(super) fn is_invisible(character: char) -> bool {
     matches!(character, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
         || matches!(character, '\u{fe00}'..='\u{fe0f}' | '\u{feff}' | '\u{ad}' | '\u{e0100}'..='\u{e01ef}')
         || character.is_control()
 }
 
-/// The first font that has a character and its marks; else the first that has the character; blanks are every font's.
+/// Returns the first font that has a character and its marks, else the first that has the character. Blanks take the
+/// chosen font. `None` if no font has the character.
 fn face_for<'a>(unit: &str, font: &'a Font) -> Option<&'a Face> {
     let first = unit.chars().next()?;
     if first.is_whitespace() || is_invisible(first) {

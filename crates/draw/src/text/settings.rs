@@ -1,10 +1,10 @@
-//! What is drawn, and how.
+//! Settings for drawing words.
 
 use lightbots_base::Rgb;
 
 use super::font::Font;
 
-/// Most characters of a text, from the input table of the issue on drawing: shaping takes longer than linear time.
+/// Largest number of characters of a text, because the time for shaping grows faster than the length.
 pub const CHARACTERS_MAX: usize = 2_000;
 
 /// Words and how they are drawn.
@@ -12,11 +12,12 @@ pub const CHARACTERS_MAX: usize = 2_000;
 pub struct TextSettings<'a> {
     /// The words. A line break begins a new line.
     pub words: &'a str,
-    /// The font. Signs that it lacks come from the fonts inside.
+    /// The font. Signs that it lacks come from built-in fonts.
     pub font: &'a Font,
-    /// Where short lines stand.
+    /// Where lines stand that are shorter than the longest one.
     pub align: Align,
-    /// Ratio of width to height that line breaks between words should fill; `None`: no lines but those of the words.
+    /// Ratio of width to height that the text should fill, with line breaks between words. If `None`, lines break only
+    /// where `words` has line breaks.
     pub wrap: Option<f64>,
     /// Extra distance between letters, in cap heights; -0.5 to 5.
     pub letter_gap: f64,
@@ -41,16 +42,16 @@ pub enum Align {
 /// Colours of the letters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Colors {
-    /// One for all.
+    /// One colour for all letters.
     One(Rgb),
-    /// One after the other, in the order of the text, from the beginning again at their end. Empty: white.
+    /// Colours in turn, in the order of the text, from the first again after the last. If empty, all letters are white.
     Each(Vec<Rgb>),
     /// From red over green and blue to magenta, in the order of the text.
     Rainbow,
 }
 
 impl<'a> TextSettings<'a> {
-    /// White words in the middle, without wrapping.
+    /// Returns settings for white words, centred, without wrapping.
     pub fn new(words: &'a str, font: &'a Font) -> Self {
         Self {
             words,

@@ -1,4 +1,4 @@
-//! Runs become letters: glyphs, kerning, marks and joined forms by the font's own tables.
+//! Shapes runs into letters: glyphs, kerning, marks and joined forms, by the font's own tables.
 
 use std::collections::BTreeMap;
 
@@ -14,32 +14,32 @@ use super::runs::{FontRun, is_invisible, runs};
 use super::spine::spine;
 use super::strokes::{StrokeFace, StrokeLine};
 
-/// Width of a blank in a font that has none, in cap heights: about that of common sans faces.
+/// Width of a blank in a font without one, in cap heights: about that of common sans faces.
 const BLANK: f64 = 0.35;
 
-/// Most points of a whole text: 32 MB of memory, ten times what 2,000 ornate letters need.
+/// Largest number of points of a whole text: 32 MB of memory, ten times the need of 2,000 ornate letters.
 const POINTS_MAX: usize = 2_000_000;
 
-/// Largest advance of one glyph in cap heights; what is beyond is a broken font.
+/// Largest advance of one glyph, in cap heights. A larger one comes from a broken font.
 const ADVANCE_MAX: f64 = 100.0;
 
-/// Letters of one line, and where its pen ends.
+/// Letters of one line, and the width of the line.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shaped {
     /// Letters from left to right, on the baseline y = 0.
     pub(super) letters: Vec<Letter>,
-    /// Width with the blanks at its ends, in cap heights.
+    /// Width with the blanks at both ends, in cap heights.
     pub(super) width: f64,
 }
 
-/// What shaping a whole text gathers.
+/// Data that is collected while a whole text is shaped.
 #[derive(Default)]
 pub(super) struct Gathered {
-    /// Characters that no font has, with how often.
+    /// Characters that no font has, each with its number of occurrences.
     pub(super) missing: BTreeMap<char, usize>,
-    /// Points of outlines that were taken.
+    /// Number of points of the outlines used.
     points: usize,
-    /// Letters with the areas that they had, and their spines: finding a spine takes longer than all else.
+    /// Area and spine of each letter. They are kept because finding a spine takes longer than all the rest.
     spines: BTreeMap<String, (Rings, Vec<StrokeLine>)>,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Gathered {
 type Rings = Vec<Vec<Vec2>>;
 
 impl Gathered {
-    /// Whether the outlines have too many points.
+    /// Whether the outlines have too many points, more than [`POINTS_MAX`].
     pub(super) fn is_full(&self) -> bool {
         self.points > POINTS_MAX
     }
@@ -58,7 +58,7 @@ impl Gathered {
         }
     }
 
-    /// The spine of a letter, found once for the same area.
+    /// Returns the spine of a letter. It is computed again only if the letter's area has changed.
     fn spine(&mut self, shown: &str, rings: &Rings, outlines: &Outlines) -> Vec<StrokeLine> {
         if let Some((_, spine)) = self.spines.get(shown).filter(|(known, _)| known == rings) {
             return spine.clone();
@@ -69,7 +69,8 @@ impl Gathered {
     }
 }
 
-/// The letters of a line. `from` is its position in the text in bytes, `gap` goes between letters, in cap heights.
+/// Shapes the letters of a line. `from` is the line's position in the text in bytes, `gap` the extra distance between
+/// letters in cap heights.
 pub(super) fn shape(line: &str, from: usize, font: &Font, gap: f64, gathered: &mut Gathered) -> Shaped {
     let mut shaped = Shaped::default();
     for run in runs(line, font) {
@@ -84,12 +85,12 @@ pub(super) fn shape(line: &str, from: usize, font: &Font, gap: f64, gathered: &m
     shaped
 }
 
-/// A letter of an outline font that is being put together from its glyphs.
+/// A letter of an outline font while it is put together from its glyphs.
 struct Cluster {
     start: usize,
     advance: f64,
     rings: Rings,
-    /// Whether the font lacks one of its characters, such as a mark on a letter that it has.
+    /// Whether the font lacks one of the letter's characters, such as a mark on a letter that the font has.
     lacking: bool,
 }
 
@@ -127,19 +128,19 @@ fn push(letter: Letter, advance: f64, out: &mut Shaped) {
     out.width += advance;
 }
 
-/// Whether letters are written joined, so that a gap would tear them.
+/// Whether letters are written joined; a gap would tear them apart.
 fn is_joined(characters: &str) -> bool {
     characters.chars().any(|c| matches!(c, '\u{600}'..='\u{7bf}' | '\u{8a0}'..='\u{8ff}'))
 }
 
-/// Clusters of a run in the order in which they are seen.
+/// Returns the clusters of a run in visual order.
 fn clusters(text: &str, outlines: &Outlines, backwards: bool, gathered: &mut Gathered) -> Vec<Cluster> {
     let mut buffer = Buffer::new();
     buffer.push_str(text);
     buffer.guess_segment_properties();
     buffer.set_direction(if backwards { Direction::RightToLeft } else { Direction::LeftToRight });
     buffer.set_flags(BufferFlags::REMOVE_DEFAULT_IGNORABLES);
-    // A ligature would be one part of several letters.
+    // A ligature would make one part of several letters.
     let single = [b"liga", b"clig", b"dlig"].map(|tag| Feature::new(Tag::new(tag), 0, ..));
     let shaper = ShaperFont::new(outlines.file());
     if harfrust::shape(&shaper, &mut buffer, ShapeOptions::new().features(&single)).is_err() {

@@ -1,4 +1,4 @@
-//! The lines that stand for the area of a letter where robots are few.
+//! Finds the lines that replace the area of a letter when robots are few.
 
 use lightbots_base::Vec2;
 
@@ -8,7 +8,7 @@ use super::outline::Outlines;
 use super::region::LetterArea;
 use super::strokes::StrokeLine;
 
-/// Lines for the area of a letter; empty: there are none that lie inside of it and cover it.
+/// Returns lines for the area of a letter. Empty if no lines lie well inside the area and cover it.
 pub(super) fn spine(shown: &str, rings: &[Vec<Vec2>], outlines: &Outlines) -> Vec<StrokeLine> {
     let mut characters = shown.chars();
     let (Some(character), None) = (characters.next(), characters.next()) else { return Vec::new() };

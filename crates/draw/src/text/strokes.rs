@@ -1,4 +1,4 @@
-//! Single-line fonts, as SVG fonts with straight lines: the centre line of each letter.
+//! Reads single-line fonts: SVG fonts with straight lines along the middle of each stroke.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,13 +9,13 @@ use usvg::roxmltree::{Document, ParsingOptions};
 use super::region::distance;
 use crate::geometry::bounds;
 
-/// A closed line smaller than this share of the capitals is a dot, drawn by the makers as a small square.
+/// Size of a closed line, in cap heights, up to which it is a dot. Makers of such fonts draw dots as small squares.
 const DOT_SHARE: f64 = 0.16;
 
-/// Length of the line that a dot becomes, in cap heights: one robot, in a line that has a direction.
+/// Length of the line that replaces a dot, in cap heights. It holds one robot and still has a direction.
 const DOT_LENGTH: f64 = 0.02;
 
-/// A piece of a line nearer to another piece than this runs along it, in cap heights.
+/// Distance, in cap heights, below which a piece of a line runs along another piece.
 const SAME_PLACE: f64 = 0.015;
 
 /// A line of a letter, in cap heights.
@@ -24,7 +24,7 @@ pub(super) type StrokeLine = Vec<Vec2>;
 /// Lines of one letter.
 #[derive(Clone, Debug)]
 pub(super) struct StrokeGlyph {
-    /// Where the next letter begins, in cap heights.
+    /// Distance to the start of the next letter, in cap heights.
     pub(super) advance: f64,
     /// Its lines.
     pub(super) lines: Vec<StrokeLine>,
@@ -37,7 +37,7 @@ pub(super) struct StrokeFace {
 }
 
 impl StrokeFace {
-    /// The font of an SVG file with `glyph` elements; `None` if there is no H in it.
+    /// Reads the font of an SVG file with `glyph` elements. `None` if the file is damaged or has no H.
     pub(super) fn read(svg: &str) -> Option<Self> {
         let options = ParsingOptions { allow_dtd: true, ..Default::default() };
         let document = Document::parse_with_options(svg, options).ok()?;
@@ -52,7 +52,8 @@ impl StrokeFace {
                 );
             }
         }
-        // Some faces draw the middle of a stroke, which is above the baseline and below the top of capitals.
+        // Some faces draw the middle of strokes. Their feet are above the baseline, and their tops below the height of
+        // capitals.
         let (low, high) = bounds(raw.get(&'H')?.lines.iter().flatten())?;
         let scale = 1.0 / (high.y - low.y);
         if !(scale > 0.0 && scale.is_finite()) {
@@ -67,14 +68,15 @@ impl StrokeFace {
         self.glyph(character).is_some()
     }
 
-    /// The lines of a character.
+    /// Returns the lines of a character. `None` if the font lacks it.
     pub(super) fn glyph(&self, character: char) -> Option<&StrokeGlyph> {
         self.glyphs.get(&character)
     }
 }
 
 impl StrokeGlyph {
-    /// The glyph in cap heights above the foot of the capitals.
+    /// Returns the glyph in cap heights above the foot of the capitals, with dots as short lines and without retraced
+    /// pieces.
     fn placed(self, foot: f64, scale: f64) -> Self {
         let placed = |line: StrokeLine| {
             line.into_iter().map(|point| Vec2::new(point.x, point.y - foot) * scale).collect()
@@ -85,7 +87,7 @@ impl StrokeGlyph {
     }
 }
 
-/// Lines of a path of absolute `M` and `L` commands.
+/// Reads the lines of a path of absolute `M` and `L` commands.
 fn lines(path: &str) -> Vec<StrokeLine> {
     let parts = path.split('M').map(|part| {
         let mut numbers =
@@ -99,7 +101,7 @@ fn lines(path: &str) -> Vec<StrokeLine> {
     parts.filter(|line| line.len() >= 2).collect()
 }
 
-/// A short line in place of a small closed one.
+/// Returns a short line in place of a small closed one; other lines unchanged.
 fn dotted(line: StrokeLine) -> StrokeLine {
     let Some((low, high)) = bounds(line.iter()) else { return line };
     let closed = line.first() == line.last();
@@ -112,7 +114,8 @@ fn dotted(line: StrokeLine) -> StrokeLine {
     vec![centre - half, centre + half]
 }
 
-/// Lines without the pieces that run along another piece: pens go back on their lines, robots would stand there twice.
+/// Returns lines without pieces that run along a longer piece. Pens retrace their lines, but robots would stand there
+/// twice.
 fn without_retraces(lines: &[StrokeLine]) -> Vec<StrokeLine> {
     let pieces: Vec<(Vec2, Vec2)> = lines.iter().flat_map(|line| pairs(line)).collect();
     let long = |at: usize| pieces[at].0.distance(pieces[at].1);

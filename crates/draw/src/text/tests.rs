@@ -130,7 +130,7 @@ fn hebrew_is_read_from_the_right_and_latin_in_it_from_the_left() {
     let at: Vec<f64> = made.drawing.parts.iter().map(|part| extent(part).0.x).collect();
     let mut order: Vec<usize> = (0..at.len()).collect();
     order.sort_by(|a, b| at[*a].total_cmp(&at[*b]));
-    // As seen from the left: AB 12 in their own order, then shalom from its last letter to its first.
+    // As seen from the left: AB 12 in order, then shalom from its last letter to its first.
     assert_eq!(order, [4, 5, 6, 7, 3, 2, 1, 0]);
 }
 
@@ -199,7 +199,7 @@ fn colours_follow_the_text() {
         let made = draw(&TextSettings { colors, ..TextSettings::new("ABC", &font) }).unwrap();
         made.drawing.parts.iter().map(|part| part.areas[0].ink.color.number()).collect::<Vec<u32>>()
     };
-    // Half the way of the rainbow lies in the middle of green and cyan.
+    // The middle of the rainbow is halfway between green and cyan.
     assert_eq!(colors(Colors::Rainbow), [0xff_0000, 0x00_ff80, 0xff_00ff]);
     let two = vec![Rgb::new(1, 0, 0), Rgb::new(2, 0, 0)];
     assert_eq!(colors(Colors::Each(two)), [0x01_0000, 0x02_0000, 0x01_0000]);
@@ -232,10 +232,10 @@ fn a_text_scrolls_from_its_first_to_its_last_letters() {
     assert_eq!(scrolling(&TextSettings::new("I", &font), 3.0, 0).unwrap_err().code, "text-settings");
 }
 
-/// The smallest font with outlines inside.
+/// The smallest built-in font with outlines.
 const SMALL: &[u8] = include_bytes!("../../fonts/NotoSansHebrew-Bold-part.ttf");
 
-/// Whatever is read must be drawn or refused, and end.
+/// Checks that a font file that can be read is drawn or refused, without a panic.
 fn try_font(bytes: &[u8]) {
     if let Ok(font) = Font::read(bytes) {
         let _ = draw(&TextSettings::new("שלום Ab", &font));
@@ -257,7 +257,7 @@ fn fonts_with_flipped_bytes_are_refused_or_drawn() {
     for _ in 0..400 {
         let mut bytes = SMALL.to_vec();
         for _ in 0..=split_mix(&mut state) % 12 {
-            // Half of the flips hit the tables' headers, where they do most.
+            // Half of the flips hit the headers of the tables, where they have most effect.
             let among = if split_mix(&mut state).is_multiple_of(2) { 600 } else { bytes.len() as u64 };
             let at = (split_mix(&mut state) % among) as usize;
             bytes[at] = split_mix(&mut state) as u8;

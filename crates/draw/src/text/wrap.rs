@@ -1,13 +1,14 @@
-//! Words are spread over the number of lines that fills a rectangle best.
+//! Distributes words over the number of lines that fills a rectangle best.
 
 use super::lines::{lines, words};
 use super::settings::TextSettings;
 use super::shape::{Gathered, shape};
 
-/// Most lines that are tried.
+/// Largest number of lines that is tried.
 const LINES_MAX: usize = 60;
 
-/// Halvings in the search for the narrowest lines: 2^-40 of the width is below any rounding that matters.
+/// Bisection steps in the search for the smallest width of lines. 2^-40 of the width is below any rounding that
+/// matters.
 const HALVINGS: usize = 40;
 
 /// Height of a line without its gap, in cap heights.
@@ -20,7 +21,7 @@ struct Word {
     width: f64,
 }
 
-/// Lines with their positions in the text. Line breaks of the text stay.
+/// Returns lines with their positions in the text. Line breaks of the text are kept.
 pub(super) fn wrap(
     text: &str,
     ratio: f64,
@@ -57,7 +58,7 @@ pub(super) fn wrap(
         .collect()
 }
 
-/// The smallest width at which the words need no more lines than wanted; `None` if there is none.
+/// Returns the smallest width at which the words need at most `wanted` lines. `None` if there is none.
 fn narrowest(paragraphs: &[Vec<Word>], blank: f64, wanted: usize, all: f64) -> Option<f64> {
     let fits = |width: f64| rows(paragraphs, blank, width).len() <= wanted;
     if !fits(all) {
@@ -81,7 +82,7 @@ struct Row {
     width: f64,
 }
 
-/// Lines filled from the first word on; a word that is too wide has a line of its own.
+/// Fills lines of at most `width` with words, from the first word on. A word that is wider has a line of its own.
 fn rows(paragraphs: &[Vec<Word>], blank: f64, width: f64) -> Vec<Row> {
     let mut rows = Vec::new();
     for paragraph in paragraphs {
