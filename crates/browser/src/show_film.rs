@@ -19,8 +19,8 @@ pub struct FilmPainter {
 
 #[wasm_bindgen]
 impl FilmPainter {
-    /// Prepares a film of a show, as seen from seats before the front edge or from above. Sides are limited to 16 to
-    /// 4,096 pixels.
+    /// Prepares a film of a show, as seen from seats before the front edge or from above. Sides are at least 16 and
+    /// at most 4,096 pixels.
     #[wasm_bindgen(constructor)]
     pub fn new(light: &PlannedLight, from_front: bool, width: u32, height: u32, fps: f64) -> FilmPainter {
         let view = if from_front { FilmView::Front } else { FilmView::Above };

@@ -25,7 +25,7 @@ pub(crate) enum Freedom {
 pub(crate) struct Room<'a> {
     /// Buckets of `points`.
     pub inside: &'a Buckets<'a>,
-    /// Points of a dense grid inside the drawing.
+    /// Places of the samples inside the drawing, close together.
     pub points: &'a [Vec2],
     /// A free place farther than this from every point is outside the drawing and moves to the nearest point.
     pub slack: f64,

@@ -10,8 +10,8 @@ use crate::settings::PlaceSettings;
 /// Share of the largest size on the floor that a picture takes if no size is set.
 const SHARE: f64 = 0.8;
 
-/// Largest spacing of lights in a picture without a set size, in least spacings. With a larger one they do not look
-/// like one picture from the edge of the floor.
+/// About the largest spacing of lights in a picture without a set size, in least spacings. With a larger one they do
+/// not look like one picture from the edge of the floor.
 const LOOSE: f64 = 4.0;
 
 /// Where lights may stand.

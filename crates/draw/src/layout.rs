@@ -53,7 +53,8 @@ const EDGE_APART: f64 = 0.82;
 /// and are pushed apart later.
 const LINE_APART: f64 = 0.6;
 
-/// Number of places up to which several numbers of places on the axis are tried, and always an asymmetric arrangement.
+/// Up to this number of places, several numbers of places on the axis are tried. An asymmetric arrangement is tried in
+/// any case.
 const FEW: usize = 60;
 
 /// Places of one part, and how each may move.

@@ -137,8 +137,8 @@ fn edges(track: &LineSet, cuts: &BTreeMap<usize, Vec<f64>>, mirror: Option<Mirro
     edges
 }
 
-/// Returns where lights on a closed line begin, as a length along it: at its top, or with a mirror axis near that axis,
-/// which keeps the lights symmetric.
+/// Returns where lights on a closed line begin, as a length along it. That is at its top, or on the mirror
+/// axis if there is one, which keeps the lights symmetric.
 fn beginning(line: &Polyline, mirror: Option<Mirror>) -> f64 {
     let high = |at: Vec2| match mirror {
         Some(Mirror::UpDown(_)) => at.x,

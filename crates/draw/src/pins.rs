@@ -105,7 +105,7 @@ fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     track.lines[line_a].apart(arc_a, arc_b) > 3.0 * window
 }
 
-/// Whether a segment that ends at the first point comes nearer than `touch` to one that ends at the second.
+/// Whether one of the segments at the first point comes nearer than `touch` to one of those at the second point.
 fn pieces_touch(track: &LineSet, a: usize, b: usize, touch: f64) -> bool {
     let pieces = |point: usize| {
         let (line, arc) = track.arc_of(point);

@@ -32,8 +32,8 @@ pub struct Placed {
 /// Why a picture was refused.
 struct Refusal {
     error: DrawError,
-    /// Distance of the closest pair at the largest size, as a share of the spacing. `None` if a smaller spacing would
-    /// not help.
+    /// Distance of the closest pair at the largest size, as a share of the spacing. `None` if the picture
+    /// was refused for another reason.
     share: Option<f64>,
 }
 

@@ -42,8 +42,8 @@ pub struct RefitLight {
 }
 
 /// Returns the picture of `lights` with `robots` lights at least `spacing_m` apart. Lights for which `pinned` is true
-/// are removed last and do not move relative to each other. Each light that stays keeps its colour. A new one takes the
-/// colour of the nearest old light.
+/// are removed last, and move only if the whole picture is scaled or shifted. Each light that stays keeps its colour. A
+/// new one takes the colour of the nearest old light.
 ///
 /// # Errors
 /// No lights to begin with, no robots or more than [`MAX_ROBOTS`], or more lights than find room on the floor.
@@ -65,7 +65,7 @@ pub fn refit(
         return Err(DrawError::new("bad-setting", what));
     }
     let task = Refit::new(lights, pinned, robots, spacing_m, floor);
-    // If the number of lights does not change, no light moves, and the width does not matter.
+    // If the number of lights does not change, there is no relaxation, and the width does not matter.
     let widths = if robots == lights.len() { &HALF_WIDTHS[..1] } else { &HALF_WIDTHS };
     let mut refusal = None;
     for half_width in widths {

@@ -1,5 +1,5 @@
-//! Lloyd's relaxation: each place moves to the centroid of its cell, the part of the drawing that is nearest to it
-//! (Lloyd 1982; weighted as in Secord, Weighted Voronoi Stippling, 2002).
+//! Lloyd's relaxation (Lloyd 1982; weighted as in Secord, Weighted Voronoi Stippling, 2002). Each place moves to the
+//! centroid of its cell, which is the part of the drawing that is nearest to it.
 
 use lightbots_base::Vec2;
 
@@ -96,8 +96,9 @@ struct Cell {
     moment: Vec2,
     /// Sum of the squared distances from the place times the masses.
     distortion: f64,
-    /// Largest contribution of one sample to the distortion, and below it the place of that sample.
+    /// Largest contribution of one sample to the distortion.
     most: f64,
+    /// Place of that sample.
     farthest: Vec2,
 }
 

@@ -16,8 +16,9 @@ pub enum FilmView {
 /// Projects a stage into a picture of a given size. It is a pinhole camera; from above it is infinitely far away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Offset of the picture, and below it the scale: pixels per unit of the camera's plane.
+    /// Place of the camera's axis in the picture, pixels.
     shift: (f64, f64),
+    /// Pixels per unit of the camera's plane.
     scale: f64,
     /// The eye of a view from the front. `None` from above.
     eye: Option<Eye>,

@@ -20,9 +20,11 @@ const COLUMNS_MAX: usize = 8;
 const WIDTH_MAX: usize = 3_200;
 /// Least and largest width of a picture if no size is given, pixels.
 const PICTURE: (usize, usize) = (160, 480);
-/// Space around pictures, the line below each, and the heading, pixels.
+/// Space around pictures, pixels.
 const GAP: usize = 16;
+/// Height of the line of text below each picture, pixels.
 const LINE: usize = 30;
+/// Height of the heading, pixels.
 const HEADING: usize = 64;
 /// The paper, sRGB.
 const PAPER: u8 = 12;

@@ -7,8 +7,9 @@ use lightbots_show::{CuePlace, Show, clock_label};
 use crate::pdf_page::{MARGIN, Mark, PAGE, document};
 use crate::words::{numbered, short};
 
-/// Height of a row of a table, and size of its letters, points.
+/// Height of a row of a table, points.
 const ROW: f32 = 14.0;
+/// Font size of tables and text, points.
 const LETTERS: f32 = 9.0;
 /// Columns of the table of starting places.
 const COLUMNS: usize = 3;

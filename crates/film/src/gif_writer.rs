@@ -7,19 +7,21 @@ use std::io::Write;
 use color_quant::NeuQuant;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 
-/// Number of colours of a palette. One more index means "unchanged".
+/// Number of colours of a palette.
 pub const GIF_COLOURS: usize = 255;
+/// Palette index of pixels that do not change: the transparent colour.
 const AS_BEFORE: u8 = GIF_COLOURS as u8;
 /// Largest number of pixels of which a palette is made.
 const SAMPLES_MAX: usize = 300_000;
-/// A pixel darker than this in all channels, 0 to 255, is dark. One in `DARK_SHARE` dark pixels is a sample: most of a
-/// floor is dark, and lights would otherwise get few colours.
+/// A pixel darker than this in all channels, 0 to 255, is dark.
 const DARK: u8 = 24;
+/// One in this number of dark pixels is a sample. Most of a floor is dark, and lights would otherwise get few colours.
 const DARK_SHARE: usize = 24;
 /// Learning uses one sample in this number. With 1 the result looks best; with 10 learning is ten times as fast.
 const LEARNING: i32 = 3;
 /// Number of upper bits of each channel by which the nearest colour is chosen.
 const BITS: u32 = 6;
+/// Entry of `GifPalette::nearest` for a colour that was not needed yet.
 const UNKNOWN: u16 = u16::MAX;
 
 /// Why a GIF cannot be written.

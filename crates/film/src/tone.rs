@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use lightbots_base::Rgb;
 use lightbots_light::Linear;
 
-/// Number of steps of the table. Where light is darkest, they are finer than those of most bytes.
+/// Number of steps of the table. Each code from 1 on covers several of them, also where light is darkest.
 const STEPS: usize = 1 << 14;
 
 /// Returns the table of sRGB codes for linear light from 0 to 1, in [`STEPS`] steps.
@@ -46,7 +46,7 @@ mod tests {
 
     #[test]
     fn each_code_comes_back() {
-        // Below code 6 a step of the table is coarser than a code. No lamp is nearly that dark.
+        // Codes below 6 are left out, because no lamp is nearly that dark.
         for code in 6..=255 {
             assert_eq!(bytes(codes(), light(Rgb::new(code, code, code))), [code; 3]);
         }

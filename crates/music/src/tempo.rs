@@ -3,8 +3,9 @@
 
 use crate::onsets::{FRAMES_PER_S, Onsets};
 
-/// Tempi that are looked for, beats a minute.
+/// The slowest tempo that is tried, beats per minute.
 const SLOWEST_BPM: f64 = 45.0;
+/// The fastest tempo that is tried, beats per minute.
 const FASTEST_BPM: f64 = 230.0;
 
 /// Number of tempi per octave: steps of 1.5 %.
@@ -16,9 +17,9 @@ const SPAN_S: f64 = 8.0;
 /// Weights of one, two, three and four beats in the comb.
 const COMB: [f64; 4] = [1.0, 0.7, 0.5, 0.4];
 
-/// The tempo that people tap most readily, beats per minute, and below it the standard deviation of tapped tempi,
-/// octaves.
+/// The tempo that people tap most readily, beats per minute.
 const USUAL_BPM: f64 = 115.0;
+/// Standard deviation of the tempi that people tap, octaves.
 const USUAL_OCTAVES: f64 = 0.7;
 
 /// Weight of the bass relative to all bands. It counts extra because notes between beats seldom have bass.

@@ -9,8 +9,8 @@ use crate::picture::bitmap::{BitMask, Bitmap, neighbours};
 const BRIGHT_MIN: u8 = 90;
 /// A pixel below this in all channels, 0 to 255, is black. A thing that is mostly black is shown in white.
 const BLACK: u8 = 40;
-/// Number of rounds in which colours of the thing spread across its border, where pixels mix with the background. One
-/// pixel each.
+/// Number of rounds in which colours of the thing spread across its border, by one pixel in each round. At the border,
+/// pixels mix with the background.
 const CARRIES: usize = 6;
 /// Shares of all pixels that are darker than the values taken as black and as white.
 const ENDS: [f64; 2] = [0.02, 0.98];

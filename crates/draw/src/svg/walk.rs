@@ -47,7 +47,7 @@ pub struct Walk {
 struct Context {
     /// Transform from the group to the page.
     transform: Transform,
-    /// Areas outside of each of which paint is cut off.
+    /// Paint outside any of these areas is cut off.
     clips: Vec<Region>,
     opacity: f64,
     /// How a mask's brightness is measured. `None` outside masks and clip paths.
