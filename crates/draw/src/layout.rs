@@ -38,8 +38,8 @@ const APART: f64 = 0.88;
 /// preferred.
 const SYMMETRY_WORTH: f64 = 1.25;
 
-/// Mean squared distance from the middle of a hexagon of area 1, which is 5 / (18 √3): the least of all cells that fill
-/// a plane.
+/// Mean squared distance from the middle of a hexagon of area 1: 5 / (18 √3). No other cells that fill a plane have
+/// less.
 const HEXAGON: f64 = 0.160_375;
 
 /// Multiple of the hexagons' energy up to which an arrangement is even enough. The drawing's edges alone cost that.
@@ -325,8 +325,8 @@ fn on_axis(samples: &[Sample], mirror: Mirror, count: usize, pitch: f64) -> Vec<
     (0..count).map(|i| mirror.onto(near[(2 * i + 1) * near.len() / (2 * count)])).collect()
 }
 
-/// The spacing at which an outline of this length and a filling of this area together take `count` places:
-/// L / s + (A − L s / 2) / (0.866 s²) = N.
+/// Returns the spacing s at which an outline of length L and a filling of area A together take N = `count` places.
+/// It solves L / s + (A − L s / 2) / (0.866 s²) = N.
 fn balanced_spacing(length: f64, area: f64, count: usize) -> f64 {
     let taken = |s: f64| length / s + hexagonal_count(area - length * s / 2.0, s);
     let (mut low, mut high) = (1e-6 * length, length);

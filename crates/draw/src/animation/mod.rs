@@ -53,8 +53,8 @@ impl Animation {
     }
 }
 
-/// Reads the pixels of a file: the single picture of a PNG, JPEG or WebP file, or the pictures of a GIF or animated
-/// WebP file. There is at least one.
+/// Reads the pictures of a file: one picture of a PNG, JPEG or WebP file, all pictures of a GIF or animated WebP file.
+/// There is at least one.
 ///
 /// # Errors
 /// Files without pixels, damaged files, and pictures that are too large.
