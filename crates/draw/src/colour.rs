@@ -24,8 +24,8 @@ impl<'a> Paint<'a> {
         Self { part, single }
     }
 
-    /// Returns the colour at a place: that of the picture, else of the last area that covers the place. Outside all areas
-    /// the nearest area or line counts.
+    /// Returns the colour at a place: that of the picture, else of the last area that covers the place. Outside all
+    /// areas the nearest area or line counts.
     pub fn at(&self, at: Vec2) -> Rgb {
         if let Some(color) = self.single {
             return color;

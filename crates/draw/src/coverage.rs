@@ -94,8 +94,8 @@ impl Grid {
         }
     }
 
-    /// Returns the crossings of each scan line with the area's rings. A crossing has its distance from the left in cells,
-    /// and 1 if the ring goes up there, −1 if it goes down.
+    /// Returns the crossings of each scan line with the area's rings. A crossing has its distance from the left in
+    /// cells, and 1 if the ring goes up there, −1 if it goes down.
     fn crossings(&self, area: &Area) -> Vec<Vec<(f64, i32)>> {
         let mut lines = vec![Vec::new(); self.rows * LINES];
         let scaled = |point: Vec2| {
