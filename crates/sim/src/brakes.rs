@@ -8,22 +8,22 @@ use serde::Serialize;
 const FREE_STEPS: u64 = 10;
 /// A robot farther than this from the place of its route is off its route, metres. Planned clearances are about as wide.
 const OFF_ROUTE_M: f64 = 0.01;
-/// Robots this much beyond the range of the proximity sensors still count as ahead, metres: both move by at most 9 mm
-/// between the reading and the classification.
+/// Distance beyond the range of the proximity sensors at which a robot still counts as ahead, metres. Both robots move
+/// by at most 9 mm between the reading and the classification.
 const BEYOND_SIGHT_M: f64 = 0.01;
 
-/// Episodes of braking in a rehearsal.
+/// Numbers of braking episodes in a rehearsal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct BrakeCounts {
-    /// How often the safety layer of a robot began to slow it.
+    /// Number of all episodes. In each, the safety layer of a robot began to slow it.
     pub all: u64,
-    /// How many of those had no faulty and no off-route robot ahead.
+    /// Number of the episodes in which no faulty robot and no off-route robot was ahead.
     #[serde(rename = "false")]
     pub unfounded: u64,
 }
 
-/// Counts brakes. An episode is classified one step after it began, because the world has then reached the moment for which
-/// routes state their places.
+/// Counts braking episodes. Each is classified one step after its begin: only then has the world reached the time for
+/// which routes state robots' places.
 #[derive(Debug)]
 pub(crate) struct Brakes {
     counts: BrakeCounts,
@@ -61,8 +61,8 @@ impl Brakes {
         self.new_from[robot] = step + FREE_STEPS + 1;
     }
 
-    /// Classifies the episodes that began in the step before. `is_amiss(robot, off_m)`: the robot is faulty, or farther
-    /// than `off_m` from its route.
+    /// Classifies the episodes that began in the step before. `is_amiss(robot, off_m)` returns whether the robot is
+    /// faulty, or farther than `off_m` from its route.
     #[inline]
     pub fn classify(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
         for Brake { robot, towards } in self.begun.drain(..) {

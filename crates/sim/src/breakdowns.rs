@@ -19,16 +19,16 @@ pub(crate) enum Fate {
     Cut,
     /// Its link is restored.
     Linked,
-    /// Its fixes stay away.
+    /// It gets no position fixes.
     Blinded,
-    /// Its fixes come again.
+    /// It gets position fixes again.
     Seeing,
 }
 
 /// All breakdowns of a rehearsal.
 #[derive(Clone, Debug)]
 pub(crate) struct Breakdowns {
-    /// Robots and their fates.
+    /// Robots and what happens to them, by the time after the first departure.
     coming: Timetable<(usize, Fate)>,
     broke_down: Vec<usize>,
     mute: Vec<bool>,
@@ -36,8 +36,8 @@ pub(crate) struct Breakdowns {
 }
 
 impl Breakdowns {
-    /// The breakdowns of the conditions. Random ones happen between a tenth and eight tenths of the planned duration.
-    /// Entries for robots beyond the last are dropped.
+    /// Makes the breakdowns of the conditions. Random times lie between a tenth and eight tenths of the planned
+    /// duration. Breakdowns of robots beyond the last one are dropped.
     pub fn new(conditions: &Conditions, robots: usize, planned_s: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Breakdowns);
         let mut fate_of = |breakdown: &Breakdown, fate| {
@@ -66,7 +66,7 @@ impl Breakdowns {
         }
     }
 
-    /// The next robot that breaks down until a time after the first departure.
+    /// Takes the next breakdown or recovery that is due at a time after the first departure. `None` if none is due.
     pub fn next_until(&mut self, since_begin: Span) -> Option<(usize, Fate)> {
         let (robot, fate) = self.coming.next_until(since_begin)?;
         match fate {

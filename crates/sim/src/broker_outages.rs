@@ -1,4 +1,4 @@
-//! The broker freezes, or is gone for a while.
+//! Outages of the broker: it freezes, or is gone for a while.
 
 use lightbots_base::Span;
 
@@ -6,13 +6,13 @@ use crate::conditions::{Conditions, Outage};
 use crate::dice::{Dice, Purpose};
 use crate::timetable::Timetable;
 
-/// Longest time until a client finds a broker that is back: it looks for it that often.
+/// Longest time until a client finds a broker that is back, seconds: clients look for it at this interval.
 const RECONNECTS_WITHIN_S: f64 = 2.0;
 
 /// What happens to links because of the broker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BrokerEvent {
-    /// The broker stops to pass on messages, for this long. Connections stay.
+    /// The broker stops passing on messages, for this long. Connections stay.
     Freezes(Span),
     /// All connections break; what is under way is lost.
     Dies,
@@ -46,7 +46,7 @@ impl BrokerOutages {
         Self { coming: Timetable::new(coming), is_away: vec![false; robots], is_controller_away: false }
     }
 
-    /// The next event until a time after the first departure.
+    /// Takes the next event that is due at a time after the first departure. `None` if none is due.
     pub fn next_until(&mut self, since_begin: Span) -> Option<BrokerEvent> {
         let event = self.coming.next_until(since_begin)?;
         match event {

@@ -5,16 +5,17 @@ use lightbots_base::Vec2;
 use crate::contacts::PARTED_M;
 use crate::floor::{Floor, FloorObject};
 
-/// A robot farther than this over the floor's edge counts as a contact, metres. Pixels may lie at the edge, and robots that
-/// drive along it come 5 mm over it with standard noise. Above, robots that leave the floor are overlooked.
+/// Distance over the floor's edge above which a robot counts in [`Bumps::over`], metres. Pixels may lie at the edge,
+/// and robots that drive along it come 5 mm over it with standard noise. A larger value would overlook robots that
+/// leave the floor.
 pub const EDGE_SLACK_M: f64 = 0.01;
 
-/// Number of contacts with walls and no-go areas. A robot that parted and touches again counts again.
+/// Numbers of contacts with walls and no-go areas. A robot that parted and touches again counts again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bumps {
     /// Touches of the floor's edge.
     pub edges: u64,
-    /// Touches of the edge that pressed on by more than [`EDGE_SLACK_M`].
+    /// Contacts with the edge in which the robot was pressed on by more than [`EDGE_SLACK_M`].
     pub over: u64,
     /// Touches of no-go areas.
     pub obstacles: u64,
@@ -30,7 +31,8 @@ pub struct Bump {
     pub robot: usize,
     /// What it touches.
     pub thing: FloorObject,
-    /// It has touched the floor's edge for a while, and would be over it by more than [`EDGE_SLACK_M`] now.
+    /// Whether the wall has kept the robot from coming over the floor's edge by more than [`EDGE_SLACK_M`]. `false`:
+    /// the contact begins.
     pub over: bool,
 }
 
@@ -38,7 +40,7 @@ pub struct Bump {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Against {
     thing: FloorObject,
-    /// Distance by which it would have gone on since, metres.
+    /// Distance by which the robot would have gone on since the contact began, metres.
     pressed_m: f64,
 }
 
@@ -53,7 +55,8 @@ impl Bumps {
         self.fresh.clear();
     }
 
-    /// Updates the contact of a robot at `place` that was moved out of a thing, by a distance in metres, or out of none.
+    /// Updates the contact of a robot at `place`. `out_of`: the thing that the robot was moved out of, and by what
+    /// distance in metres. Returns `None` if the robot touches nothing.
     pub(crate) fn update(
         &mut self,
         robot: usize,

@@ -5,10 +5,10 @@ use lightbots_lighting::Tolerance;
 
 use crate::mishap::Mishap;
 
-/// All conditions of a rehearsal. The default is the standard.
+/// All conditions of a rehearsal. The default is the standard conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
-    /// Share of a wheel's turning that does not move the body, in the mean; 0 to 0.5.
+    /// Mean share of a wheel's turning that does not move the body; 0 to 0.5.
     pub slip: f64,
     /// Largest drift of the robots' clocks, parts per million.
     pub clock_ppm: f64,
@@ -16,7 +16,7 @@ pub struct Conditions {
     pub fixes: FixConditions,
     /// The network between the controller and each robot.
     pub link: LinkConditions,
-    /// Number of original robots, which know only `TARGET` and `COLOR`. They are the last in order.
+    /// Number of original robots, which understand only `TARGET` and `COLOR`. They are the last in starting order.
     pub originals: usize,
     /// Robots whose power fails: they stand and send nothing.
     pub killed: Vec<Breakdown>,
@@ -24,29 +24,30 @@ pub struct Conditions {
     pub muted: Vec<Breakdown>,
     /// Robots whose wheels stop turning. They still receive and send.
     pub stuck: Vec<Breakdown>,
-    /// Robots whose left wheel moves the body by this share of its turning only, because it is bent or worn.
+    /// Robots with a bent or worn left wheel, and the share of its turning that moves the body.
     pub worn: Vec<(usize, f64)>,
-    /// Robots whose markers are turned on them: the headings of their fixes are off by this, radians.
+    /// Robots whose markers are turned on them, and the error of the headings of their fixes, radians.
     pub turned_markers: Vec<(usize, f64)>,
-    /// Robots whose link breaks, with the duration.
+    /// Robots whose link breaks, and for how long.
     pub cut: Vec<(Breakdown, Span)>,
-    /// Robots whose fixes stay away, with the duration.
+    /// Robots that get no fixes, and for how long.
     pub blind: Vec<(Breakdown, Span)>,
-    /// The broker passes nothing on; connections stay. Messages wait.
+    /// Times at which the broker passes nothing on. Connections stay, and messages wait.
     pub frozen: Vec<Outage>,
-    /// The broker is gone: connections break.
+    /// Times at which the broker is gone and all connections are broken.
     pub gone: Vec<Outage>,
-    /// The controller is killed, and another one goes on with its run.
+    /// Times without a controller: it is killed, and another one then continues its run.
     pub crashed: Vec<Outage>,
-    /// What else happens, by its time after the first departure.
+    /// Mishaps, by their times after the first departure.
     pub mishaps: Vec<(Span, Mishap)>,
-    /// Frames, counted from 0, that the operator sends robots to: to the next of them each time a frame stands.
+    /// Frames, counted from 0, that the operator sends robots to. Each time robots have reached a frame, the operator
+    /// chooses the next of these.
     pub visits: Vec<usize>,
     /// How long the operator lets a frame wait for GO.
     pub go_after: Span,
-    /// How far robots' lights may be from the colours of layers.
+    /// Largest difference between robots' lights and the colours of layers.
     pub light_tolerance: Tolerance,
-    /// How often frames that repeat until GO are played before the operator gives it.
+    /// How many rounds of a loop are played before the operator gives GO.
     pub loop_rounds: u32,
 }
 
@@ -61,11 +62,11 @@ pub struct FixConditions {
     pub bias_m: f64,
     /// Steps of 16 ms from one fix to the next; at least 1.
     pub every: u32,
-    /// Age of a fix when it comes; at most 1 s.
+    /// Age of a fix when the robot gets it; at most 1 s.
     pub delay: Span,
     /// Duration of a drop-out of fixes, about every 20 s for each robot; zero: no drop-outs.
     pub dropout: Span,
-    /// Probability that a fix is anywhere within a metre.
+    /// Probability that a fix is an outlier, off by up to 1 m along each axis.
     pub outliers: f64,
 }
 
@@ -76,13 +77,13 @@ pub struct LinkConditions {
     pub delay_min: Span,
     /// Largest delay of a message without jitter.
     pub delay_max: Span,
-    /// Largest additional delay of one message in ten. It holds up those behind it.
+    /// Largest additional delay, which one message in ten has. It holds up the messages behind that one.
     pub jitter: Span,
     /// Probability that a message is lost.
     pub loss: f64,
     /// Probability that a message is duplicated.
     pub double: f64,
-    /// Probability that a message is overtaken by those behind it. Without it a link keeps their order, as TCP does.
+    /// Probability that later messages may overtake a message. All others keep their order, as with TCP.
     pub reorder: f64,
 }
 
@@ -95,7 +96,7 @@ pub struct Breakdown {
     pub at: Option<Span>,
 }
 
-/// A time without a broker, or without a controller.
+/// A time without a working broker, or without a controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outage {
     /// When it begins, after the first departure.

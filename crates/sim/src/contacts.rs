@@ -2,15 +2,16 @@
 
 use lightbots_base::Vec2;
 
-/// Distance by which a standing robot can be pushed along its wheels' direction before it stands like a wall, metres.
+/// Distance by which a standing robot can be pushed along its wheels' direction before it no longer yields, metres.
 /// Measured in Webots R2023b on 2026-11-21.
 const SLACK_M: f64 = 0.01;
 /// Distance that a standing robot moves sideways in a step when it is pushed, metres: 0.06 m/s, measured in Webots
 /// R2023b on 2026-11-21.
 const SIDEWAYS_M: f64 = 0.06 * 0.016;
-/// Robots that touched have parted when their rims are this far apart, metres. Below, one contact counts several times.
+/// Distance of rims from which robots that touched have parted, metres. A smaller value would count one contact several
+/// times.
 pub(crate) const PARTED_M: f64 = 0.0005;
-/// Rounds over the list in a step. Each moves a push one robot further along a chain.
+/// Rounds over the list of pairs in a step. Each passes a push on to the next robot of a chain.
 const ROUNDS: usize = 4;
 
 /// How a robot resists a push.
@@ -25,12 +26,13 @@ pub(crate) struct ContactState {
 }
 
 impl ContactState {
-    /// A robot that is not pushed.
+    /// The state of a standing robot that is not pushed.
     pub fn new(forward: Vec2) -> Self {
         Self { forward, stands: true, slack_m: SLACK_M }
     }
 
-    /// Distance by which it yields in direction `push` (a unit vector) in one step, at most `wanted_m`. Reduces its slack.
+    /// Returns the distance by which the robot yields in direction `push` (a unit vector) in one step, at most
+    /// `wanted_m`. Reduces its slack.
     fn give_way(&mut self, push: Vec2, wanted_m: f64) -> f64 {
         let along = self.forward.dot(push);
         let along_share = along * along;
@@ -45,22 +47,23 @@ impl ContactState {
 #[derive(Clone, Debug)]
 pub struct Contacts {
     contact_m: f64,
-    /// Pairs this near are seen by proximity sensors, metres.
+    /// Distance of centres below which two robots see each other with proximity sensors, metres.
     sight_m: f64,
     /// Pairs within sight.
     in_sight: Vec<(u32, u32)>,
     /// Pairs that touch, sorted.
     touching: Vec<(u32, u32)>,
-    /// Pairs that were closer than contact at the end of this step.
+    /// Pairs that overlapped in this step, before they were moved apart.
     now: Vec<(u32, u32)>,
-    /// Pairs that came to touch in this step.
+    /// Pairs that began to touch in this step.
     fresh: Vec<(u32, u32)>,
     count: u64,
     closest_squared: f64,
 }
 
 impl Contacts {
-    /// Discs that touch where their centres are closer than `contact_m`, and see each other closer than `sight_m`.
+    /// Contacts of discs that touch if their centres are closer than `contact_m`, and see each other if closer than
+    /// `sight_m`.
     pub(crate) fn new(contact_m: f64, sight_m: f64) -> Self {
         let (touching, now, fresh) = (Vec::new(), Vec::new(), Vec::new());
         Self {
@@ -85,7 +88,7 @@ impl Contacts {
         self.count
     }
 
-    /// Pairs that came to touch in the last step.
+    /// Pairs that began to touch in the last step.
     pub fn fresh(&self) -> &[(u32, u32)] {
         &self.fresh
     }
@@ -95,7 +98,7 @@ impl Contacts {
         (self.closest_squared < f64::MAX).then(|| libm::sqrt(self.closest_squared))
     }
 
-    /// Pairs that saw each other before those that touched were moved apart.
+    /// Pairs that saw each other in the last step, before robots that touched were moved apart.
     pub(crate) fn in_sight(&self) -> &[(u32, u32)] {
         &self.in_sight
     }
@@ -161,7 +164,7 @@ impl Contacts {
         }
     }
 
-    /// One round over the list. Whether any robots overlapped.
+    /// Moves robots apart in one round over the list. Returns whether any overlapped.
     fn part(
         &self,
         pairs: &[(u32, u32)],
@@ -189,7 +192,7 @@ impl Contacts {
         places: &mut [Vec2],
         contact_states: &mut [ContactState],
     ) {
-        // Robots at the same place part along x. Any direction will do, as long as it is always the same.
+        // Robots at the same place part along x. Any fixed direction will do.
         let (distance, normal) = match gap.normalized() {
             Some(normal) => (gap.length(), normal),
             None => (0.0, Vec2::new(1.0, 0.0)),

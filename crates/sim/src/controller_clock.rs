@@ -3,34 +3,34 @@
 use lightbots_base::{Instant, Span};
 use lightbots_control::{Event, EventKind, UnfinishedRun};
 
-/// Time of day when a rehearsal begins, microseconds since 1970: any will do that can be set back by hours.
+/// Time of day at the begin of a rehearsal, microseconds since 1970. Any time will do that can be set back by hours.
 const BEGINS_US: u64 = 1_800_000_000_000_000;
 
 /// The clocks of the controller's computer against virtual time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControllerClock {
-    /// How far the show clock is ahead.
+    /// How far the show clock is ahead of virtual time.
     ahead: Span,
-    /// How far the time of day is ahead of what it was at the begin.
+    /// How far the time of day was set ahead since the begin.
     day_ahead: Span,
-    /// The computer sleeps until then.
+    /// When the computer wakes up. It sleeps until this time.
     asleep_until: Instant,
 }
 
 impl ControllerClock {
-    /// The moment that the show clock shows.
+    /// Time on the show clock at a virtual time.
     #[inline]
     pub fn shows(&self, now: Instant) -> Instant {
         now + self.ahead
     }
 
-    /// When the show clock shows a moment.
+    /// Virtual time at which the show clock shows a moment. [`Instant::FAR`] stays the same.
     #[inline]
     pub fn when(&self, shown: Instant) -> Instant {
         if shown == Instant::FAR { shown } else { shown - self.ahead }
     }
 
-    /// An event of the controller, by virtual time.
+    /// Converts the times of an event of the controller from the show clock to virtual time.
     pub fn in_virtual_time(&self, event: Event) -> Event {
         let Event { at, mut kind } = event;
         if let EventKind::TransitionStarted { starts, .. } = &mut kind {
@@ -44,12 +44,12 @@ impl ControllerClock {
         (Instant(BEGINS_US + now.0) + self.day_ahead).0
     }
 
-    /// The time of day is set. A program that runs does not heed it.
+    /// Sets the time of day forwards by a span. A running program does not notice it.
     pub fn set(&mut self, by: Span) {
         self.day_ahead += by;
     }
 
-    /// The computer sleeps. Its clocks go on.
+    /// Lets the computer sleep until a time. Its clocks go on.
     pub fn sleep(&mut self, until: Instant) {
         self.asleep_until = self.asleep_until.max(until);
     }
@@ -60,7 +60,7 @@ impl ControllerClock {
         now < self.asleep_until
     }
 
-    /// A new controller takes up a run, with a show clock that goes on from that run's.
+    /// Sets the show clock of a new controller, which goes on from the clock of the run that it continues.
     pub fn go_on(&mut self, now: Instant, run: &UnfinishedRun) {
         self.ahead = run.show_clock_at(self.time_of_day_us(now)) - now;
     }

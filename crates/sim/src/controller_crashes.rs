@@ -1,4 +1,4 @@
-//! The controller is killed, and another one goes on with its run from the journal.
+//! Crashes of the controller: it is killed, and another one continues its run from the journal.
 
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_control::UnfinishedRun;
@@ -7,9 +7,9 @@ use crate::conditions::Outage;
 use crate::disk::Disk;
 use crate::timetable::Timetable;
 
-/// A robot that moves no farther than this in a step stands, metres: 3 mm/s.
+/// A robot that moves no farther than this in a step stands still, metres. At 16 ms a step this is 3 mm/s.
 const STANDS_M: f64 = 0.000_05;
-/// Robots that have no controller for this long have stopped by themselves (R43 of docs/protocol.md).
+/// Time without a controller after which robots have stopped by themselves (R43 of docs/protocol.md).
 const STOPPED: Span = Span::from_millis(2_200);
 
 /// What happens to the controller.
@@ -25,21 +25,21 @@ pub(crate) enum CrashEvent {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ControllerCrashes {
     coming: Timetable<CrashEvent>,
-    /// There is no controller.
+    /// Whether there is no controller.
     is_gone: bool,
-    /// Where the journal is.
+    /// The disk with the journal.
     pub disk: Disk,
     stops: Stops,
 }
 
-/// How long robots take to stand after a crash.
+/// Measures how long robots take to stand still after a crash.
 #[derive(Clone, Debug, Default)]
 struct Stops {
-    /// Where robots were a step ago, while they are watched.
+    /// Places of robots a step ago, while they are watched.
     places: Vec<Vec2>,
-    /// Since when they are watched.
+    /// Since when robots are watched; `None`: they are not.
     since: Option<Instant>,
-    /// When one of them moved last.
+    /// When a robot moved last.
     moved: Instant,
     longest: Option<Span>,
 }
@@ -63,24 +63,24 @@ impl ControllerCrashes {
         self.is_gone
     }
 
-    /// The next event until a time after the first departure.
+    /// Takes the next event that is due at a time after the first departure. `None` if none is due.
     pub fn next_until(&mut self, since_begin: Span) -> Option<CrashEvent> {
         let event = self.coming.next_until(since_begin)?;
         self.is_gone = event == CrashEvent::Killed;
         Some(event)
     }
 
-    /// The run that is found after a crash; `None`: it was over.
+    /// Reads the run that a new controller finds after a crash. `None` if it was over, or the journal cannot be read.
     pub fn unfinished_run(&self) -> Option<UnfinishedRun> {
         UnfinishedRun::read(self.disk.file()).ok().flatten()
     }
 
-    /// Robots are watched from this event on.
+    /// Watches robots from this event on, until all stand still.
     pub fn watch(&mut self, event: CrashEvent, now: Instant, places: &[Vec2]) {
         self.stops.watch(event, now, places);
     }
 
-    /// The world took a step.
+    /// Notes the places of robots after a step of the world.
     #[inline]
     pub fn observe(&mut self, now: Instant, places: &[Vec2]) {
         if self.stops.since.is_some() {
@@ -88,7 +88,7 @@ impl ControllerCrashes {
         }
     }
 
-    /// Longest time until all robots stood after the controller was killed, or was back while they still drove.
+    /// Longest time until all robots stood still after the controller was killed, or came back while they still drove.
     pub fn longest_stop(&self) -> Option<Span> {
         self.stops.longest
     }
@@ -104,7 +104,8 @@ impl Stops {
         self.places = places.to_vec();
     }
 
-    /// Without a controller, robots that stand may still have a START to come: they are watched until there is one.
+    /// Notes whether robots move. Without a controller, watching goes on while robots stand, because a START may still
+    /// be due.
     fn observe(&mut self, now: Instant, places: &[Vec2], is_gone: bool) {
         let moves = places.iter().zip(&self.places).any(|(at, before)| at.distance(*before) > STANDS_M);
         self.places.copy_from_slice(places);

@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 
 use lightbots_base::random::split_mix;
 
-/// Purpose of a stream. Each has its own, so that more numbers for one purpose (a noisier sensor) do not change another
-/// (which message is lost).
+/// Purpose of a stream of random numbers. Each purpose has its own stream, so that more numbers for one (a noisier
+/// sensor) do not change another (which message is lost).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Names, clocks and batteries of robots.
@@ -36,7 +36,7 @@ pub struct Dice {
 
 /// Quantiles of the normal distribution at (i + ½) / 4096, scaled to a standard deviation of exactly 1.
 static NORMAL: LazyLock<Box<[f32; NORMAL_LEN]>> = LazyLock::new(normal_table);
-/// Length of the table: 12 bits of a draw, and 16 KB, half of a first-level cache.
+/// Length of the table. An index takes 12 bits of a draw, and the table 16 KB, half of a first-level cache.
 const NORMAL_LEN: usize = 4096;
 
 impl Dice {
@@ -61,23 +61,23 @@ impl Dice {
         result
     }
 
-    /// Uniform in 0..1.
+    /// Draws a number uniform in 0..1.
     #[inline]
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Uniform in `low..high`.
+    /// Draws a number uniform in `low..high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// A whole number below `end`; 0 where `end` is 0.
+    /// Draws a whole number below `end`; 0 if `end` is 0.
     pub fn below(&mut self, end: u64) -> u64 {
         ((u128::from(self.bits()) * u128::from(end)) >> 64) as u64
     }
 
-    /// True with this probability. Draws nothing where it is 0.
+    /// Returns true with this probability. Draws nothing if it is 0.
     #[inline]
     pub fn chance(&mut self, probability: f64) -> bool {
         probability > 0.0 && self.unit() < probability
@@ -103,7 +103,7 @@ pub(crate) fn normal3_of(bits: u64) -> [f64; 3] {
     normal_of(bits, [52, 40, 28])
 }
 
-/// Normal numbers from the 12 bits of a draw above each of these positions.
+/// Normal numbers, each from the 12 bits of a draw that begin at one of these positions.
 #[inline]
 fn normal_of<const COUNT: usize>(bits: u64, shifts: [u32; COUNT]) -> [f64; COUNT] {
     let table: &[f32; NORMAL_LEN] = &NORMAL;

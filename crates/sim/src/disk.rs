@@ -1,20 +1,20 @@
-//! The disk that the journal is written to: it may be full or slow, and what a crash cuts short is torn. The shell's thread
-//! (`server/src/live/journal.rs`) does with a failure what this model does.
+//! The disk that the journal is written to. It may be full or slow, and a crash may leave half of a piece on it. A
+//! failure has the same effects as in the journal's thread of the server (`server/src/live/journal.rs`).
 
 use std::collections::VecDeque;
 
 use lightbots_base::{Instant, Span};
 use lightbots_control::JournalPiece;
 
-/// After a failure the journal is begun again at most this often, as in the shell.
+/// Time after a failure until the journal is begun again, as in the server.
 const TRY_AGAIN: Span = Span::from_millis(10_000);
 
 /// The file of the journal.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Disk {
-    /// What is surely on it.
+    /// Bytes that are on the disk.
     file: Vec<u8>,
-    /// What is being written, with the time at which it is on the disk.
+    /// Pieces that are being written, each with the time at which it is on the disk.
     pending: VecDeque<(Instant, JournalPiece)>,
     full_until: Instant,
     slow_until: Instant,
@@ -23,27 +23,27 @@ pub(crate) struct Disk {
 }
 
 impl Disk {
-    /// Writing fails until then.
+    /// Makes writing fail until a time.
     pub fn fill(&mut self, until: Instant) {
         self.full_until = self.full_until.max(until);
     }
 
-    /// Until then it takes that long until a piece is on the disk.
+    /// Makes writing slow until a time: a piece is on the disk only after `takes`.
     pub fn slow(&mut self, until: Instant, takes: Span) {
         (self.slow_until, self.takes) = (until, takes);
     }
 
-    /// Whether the next piece may be written. After a failure not, for a while.
+    /// Whether the next piece may be written. After a failure it may not, until the journal is begun again.
     pub fn is_ready(&self) -> bool {
         self.failed.is_none()
     }
 
-    /// Whether the journal is to be begun again.
+    /// Whether the journal is to be begun again now after a failure. Returns true once.
     pub fn begins_again(&mut self, now: Instant) -> bool {
         self.failed.take_if(|failed| now - *failed > TRY_AGAIN).is_some()
     }
 
-    /// A piece is written.
+    /// Writes a piece. If the disk is full, the piece is lost and the disk has failed.
     pub fn write(&mut self, now: Instant, piece: JournalPiece) {
         if now < self.full_until {
             self.failed = Some(now);
@@ -55,7 +55,7 @@ impl Disk {
         self.settle(now);
     }
 
-    /// What has been written until now.
+    /// Moves the pieces whose time has come into the file.
     fn settle(&mut self, now: Instant) {
         while self.pending.front().is_some_and(|(at, _)| *at <= now)
             && let Some((_, piece)) = self.pending.pop_front()
@@ -67,7 +67,7 @@ impl Disk {
         }
     }
 
-    /// The program is killed: of the piece that is being written, a half is on the disk. One that replaces the file does so
+    /// Kills the program. Half of a piece that is being appended is on the disk. A piece that replaces the file does so
     /// as a whole or not at all.
     pub fn crash(&mut self, now: Instant) {
         self.settle(now);

@@ -18,7 +18,7 @@ const TURN_SNAP: f64 = 1.2;
 const TIPPING_MPS: f64 = 0.0205;
 /// Speed lost in the stumble, per speed gained beyond [`TIPPING_MPS`] in the two steps before.
 const STUMBLE: f64 = 1.053;
-/// Share of that loss by which the step after the stumble exceeds the goal.
+/// Share of the speed lost in the stumble by which the step after it exceeds the goal.
 const REBOUND: f64 = 0.199;
 
 /// The state of one robot's drive train.
@@ -32,9 +32,9 @@ pub(crate) struct DriveTrain {
     speed_mps: f64,
     /// Turning rate, rad/s.
     turn_radps: f64,
-    /// Speed gained too quickly, m/s.
+    /// Speed gained beyond [`TIPPING_MPS`] since the body tipped, m/s.
     jolt_mps: f64,
-    /// Steps since the body tipped over its wheels; 0: it did not.
+    /// Steps since the body tipped over its wheels; 0 if it did not.
     tipped: u8,
     /// Steps in a row that braking was limited by grip.
     sliding: u8,

@@ -18,7 +18,7 @@ const BINS: usize = 1_000;
 pub(crate) struct ErrorStatistics {
     estimate: Tally,
     tracking: Tally,
-    /// Largest difference of two clocks, seconds, one value a sample.
+    /// Largest difference of two robots' clocks in each sample, seconds.
     clocks_s: Vec<f64>,
 }
 
@@ -31,7 +31,7 @@ struct Tally {
 }
 
 impl ErrorStatistics {
-    /// Samples the tracking error of a robot after the world moved and before the robot's step.
+    /// Samples the tracking error of a robot. Call it after the world moved and before the robot's step.
     #[inline]
     pub fn sample_tracking(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) {
@@ -42,7 +42,7 @@ impl ErrorStatistics {
         }
     }
 
-    /// Samples the error of the estimated place of a robot after its step.
+    /// Samples the error of a robot's estimated place. Call it after the robot's step.
     #[inline]
     pub fn sample_estimate(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) || robot.route_place().is_none() {
@@ -53,7 +53,7 @@ impl ErrorStatistics {
         }
     }
 
-    /// Samples the show clocks of all robots at one moment.
+    /// Samples the largest difference of two show clocks. `shown`: the clocks of all robots at one moment.
     pub fn sample_clocks(&mut self, shown: impl Iterator<Item = Instant>) {
         let (first, last, count) = shown
             .fold((Instant::FAR, Instant::ZERO, 0), |(first, last, count), at| {

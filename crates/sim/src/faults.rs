@@ -7,13 +7,13 @@ use lightbots_base::Span;
 use crate::conditions::{Breakdown, Conditions, Outage};
 use crate::options::ROBOTS_MAX;
 
-/// What is added to the conditions of a rehearsal.
+/// Changes to the conditions of a rehearsal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Faults {
     changes: Vec<Change>,
 }
 
-/// Why a text states no faults: one line for people.
+/// Why a text is not a valid list of faults: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FaultsError(String);
 
@@ -50,13 +50,13 @@ const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%
                      fix-outlier=1%, original=30, kill=random or kill=3@12s, mute=random or mute=3@12s, \
                      stuck=random or stuck=3@12s, cut=random or cut=3@12s+4s, blind=random or blind=3@12s+4s, freeze=12s+4s, gone=12s+4s, crash=12s+4s";
 
-/// The most faults a text may state.
+/// Largest number of faults in a text.
 const MOST: usize = 64;
 
 impl Faults {
     /// Reads `name=value` separated by commas, at least one. Values carry their unit: `%`, `ms` or `s`, `mm`, `cm` or
-    /// `m`, `deg`, `ppm`. Robots are counted from 0, `@` is the time after the show began. A name is stated once, but
-    /// several robots may break down.
+    /// `m`, `deg`, `ppm`. Robots are counted from 0, and `@` gives the time after the first departure. A name may occur
+    /// once, except for breakdowns and outages.
     pub fn parse(text: &str) -> Result<Self, FaultsError> {
         let parts: Vec<&str> = text.split(',').map(str::trim).filter(|part| !part.is_empty()).collect();
         if parts.is_empty() {
@@ -80,7 +80,7 @@ impl Faults {
         Ok(Self { changes })
     }
 
-    /// The conditions with these faults added.
+    /// Returns the conditions with these faults added.
     pub fn added_to(&self, mut conditions: Conditions) -> Conditions {
         for &change in &self.changes {
             apply(change, &mut conditions);
@@ -224,13 +224,14 @@ fn breakdown(text: &str) -> Option<Breakdown> {
     Some(Breakdown { robot, at })
 }
 
-/// A breakdown that passes: `3@12s+4s`; for five seconds where nothing is said.
+/// Reads a passing breakdown, for example `3@12s+4s`. Without a duration it lasts five seconds.
 fn outage(text: &str) -> Option<(Breakdown, Span)> {
     let (begins, over) = begin_and_length(text)?;
     Some((breakdown(begins)?, over))
 }
 
-/// `12s+4s`: a time without a broker or a controller, after the first departure; for five seconds where nothing is said.
+/// Reads a time without a broker or a controller, after the first departure: `12s+4s`. Without a duration it lasts five
+/// seconds.
 fn outage_of_all(text: &str) -> Option<Outage> {
     let (begins, over) = begin_and_length(text)?;
     let (begins, most) = (begins.trim(), Span::from_millis(86_400_000));

@@ -5,8 +5,8 @@ use lightbots_wire::Topic;
 
 use crate::original::Original;
 
-/// Our firmware with its routes in a box. A step reads next to nothing of them, and the rest of all robots then lies close
-/// together.
+/// Our firmware with its routes in a box. A step reads next to nothing of the routes, and the other state of all robots
+/// then lies close together.
 pub(crate) type Ours = Robot<Box<RouteStorage>>;
 
 /// The firmware of a robot.
@@ -15,12 +15,12 @@ pub(crate) type Ours = Robot<Box<RouteStorage>>;
 pub(crate) enum RobotFirmware {
     /// Our firmware.
     Ours(Ours),
-    /// A robot that knows only TARGET and COLOR.
+    /// An original robot, which understands only TARGET, COLOR and UUID.
     Original(Original),
 }
 
 impl RobotFirmware {
-    /// Writes its next message.
+    /// Writes the robot's next message to `payload`. Returns its topic; `None` if there is no message.
     #[inline]
     pub fn outgoing(&mut self, payload: &mut Message) -> Option<Topic> {
         match self {

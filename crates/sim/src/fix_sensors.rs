@@ -19,12 +19,12 @@ pub(crate) struct FixSensors {
     bias: Vec<Vec2>,
     /// `past[step % steps][robot]`: true poses of the last steps; empty without delay.
     past: Vec<Vec<Pose>>,
-    /// The step until which a robot gets no fix; empty without drop-outs.
+    /// `[robot]`: the step until which a robot gets no fix; empty if there are no drop-outs.
     dark_until: Vec<u64>,
     step: u64,
-    /// Whether fixes have noise only.
+    /// Whether fixes have noise only: no bias, delay, gaps or outliers.
     plain: bool,
-    /// `[robot]`: random bits for this step, where fixes have noise only.
+    /// `[robot]`: random bits for this step; empty unless fixes have noise only.
     draws: Vec<u64>,
 }
 
@@ -62,12 +62,13 @@ impl FixSensors {
         }
     }
 
-    /// Whether fixes may be taken in any order of the robots; otherwise in ascending order.
+    /// Whether fixes may be taken in any order of the robots. Otherwise they must be taken in ascending order.
     pub fn in_any_order(&self) -> bool {
         self.plain
     }
 
-    /// The fix of a robot with this true pose. Call it once a step for each robot that is alive.
+    /// The fix of a robot with this true pose; `None` if it gets none in this step. Call it once a step for each robot
+    /// that is alive.
     #[inline]
     pub fn fix(&mut self, robot: usize, pose: Pose) -> Option<Pose> {
         if self.plain {

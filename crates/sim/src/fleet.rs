@@ -1,4 +1,4 @@
-//! Simulated robots in real time. The caller has the clock and the network.
+//! Simulated robots in real time. The caller provides the clock and the network.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
@@ -11,18 +11,18 @@ use crate::conditions::Conditions;
 use crate::robot_set::RobotSet;
 use crate::world::STEP;
 
-/// Most steps made up in one call: half a second. A slower machine omits the rest: bodies stand while all clocks go on, so
-/// that robots are late together and do not disagree.
+/// Largest number of steps made up in one call: half a second. A slower machine omits the others: bodies stand while
+/// all clocks go on. Robots are then late together, and their clocks still agree.
 const CATCH_UP_STEPS: i64 = 32;
-/// Most messages that wait to be taken, per robot. Beyond this and [`WAITING`], messages are dropped.
+/// Largest number of messages that wait to be taken, per robot. Messages beyond this and [`WAITING`] are dropped.
 const WAITING_PER_ROBOT: usize = 64;
-/// Most messages that wait to be taken besides, for all robots together.
+/// Number of further messages that may wait to be taken, for all robots together.
 const WAITING: usize = 1024;
 
 /// Configuration of a fleet.
 #[derive(Clone, Debug)]
 pub struct FleetConfig {
-    /// The floor, and the measures of a robot.
+    /// The floor, and the dimensions and limits of robots.
     pub stage: Stage,
     /// Places at power-on, stage metres, one for each robot.
     pub starts: Vec<Vec2>,
@@ -94,7 +94,7 @@ impl Fleet {
         (0..self.robots.len()).map(|robot| self.robots.light(robot)).collect()
     }
 
-    /// A robot's power fails.
+    /// Makes a robot's power fail.
     pub fn kill(&mut self, robot: usize) {
         if robot < self.robots.len() {
             self.robots.kill(robot);
@@ -111,14 +111,14 @@ impl Fleet {
         self.left_out
     }
 
-    /// The links of all robots come up or break.
+    /// Brings the links of all robots up, or breaks them.
     pub fn link(&mut self, now: Instant, up: bool) {
         for robot in 0..self.robots.len() {
             self.link_of(now, robot, up);
         }
     }
 
-    /// The link of one robot comes up or breaks, where each has its own connection.
+    /// Brings the link of one robot up, or breaks it, if each robot has its own connection.
     pub fn link_of(&mut self, now: Instant, robot: usize, up: bool) {
         if robot < self.robots.len() {
             self.robots.link(now, robot, up);
@@ -127,13 +127,14 @@ impl Fleet {
         }
     }
 
-    /// Delivers a published message to the robot of its topic, or to all robots if it is a broadcast. Whether it was
-    /// for any.
+    /// Delivers a published message to the robot of its topic, or to all robots if it is a broadcast. Returns whether
+    /// there was a receiver.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
         self.receive_on(now, 0..self.robots.len(), topic, payload)
     }
 
-    /// Delivers a message from the connection that the robots `sharing` have in common. A broadcast reaches these robots.
+    /// Delivers a message from a connection that the robots `sharing` use. A broadcast reaches only these robots.
+    /// Returns whether there was a receiver.
     pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {
@@ -150,7 +151,7 @@ impl Fleet {
         is_received
     }
 
-    /// Runs the world up to `to` in whole steps of 16 ms. Returns their number.
+    /// Runs the world up to `to` in whole steps of 16 ms, at most `CATCH_UP_STEPS`. Returns the number of steps run.
     pub fn advance(&mut self, to: Instant) -> u64 {
         let due = ((to - self.world_at).0 / STEP.0).max(0);
         let run = due.min(CATCH_UP_STEPS);
@@ -168,12 +169,12 @@ impl Fleet {
         self.world_at + STEP
     }
 
-    /// The next message of a robot.
+    /// Takes the next message that a robot sent; `None` if none waits.
     pub fn next_message(&mut self) -> Option<FleetMessage> {
         self.waiting.messages.pop_front()
     }
 
-    /// Number of messages dropped because they were not taken.
+    /// Number of messages dropped because too many waited.
     pub fn messages_dropped(&self) -> u64 {
         self.waiting.dropped
     }

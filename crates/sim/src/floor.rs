@@ -23,7 +23,8 @@ pub enum FloorObject {
 }
 
 impl Floor {
-    /// The floor of a stage. A robot that starts outside widens it, so that the robot is not moved inside.
+    /// The floor of a stage for robots with these starts. A start outside widens the floor, so that the robot is not
+    /// moved inside.
     pub fn new(stage: &Stage, starts: &[Vec2]) -> Self {
         let radius_m = stage.limits.radius_m;
         let half = Vec2::new(0.5 * stage.width_m - radius_m, 0.5 * stage.depth_m - radius_m);
@@ -34,7 +35,8 @@ impl Floor {
         Self { half, radius_m, obstacles: stage.obstacles.clone() }
     }
 
-    /// Moves a disc out of walls and no-go areas. Returns what it was in, and how deep, metres. Of several, the last one.
+    /// Moves a disc out of walls and no-go areas. Returns the last of these that it was in, and how deep it was in
+    /// metres.
     #[inline]
     pub fn keep_out(&self, place: &mut Vec2) -> Option<(FloorObject, f64)> {
         let inside = self.inside(*place);
@@ -63,7 +65,7 @@ impl Floor {
         }
     }
 
-    /// The nearest place outside of an obstacle; `None` for a disc that does not touch it.
+    /// The nearest place outside of an obstacle; `None` if the disc does not touch it.
     fn out_of(&self, obstacle: &Obstacle, place: Vec2) -> Option<Vec2> {
         let (nearest, reach) = match *obstacle {
             Obstacle::Disc { at, radius_m } => (at, radius_m + self.radius_m),
@@ -80,7 +82,7 @@ impl Floor {
         }
     }
 
-    /// The way out of a rectangle for a centre inside of it: through the nearest side.
+    /// The place outside of a rectangle for a disc whose centre is inside: beyond the nearest side.
     fn out_of_rect(&self, place: Vec2, min: Vec2, max: Vec2) -> Vec2 {
         let ways = [
             (place.x - min.x, Vec2::new(min.x - self.radius_m, place.y)),

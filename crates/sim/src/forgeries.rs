@@ -1,4 +1,4 @@
-//! Robots whose messages are not what their firmware sends: they say that they are elsewhere, or flood the network.
+//! Robots whose messages are not what their firmware sends: they report a false place, or flood the network.
 
 use std::borrow::Cow;
 
@@ -8,17 +8,17 @@ use lightbots_wire::{Report, Topic};
 /// Copies of its last report that a flooding robot sends in each step: 2,500 a second.
 const FLOOD: usize = 40;
 
-/// What robots send instead of the truth.
+/// Which robots send forged messages, and how.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Forgeries {
     /// `(robot, by how much)`: robots that report a false place.
     lies: Vec<(usize, Vec2)>,
-    /// Robots that flood, with their last report.
+    /// Robots that flood the network, with their last report.
     floods: Vec<(usize, Vec<u8>)>,
 }
 
 impl Forgeries {
-    /// A robot reports places that are off by this; zero: it is honest again.
+    /// Makes a robot report places that are off by `off`, metres. Zero makes it report true places again.
     pub fn lie(&mut self, robot: usize, off: Vec2) {
         self.lies.retain(|(liar, _)| *liar != robot);
         if off != Vec2::ZERO {
@@ -26,7 +26,7 @@ impl Forgeries {
         }
     }
 
-    /// A robot begins or ends to flood the network.
+    /// Makes a robot begin or cease to flood the network.
     pub fn flood(&mut self, robot: usize, floods: bool) {
         self.floods.retain(|(flooding, _)| *flooding != robot);
         if floods {
@@ -34,7 +34,7 @@ impl Forgeries {
         }
     }
 
-    /// What is sent in place of a message.
+    /// Returns what a robot sends in place of a message of its firmware.
     pub fn forge<'a>(&mut self, robot: usize, topic: Topic, text: &'a [u8]) -> Cow<'a, [u8]> {
         if self.lies.is_empty() && self.floods.is_empty() || topic == Topic::Time {
             return Cow::Borrowed(text);
@@ -47,14 +47,14 @@ impl Forgeries {
         sent
     }
 
-    /// The messages of this step that flood the network, with their robots.
+    /// Messages that flood the network in this step, with their robots.
     pub fn floods(&self) -> impl Iterator<Item = (usize, &[u8])> {
         let reported = self.floods.iter().filter(|(_, last)| !last.is_empty());
         reported.flat_map(|(robot, last)| std::iter::repeat_n((*robot, &last[..]), FLOOD))
     }
 }
 
-/// A report with another place.
+/// Moves the place in a report. `None` if the text is no report with a place.
 fn moved(text: &[u8], off: Vec2) -> Option<Vec<u8>> {
     let mut report = Report::decode(text)?;
     report.at = Some(report.at? + off);

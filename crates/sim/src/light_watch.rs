@@ -1,15 +1,15 @@
-//! Compares what robots show with what the layers of the show say.
+//! Compares the lights of robots with the colours of the show's layers.
 
 use lightbots_base::{Instant, Rgb, RobotId, Span};
 use lightbots_control::Controller;
 use lightbots_lighting::Tolerance;
 use serde::Serialize;
 
-/// How late or early a light may be: the design's number.
+/// How late or early a light may be, from the design.
 const IN_TIME: Span = Span::from_millis(25);
-/// Moments around now at which the wanted colour counts, in parts of [`IN_TIME`].
+/// Moments around now at which the wanted colour counts, in quarters of [`IN_TIME`].
 const MOMENTS: [i64; 7] = [-4, -3, -1, 0, 1, 3, 4];
-/// Steps from one comparison to the next: more often would slow rehearsals down.
+/// Steps from one comparison to the next. More frequent comparisons would slow rehearsals down.
 pub(crate) const EVERY: u64 = 10;
 
 /// Comparisons of lights with layers.
@@ -17,7 +17,7 @@ pub(crate) const EVERY: u64 = 10;
 pub struct LightCounts {
     /// Number of comparisons: one for each robot about every sixth of a second.
     pub compared: u64,
-    /// Of these, lights that showed something else than within 25 ms before or after.
+    /// Number of comparisons in which a light differed from all colours wanted within 25 ms before or after.
     pub wrong: u64,
 }
 
@@ -25,12 +25,13 @@ pub struct LightCounts {
 #[derive(Clone, Copy, Debug)]
 pub struct LightWatch {
     counts: LightCounts,
-    /// Codes of a channel by which a light may differ.
+    /// Largest difference of a colour channel that is allowed, in codes of 0 to 255.
     codes: u8,
 }
 
 impl LightWatch {
-    /// For a fit of this tolerance: its two units of L* are at most seven codes. One more is for rounding.
+    /// Compares lights that are fitted with this tolerance. Two units of L* are at most seven codes, and one more is
+    /// for rounding.
     pub fn new(tolerance: Tolerance) -> Self {
         let codes = match tolerance {
             Tolerance::OneStep => 1,
@@ -44,7 +45,7 @@ impl LightWatch {
         self.counts
     }
 
-    /// Compares lights now. `shown` gives the light of a robot.
+    /// Compares the lights of all robots now. `shown` returns the light of a robot.
     pub fn compare(&mut self, controller: &Controller, now: Instant, shown: impl Fn(RobotId) -> Option<Rgb>) {
         let moment = |part: i64| Instant(now.0.saturating_add_signed(IN_TIME.0 * part / 4));
         let wanted = MOMENTS.map(|part| controller.layered_lights(moment(part)));
@@ -61,7 +62,7 @@ impl LightWatch {
     }
 }
 
-/// Whether each channel lies between the least and the greatest of the colours, or within `codes` of that.
+/// Whether each channel lies between the least and the greatest of the colours, or at most `codes` outside.
 fn is_among(shown: Rgb, colours: &[Rgb], codes: u8) -> bool {
     let channels: [fn(&Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
     channels.iter().all(|channel| {

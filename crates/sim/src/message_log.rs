@@ -1,4 +1,5 @@
-//! Log of the messages of one step, for robots that do not take turns in ascending order but must be received in it.
+//! Log of the messages of one step. Robots may step in any order, but their messages are received in ascending order of
+//! robots.
 
 use core::ops::Range;
 

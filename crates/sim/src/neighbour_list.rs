@@ -3,15 +3,15 @@
 
 use lightbots_base::Vec2;
 
-/// Gap up to which a pair is on the list, metres. The list holds until a disc has moved half of it. Below, the list is made
-/// more often. Above, it has more pairs to compare in every step.
+/// Gap up to which a pair is on the list, metres. The list holds until a disc has moved half of it. A smaller gap makes
+/// the list outdated more often. A larger one adds pairs to compare in every step.
 const MARGIN_M: f64 = 0.08;
 
 /// The list of near pairs.
 #[derive(Clone, Debug)]
 pub(crate) struct NeighbourList {
     reach_m: f64,
-    /// `[disc]`: place when the list was made.
+    /// `[disc]`: its place when the list was made.
     then: Vec<Vec2>,
     /// Pairs (smaller index first), sorted.
     pairs: Vec<(u32, u32)>,
@@ -24,19 +24,19 @@ pub(crate) struct NeighbourList {
 }
 
 impl NeighbourList {
-    /// An empty list for discs that touch at `contact_m`.
+    /// An empty list for discs that touch if their centres are closer than `contact_m`.
     pub fn new(contact_m: f64) -> Self {
         let reach_m = contact_m + MARGIN_M;
         let (then, pairs) = (Vec::new(), Vec::new());
         Self { reach_m, then, pairs, cells: Vec::new(), order: Vec::new(), cell_of: Vec::new() }
     }
 
-    /// Pairs that may touch. Every pair that does is among them.
+    /// Pairs that may touch. Every pair that touches is among them.
     pub fn pairs(&self) -> &[(u32, u32)] {
         &self.pairs
     }
 
-    /// Whether the list is outdated by the disc `index` being at `place`.
+    /// Whether the list is outdated because the disc `index` is at `place`.
     #[inline]
     pub fn outdated_by(&self, index: usize, place: Vec2) -> bool {
         self.then
@@ -114,7 +114,7 @@ impl NeighbourList {
     }
 }
 
-/// A grid whose cells are at least as wide as the reach, and not many more than discs.
+/// A grid whose cells are at least as wide as the reach. Their number is limited by the number of discs.
 struct Grid {
     origin: Vec2,
     scale: f64,
@@ -135,7 +135,7 @@ impl Grid {
         let (width, depth) = (high.x - low.x, high.y - low.y);
         let most = 4.0 * places.len() as f64 + 64.0;
         let mut cell = reach_m;
-        // Each round makes a quarter of the cells or fewer: 64 rounds reach any floor that a number can state.
+        // Each round leaves about a quarter of the cells.
         for _ in 0..64 {
             if (width / cell + 1.0) * (depth / cell + 1.0) <= most {
                 break;

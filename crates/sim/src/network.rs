@@ -11,14 +11,14 @@ use crate::conditions::LinkConditions;
 use crate::dice::{Dice, Purpose};
 use crate::prefetch::prefetch;
 
-/// Most messages under way, per robot. Beyond this and [`UNDER_WAY`], messages are lost.
+/// Largest number of messages under way, per robot. Messages beyond this and [`UNDER_WAY`] are lost.
 const UNDER_WAY_PER_ROBOT: usize = 64;
-/// Most messages under way besides, for all robots together.
+/// Number of further messages that may be under way, for all robots together.
 const UNDER_WAY: usize = 1024;
 /// Share of messages that jitter delays.
 const JITTERED: f64 = 0.1;
 
-/// The receiver of messages to the controller, in place of a robot's index.
+/// Value that stands for the controller where a receiver is a robot's index.
 const CONTROLLER: u32 = u32::MAX;
 
 /// Direction of a message.
@@ -41,7 +41,7 @@ pub(crate) struct NetworkMessage {
     pub payload: Rc<[u8]>,
 }
 
-/// Number of messages sent and lost; each receiver counts.
+/// Numbers of messages sent and lost. A broadcast counts once for each receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct MessageCounts {
     /// Sent.
@@ -50,18 +50,18 @@ pub struct MessageCounts {
     pub lost: u64,
 }
 
-/// All links, each with its own order.
+/// All links. Each keeps the order of its own messages.
 #[derive(Debug)]
 pub(crate) struct Network {
     conditions: LinkConditions,
     dice: Dice,
-    /// When, in which order, where in `slots`, and to which robot, or `CONTROLLER`.
+    /// Messages under way: arrival, order of sending, index in `slots`, and receiving robot or [`CONTROLLER`].
     queue: BinaryHeap<Reverse<(Instant, u64, u32, u32)>>,
     slots: Vec<Option<NetworkMessage>>,
     free: Vec<u32>,
-    /// When the last message of each link arrives: `[robot]`, to it and from it.
+    /// `[robot]`: when the last messages to it and from it arrive.
     last: Vec<[Instant; 2]>,
-    /// The broker passes nothing on until then.
+    /// The broker passes nothing on until this time.
     frozen_until: Instant,
     said: u64,
     counts: MessageCounts,
@@ -103,7 +103,7 @@ impl Network {
         self.queue.peek().map(|&Reverse((at, ..))| at.max(self.frozen_until))
     }
 
-    /// The next message that arrives until `until`, with its time.
+    /// Takes the next message that arrives until `until`, with its time of arrival.
     pub fn next_until(&mut self, until: Instant) -> Option<(Instant, NetworkMessage)> {
         if self.next_at()? > until {
             return None;
@@ -116,12 +116,12 @@ impl Network {
         Some((at.max(self.frozen_until), self.slots[slot as usize].take()?))
     }
 
-    /// The broker passes nothing on until then: messages wait.
+    /// Freezes the broker until a time: it passes nothing on, and messages wait.
     pub fn freeze(&mut self, until: Instant) {
         self.frozen_until = self.frozen_until.max(until);
     }
 
-    /// Everything under way is lost.
+    /// Discards all messages under way as lost, and ends a freeze.
     pub fn clear(&mut self) {
         self.counts.lost += self.queue.len() as u64;
         self.queue.clear();
@@ -130,7 +130,7 @@ impl Network {
         self.frozen_until = Instant::ZERO;
     }
 
-    /// The robot that receives the next message; `None`: the controller does.
+    /// The robot that receives the next message. `None` if the controller does, or no message is under way.
     pub fn next_receiver(&self) -> Option<usize> {
         let &Reverse((.., robot)) = self.queue.peek()?;
         (robot != CONTROLLER).then_some(robot as usize)

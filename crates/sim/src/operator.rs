@@ -1,4 +1,4 @@
-//! The simulated operator: presses buttons, and presses them again where there was no controller or broker.
+//! The simulated operator: presses buttons, and presses them again if there was no controller or broker.
 
 use std::collections::VecDeque;
 
@@ -8,30 +8,30 @@ use lightbots_control::Operation;
 /// The simulated operator.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Operator {
-    /// When Go on is pressed.
+    /// When the operator presses Go on.
     presses_at: Option<Instant>,
-    /// Since when some robots report and others stay away.
+    /// Since when some robots of an interrupted run report and others do not.
     waits_since: Option<Instant>,
-    /// How long a frame that may be left waits for GO.
+    /// How long the operator lets a frame wait for GO.
     go_after: Span,
-    /// Since when one waits.
+    /// Since when a frame waits for GO.
     cue_since: Option<Instant>,
-    /// What else the operator does, in this order.
+    /// Further operations that the operator wants, in this order.
     wants: VecDeque<Operation>,
-    /// When the operator tries the next of it.
+    /// When the operator tries the next of these operations.
     tries_at: Instant,
-    /// The operator wants the show to be paused.
+    /// Whether the operator wants the show to be paused.
     wants_pause: bool,
-    /// Since when it is paused though the operator does not want that.
+    /// Since when the show is paused although the operator does not want that.
     paused_since: Option<Instant>,
 }
 
 impl Operator {
-    /// Time to read a message and to look at the floor.
+    /// Time that the operator takes to read a message and to look at the floor.
     const LOOKS: Span = Span::from_millis(2_000);
-    /// Time that robots that stay away have to come back. Clients find a broker again within 2 s.
+    /// Time that missing robots have to come back. Clients find a broker again within 2 s.
     const WAITS: Span = Span::from_millis(10_000);
-    /// Time until a button that did nothing is pressed again.
+    /// Time after which a button that did nothing is pressed again.
     const TRIES_AGAIN: Span = Span::from_millis(500);
 
     /// An operator that lets a frame wait this long for GO.
@@ -39,7 +39,7 @@ impl Operator {
         Self { go_after, ..Self::default() }
     }
 
-    /// Whether GO is given now. `waits`: a frame has stood for its air time and waits for it.
+    /// Whether the operator gives GO now. `waits`: the air time of a frame is over, and it waits for GO.
     pub fn gives_go(&mut self, now: Instant, waits: bool) -> bool {
         if !waits {
             self.cue_since = None;
@@ -47,12 +47,13 @@ impl Operator {
         waits && now - *self.cue_since.get_or_insert(now) >= self.go_after
     }
 
-    /// The controller asks whether the run goes on.
+    /// Notes that the controller asks whether the run goes on. The operator presses Go on a little later.
     pub fn asked(&mut self, now: Instant) {
         self.presses_at.get_or_insert(now + Self::LOOKS);
     }
 
-    /// Some robots of an interrupted run report or not: after a while the run goes on without the others.
+    /// Notes whether some robots of an interrupted run report and others do not. After a while the operator presses Go
+    /// on, and the run goes on without the others.
     pub fn sees(&mut self, now: Instant, are_some_back: bool) {
         if !are_some_back {
             self.waits_since = None;
@@ -61,13 +62,13 @@ impl Operator {
         }
     }
 
-    /// Whether Go on is pressed now.
+    /// Whether the operator presses Go on now.
     pub fn presses(&mut self, now: Instant) -> bool {
         self.presses_at.take_if(|at| now >= *at).is_some()
     }
 
-    /// Whether the operator resumes now: a controller that was started again with an old journal pauses a show that the
-    /// operator has resumed.
+    /// Whether the operator resumes the show now. A controller that was started again with an old journal may pause a
+    /// show that the operator has resumed.
     pub fn resumes(&mut self, now: Instant, is_paused: bool) -> bool {
         if !is_paused || self.wants_pause {
             self.paused_since = None;
@@ -76,7 +77,7 @@ impl Operator {
         now - *self.paused_since.get_or_insert(now) >= Self::LOOKS
     }
 
-    /// The operator presses another button.
+    /// Adds an operation that the operator wants.
     pub fn does(&mut self, now: Instant, operation: Operation) {
         self.tries_at = now;
         match operation {
@@ -87,13 +88,13 @@ impl Operator {
         self.wants.push_back(operation);
     }
 
-    /// That button did nothing: the operator presses it again.
+    /// Puts back an operation that had no effect. The operator tries it again later.
     pub fn does_later(&mut self, now: Instant, operation: Operation) {
         self.tries_at = now + Self::TRIES_AGAIN;
         self.wants.push_front(operation);
     }
 
-    /// The next button that is pressed now.
+    /// Takes the operation that the operator tries now.
     pub fn next_at(&mut self, now: Instant) -> Option<Operation> {
         if now >= self.tries_at { self.wants.pop_front() } else { None }
     }

@@ -1,4 +1,4 @@
-//! What a rehearsal is told, and what it says while it goes on.
+//! Options of a rehearsal, and its progress.
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_plan::Path;
@@ -12,7 +12,7 @@ pub struct RehearsalOptions {
     pub seed: u64,
     /// Faults of robots and networks.
     pub conditions: Conditions,
-    /// Number of robots; `None`: as many as the show needs, or as it has starts.
+    /// Number of robots; `None`: as many as the show needs, or one for each start of the show.
     pub robots: Option<usize>,
 }
 
@@ -21,13 +21,13 @@ pub struct RehearsalOptions {
 pub enum Progress<'a> {
     /// The show is planned, or planned anew after a fault.
     Planning,
-    /// It plays. Sent after planning too, so that callers can time both.
+    /// The show plays. Also sent after planning, so that callers can time both.
     Playing {
         /// Virtual time since robots were switched on, seconds.
         at_s: f64,
         /// Planned duration of the show, seconds.
         planned_s: f64,
-        /// Number of frames that stood.
+        /// Number of frames that robots have reached.
         frames: usize,
     },
     /// Robots are about to leave, or have just left.
@@ -40,13 +40,13 @@ pub enum Progress<'a> {
         /// seed to seed.
         paths: &'a [(usize, &'a Path)],
     },
-    /// About ten times a second of the show: where robots truly are.
+    /// True places of robots, about ten times a second of the show.
     Stepped {
-        /// When, show clock.
+        /// Time on the show clock.
         at: Instant,
-        /// `(name, robot)`.
+        /// Name and index of each robot.
         names: &'a [(RobotId, usize)],
-        /// `[robot]`: stage metres.
+        /// `[robot]`: its place, stage metres.
         places: &'a [Vec2],
     },
     /// Further bytes of the log of the controller's inputs ([`lightbots_control::replay`]).
@@ -54,7 +54,7 @@ pub enum Progress<'a> {
 }
 
 impl Progress<'_> {
-    /// Hands on bytes of the log, if there are any.
+    /// Sends bytes of the log, if there are any.
     pub(crate) fn log(bytes: &[u8], progress: &mut dyn FnMut(Progress<'_>)) {
         if !bytes.is_empty() {
             progress(Progress::Logged(bytes));
@@ -62,7 +62,7 @@ impl Progress<'_> {
     }
 }
 
-/// Most robots of a rehearsal.
+/// Largest number of robots in a rehearsal.
 pub const ROBOTS_MAX: usize = 20_000;
 
 impl Default for RehearsalOptions {

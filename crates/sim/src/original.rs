@@ -1,11 +1,11 @@
-//! A robot of the first LightBots, as far as its program is known. It turns towards its target on the spot, drives at full
-//! speed and corrects small heading errors in a curve. Where both coordinates are within 20 mm it stops its wheels.
+//! A robot of the first LightBots, as far as its program is known. It turns towards its target on the spot, drives at
+//! full speed and corrects small heading errors in a curve. It stops its wheels once both coordinates are within 20 mm.
 
 use lightbots_base::{Pose, Rgb, RobotId, Vec2, wrap};
 use lightbots_robot::Message;
 use lightbots_wire::{Command, Report, Topic, commands};
 
-/// Arrival test: both coordinates within this, metres.
+/// Largest distance from the target in each coordinate at which the robot has arrived, metres.
 const ARRIVED_M: f64 = 0.02;
 /// Wheel rate of a straight drive, rad/s.
 const CRUISE_RADPS: f64 = 60.0;
@@ -13,14 +13,14 @@ const CRUISE_RADPS: f64 = 60.0;
 const SPIN_RADPS: f64 = 20.0;
 /// Heading error above which it turns on the spot, radians.
 const SPIN_FROM_RAD: f64 = 0.35;
-/// Heading error at which it ends that turn, radians.
+/// Heading error at which a turn on the spot ends, radians.
 const SPIN_TO_RAD: f64 = 0.1;
-/// Difference of the inner wheel's rate per heading error in a curve, 1/s.
+/// Reduction of the inner wheel's rate in a curve, per heading error, 1/s.
 const CURVE_RADPS: f64 = 100.0;
-/// Most answers that wait to be taken. More are dropped.
+/// Largest number of answers that wait to be taken. More are dropped.
 const WAITING: usize = 16;
 
-/// One robot, which knows only TARGET, COLOR and UUID.
+/// One robot, which understands only TARGET, COLOR and UUID.
 #[derive(Debug)]
 pub(crate) struct Original {
     id: RobotId,
@@ -28,7 +28,7 @@ pub(crate) struct Original {
     spins: bool,
     light: Rgb,
     at: Option<Vec2>,
-    /// Its program ended when it lost the broker.
+    /// Whether its program ended, because it lost the broker.
     ended: bool,
     introduces: usize,
     arrived: bool,
@@ -37,13 +37,13 @@ pub(crate) struct Original {
 /// Outputs of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OriginalOutputs {
-    /// Left and right, rad/s.
+    /// Wheel rates, left and right, rad/s.
     pub wheels_radps: [f64; 2],
     pub light: Rgb,
 }
 
 impl Original {
-    /// Just switched on.
+    /// A robot that was just switched on.
     pub fn new(id: RobotId) -> Self {
         Self {
             id,
@@ -57,13 +57,13 @@ impl Original {
         }
     }
 
-    /// Its link comes up or breaks. When it breaks, its program ends.
+    /// Brings its link up or breaks it. When the link breaks, the robot's program ends.
     pub fn link(&mut self, up: bool) {
         self.ended |= !up;
         self.introduces = usize::from(up && !self.ended);
     }
 
-    /// A message reaches it.
+    /// Handles a message that the robot received.
     pub fn receive(&mut self, payload: &[u8]) {
         if self.ended {
             return;
@@ -80,7 +80,7 @@ impl Original {
         }
     }
 
-    /// One step with a fix of its pose.
+    /// Takes one step with a fix of the pose. Without a fix, the wheels stand.
     pub fn step(&mut self, fix: Option<Pose>) -> OriginalOutputs {
         self.at = fix.map(|fix| fix.at).or(self.at);
         let wheels_radps = fix.filter(|_| !self.ended).map_or([0.0; 2], |pose| self.drive(pose));
@@ -108,7 +108,7 @@ impl Original {
         }
     }
 
-    /// Writes its next message.
+    /// Writes the robot's next message to `payload`. Returns its topic; `None` if there is no message.
     pub fn outgoing(&mut self, payload: &mut Message) -> Option<Topic> {
         let topic = if std::mem::take(&mut self.arrived) {
             Topic::Arrival

@@ -54,7 +54,7 @@ fn lamps_are_sent_corrected_colours_and_snapshots_have_those_of_the_show() {
     cross([[200, 0, 0], [0, 90, 255]], lamp);
 }
 
-/// Robots cross the picture; each shows what its lamp is to be sent for the half that it is on.
+/// Robots cross the picture. Each must show the colour of the half that it is on, as its lamp is to be sent it.
 fn cross(halves: [[u8; 3]; 2], lamp: LampSettings) {
     let show = Arc::new(crossing(halves));
     let [left, right] = halves.map(|[r, g, b]| Rgb::new(r, g, b));

@@ -18,17 +18,19 @@ use crate::world::STEP;
 pub(crate) use state::Play;
 use uplink::send;
 
-/// Time that robots have to find the controller and its clock. The show then begins without the others.
+/// Time that robots have to find the controller and its clock. The show then begins without the missing ones.
 const GATHERING: Span = Span::from_millis(8_000);
-/// Steps between two times that places are told: about a tenth of a second.
+/// Steps between two reports of robots' places ([`Progress::Stepped`]): about a tenth of a second.
 const PLACES_EVERY: u64 = 6;
-/// Steps between two times that the world's state enters the hash: about a second.
+/// Steps between two additions of the world's state to the hash: about a second.
 const HASH_EVERY: u64 = 64;
-/// Most messages and wake-ups between two steps. Only a controller that wakes itself without end reaches it.
+/// Largest number of messages and wake-ups between two steps. Only a controller that wakes itself without end reaches
+/// it.
 const ROUNDS_PER_STEP: usize = 1_000_000;
 
 impl Play {
-    /// Plays to the end, or to the time limit.
+    /// Plays to the end, or to the time limit, and returns the report. `log`: notes in the log of the controller's
+    /// inputs; `None`: no log.
     pub fn run(
         mut self,
         log: Option<Vec<(String, String)>>,
@@ -38,7 +40,7 @@ impl Play {
         self.report()
     }
 
-    /// [`Self::run`] without the report.
+    /// Plays as [`Self::run`] does, without a report.
     pub fn play(&mut self, log: Option<Vec<(String, String)>>, progress: &mut dyn FnMut(Progress<'_>)) {
         self.switch_on(log);
         let mut step = 0u64;
@@ -66,7 +68,7 @@ impl Play {
         Progress::log(&self.controller.end_log(), progress);
     }
 
-    /// The controller finds its broker and gets the show, and robots get their links.
+    /// Connects the controller to its broker, opens the show, and brings the robots' links up.
     fn switch_on(&mut self, log: Option<Vec<(String, String)>>) {
         if let Some(notes) = log {
             // A new controller is at rest.
@@ -93,7 +95,7 @@ impl Play {
         });
     }
 
-    /// Whether the show is over, and all was watched that follows, or its time is up.
+    /// Whether the rehearsal is over: the show has ended or its time is up. In a campaign, whether all checks are done.
     fn is_over(&self) -> bool {
         match &self.invariants {
             None => self.record.is_over() || self.now >= time_limit(self.planned_s),
@@ -101,7 +103,7 @@ impl Play {
         }
     }
 
-    /// Everything up to the next step of the world, and that step.
+    /// Handles everything up to the next step of the world, and takes that step.
     fn step(&mut self) {
         let next = self.now + STEP;
         self.pass_time(next);
@@ -128,7 +130,7 @@ impl Play {
         }
     }
 
-    /// Handles messages and wake-ups until `until`, in order.
+    /// Handles messages and wake-ups until `until`, in order of time.
     fn pass_time(&mut self, until: Instant) {
         for _ in 0..ROUNDS_PER_STEP {
             let wake = self.controller.wake_at().map(|at| self.clock.when(at).max(self.now));
@@ -164,7 +166,7 @@ impl Play {
         }
     }
 
-    /// A robot receives a message, and answers.
+    /// Delivers a message to a robot, and sends its answers.
     fn hand_over(&mut self, robot: usize, topic: Topic, payload: &[u8]) {
         if let Some(invariants) = &mut self.invariants {
             invariants.received(robot, self.now);
@@ -200,8 +202,8 @@ impl Play {
         self.drain_controller();
     }
 
-    /// Makes the plans that the controller asks for. Planning takes no virtual time, because its time depends on the
-    /// machine.
+    /// Makes the plans that the controller requests. Planning takes no virtual time, because its duration depends on
+    /// the machine.
     fn plan(&mut self, progress: &mut dyn FnMut(Progress<'_>)) {
         while let Some(job) = self.controller.next_plan_request() {
             progress(Progress::Planning);

@@ -8,7 +8,7 @@
 #[cfg(target_arch = "x86_64")]
 const LINE_BYTES: usize = 64;
 
-/// Begins to load all cache lines of a value. A value that begins within a line ends one line later than this loads.
+/// Begins to load all cache lines of a value. If the value begins within a line, its last part may not be loaded.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn prefetch<T>(value: &T) {
@@ -21,7 +21,7 @@ pub(crate) fn prefetch<T>(value: &T) {
     }
 }
 
-/// See above.
+/// Does nothing on other processors.
 #[inline]
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) fn prefetch<T>(_: &T) {}

@@ -29,28 +29,28 @@ const SENSORS: [Vec2; 8] = [
     Vec2::new(0.0, -1.0),
     Vec2::new(HALF, -HALF),
 ];
-/// Readings with nothing in range.
+/// Readings of a robot with nothing in range.
 const NOTHING: [f32; 8] = [f32::INFINITY; 8];
 
 /// The readings of all robots' sensors.
 #[derive(Clone, Debug)]
 pub(crate) struct ProximityReadings {
     radius_m: f64,
-    /// `[robot][sensor]`: metres.
+    /// `[robot][sensor]`: gap, metres; infinite if nothing is in range.
     gaps_m: Vec<[f32; 8]>,
-    /// Robots with a reading in range.
+    /// Robots that have a reading in range.
     seeing: Vec<u32>,
     dice: Dice,
 }
 
 impl ProximityReadings {
-    /// The sensors of a number of discs.
+    /// The sensors of a number of robots with this radius, metres.
     pub fn new(robots: usize, radius_m: f64, seed: u64) -> Self {
         let dice = Dice::new(seed, Purpose::Proximity);
         Self { radius_m, gaps_m: vec![NOTHING; robots], seeing: Vec::new(), dice }
     }
 
-    /// Distance of two centres from which they are out of each other's range, metres.
+    /// Distance of two centres from which two robots are out of each other's range, metres.
     pub fn sight_m(radius_m: f64) -> f64 {
         2.0 * radius_m + RANGE_M
     }
@@ -75,7 +75,7 @@ impl ProximityReadings {
         }
     }
 
-    /// Takes the readings by which a robot with front `forward` sees another at the offset `way`.
+    /// Takes the readings that a robot with front `forward` has of another one at the offset `way`.
     #[inline]
     fn see(&mut self, robot: u32, forward: Vec2, way: Vec2, noise: [f64; 2]) {
         let other_in_body = Vec2::new(forward.dot(way), forward.cross(way));

@@ -17,7 +17,7 @@ use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
 use crate::world::World;
 
-/// Most issues listed of one kind. The rest is counted.
+/// Largest number of issues listed of one kind. The others are only counted.
 const OF_A_KIND_MAX: usize = 20;
 
 /// The record until now.
@@ -25,14 +25,15 @@ pub(crate) struct RehearsalRecord {
     began: Option<Instant>,
     /// When the current transition started.
     started: Instant,
-    /// A drive has begun since the last call of `take_departure`.
+    /// Whether a drive has begun since the last call of `take_departure`.
     departed: bool,
     /// `[robot]`: its last arrival on the way to the current frame.
     arrivals: Vec<Option<Instant>>,
     heading_for: usize,
-    /// The current frame stood, or is driven to anew.
+    /// Whether the next drive is timed anew: robots have reached the current frame, were sent elsewhere, or get a new
+    /// plan.
     stood: bool,
-    /// How often the run was planned anew, and how many robots have touched since the first time.
+    /// Number of replans since the first departure, and number of contacts of two robots after the first replan.
     replans: usize,
     contacts_after_replan: u64,
     errors_m: Vec<f64>,
@@ -67,7 +68,7 @@ impl RehearsalRecord {
         }
     }
 
-    /// Whether the show has ended, well or not.
+    /// Whether the show has ended, successfully or not.
     pub fn is_over(&self) -> bool {
         self.outcome.is_some()
     }
@@ -82,30 +83,30 @@ impl RehearsalRecord {
         std::mem::take(&mut self.departed)
     }
 
-    /// Number of frames that stood.
+    /// Number of frames that robots have reached.
     pub fn frames_played(&self) -> usize {
         self.frames.len()
     }
 
-    /// The controller refused to play.
+    /// Records that the controller refused to play.
     pub fn refused(&mut self, why: &str) {
         self.outcome = Some(RunOutcome::Failed(why.into()));
         self.add(Issue::error("play-refused", why));
     }
 
-    /// A robot reports its arrival.
+    /// Records an arrival that a robot reports.
     pub fn arrived(&mut self, robot: usize, now: Instant) {
         self.arrivals[robot] = Some(now);
     }
 
-    /// Time between the first and the last arrival that lasts.
+    /// Time between the first and the last arrival. Only the latest arrival of each robot counts.
     fn arrival_spread(&self) -> Span {
         let first = self.arrivals.iter().flatten().min();
         let last = self.arrivals.iter().flatten().max();
         first.zip(last).map_or(Span::ZERO, |(first, last)| *last - *first)
     }
 
-    /// A robot breaks down by the conditions.
+    /// Records a breakdown of a robot, or its end.
     pub fn broke_down(&mut self, robot: usize, id: RobotId, fate: Fate, now: Instant) {
         let (code, what) = match fate {
             Fate::Killed => ("robot-killed", "lost its power, as asked for"),
@@ -122,7 +123,7 @@ impl RehearsalRecord {
         self.add(issue.in_frame(self.heading_for));
     }
 
-    /// The broker freezes or dies by the conditions.
+    /// Records that the broker freezes or dies.
     pub fn broker(&mut self, event: BrokerEvent, now: Instant) {
         let (code, what) = match event {
             BrokerEvent::Freezes(_) => ("broker-frozen", "passes nothing on, as asked for"),
@@ -133,7 +134,7 @@ impl RehearsalRecord {
         self.add(Issue::warning(code, message).in_frame(self.heading_for));
     }
 
-    /// The controller is killed by the conditions, or back.
+    /// Records that the controller is killed, or is back.
     pub fn controller(&mut self, event: CrashEvent, now: Instant) {
         let (code, what) = match event {
             CrashEvent::Killed => ("controller-killed", "is killed, as asked for"),
@@ -143,7 +144,7 @@ impl RehearsalRecord {
         self.add(Issue::warning(code, message).in_frame(self.heading_for));
     }
 
-    /// The operator let an interrupted show go on.
+    /// Records that the operator let an interrupted show go on.
     pub fn pressed(&mut self, now: Instant) {
         let message = format!("The operator pressed Go on, {:.2} s into the show.", self.since(now));
         self.add(Issue::warning("pressed", message).in_frame(self.heading_for));
@@ -224,7 +225,7 @@ impl RehearsalRecord {
         }
     }
 
-    /// The report without the figures of world and network.
+    /// Makes the report. The caller fills in the figures of plan, lights, network, seed and hash.
     pub fn report(mut self, now: Instant, breakdowns: &Breakdowns, robots: &RobotSet) -> RehearsalReport {
         let finished = self.outcome == Some(RunOutcome::Finished);
         if self.outcome.is_none() {
@@ -271,7 +272,7 @@ impl RehearsalRecord {
         }
     }
 
-    /// Measures the picture that stands now.
+    /// Records a frame that robots have reached: its times, and the distances of robots from their pixels.
     fn frame_stands(
         &mut self,
         frame: usize,
@@ -284,7 +285,7 @@ impl RehearsalRecord {
         let places = robots.world.places();
         let mut errors_m = Vec::with_capacity(robots.len());
         let snapshot = controller.snapshot(at);
-        // Without air time original robots may be on their way to the next frame already.
+        // Without air time, original robots may be on their way to the next frame already.
         let stands = snapshot.run.as_ref().is_none_or(|run| run.frame == frame);
         let shows = |view: &&RobotView| stands && view.takes_part && view.pixel.is_some();
         for view in snapshot.robots.iter().filter(shows) {
@@ -294,7 +295,8 @@ impl RehearsalRecord {
             }
         }
         let picture = show.frames.get(frame);
-        // After a last frame without air time no robot takes part any more, so lights are matched to pixels by place.
+        // After a last frame without air time no robot takes part any more, so each pixel is matched with the nearest
+        // robot.
         if errors_m.is_empty() {
             let nearest_m = |goal: Vec2| places.iter().map(|at| at.distance(goal)).reduce(f64::min);
             let pixels = picture.map_or(&[][..], |frame| &frame.pixels);

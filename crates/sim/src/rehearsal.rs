@@ -13,7 +13,7 @@ use crate::report::RehearsalReport;
 use crate::statistics::Spread;
 
 /// Plays a whole show in virtual time and reports the result. The same show, options and version give the same report
-/// to the bit. `progress` is called about every second of virtual time.
+/// to the bit. `progress` is called several times a second of virtual time.
 pub fn rehearse(
     show: &Show,
     options: &RehearsalOptions,
@@ -22,8 +22,8 @@ pub fn rehearse(
     rehearse_with(show, options, None, progress)
 }
 
-/// [`rehearse`], with a log of the controller's inputs, which is passed on as [`Progress::Logged`]. `notes` for people,
-/// names and values, stand in the log.
+/// Plays as [`rehearse`] does, and logs the controller's inputs as [`Progress::Logged`]. `notes` for people, names and
+/// values, are written into the log.
 pub fn rehearse_recorded(
     show: &Show,
     options: &RehearsalOptions,
@@ -66,7 +66,7 @@ fn rehearse_with(
     report
 }
 
-/// Number of robots that the show needs, or of its starts if it has more.
+/// Number of robots that the show needs, or the number of its starts if that is larger.
 fn usual_robots(show: &Show) -> usize {
     robots_needed(show).max(show.starts.as_ref().map_or(0, Vec::len))
 }
@@ -80,7 +80,7 @@ fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     names
 }
 
-/// The starts of the show, or rows along the front edge where it has too few.
+/// The first starts of the show, or rows along the front edge if it has too few.
 fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     match &show.starts {
         Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
@@ -88,7 +88,7 @@ fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     }
 }
 
-/// Appends the issues of the plan that the check of the show did not find.
+/// Appends the issues of the plan that the validation of the show did not find.
 fn add_new(issues: &mut Vec<Issue>, plan: &ShowPlan) {
     for issue in &plan.issues {
         if !issues.contains(issue) {

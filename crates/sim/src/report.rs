@@ -11,15 +11,15 @@ use crate::statistics::Spread;
 /// The report of a rehearsal. Its JSON has these keys.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RehearsalReport {
-    /// All frames were played without a contact, and no robot dropped out but those with a breakdown in the conditions.
+    /// Whether all frames were played without a contact, and no more robots dropped out than had a breakdown.
     pub ok: bool,
     /// Number of robots.
     pub robots: usize,
-    /// Number of frames that stood.
+    /// Number of frames that robots reached.
     pub frames_played: usize,
     /// Number of frames of the show.
     pub frames: usize,
-    /// From the first departure to the end of the last air time, seconds.
+    /// Time from the first departure to the end of the last air time, seconds.
     pub duration_s: f64,
     /// Planned duration of the show, seconds.
     pub planned_s: f64,
@@ -28,7 +28,7 @@ pub struct RehearsalReport {
     /// Number of contacts of two robots, or of a robot with a no-go area. Going over the floor's edge by more than
     /// [`EDGE_SLACK_M`](crate::EDGE_SLACK_M) is a contact too.
     pub contacts: u64,
-    /// Contacts of two robots after the first replan began, which recovery caused.
+    /// Number of contacts of two robots after the first replan began. Recovery is taken as their cause.
     pub contacts_after_replan: u64,
     /// Number of replans.
     pub replans: usize,
@@ -36,29 +36,29 @@ pub struct RehearsalReport {
     pub wall_contacts: u64,
     /// Largest distance by which a robot would have come over the floor's edge, metres.
     pub wall_pressed_m: f64,
-    /// Brakes of the safety layers, and those with no faulty and no off-route robot ahead.
+    /// Braking episodes of the safety layers, and those with no faulty and no off-route robot ahead.
     pub brakes: BrakeCounts,
     /// The least distance of two centres, metres; `None` if no two robots came near each other.
     pub closest_m: Option<f64>,
     /// Time between the first and the last arrival in a frame, one value a frame, seconds.
     pub arrival_spread_s: Spread,
-    /// True distance of robots from their pixels when their frame stood, one value a robot and frame, metres.
+    /// True distance of robots from their pixels when a frame was reached, one value a robot and frame, metres.
     pub position_error_m: Spread,
     /// Distance of the estimated from the true place of driving robots, metres.
     pub estimate_error_m: Spread,
     /// Distance of the true place of driving robots from that of their routes, metres.
     pub tracking_error_m: Spread,
-    /// Largest difference of two robots' clocks, one value a second, seconds. Departures and lights that are meant for
-    /// one moment differ by as much.
+    /// Largest difference of two robots' clocks, sampled once a second, seconds. Departures and lights that are meant
+    /// for one moment differ by as much.
     pub clock_spread_s: Spread,
-    /// Lights compared with the layers of the show; 0 without layers.
+    /// Comparisons of lights with the layers of the show; 0 without layers.
     pub lights: LightCounts,
-    /// Longest time until all robots stood after the controller was killed, or was back while they still drove, seconds;
-    /// `None`: it was not killed.
+    /// Longest time until all robots stood still after the controller was killed, or was back while they still drove,
+    /// seconds. `None` if it was not killed.
     pub stop_after_crash_s: Option<f64>,
-    /// Messages sent and lost; each receiver counts.
+    /// Numbers of messages sent and lost. A broadcast counts once for each receiver.
     pub messages: MessageCounts,
-    /// Robots that were lost.
+    /// Number of robots that dropped out.
     pub dropouts: usize,
     /// The seed: the same show, conditions and seed give the same run.
     pub seed: u64,
@@ -68,7 +68,7 @@ pub struct RehearsalReport {
     pub real_time_factor: Option<f64>,
     /// Faults and remarks.
     pub issues: Issues,
-    /// The frames that stood, in the order played.
+    /// The frames that robots reached, in the order played.
     pub per_frame: Vec<FrameRecord>,
 }
 
@@ -82,17 +82,17 @@ impl RehearsalReport {
     }
 }
 
-/// Farthest that a robot stands from the pixel that it shows, metres: a third of its diameter of 57 mm.
+/// Largest distance of a robot from the pixel that it shows, metres: a third of its diameter of 57 mm.
 pub const SHOWN_M: f64 = 0.019;
 
-/// One frame that stood.
+/// One frame that robots reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameRecord {
     /// Its index.
     pub frame: usize,
     /// Its name.
     pub name: String,
-    /// Time at which it stood, seconds after the first departure.
+    /// Time at which it was reached, seconds after the first departure.
     pub at_s: f64,
     /// Duration of the drive to it, seconds.
     pub drive_s: f64,

@@ -19,27 +19,27 @@ use crate::prefetch::prefetch;
 use crate::proximity::ProximityReadings;
 use crate::world::{STEP, World};
 
-/// Range of the robots' own clocks at the begin, microseconds: an hour, so that no clock agrees with another.
+/// Upper bound of the robots' own clocks at the begin, microseconds: an hour, so that no clock agrees with another.
 const CLOCK_BEGIN_US: u64 = 3_600_000_000;
 /// Steps in which a battery loses one percent: three minutes.
 const STEPS_PER_PERCENT: u64 = 11_250;
 /// Number of robots up to which prefetching does not pay, because the cache still has them from the step before. Tuned on
 /// `--example speed`.
 const CACHED: usize = 1_500;
-/// Turns ahead at which a robot is prefetched: first its begin, which tells whether it runs our firmware, then the state of
-/// its step. Nearer, memory is still on its way at the turn. Farther, it is out of the cache again.
+/// Turns ahead at which a robot is prefetched: first its begin, which tells whether it runs our firmware, then the
+/// state of its step. With fewer turns, memory has not arrived yet. With more, it has left the cache again.
 const AHEAD: [usize; 2] = [5, 2];
 
 /// All robots of a rehearsal or a fleet, and their world.
 pub(crate) struct RobotSet {
     pub world: World,
     sensors: FixSensors,
-    /// `[robot]`: by how much the headings of its fixes are off, radians; empty where no marker is turned.
+    /// `[robot]`: error of the headings of its fixes, radians; empty if no marker is turned.
     markers_rad: Vec<f64>,
     robots: Vec<SimulatedRobot>,
-    /// Number of robots up to which none is prefetched.
+    /// Number of robots up to which no robot is prefetched.
     pub cached: usize,
-    /// `[robot]`: it has power. The person's foot comes last, and has none.
+    /// `[robot]`: whether it has power. The last entry is for the person's foot, which has none.
     alive: Vec<bool>,
     steps: u64,
     errors: ErrorStatistics,
@@ -52,9 +52,9 @@ pub(crate) struct RobotSet {
 #[repr(C, align(64))]
 struct SimulatedRobot {
     id: RobotId,
-    /// Its wheels do not turn.
+    /// Whether its wheels are blocked.
     stuck: bool,
-    /// It gets no fixes.
+    /// Whether it gets no fixes.
     blind: bool,
     light: Rgb,
     battery: u8,
@@ -62,7 +62,7 @@ struct SimulatedRobot {
     firmware: RobotFirmware,
 }
 
-/// The own clock of a robot.
+/// The clock of one robot, which drifts against virtual time.
 #[derive(Clone, Copy, Debug)]
 struct LocalClock {
     begin_us: u64,
@@ -77,7 +77,7 @@ impl LocalClock {
         Instant(now.0.wrapping_add(self.begin_us).wrapping_add_signed(drift))
     }
 
-    /// The clock begins at 0.
+    /// Sets the clock to 0.
     fn restart(&mut self, now: Instant) {
         self.begin_us = self.begin_us.wrapping_sub(self.own(now).0);
     }
@@ -85,8 +85,8 @@ impl LocalClock {
 
 impl RobotSet {
     /// Robots at rest on a stage, just switched on and without a link. `names[robot]`: its name, if one is given.
-    /// `says_simulated`: robots with our firmware report `sim=1`. Rehearsals omit it, because their messages are to be
-    /// as long as those of real robots.
+    /// `says_simulated`: robots with our firmware report `sim=1`. Rehearsals leave it out, to make messages as long as
+    /// those of real robots.
     pub fn new(
         stage: &Stage,
         starts: &[Vec2],
@@ -138,12 +138,12 @@ impl RobotSet {
         self.robots[robot].id
     }
 
-    /// The light a robot shows.
+    /// The colour of a robot's light.
     pub fn light(&self, robot: usize) -> Rgb {
         self.robots[robot].light
     }
 
-    /// A robot's link comes up or breaks.
+    /// Brings a robot's link up, or breaks it. Does nothing without power.
     pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
         if self.alive[robot] {
             let simulated = &mut self.robots[robot];
@@ -154,7 +154,7 @@ impl RobotSet {
         }
     }
 
-    /// A robot receives a message.
+    /// Delivers a message to a robot. Does nothing without power.
     pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
         if self.alive[robot] {
             let simulated = &mut self.robots[robot];
@@ -165,7 +165,7 @@ impl RobotSet {
         }
     }
 
-    /// Prefetches a robot that is about to receive a message, where the processor does not have it at hand.
+    /// Prefetches a robot that is about to receive a message, if there are too many robots for the cache.
     #[inline]
     pub fn prefetch_receiver(&self, robot: usize) {
         if self.robots.len() > self.cached {
@@ -180,7 +180,7 @@ impl RobotSet {
         }
     }
 
-    /// Prefetches the robots whose turns come.
+    /// Prefetches the robots whose turns come: the begin of one, the state of the other.
     #[inline]
     fn prefetch_next(&self, [later, soon]: [usize; 2]) {
         if let Some(simulated) = self.robots.get(later) {
@@ -189,24 +189,24 @@ impl RobotSet {
         self.prefetch_state(soon);
     }
 
-    /// Takes the messages that a robot sends now.
+    /// Passes the messages that a robot sends now to `receive`.
     pub fn drain_messages(&mut self, robot: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         if self.alive[robot] {
             self.robots[robot].send_messages(robot, &mut self.payload, receive);
         }
     }
 
-    /// Errors of places, tracking and clocks.
+    /// Errors of estimated places, of tracking and between clocks.
     pub fn errors(&self) -> &ErrorStatistics {
         &self.errors
     }
 
-    /// Number of brakes.
+    /// Numbers of braking episodes.
     pub fn brakes(&self) -> BrakeCounts {
         self.brakes.counts()
     }
 
-    /// Compares the clocks of all robots that have one.
+    /// Samples the show clocks of all robots that have power and know the show clock.
     pub fn compare_clocks(&mut self, now: Instant) {
         let shown = self.robots.iter().zip(&self.alive).filter(|(_, alive)| **alive);
         self.errors.sample_clocks(shown.filter_map(|(simulated, _)| match &simulated.firmware {
@@ -215,29 +215,29 @@ impl RobotSet {
         }));
     }
 
-    /// A robot's power fails.
+    /// Makes a robot's power fail.
     pub fn kill(&mut self, robot: usize) {
         self.alive[robot] = false;
         self.robots[robot].light = Rgb::BLACK;
         self.world.command(robot, [0.0; 2]);
     }
 
-    /// A robot's wheels block.
+    /// Blocks a robot's wheels.
     pub fn block_wheels(&mut self, robot: usize) {
         self.robots[robot].stuck = true;
         self.world.command(robot, [0.0; 2]);
     }
 
-    /// A robot's fixes stay away, or come again.
+    /// Takes a robot's fixes away, or gives them back.
     pub fn blind(&mut self, robot: usize, blind: bool) {
         self.robots[robot].blind = blind;
     }
 
     /// One step of 16 ms that ends at `now`: all bodies move, then the robots take their steps one after the other.
     ///
-    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next. The
-    /// cache then still has the last robots of the step before. Their messages are received in ascending order all the
-    /// same.
+    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next, if the
+    /// sensors allow any order. The cache then still has the last robots of the step before. Their messages are
+    /// received in ascending order all the same.
     pub fn step(&mut self, now: Instant, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
         self.count_brakes();
@@ -262,7 +262,7 @@ impl RobotSet {
         }
     }
 
-    /// Counts the brakes that began in the step before.
+    /// Classifies the braking episodes that began in the step before.
     #[inline]
     fn count_brakes(&mut self) {
         let Self { world, robots, alive, brakes, .. } = self;
@@ -332,7 +332,7 @@ impl SimulatedRobot {
             fix_delay: STEP * delay_steps,
             fix_pace: STEP * i64::from(conditions.fixes.every.max(1)),
             seed: dice.bits() as u32,
-            // As a builder states them: the true noise, but never none.
+            // As the builder of a robot would configure them: the true noise, but never zero.
             fix_sigma_m: conditions.fixes.place_sigma_m.max(0.0005),
             heading_sigma_rad: conditions.fixes.heading_sigma_rad.max(0.002),
             simulated: says_simulated,

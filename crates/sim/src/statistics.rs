@@ -1,4 +1,4 @@
-//! Summary of many numbers in three.
+//! Summary of many numbers by three.
 
 use lightbots_base::statistics::nearest_rank;
 use serde::Serialize;
@@ -15,7 +15,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of these numbers, in any order.
+    /// Summarises numbers in any order.
     pub fn of(numbers: &[f64]) -> Self {
         let mut sorted = numbers.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! What happens in a rehearsal at moments that are known before.
+//! Events of a rehearsal whose times are known before it begins.
 
 use core::cmp::Reverse;
 
@@ -12,18 +12,18 @@ pub(crate) struct Timetable<E> {
 }
 
 impl<E> Timetable<E> {
-    /// Of events at the same time, the one that comes last here happens first.
+    /// Sorts events by time. Of events at the same time, the one that is last in `events` happens first.
     pub fn new(mut events: Vec<(Span, E)>) -> Self {
         events.sort_by_key(|&(at, _)| Reverse(at));
         Self { coming: events }
     }
 
-    /// Whether there is nothing to come.
+    /// Whether no event is left.
     pub fn is_empty(&self) -> bool {
         self.coming.is_empty()
     }
 
-    /// The next event until a time after the first departure.
+    /// Takes the next event that is due at a time after the first departure. `None` if none is due.
     pub fn next_until(&mut self, since_begin: Span) -> Option<E> {
         self.coming.pop_if(|(at, _)| *at <= since_begin).map(|(_, event)| event)
     }

@@ -15,10 +15,11 @@ const MEASURED: [(f64, f64, f64); 6] = [
     (60.0, 0.041_38, 0.0006),
 ];
 
-/// Mean wheel rate from which driving has its whole effect on the track, rad/s.
+/// Mean wheel rate from which driving has its full effect on the track, rad/s.
 const DRIVING_RADPS: f64 = 50.0;
 
-/// Rows of the look-up table, one for each rad/s of half the difference. The motors cannot differ by more.
+/// Rows of the look-up table, one for each rad/s of half the difference of wheel rates. The motors cannot differ by
+/// more.
 const ROWS: usize = 142;
 
 static ROWS_BY_RATE: [(f64, f64); ROWS] = rows_by_rate();

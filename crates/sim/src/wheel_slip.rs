@@ -8,10 +8,10 @@ const STRIDE: u32 = 32;
 /// The slip of one robot's two wheels, left and right.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelSlip {
-    /// Mean of each wheel, as a share of its turning.
+    /// Mean slip of each wheel, as a share of its turning.
     mean: [f64; 2],
     now: [f64; 2],
-    /// Change per step until the next goal.
+    /// Change of the slip per step until the next goal.
     slope: [f64; 2],
     steps_left: u32,
 }
@@ -24,7 +24,7 @@ impl WheelSlip {
         Self { mean, now: mean, slope: [0.0; 2], steps_left: dice.below(u64::from(STRIDE)) as u32 }
     }
 
-    /// The share of each wheel's turning that moves the body in the next step.
+    /// Advances the slip by one step. Returns the share of each wheel's turning that moves the body.
     #[inline]
     pub fn grip(&mut self, level: f64, dice: &mut Dice) -> [f64; 2] {
         if level > 0.0 {

@@ -18,7 +18,8 @@ pub const STEP: Span = Span::from_millis(16);
 /// [`STEP`] in seconds.
 pub(crate) const STEP_S: f64 = 0.016;
 
-/// The bodies of N robots on a floor. Places are stored apart, because contacts read only them. So is what robots read.
+/// The bodies of robots on a floor. Places are stored apart, because contacts read only them. What robots read is
+/// stored apart as well.
 #[derive(Clone, Debug)]
 pub struct World {
     places: Vec<Vec2>,
@@ -34,7 +35,7 @@ pub struct World {
     bumps: Bumps,
 }
 
-/// What firmware and body exchange.
+/// State that firmware and body exchange.
 #[derive(Clone, Debug)]
 struct Axle {
     /// Commanded wheel rates, left and right, rad/s.
@@ -50,17 +51,18 @@ struct Body {
     slip: WheelSlip,
     /// Share of the left wheel's turning that moves the body, besides slip: 1 unless that wheel is worn.
     left_share: f64,
-    /// What it is pressed against.
+    /// The wall or no-go area that it is pressed against.
     against: Option<Against>,
 }
 
 impl World {
-    /// Robots at rest at these poses, whose wheels slip by this share in the mean.
+    /// Robots at rest at these poses. `slip`: mean share of a wheel's turning that does not move the body.
     pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
         Self::with_people(stage, starts, false, slip, seed)
     }
 
-    /// [`Self::new`]; with people there is one more disc, a foot, which stands beside the floor until it is put on it.
+    /// Makes a world as [`Self::new`] does. With people there is one more disc, a foot, which stands beside the floor
+    /// until it is put on it.
     pub(crate) fn with_people(
         stage: &Stage,
         robots: &[Pose],
@@ -99,14 +101,14 @@ impl World {
         }
     }
 
-    /// The left wheel of a robot moves the body by this share of its turning from now on.
+    /// Makes the left wheel of a robot move the body by only this share of its turning.
     pub(crate) fn wear(&mut self, robot: usize, share: f64) {
         if let Some(body) = self.bodies.get_mut(robot) {
             body.left_share = share;
         }
     }
 
-    /// The person's foot is put on the floor or, with `None`, beside it.
+    /// Puts the person's foot on the floor; `None`: beside the floor.
     pub(crate) fn put_foot(&mut self, stage: &Stage, place: Option<Vec2>) {
         self.put(self.places.len() - 1, place.unwrap_or_else(|| beside(stage)));
     }
@@ -124,7 +126,8 @@ impl World {
         [left * STEP_S, right * STEP_S]
     }
 
-    /// Readings of a robot's proximity sensors, counter-clockwise from the front, metres; infinite: nothing in range.
+    /// Readings of a robot's proximity sensors, counter-clockwise from the front, metres; infinite if nothing is in
+    /// range.
     #[inline]
     pub fn proximity_m(&self, robot: usize) -> [f32; 8] {
         self.proximity.gaps_m(robot)
@@ -141,7 +144,8 @@ impl World {
         &self.places
     }
 
-    /// Whether a robot at a place would be `gap_m` from all other robots, rim to rim, and on the floor.
+    /// Whether a robot at a place would be on the floor, outside of no-go areas, and at least `gap_m` from all others,
+    /// rim to rim.
     pub(crate) fn is_free(&self, robot: usize, place: Vec2, gap_m: f64) -> bool {
         let clear_m = self.contacts.contact_m() + gap_m;
         let mut kept = place;
@@ -150,7 +154,7 @@ impl World {
                 .all(|other| other == robot || self.places[other].distance(place) >= clear_m)
     }
 
-    /// A robot is lifted and put down at a place.
+    /// Lifts a robot and puts it down at a place.
     pub(crate) fn put(&mut self, robot: usize, place: Vec2) {
         self.places[robot] = place;
         self.near.rebuild(&self.places);
@@ -196,7 +200,7 @@ impl World {
         }
     }
 
-    /// Place of a robot after its step; `None` if it did not move.
+    /// Moves a body by one step. Returns the robot's new place; `None` if it did not move.
     #[inline]
     fn move_body(&mut self, robot: usize) -> Option<Vec2> {
         let body = &mut self.bodies[robot];

@@ -1,4 +1,4 @@
-//! What must hold after each step of a campaign.
+//! The invariants that are checked after each step of a campaign.
 
 use core::fmt;
 
@@ -12,31 +12,32 @@ use crate::floor::FloorObject;
 use crate::mishap::Mishap;
 use crate::robot_set::RobotSet;
 
-/// A robot stands this long after Stop, or after the last message it received (R40 and R43 of docs/protocol.md): its own
-/// patience is 2 s, and it brakes within 0.1 s.
+/// A robot must rest this long after Stop, or after the last message that it received (R40 and R43 of
+/// docs/protocol.md). A robot without messages stops after 2 s, and brakes within 0.1 s.
 const RESTS_AFTER: Span = Span::from_millis(2_200);
-/// All is watched for this long after the show is over.
+/// How long checks go on after all robots were stopped or the run ended.
 const WATCHED: Span = Span::from_millis(3_500);
-/// A robot that dropped out is driven around from this long after: all are held within 0.6 s, and then planned again.
+/// Other robots must drive around a robot from this long after it dropped out. All robots are held within 0.6 s, and
+/// then planned again.
 const KNOWN_AFTER: Span = Span::from_millis(1_000);
-/// A robot that was put down elsewhere is expected there from this long after: it notices within 0.3 s (R47), reports, and
-/// all are held within 0.6 s. Messages may be late and lost.
+/// Other robots must expect a robot at its new place from this long after it was put down there. It notices within 0.3
+/// s (R47) and reports, and all robots are held within 0.6 s. Messages may be late and lost.
 const EXPECTED_AFTER: Span = Span::from_millis(1_500);
-/// Robots that touched and were excused are apart once their rims are at this distance, metres.
+/// Distance of rims from which robots whose contact was excused have parted, metres.
 const APART_M: f64 = 0.01;
-/// A route whose run is gone has ended after this.
+/// Time after which all routes of a run that was lost have ended.
 const ROUTE_ENDS: Span = Span::from_millis(30_000);
-/// Most violations that are kept.
+/// Largest number of violations that are kept.
 const KEPT: usize = 20;
 
-/// Something that must not happen.
+/// A violation of an invariant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// When, after robots were switched on.
+    /// Time since robots were switched on.
     pub at: Instant,
-    /// Which invariant, as one word.
+    /// The invariant, as one word.
     pub invariant: &'static str,
-    /// What, for people.
+    /// What happened, for people.
     pub what: String,
 }
 
@@ -46,54 +47,56 @@ impl fmt::Display for Violation {
     }
 }
 
-/// What is known of a robot.
+/// What is known of one robot.
 #[derive(Clone, Debug)]
 struct Watched {
     /// When it received its last message.
     received: Instant,
     /// It has no power, or its wheels are stuck.
     is_broken: bool,
-    /// When it dropped out.
+    /// When it dropped out; `None` while it takes part.
     out: Option<Instant>,
-    /// There was no plan around all places where it may stand, and the controller gave them up.
+    /// Whether a plan failed while the robot was out: the controller may then plan through its place.
     is_place_given_up: bool,
-    /// Something happened to it alone, or it knows TARGET only: it may drop out.
+    /// Whether it may drop out. Messages are lost at random, something happened to it alone, or it understands the
+    /// command TARGET but no routes.
     may_drop_out: bool,
-    /// It says that it is elsewhere, or shares its name.
+    /// Whether it reports a false place, or shares its name with another robot.
     is_false: bool,
-    /// When it was put down elsewhere.
+    /// When it was put down elsewhere, or began or ceased to report a false place.
     moved: Option<Instant>,
-    /// It was seen moving when it should not.
+    /// Whether it was seen moving when it must rest.
     moves: bool,
 }
 
-/// Watches a run.
+/// Checks the invariants of a run.
 #[derive(Debug)]
 pub(crate) struct Invariants {
     robots: Vec<Watched>,
-    /// When the show is to be over.
+    /// When the show must be over at the latest.
     limit: Instant,
-    /// The frame that stood last.
+    /// The frame that robots reached last.
     reached: Option<usize>,
-    /// Frames to which there was no plan.
+    /// Frames that may be missing, because no plan was found or they were skipped.
     given_up: Vec<usize>,
     /// The first and the last frame of the latest loop.
     repeats: Option<(usize, usize)>,
-    /// When a person put a foot on the floor.
+    /// When a person put a foot on the floor, or left.
     stepped: Option<Instant>,
-    /// The journal may be older than the run: the disk failed.
+    /// Whether the journal may be older than the run, because the disk was full or slow.
     is_journal_old: bool,
-    /// When Stop was pressed, or the run ended.
+    /// When all robots were stopped, or the run ended. After a run was lost, when its routes have ended.
     stopped: Option<Instant>,
     is_over: bool,
-    /// Pairs whose contact was excused, and that have not parted.
+    /// Pairs of robots whose contact was excused, and that have not parted.
     together: Vec<(u32, u32)>,
     routes: RouteWatch,
     violations: Vec<Violation>,
 }
 
 impl Invariants {
-    /// Watches a number of robots whose show is over before `limit`.
+    /// Checks for a number of robots, whose show must be over at `limit`. The last `originals` of the robots understand
+    /// TARGET but no routes.
     pub fn new(robots: usize, originals: usize, limit: Instant) -> Self {
         let watched = |robot: usize| Watched {
             received: Instant::ZERO,
@@ -121,24 +124,24 @@ impl Invariants {
         }
     }
 
-    /// Messages are lost at random: every robot may drop out.
+    /// Allows every robot to drop out, because messages are lost at random.
     pub fn on_a_bad_link(mut self) -> Self {
         self.robots.iter_mut().for_each(|robot| robot.may_drop_out = true);
         self
     }
 
-    /// What was violated.
+    /// The violations that were found.
     pub fn into_violations(self) -> Vec<Violation> {
         self.violations
     }
 
-    /// Whether nothing is left to watch.
+    /// Whether nothing is left to check: robots have rested after the end of the run, or the limit is past.
     pub fn are_over(&self, now: Instant) -> bool {
         self.is_over && self.stopped.is_some_and(|at| now - at > WATCHED) || now > self.limit
     }
 
-    /// A controller found no run after a crash: its disk had failed, or the run was over. Robots drive to the end of their
-    /// routes at most.
+    /// Notes that a new controller found no run after a crash. This is a violation unless the disk had failed or the
+    /// run was over. Robots drive to the end of their routes at most.
     pub fn run_is_gone(&mut self, now: Instant) {
         if !self.is_over && !self.is_journal_old {
             self.violate(now, "journal", "the run is not found".into());
@@ -147,18 +150,18 @@ impl Invariants {
         self.is_over = true;
     }
 
-    /// A robot received a message.
+    /// Notes that a robot received a message.
     pub fn received(&mut self, robot: usize, now: Instant) {
         self.robots[robot].received = now;
     }
 
-    /// A robot broke down.
+    /// Notes that a robot broke down.
     pub fn broke_down(&mut self, robot: usize, fate: Fate) {
         self.robots[robot].is_broken |= matches!(fate, Fate::Killed | Fate::Stuck);
         self.robots[robot].may_drop_out = true;
     }
 
-    /// A mishap came to pass.
+    /// Notes a mishap.
     pub fn befell(&mut self, mishap: Mishap, now: Instant) {
         if let Mishap::Off(robot) | Mishap::Moved(robot, _) = mishap {
             self.robots[robot].may_drop_out = true;
@@ -185,7 +188,7 @@ impl Invariants {
         }
     }
 
-    /// An event of the controller.
+    /// Handles an event of the controller.
     pub fn event(&mut self, event: &Event, by_id: &[(RobotId, usize)]) {
         let robot = |id: RobotId| by_id.binary_search_by_key(&id, |entry| entry.0).ok();
         match &event.kind {
@@ -219,7 +222,7 @@ impl Invariants {
         }
     }
 
-    /// A robot drops out. What others do may make it late or blocked.
+    /// Checks that a robot had a reason to drop out. Other robots may make it late or blocked.
     fn dropped_out(&mut self, now: Instant, robot: usize, why: Trouble) {
         self.robots[robot].out = Some(now);
         let by_others = matches!(why, Trouble::Late | Trouble::Blocked | Trouble::Missed | Trouble::Unsure);
@@ -232,7 +235,7 @@ impl Invariants {
         }
     }
 
-    /// A frame stands: all before it did, each once, or it begins a loop again.
+    /// Checks that frames are reached in order, each once. Only a loop goes back, from its last frame to its first.
     fn frame_stands(&mut self, now: Instant, frame: usize) {
         let goes_back =
             self.repeats.is_some_and(|(first, last)| self.reached == Some(last) && frame == first);
@@ -263,8 +266,8 @@ impl Invariants {
         }
     }
 
-    /// No route leads through a robot that dropped out and has no route, if the controller can know where it is: robots that
-    /// know TARGET only do not say where they are on the way.
+    /// Checks that no route leads through a robot that dropped out and has no route, if the controller can know its
+    /// place. TARGET-only robots do not report their places on the way.
     fn check_routes(&mut self, now: Instant, robots: &RobotSet) {
         let is_out = |robot: &usize| {
             let watched = &self.robots[*robot];
@@ -302,7 +305,7 @@ impl Invariants {
         }
     }
 
-    /// Why a contact must not be; `None`: it is excused.
+    /// Why a contact is a violation; `None` if it is excused.
     fn contact(&self, now: Instant, pair: (u32, u32)) -> Option<String> {
         let (a, b) = (pair.0 as usize, pair.1 as usize);
         let [one, other] = [&self.robots[a], &self.robots[b]];
@@ -320,8 +323,8 @@ impl Invariants {
         }
     }
 
-    /// Why a robot must not touch the person's foot; `None`: the foot has just been put in its way, or the robot does not
-    /// brake because it drives to a target (R49).
+    /// Why a contact with the person's foot is a violation. `None` if the foot was put there just before, or the robot
+    /// drives to a target and does not brake (R49). A contact of a broken or unexpected robot is excused as well.
     fn contact_with_person(&self, now: Instant, robot: usize, robots: &RobotSet) -> Option<String> {
         let is_surprised = self.stepped.is_some_and(|at| now - at < EXPECTED_AFTER);
         let is_excused = is_surprised
@@ -331,7 +334,8 @@ impl Invariants {
         (!is_excused).then(|| format!("robot {robot} touched a person"))
     }
 
-    /// Whether a robot stands where it was put down just now, or where no controller can know that it is.
+    /// Whether the controller cannot expect a robot where it is: it was moved just now, reports a false place, or
+    /// shares its name.
     fn is_unexpected(&self, now: Instant, robot: usize) -> bool {
         let watched = &self.robots[robot];
         watched.is_false || watched.moved.is_some_and(|at| now - at < EXPECTED_AFTER)

@@ -1,5 +1,5 @@
-//! The fault campaign: a seed is a scene, a story of faults, and what must hold all the same. docs/campaign.md describes
-//! it.
+//! The fault campaign: a seed gives a scene and a story of faults, and invariants must hold all the same.
+//! docs/campaign.md describes it.
 
 mod invariants;
 mod route_watch;
@@ -21,14 +21,17 @@ pub use invariants::Violation;
 pub use scene::Scene;
 pub use story::Story;
 
-/// Longest time until a show begins: robots find the controller and set their clocks, on a slow link for half a minute.
+/// Longest time until a show begins, seconds. Robots find the controller and set their clocks, which takes half a
+/// minute on a slow link.
 const BEGINS_WITHIN_S: f64 = 42.0;
-/// Time that a fault may cost beyond its own length, seconds: a silent robot, three plans, and gathering anew after each.
+/// Time that a fault may cost beyond its own length, seconds: a silent robot, three plans, and gathering robots after
+/// each.
 const RECOVERS_WITHIN_S: f64 = 40.0;
-/// Each fault may also cost as many times the duration of the show (`control/src/run/recovery_bound.rs`).
+/// Multiple of the show's duration that each fault may also cost (`control/src/run/recovery_bound.rs`).
 const REPLAYS: f64 = 2.0;
 
-/// The log of the first controller is replayed for one seed in this many: that costs as much as planning once more.
+/// The log of the first controller is replayed for one seed in this number, because a replay costs as much as planning
+/// once more.
 const REPLAYED: u64 = 4;
 
 /// One seed of the campaign, played.
@@ -40,14 +43,14 @@ pub struct Campaign {
     pub scene: Scene,
     /// Its faults.
     pub story: Story,
-    /// What must not have happened.
+    /// Violated invariants, and the difference found by a replay.
     pub violations: Vec<Violation>,
     /// How the show went.
     pub report: RehearsalReport,
 }
 
 impl Campaign {
-    /// Plays a seed; `robots`: how many there are, or as many as the seed says.
+    /// Plays a seed with a number of robots; `None`: the seed decides.
     pub fn play(seed: u64, robots: Option<usize>) -> Self {
         let scene = Scene::new(seed, robots);
         let story = Story::new(seed, &scene);
@@ -76,7 +79,8 @@ impl Campaign {
     }
 }
 
-/// What is different when the log of the controller is replayed; nothing for an empty log.
+/// Replays a log of the controller. Returns what is different, or why the log cannot be replayed. `None` if nothing is,
+/// or the log is empty.
 fn differences(log: &[u8]) -> Option<Violation> {
     if log.is_empty() {
         return None;
@@ -91,7 +95,7 @@ fn differences(log: &[u8]) -> Option<Violation> {
     Some(Violation { at, invariant: "replay", what })
 }
 
-/// When a show with these faults is over at the latest.
+/// Latest time by which a show with these faults must be over.
 fn limit(planned_s: f64, story: &Story) -> Instant {
     let for_faults_s = story.count() as f64 * (RECOVERS_WITHIN_S + REPLAYS * planned_s);
     Instant::ZERO + Span::from_secs(BEGINS_WITHIN_S + 2.0 * planned_s + for_faults_s) + story.lasts()

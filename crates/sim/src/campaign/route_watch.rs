@@ -1,25 +1,25 @@
-//! Watches that no route leads through a robot that dropped out: neighbours would brake for it as for anything that stands
-//! in their way, so that contacts alone do not tell.
+//! Checks that no route leads through a robot that dropped out. Contacts alone do not show this, because neighbours
+//! brake for such a robot as for any obstacle.
 
 use lightbots_base::{Instant, Span, Vec2};
 
 use crate::robot_set::RobotSet;
 
-/// Routes lead around a robot from this long after it dropped out. All are held within 0.6 s and planned again, and a robot
-/// that does not hear of it stops after 2 s (R43).
+/// Routes must lead around a robot from this long after it dropped out and stands. All robots are held within 0.6 s and
+/// planned again. A robot that misses these messages stops after 2 s (R43).
 const AROUND_AFTER: Span = Span::from_millis(3_000);
-/// A robot that moved more than this since it was seen first has not stood still, metres.
+/// A robot that has moved farther than this from where it first stood did not stand still, metres.
 const STILL_M: f64 = 0.005;
-/// Share of the contact distance within which a route leads through a robot: a robot that lost its place stands a few
+/// Share of the contact distance within which a route leads through a robot. A robot that lost its place stands a few
 /// centimetres from where it is expected.
 const THROUGH: f64 = 0.5;
 
-/// What was seen of robots that dropped out.
+/// Robots that dropped out, and routes that lead through them.
 #[derive(Debug, Default)]
 pub(super) struct RouteWatch {
-    /// Robots that dropped out and where they stood first after that.
+    /// Robots that dropped out, and where they have stood since.
     out: Vec<Standing>,
-    /// Pairs of a robot with a route and one that is out, which are known.
+    /// Pairs that were returned before: a robot with a route, and a robot that is out.
     known: Vec<(usize, usize)>,
 }
 
@@ -32,7 +32,7 @@ struct Standing {
 }
 
 impl RouteWatch {
-    /// A robot stands after it dropped out, or still does.
+    /// Notes that a robot that dropped out stands at a place. Returns since when it has stood there.
     fn stands(&mut self, now: Instant, robot: usize, at: Vec2) -> Instant {
         let place = match self.out.iter().position(|known| known.robot == robot) {
             Some(place) => place,
@@ -48,7 +48,8 @@ impl RouteWatch {
         known.since
     }
 
-    /// Routes that lead through robots in `out` at this moment, each pair once: which robot, and through which.
+    /// Finds routes that lead through robots in `out` at this moment. Returns each pair once: the robot with the route,
+    /// and the robot that is out.
     pub fn look(&mut self, now: Instant, robots: &RobotSet, out: &[usize]) -> Vec<(usize, usize)> {
         let (places, contact_m) = (robots.world.places(), robots.world.contacts().contact_m());
         let mut through = Vec::new();

@@ -5,13 +5,13 @@ use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
 
 use crate::dice::{Dice, Purpose};
 
-/// Number of robots: from and to.
+/// Smallest and largest number of robots.
 const ROBOTS: (usize, usize) = (10, 100);
-/// Duration of a show, seconds: the frames that are drawn last about this long with their drives.
+/// Least duration of a show, seconds: frames are drawn until they and their drives last this long.
 const SHOW_S: f64 = 20.0;
-/// Mean speed of a robot over a drive, with its acceleration, m/s.
+/// Mean speed of a robot over a drive, acceleration included, m/s.
 const MEAN_MPS: f64 = 0.2;
-/// Distance of two places, metres. Plans need 0.06 m, and robots that pass each other more.
+/// Smallest and largest distance of two places, metres. Plans need 0.06 m, and robots that pass each other more.
 const SPACING_M: (f64, f64) = (0.075, 0.14);
 /// Distance of places from the edge, metres.
 const MARGIN_M: f64 = 0.08;
@@ -26,7 +26,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The scene of a seed; `robots`: how many there are, or as many as the seed says.
+    /// Draws the scene of a seed for a number of robots; `None`: the seed decides.
     pub fn new(seed: u64, robots: Option<usize>) -> Self {
         let mut dice = Dice::new(seed, Purpose::Scene);
         let drawn = ROBOTS.0 + dice.below((ROBOTS.1 - ROBOTS.0 + 1) as u64) as usize;
@@ -54,7 +54,7 @@ impl Scene {
     }
 }
 
-/// Distance of two places, and the side of a square floor with room for all.
+/// Draws the distance of two places, and the side of a square floor with room for all robots, both in metres.
 fn floor(dice: &mut Dice, robots: usize) -> (f64, f64) {
     let spacing_m = dice.between(SPACING_M.0, SPACING_M.1);
     let columns = libm::ceil(libm::sqrt(robots as f64));
@@ -69,7 +69,7 @@ fn frame(dice: &mut Dice, places: Vec<Vec2>, air_time_s: f64) -> Frame {
     Frame { air_time_s, pixels: pixels.collect(), ..Frame::default() }
 }
 
-/// Places of a picture: a grid, a ring where all fit on it, or anywhere.
+/// Draws places of a picture: a grid, a ring if all places fit on it, or random places.
 fn places_of_kind(dice: &mut Dice, count: usize, side_m: f64, spacing_m: f64) -> Vec<Vec2> {
     let half_m = 0.5 * side_m - MARGIN_M;
     match dice.below(3) {
@@ -94,7 +94,7 @@ fn grid(dice: &mut Dice, count: usize, half_m: f64, spacing_m: f64) -> Vec<Vec2>
     (0..count).map(place).collect()
 }
 
-/// Places anywhere, no two closer than `spacing_m`; a grid where these do not fit.
+/// Random places, no two closer than `spacing_m`; a grid if these do not fit.
 fn places(dice: &mut Dice, count: usize, side_m: f64, spacing_m: f64) -> Vec<Vec2> {
     let half_m = 0.5 * side_m - MARGIN_M;
     let mut places: Vec<Vec2> = Vec::new();

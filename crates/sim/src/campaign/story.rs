@@ -1,4 +1,4 @@
-//! The faults of a seed, and what they are in plain words.
+//! The faults of a seed, and their descriptions in plain words.
 
 use core::fmt;
 
@@ -9,31 +9,32 @@ use crate::conditions::{Breakdown, Conditions, LinkConditions, Outage};
 use crate::dice::{Dice, Purpose};
 use crate::mishap::Mishap;
 
-/// Most faults of a story.
+/// Largest number of faults that [`fault`] draws for a story.
 const FAULTS: u64 = 5;
-/// When faults happen, seconds after the first departure: from and to.
+/// Earliest and latest time of a fault, seconds after the first departure.
 const HAPPEN_S: (f64, f64) = (0.0, 20.0);
-/// How long outages last, seconds: most end before a run asks whether it goes on, and some after.
+/// Durations of short and of long outages, seconds. Most short ones end before the controller asks the operator whether
+/// the run goes on.
 const SHORT_S: (f64, f64) = (0.1, 6.0);
 const LONG_S: (f64, f64) = (6.0, 40.0);
 /// Share of the outages that are short.
 const SHORT: f64 = 0.8;
-/// Clients find a broker that is back within this.
+/// Time within which clients find a broker that is back.
 const FOUND_AGAIN: Span = Span::from_millis(2_000);
-/// Seeds from here on have further faults. Seeds below keep the stories that failed once.
+/// First seed with further faults. Seeds below keep the stories that failed once.
 const FURTHER_FROM: u64 = 1_000;
-/// Seeds from here on have people, in this share of the stories.
+/// First seed with people on the floor, and the share of the stories that have them.
 const PEOPLE_FROM: u64 = 2_000;
 const PEOPLE: f64 = 0.5;
-/// Seeds from here on have a fault of the controller's clocks each, and outages of the broker that overlap.
+/// First seed with a fault of the controller's clocks in each story, and with outages of the broker that overlap.
 const CLOCKS_FROM: u64 = 3_000;
-/// By how much the time of day is set, seconds, forwards or back: by the first at most, or by the second.
+/// Largest change of the time of day, seconds, forwards or back: mostly the first, otherwise the second.
 const SET_S: (f64, f64) = (6.0, 7_200.0);
-/// How far lies are off, metres: from and to.
+/// Smallest and largest error of a falsely reported place, metres.
 const LIE_M: (f64, f64) = (0.05, 0.5);
-/// How long a slow disk takes to write a piece, seconds: from and to.
+/// Shortest and longest time until a slow disk has written a piece, seconds.
 const DISK_S: (f64, f64) = (0.05, 3.0);
-/// Share of the stories whose messages are not always on time.
+/// Share of the stories whose messages may be late, lost, doubled or overtaken.
 const BAD_LINK: f64 = 0.6;
 
 /// One fault.
@@ -62,7 +63,7 @@ enum Fault {
 }
 
 impl Fault {
-    /// How long it lasts.
+    /// How long the fault lasts; zero if it is permanent or happens at one moment.
     fn over(self) -> Span {
         match self {
             Self::Cut(_, over) | Self::Blind(_, over) | Self::Rebooted(_, over) => over,
@@ -84,8 +85,8 @@ impl Fault {
         }
     }
 
-    /// Whether one of both cannot begin before the other has ended. `may_overlap`: one outage of the broker may begin in
-    /// another.
+    /// Whether one of the two faults cannot begin before the other has ended. `may_overlap`: outages of the broker may
+    /// overlap, unless it is gone in both.
     fn excludes(self, other: Self, may_overlap: bool) -> bool {
         let is_of_broker = |fault| matches!(fault, Self::Freeze(_) | Self::Gone(_));
         let is_gone = |fault| matches!(fault, Self::Gone(_));
@@ -98,8 +99,8 @@ impl Fault {
     }
 }
 
-/// Faults in order of time, without those that cannot happen: a second one of the same robot, a broker that is gone twice.
-/// `may_overlap`: see [`Fault::excludes`].
+/// Removes faults that cannot happen: a second one of the same robot, or one that begins during a fault that excludes
+/// it. `faults` are in order of time. `may_overlap`: see [`Fault::excludes`].
 fn without_overlaps(faults: Vec<(Span, Fault)>, may_overlap: bool) -> Vec<(Span, Fault)> {
     let mut kept: Vec<(Span, Fault)> = Vec::new();
     for (at, fault) in faults {
@@ -115,10 +116,10 @@ fn without_overlaps(faults: Vec<(Span, Fault)>, may_overlap: bool) -> Vec<(Span,
     kept
 }
 
-/// What happens in a run.
+/// What happens in a run: faults, and properties of links, wheels and robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Story {
-    /// By its time after the first departure.
+    /// Faults, by their times after the first departure.
     faults: Vec<(Span, Fault)>,
     link: LinkConditions,
     slip: f64,
@@ -148,12 +149,12 @@ impl Story {
         Self { faults, link, slip, originals }
     }
 
-    /// How long the faults last in all.
+    /// Sum of the durations of all faults.
     pub fn lasts(&self) -> Span {
         self.faults.iter().fold(Span::ZERO, |sum, (_, fault)| sum + fault.over())
     }
 
-    /// Number of robots that know TARGET only.
+    /// Number of robots that understand the command TARGET but no routes.
     pub fn originals(&self) -> usize {
         self.originals
     }
@@ -168,7 +169,7 @@ impl Story {
         self.faults.len()
     }
 
-    /// The conditions of its rehearsal.
+    /// The conditions of the rehearsal that plays this story.
     pub fn conditions(&self) -> Conditions {
         let (link, slip, originals) = (self.link.clone(), self.slip, self.originals);
         let mut conditions = Conditions { link, slip, originals, ..Conditions::default() };
@@ -221,7 +222,7 @@ fn fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
-/// A fault of those that came to the campaign later.
+/// Draws one of the faults that seeds from [`FURTHER_FROM`] on have in addition.
 fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
     let robot = dice.below(scene.robots as u64) as usize;
@@ -239,7 +240,7 @@ fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
-/// A fault of the clocks of the controller's computer.
+/// Draws a fault of the clocks of the controller's computer: it sleeps, or its time of day is set during a crash.
 fn clock_fault(dice: &mut Dice) -> (Span, Fault) {
     let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
     let (from_s, to_s) = if dice.chance(SHORT) { SHORT_S } else { LONG_S };

@@ -12,7 +12,7 @@ use crate::broker_outages::BrokerEvent;
 use crate::controller_crashes::CrashEvent;
 use crate::mishap::Mishap;
 
-/// Each controller numbers its routes from this on, times how many there were before.
+/// Distance of the first route numbers of two controllers that follow each other.
 const SEQ_STEP: u32 = 1_000_000;
 
 impl Play {
@@ -54,7 +54,7 @@ impl Play {
         }
     }
 
-    /// Kills the controller, and starts another one that finds its journal.
+    /// Kills the controller, and starts another one that continues from its journal.
     pub(super) fn break_controller(&mut self) {
         let Some(first_departure) = self.record.began_at() else { return };
         while let Some(event) = self.crashes.next_until(self.now - first_departure) {
@@ -87,8 +87,8 @@ impl Play {
         self.drain_controller();
     }
 
-    /// The operator lets an interrupted show go on, and gives GO: to a frame that has stood for its air time, and in the
-    /// last round of frames that repeat.
+    /// Lets the operator act: repeat operations, give GO, resume a paused show, and press Go on. GO is given to a frame
+    /// after its air time, and in the last round of a loop.
     pub(super) fn press(&mut self) {
         if self.clock.is_asleep(self.now) {
             return;
@@ -112,13 +112,13 @@ impl Play {
         }
     }
 
-    /// The controller's computer sleeps, and the broker on it: messages wait.
+    /// Lets the controller's computer sleep, with the broker on it: messages wait.
     fn sleep(&mut self, over: Span) {
         self.clock.sleep(self.now + over);
         self.network.freeze(self.now + over);
     }
 
-    /// A robot begins anew with the name of another one.
+    /// Restarts a robot with the name of another one.
     fn name(&mut self, robot: usize, other: usize) {
         let id = self.robots.id(other);
         self.namesakes.push((id, robot));
@@ -154,7 +154,7 @@ impl Play {
         }
     }
 
-    /// The operator does what was not possible before, once there is a controller with a broker.
+    /// Runs the operations that the operator wants. Without a controller or a broker, the operator tries again later.
     fn operate_again(&mut self) {
         while let Some(operation) = self.operator.next_at(self.now) {
             let refusal = match self.is_controller_away() {

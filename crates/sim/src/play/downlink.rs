@@ -1,4 +1,4 @@
-//! What the controller sends on its way to the network, what it reports, and its journal.
+//! The controller's outputs: messages for the network, events, and the journal.
 
 use std::rc::Rc;
 
@@ -9,7 +9,7 @@ use super::state::Play;
 use crate::network::Way;
 
 impl Play {
-    /// Takes all that the controller has sent, reported and written until now.
+    /// Handles all messages, events and pieces of the journal that the controller has put out.
     pub(super) fn drain_controller(&mut self) {
         while let Some(send) = self.controller.next_send() {
             let payload: Rc<[u8]> = send.payload.into();
@@ -18,7 +18,7 @@ impl Play {
                     let place = self.by_id.binary_search_by_key(&id, |entry| entry.0);
                     let first = place.ok().map(|place| self.by_id[place]);
                     let named = first.iter().chain(&self.namesakes).filter(|(name, _)| *name == id);
-                    // A robot that has another name by now has subscribed to that one.
+                    // A robot that has another name by now has subscribed to the topic of that name.
                     for &(_, robot) in named.filter(|(_, robot)| self.robots.id(*robot) == id) {
                         self.network.send(self.now, Way::ToRobot(robot), send.topic, payload.clone());
                     }
@@ -48,7 +48,7 @@ impl Play {
         self.write_journal();
     }
 
-    /// Writes what is new in the journal.
+    /// Writes the new piece of the journal, if there is one and the disk is ready.
     fn write_journal(&mut self) {
         if self.crashes.disk.begins_again(self.now) {
             self.controller.begin_journal_again();

@@ -1,4 +1,4 @@
-//! A rehearsal under way: all that takes part in it.
+//! The state of a rehearsal under way.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ pub(crate) struct Play {
     pub(super) seed: u64,
     pub(super) planned_s: f64,
     pub(super) controller: RecordedController,
-    /// What each controller is told at its start.
+    /// Configuration of each controller.
     pub(super) config: Config,
     pub(super) robots: RobotSet,
     pub(super) network: Network,
@@ -38,29 +38,29 @@ pub(crate) struct Play {
     /// The clocks of the controller's computer.
     pub(super) clock: ControllerClock,
     pub(super) forgeries: Forgeries,
-    /// `(name, robot)` of robots that have the name of another.
+    /// Name and index of each robot that has the name of another.
     pub(super) namesakes: Vec<(RobotId, usize)>,
-    /// Number of controllers until now.
+    /// Number of controllers before the current one.
     pub(super) controllers: u32,
     pub(super) operator: Operator,
     pub(super) mishaps: Timetable<Mishap>,
     /// Frames that the operator has yet to send robots to.
     pub(super) visits: VecDeque<usize>,
-    /// How often frames that repeat until GO are played.
+    /// How many rounds of a loop are played before the operator gives GO.
     pub(super) loop_rounds: u32,
-    /// What must hold after each step of a campaign.
+    /// Checks after each step; only in a campaign.
     pub invariants: Option<Box<Invariants>>,
     pub(super) record: RehearsalRecord,
     pub(super) lights: LightWatch,
     pub(super) hash: StateHash,
-    /// `(name, robot)`, sorted by name.
+    /// Name and index of each robot, sorted by name.
     pub(super) by_id: Vec<(RobotId, usize)>,
     pub(super) now: Instant,
     pub(super) began: bool,
 }
 
 impl Play {
-    /// Robots at `starts`, switched on, some with given names, and a controller that has just found its broker.
+    /// A rehearsal with robots at `starts`, switched on, some with given names, and a new controller.
     pub fn new(
         show: Arc<Show>,
         starts: &[Vec2],
@@ -102,7 +102,7 @@ impl Play {
         }
     }
 
-    /// What the controller's clock shows.
+    /// Present time on the controller's show clock.
     pub(super) fn shown(&self) -> Instant {
         self.clock.shows(self.now)
     }

@@ -1,4 +1,4 @@
-//! What robots send on its way to the network.
+//! Messages of robots on their way to the network.
 
 use lightbots_base::Instant;
 use lightbots_wire::Topic;
@@ -9,7 +9,7 @@ use crate::forgeries::Forgeries;
 use crate::network::{Network, Way};
 use crate::record::RehearsalRecord;
 
-/// Sends a message of a robot to the controller, unless the robot is mute.
+/// Sends a message of a robot to the controller, unless the robot is mute or has no broker. Records each arrival.
 pub(super) fn send(
     network: &mut Network,
     record: &mut RehearsalRecord,

@@ -9,9 +9,9 @@ use super::RobotSet;
 use crate::firmware::{Ours, RobotFirmware};
 use crate::original::Original;
 
-/// Gap from rim to rim that a person leaves to robots near the place where one is put down, metres.
+/// Gap of rims between a robot that a person puts down and its neighbours, metres.
 const PUT_DOWN_GAP_M: f64 = 0.03;
-/// Distance of places that are tried one after the other, metres.
+/// Scale of the spiral of places that are tried, metres: place n lies this times the square root of n from the first.
 const TRIED_EVERY_M: f64 = 0.02;
 /// Number of places that are tried. The last one is 1.3 m away.
 const TRIED: u32 = 4_000;
@@ -20,12 +20,12 @@ const TRIED: u32 = 4_000;
 const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
 impl RobotSet {
-    /// A robot whose power failed is switched on again, with a link.
+    /// Switches a robot on again after its power failed, with a link.
     pub fn restart(&mut self, now: Instant, robot: usize) {
         self.restart_as(now, robot, self.robots[robot].id);
     }
 
-    /// A robot is switched off and on, and has this name then.
+    /// Switches a robot off and on, with a new name.
     pub fn restart_as(&mut self, now: Instant, robot: usize, id: RobotId) {
         let simulated = &mut self.robots[robot];
         simulated.id = id;
@@ -41,20 +41,20 @@ impl RobotSet {
         self.link(now, robot, true);
     }
 
-    /// A robot is put down at the free place that is nearest to `to`.
+    /// Puts a robot down at the free place that is nearest to `to`. The robot stays where it is if none is free.
     pub fn put_down(&mut self, robot: usize, to: Vec2) {
         if let Some(place) = self.free_place(robot, to) {
             self.world.put(robot, place);
         }
     }
 
-    /// A person puts a foot on the floor, at the free place that is nearest to `to`, or leaves.
+    /// Puts a person's foot on the floor, at the free place that is nearest to `to`. `None`: takes it off.
     pub fn put_foot(&mut self, stage: &Stage, to: Option<Vec2>) {
         let place = to.and_then(|to| self.free_place(self.robots.len(), to));
         self.world.put_foot(stage, place);
     }
 
-    /// The place nearest to `to` that is free for a disc.
+    /// The place nearest to `to` that is free for a disc; `None` if no place that is tried is free.
     fn free_place(&self, disc: usize, to: Vec2) -> Option<Vec2> {
         let place = |number: u32| {
             let off_m = TRIED_EVERY_M * libm::sqrt(f64::from(number));
@@ -68,12 +68,12 @@ impl RobotSet {
         self.alive[robot]
     }
 
-    /// Whether a robot runs our firmware, which says where it is on the way.
+    /// Whether a robot runs our firmware, which reports its place on the way.
     pub fn is_ours(&self, robot: usize) -> bool {
         matches!(self.robots[robot].firmware, RobotFirmware::Ours(_))
     }
 
-    /// Where the route leads that a robot follows at this moment, stage metres.
+    /// Place at this moment on the route that a robot follows, stage metres; `None` without a route.
     pub fn route_place(&self, robot: usize) -> Option<Vec2> {
         match &self.robots[robot].firmware {
             RobotFirmware::Ours(robot) => robot.route_place(),
@@ -81,7 +81,7 @@ impl RobotSet {
         }
     }
 
-    /// Whether a robot may drive although it receives nothing: it is on its way to a target (R44 of docs/protocol.md).
+    /// Whether a robot may drive although it receives nothing, because it drives to a target (R44 of docs/protocol.md).
     pub fn is_on_target(&self, robot: usize) -> bool {
         match &self.robots[robot].firmware {
             RobotFirmware::Ours(robot) => {
