@@ -21,12 +21,12 @@ pub struct Asset {
     pub media_type: String,
     /// Length of the file, bytes.
     pub bytes: u64,
-    /// The file itself; `None`: only its hash is known, because the show's file does not hold it. Serde leaves it out: what
-    /// a controller writes down of a show does without.
+    /// The file itself. `None` if only its hash is known, because the show's file does not hold it. Serde skips the
+    /// content: what a controller writes down of a show does without.
     #[serde(skip)]
     pub content: Option<Arc<[u8]>>,
-    /// The file as layers project it on the floor; `None`: no layer does, or the file was not decoded. A controller writes
-    /// it down, because the light of a run depends on it.
+    /// The file as a picture that layers project on the floor. `None` if no layer projects it, or it was not decoded. A
+    /// controller writes it down, because the light of a run depends on it.
     #[serde(with = "crate::layer_picture::shared")]
     pub picture: Option<Arc<LayerPicture>>,
 }
@@ -35,7 +35,7 @@ pub struct Asset {
 pub type Assets = BTreeMap<AssetHash, Asset>;
 
 impl AssetHash {
-    /// The hash that 64 hexadecimal digits in lower case stand for.
+    /// Reads a hash from 64 hexadecimal digits in lower case. `None` for any other text.
     pub fn from_hex(text: &str) -> Option<Self> {
         let digit = |byte: u8| match byte {
             b'0'..=b'9' => Some(byte - b'0'),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::{Cue, CuePlace, Issue, Issues, Show, excerpt, frame_label};
 
-/// Frames that repeat until GO. The cue stands at the last one and names the first one.
+/// Frames that a show repeats until GO. The cue is at the last frame and names the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameLoop {
     /// The first frame, counted from 0.
@@ -14,19 +14,19 @@ pub struct FrameLoop {
 }
 
 impl FrameLoop {
-    /// Whether a frame is one of them.
+    /// Whether the loop contains a frame.
     pub fn has(&self, frame: usize) -> bool {
         (self.first..=self.last).contains(&frame)
     }
 }
 
-/// The loops of a show in playing order. No frame is in two of them. A cue whose loop is not possible is none of these: its
-/// frame waits for GO, as [`validate`](crate::validate) says.
+/// The loops of a show in playing order. No frame is in two of them. A cue with an invalid loop gives none: its frame
+/// waits for GO instead, as [`validate`](crate::validate) reports.
 pub fn frame_loops(show: &Show) -> Vec<FrameLoop> {
     examined(show).0
 }
 
-/// The loops of a show, and what is wrong with the others.
+/// The valid loops of a show, and an issue for each invalid one.
 pub(crate) fn examined(show: &Show) -> (Vec<FrameLoop>, Issues) {
     let (mut loops, mut issues) = (Vec::new(), Issues::new());
     let (mut cues, mut places) = (BTreeMap::<&str, &Cue>::new(), BTreeMap::<&str, usize>::new());
@@ -59,7 +59,8 @@ pub(crate) fn examined(show: &Show) -> (Vec<FrameLoop>, Issues) {
     (loops, issues)
 }
 
-/// The loop from a frame to the `last` one. `before`: the loop before it.
+/// The loop from the frame `first` (`None`: unknown) to the frame `last`, or the code of an issue and why the loop is
+/// invalid. `before`: the loop before it in playing order.
 fn loop_to(
     last: usize,
     first: Option<usize>,

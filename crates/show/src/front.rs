@@ -4,8 +4,8 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::{Obstacle, Show, Stage, robots_needed};
 
-/// Spacings of robots and rows for an Elisa-3, metres: the first at which all rows are on the floor is taken. 0.1 m is
-/// the spacing of the original's robots. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
+/// Spacings of robots and rows for an Elisa-3, metres. The first spacing is taken at which all rows are on the floor.
+/// 0.1 m is the spacing of the original's robots. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
 const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
 /// Distance from the front edge of the floor to the first row, metres. The original's value: y = 1.3 m on a
 /// 3 m floor.
@@ -16,15 +16,16 @@ const SIDE_M: f64 = 0.05;
 /// Longest row, metres: five times the widest floor, which is 200 m (`MOST_SIDE_M`). Bounds the number
 /// of columns for hostile widths.
 const USABLE_MAX_M: f64 = 1e3;
-/// Largest ratio of a robot's radius to that of an Elisa-3. Robots of 1 m, the largest that validation allows, have 37.
+/// Largest ratio of a robot's radius to that of an Elisa-3. The largest radius that validation allows, 1 m, has a ratio
+/// of 37.
 const SIZE_MAX: f64 = 100.0;
 /// Clearance between a waiting robot and a no-go area, metres. More than `PROVABLE_GAP_M`, so that plans can leave.
 const OBSTACLE_GAP_M: f64 = 0.01;
-/// Most rows without a free place. After them, places are put in one column without a check. The largest floor, 200 m,
-/// has 3,333 rows, so that sound shows stay below it.
+/// Largest number of rows without a free place. After them, places are put in one column without a check. Valid shows
+/// stay below it, because the largest floor, 200 m, has 3,333 rows.
 const FULL_ROWS_MAX: usize = 10_000;
-/// Most comparisons of a place with a no-go area: ten times what `MAX_PIXELS` places and `MAX_OBSTACLES` areas need. After
-/// them, places are put in one column without a check, so that hostile shows end.
+/// Largest number of comparisons of a place with a no-go area: ten times what `MAX_PIXELS` places and `MAX_OBSTACLES`
+/// areas need. After them, places are put in one column without a check. Bounds the time for hostile shows.
 const COMPARISONS_MAX: usize = 200_000_000;
 
 /// Starting places of `count` robots: rows along the front edge, which has the largest y. Rows are 0.1 m apart, as are
@@ -48,7 +49,7 @@ pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     rows(stage, count, narrow_m, size)
 }
 
-/// Where the robots of a show wait before the first frame: the places that it names, or else rows along the front edge.
+/// Places where the robots of a show wait before the first frame: its `starts`, or else rows along the front edge.
 pub fn starting_places(show: &Show) -> Vec<Vec2> {
     show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show)))
 }
@@ -75,7 +76,7 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
         let spots = (0..in_row).map(|column| Vec2::new(tidy(left + column as f64 * step_m), tidy(y)));
         let before = places.len();
         places.extend(spots.filter(|spot| is_free(stage, *spot)));
-        // Rows full of obstacles are passed over, up to a bound.
+        // Rows full of obstacles are skipped, up to a bound.
         full_rows += usize::from(places.len() == before);
         row += 1;
         comparisons_left = comparisons_left.saturating_sub(in_row * stage.obstacles.len());

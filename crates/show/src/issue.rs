@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A fault or a note about a show.
+/// An error, a warning or a note about a show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Issue {
     /// Kind of issue for programs: lower case words with hyphens, such as `pixel-off-floor`.

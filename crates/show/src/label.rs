@@ -11,13 +11,14 @@ pub fn frame_label(index: usize, name: &str) -> String {
     format!("frame {} \"{}\"", index + 1, excerpt(name))
 }
 
-/// `1:02.5`: minutes and seconds. Times before 0 are 0.
+/// A time as minutes and seconds, such as `1:02.5`. Times before 0 become 0.
 pub fn clock_label(seconds: f64) -> String {
     let tenths = (seconds.max(0.0) * 10.0).round() as u64;
     format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
 }
 
-/// The beginning of a text, for messages. Control characters become U+FFFD, because they would break the line.
+/// The first 40 characters of a text, for messages. Control characters become U+FFFD, because they would break the
+/// line.
 pub fn excerpt(text: &str) -> String {
     let printable = |char: char| if char.is_control() { char::REPLACEMENT_CHARACTER } else { char };
     let mut short: String = text.chars().take(EXCERPT_CHARS).map(printable).collect();

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A small picture or film in memory. Files of pictures become one in a process of their own, so that the program that
-/// plays a show never reads them.
+/// A small picture or film in memory. Files are decoded in a process of their own, so that the program that plays a
+/// show never reads them.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LayerPicture {
     /// Pixels in a row.
@@ -21,7 +21,7 @@ impl LayerPicture {
     }
 }
 
-/// A shared picture as bytes: those of the picture.
+/// Serialises a shared picture as the picture itself.
 pub(crate) mod shared {
     use super::LayerPicture;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -15,13 +15,13 @@ pub struct Show {
     pub name: String,
     /// Floor and robots.
     pub stage: Stage,
-    /// Whether pixels are bound to robots, for frames without an identity of their own.
+    /// Whether pixels are bound to robots, in frames without their own [`Frame::identity`].
     pub identity: Identity,
     /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge.
     pub starts: Option<Vec<Vec2>>,
     /// File name of the music, which the screen plays.
     pub music: Option<String>,
-    /// Robots that wait beside the floor for others to fail.
+    /// Number of spare robots, which wait beside the floor to replace robots that fail.
     pub spares: u32,
     /// Files that belong to the show, by hash.
     pub assets: Assets,
@@ -86,7 +86,7 @@ pub enum Identity {
 /// A picture of the show.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
-    /// Word by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names it.
+    /// Id by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names it.
     pub id: Option<String>,
     /// Name for people; may be empty.
     pub name: String,
@@ -98,7 +98,7 @@ pub struct Frame {
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
-    /// How robots drive from the picture before; `None`: the planner's shortest drive.
+    /// How robots drive from the picture before; `None`: the shortest drive that the planner finds.
     pub motion: Option<PictureMotion>,
     /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
@@ -131,7 +131,7 @@ pub struct Pixel {
     pub robot: Option<String>,
     /// The part of a source that the pixel belongs to; `None`: it was drawn by hand.
     pub part: Option<SourcePart>,
-    /// A word that pixels of the frame share which are edited as one; `None`: the pixel is in no group.
+    /// Name of a group of pixels of the frame that are edited as one; `None`: the pixel is in no group.
     pub group: Option<String>,
 }
 
@@ -141,7 +141,7 @@ impl Default for Stage {
     }
 }
 
-/// The show on a floor of `width_m` by `depth_m` metres, for files without a stage. Obstacles and robots stay.
+/// Returns the show on a floor of `width_m` by `depth_m` metres, for files without a stage. Obstacles and robots stay.
 pub fn with_floor(mut show: Show, width_m: f64, depth_m: f64) -> Show {
     show.stage.width_m = width_m;
     show.stage.depth_m = depth_m;

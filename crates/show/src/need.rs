@@ -15,8 +15,8 @@ pub fn most_pixels(show: &Show) -> usize {
     show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
 }
 
-/// Number of robots that a show is made for: one per pixel of the largest frame, at least the robots that pixels name,
-/// and the spare ones. It plays without the spare ones as well.
+/// Number of robots that a show is made for, spare ones included: one for each pixel of the largest frame, and at least
+/// the robots that pixels name. The show also plays without the spare ones.
 pub fn robots_needed(show: &Show) -> usize {
     let spares = usize::try_from(show.spares).unwrap_or(MAX_PIXELS).min(MAX_PIXELS);
     most_pixels(show).max(robots_asked_for(show)) + spares

@@ -1,4 +1,4 @@
-//! Values that a later version of the program may give a meaning: settings of sources and layers.
+//! Settings of sources and layers. A later version of the program may give a meaning to further values.
 
 /// A value of a setting: what JSON can hold. Files keep it exactly.
 #[derive(Clone, Debug, PartialEq)]

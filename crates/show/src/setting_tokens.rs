@@ -1,6 +1,7 @@
 //! Settings as a flat list, as journals and recordings hold them.
 //!
-//! A nested value of a hostile file could be so deep that reading it ends the program: a list with a bound of depth cannot.
+//! A hostile file could nest values until reading them overflows the stack. A flat list is read with a bound on the
+//! depth.
 
 use crate::setting::{NamedSettings, Setting};
 use serde::de::Error;
@@ -20,7 +21,7 @@ enum Token {
     Object(u32),
 }
 
-/// Writes settings.
+/// Writes settings as a flat list of tokens.
 pub(crate) fn serialize<S: Serializer>(settings: &NamedSettings, serializer: S) -> Result<S::Ok, S::Error> {
     let mut tokens = Vec::new();
     add_object(settings, &mut tokens);
@@ -49,7 +50,7 @@ fn add(value: &Setting, tokens: &mut Vec<Token>) {
     }
 }
 
-/// Reads settings.
+/// Reads settings from a flat list of tokens. Fails if tokens are missing or left over, or if values nest too deeply.
 pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<NamedSettings, D::Error> {
     let tokens = Vec::<Token>::deserialize(deserializer)?;
     read(tokens)

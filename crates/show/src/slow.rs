@@ -1,12 +1,13 @@
-//! A show at part of its speed, for a first run.
+//! A show at reduced speed, for a first run.
 
 use crate::{PictureMotion, Show};
 
-/// Least speed, percent: below it a drive of a metre takes longer than most air times.
+/// Lowest speed, percent of the usual one. Below it, a drive of a metre takes longer than most air times.
 pub const SPEED_MIN_PERCENT: u32 = 20;
 
-/// The show with drives at `percent` of the usual speed: all paths take 100/`percent` times as long, because speed and
-/// turning rate change by that share and acceleration by its square. Air times stay. It is the same show from 100 % on.
+/// Returns the show with drives at `percent` of the usual speed, but at least [`SPEED_MIN_PERCENT`]. All paths take
+/// 100/`percent` times as long. Speed and turning rate are multiplied by that share, and acceleration by its square.
+/// Air times stay. From 100 % on, the show is unchanged.
 pub fn slowed(show: &Show, percent: u32) -> Show {
     let mut slow = show.clone();
     if percent >= 100 {

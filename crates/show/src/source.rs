@@ -11,7 +11,7 @@ use crate::setting::NamedSettings;
 pub struct FrameSource {
     /// Kind of source.
     pub kind: SourceKind,
-    /// The file behind the source; `None`: the settings say everything.
+    /// The file behind the source; `None`: the settings suffice.
     pub asset: Option<AssetHash>,
     /// Seed of everything random in placing its pixels.
     pub seed: u32,
@@ -19,12 +19,12 @@ pub struct FrameSource {
     pub floor_box: Option<FloorBox>,
     /// Ids of pixels that a user moved by hand. They keep their place when the others are placed anew. Sorted, unique.
     pub moved: Vec<u32>,
-    /// A word that frames share which were made together from one source, such as one word of a text each.
+    /// Name that frames share which were made together from one source, such as frames of one word each from a text.
     pub series: Option<String>,
     /// Moment of an animation that the frame shows, seconds from its start.
     pub moment_s: Option<f64>,
-    /// Settings, such as the text and its font. Serde leaves them out: they nest, and nothing bounds how deep in bytes of
-    /// others.
+    /// Settings, such as the text and its font. Serde skips them: they nest, and untrusted input could nest them
+    /// without a bound.
     #[serde(skip)]
     pub settings: NamedSettings,
 }
@@ -36,7 +36,7 @@ pub enum SourceKind {
     Text,
     /// An SVG drawing.
     Svg,
-    /// A picture of picture elements, such as a PNG.
+    /// A raster picture, such as a PNG.
     Picture,
     /// A shape with handles, such as a star.
     Shape,
@@ -60,7 +60,8 @@ pub struct FloorBox {
 pub struct SourcePart {
     /// Index of the source in [`Frame::sources`](crate::Frame::sources), counted from 0.
     pub source: u32,
-    /// Name of the part, such as a letter of a word; may be empty. A pin follows to a pixel of the same part.
+    /// Name of the part, such as a letter of a word; may be empty. When pixels are made anew, a pin moves to a pixel of
+    /// the same part.
     pub name: String,
 }
 

@@ -1,4 +1,4 @@
-//! Pairs of close places, found with a grid, so that the time grows with the number of places and not of pairs.
+//! Pairs of close places. A grid finds them, so that the time grows with the number of places and not of pairs.
 
 use lightbots_base::Vec2;
 
@@ -41,7 +41,8 @@ pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseAppro
     pairs
 }
 
-/// Largest coordinate of a place, metres: five times the largest floor. Far beyond it row numbers would overflow.
+/// Largest coordinate of a place that is compared, metres: five times the largest floor. Far beyond it row numbers
+/// would overflow.
 const FARTHEST_M: f64 = 1e3;
 
 /// Row, column and index of every place, sorted.

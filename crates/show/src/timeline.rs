@@ -1,6 +1,6 @@
 //! What stands on the timeline besides frames: light layers, sections, markers, beats, cues, prescribed trajectories.
 //!
-//! Seconds count from the start of the first frame's air time, so that a frame, its cue and the music agree whatever
+//! Seconds count from the start of the first frame's air time. A frame, its cue and the music then agree, however long
 //! the drive to the first frame takes.
 
 use lightbots_base::Vec2;
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::setting::NamedSettings;
 
-/// Light over time, over what the pixels' colours say.
+/// An effect of light over time, laid over the colours of pixels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Layer {
     /// Name for people; may be empty.
     pub name: String,
-    /// Word for the effect, such as `rainbow`.
+    /// Name of the effect, such as `rainbow`.
     pub kind: String,
     /// When the layer shines.
     pub span: LayerSpan,
@@ -34,7 +34,7 @@ pub enum LayerSpan {
         first: String,
         /// Id of the last frame; the same id for one frame.
         last: String,
-        /// The part of each frame.
+        /// The part of each frame's time in which the layer shines.
         phase: FramePhase,
     },
     /// A stretch of time.
@@ -85,12 +85,12 @@ pub struct Cue {
     pub name: String,
     /// Where the show waits.
     pub at: CuePlace,
-    /// Of a cue at a frame: id of a frame not after it. The show does not wait, but repeats all from that frame to this one
-    /// until GO. `None`: it waits.
+    /// Id of the frame where a loop begins, for a cue at that frame or a later one. The show then does not wait, but
+    /// repeats all frames from there to the cue until GO. `None`: it waits.
     pub loop_from: Option<String>,
 }
 
-/// Where a cue stands.
+/// Where the show waits for a cue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CuePlace {
     /// At the end of the air time of the frame with this id.
@@ -104,7 +104,7 @@ pub enum CuePlace {
 pub struct Beats {
     /// Where the beats are.
     pub grid: BeatGrid,
-    /// Beats of a bar. The first beat begins a bar.
+    /// Number of beats in a bar. The first beat begins a bar.
     pub per_bar: u32,
 }
 

@@ -19,8 +19,8 @@ pub use limits::{
     PROVABLE_GAP_M,
 };
 
-/// The issues of a show in the order of its frames. Empty if the show can be planned. Accepts any show and always finds
-/// the same issues in the same show.
+/// Returns the issues of a show: first those of the stage and the fleet, then those of each frame, then those of other
+/// parts. Empty if there are none. Accepts any show, and returns the same issues for the same show.
 pub fn validate(show: &Show) -> Issues {
     let mut findings = Findings::default();
     let is_sound = stage::check(&show.stage, &mut findings);

@@ -11,10 +11,11 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Issues of one kind in one frame that get a line of their own. One line sums up the rest, so that people see all
-    /// kinds on one screen.
+    /// Largest number of issues of one kind in one frame that get a line of their own. One line sums up the others, so
+    /// that people see all kinds on one screen.
     const MOST_OF_A_KIND: usize = 8;
-    /// Most issues in total. One more says that there are more. Bounds the answer for a show that is broken everywhere.
+    /// Largest number of issues in total. One more issue says that there are more. Bounds the answer for a show that is
+    /// broken everywhere.
     const MOST: usize = 1_000;
 
     /// Adds an issue, if there is room for it.
@@ -26,17 +27,18 @@ impl Findings {
         }
     }
 
-    /// Adds an issue of the whole show.
+    /// Adds an error of the whole show.
     pub fn show(&mut self, code: &str, message: impl Into<String>) {
         self.add(Issue::error(code, message));
     }
 
-    /// Adds an issue of a frame. The label of the frame is put before the message.
+    /// Adds an error of a frame. The label of the frame is put before the message.
     pub fn frame(&mut self, show: &Show, frame: usize, code: &str, message: &str) {
         self.add(Issue::error(code, format!("{}: {message}", label(show, frame))).in_frame(frame));
     }
 
-    /// Adds issues of one kind about pixels of a frame: the first few, then one line with the number and ids of the rest.
+    /// Adds errors of one kind about pixels of a frame: the first few, then one line with the number and ids of the
+    /// rest.
     pub fn pixels(&mut self, show: &Show, frame: usize, code: &str, found: Vec<(Vec<u32>, String)>) {
         let rest = found.get(Self::MOST_OF_A_KIND..).unwrap_or_default();
         let more = rest.len();

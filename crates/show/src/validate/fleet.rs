@@ -9,7 +9,8 @@ use super::limits::{MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
 use super::words::{millimetres, place};
 use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
 
-/// Most pairs of close starting places that are searched for. Bounds the list for starts in a heap.
+/// Largest number of pairs of close starting places that are searched for. Bounds the list if many starts are at one
+/// place.
 const CLOSE_STARTS_MAX: usize = 100;
 
 pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) {

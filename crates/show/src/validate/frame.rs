@@ -12,7 +12,7 @@ use crate::{Frame, Show, Stage, close_pairs, excerpt};
 /// Longest air time or transition, seconds: one day. A longer time is a mistake. `MAX_FRAMES` of
 /// them in microseconds stay below 2^53, so that their sum is exact.
 const MOST_S: f64 = 86_400.0;
-/// Most close pairs that are searched for in one frame. Bounds the time for pixels in a heap.
+/// Largest number of close pairs that are searched for in one frame. Bounds the time if many pixels are at one place.
 const MOST_PAIRS: usize = 1_000;
 
 pub(super) fn check(show: &Show, index: usize, is_stage_sound: bool, findings: &mut Findings) {

@@ -25,7 +25,7 @@ pub const MAX_SETTING_DEPTH: usize = 8;
 pub const MAX_LAYERS: usize = 1_000;
 /// Most sections, most markers and most cues: one a second for nearly three hours.
 pub const MAX_MARKS: usize = 10_000;
-/// Most beats that stand in a list: 120 a minute for nearly fourteen hours.
+/// Most beats in a list of times: 120 a minute for nearly fourteen hours.
 pub const MAX_BEATS: usize = 100_000;
 /// Most trajectories: five for each of [`MAX_PIXELS`] robots.
 pub const MAX_TRAJECTORIES: usize = 100_000;

@@ -9,17 +9,17 @@ use super::limits::{MAX_MOTION_PLACES, MAX_PICTURES_BETWEEN};
 use super::words::number;
 use crate::{PictureMotion, Show};
 
-/// Factors on distances: a formation of 10 m in one of 1 m, and back.
+/// Allowed factors on distances. A formation of 10 m may shrink to 1 m, and one of 1 m grow to 10 m.
 const SIZES: RangeInclusive<f64> = 0.05..=20.0;
 /// Largest turn, radians: 16 whole turns.
 const MOST_TURN: f64 = 101.0;
-/// Most repetitions.
+/// Largest number of repetitions.
 const MOST_TIMES: u32 = 50;
-/// Lengths of waves and of radii, metres.
+/// Allowed lengths of waves and radii of circles, metres.
 const LENGTHS_M: RangeInclusive<f64> = 0.001..=1_000.0;
-/// Places are on floors, metres.
+/// Largest coordinate of a place, metres.
 const FARTHEST_M: f64 = 1_000.0;
-/// Longest delay, seconds.
+/// Longest time between the first start and the last, seconds.
 const MOST_DELAY_S: f64 = 600.0;
 
 pub(super) fn check(show: &Show, index: usize, findings: &mut Findings) {
@@ -30,7 +30,7 @@ pub(super) fn check(show: &Show, index: usize, findings: &mut Findings) {
     }
 }
 
-/// What is wrong with the numbers of a motion.
+/// What is wrong with the numbers of a motion; `None` if nothing is.
 fn wrong(motion: &PictureMotion) -> Option<String> {
     match motion {
         PictureMotion::Travel { along } | PictureMotion::Follow { along } => wrong_places(along),

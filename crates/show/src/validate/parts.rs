@@ -1,5 +1,5 @@
-//! Validation of the parts that version 2 of the format added. None of them keeps a show from being played: they are
-//! warnings.
+//! Validation of the parts that version 2 of the format added. All issues are warnings, because none of them keeps a
+//! show from being played.
 
 use std::collections::BTreeSet;
 
@@ -42,7 +42,7 @@ fn warn(findings: &mut Findings, code: &str, message: String) {
     findings.add(Issue::warning(code, message));
 }
 
-/// Says which parts this version keeps and does not play.
+/// Warns about the parts that this version keeps but does not play.
 fn not_played(show: &Show, findings: &mut Findings) {
     let timed = show.cues.iter().filter(|cue| matches!(cue.at, CuePlace::Seconds(_))).count();
     let whole = show.trajectories.iter().filter(|trajectory| trajectory.frame.is_none()).count();
@@ -58,7 +58,8 @@ fn not_played(show: &Show, findings: &mut Findings) {
     }
 }
 
-/// The ids of frames. Adds a warning for each that two frames have, because layers and cues could not tell them apart.
+/// Returns the ids of frames. Warns about each id that two frames have, because layers and cues could not tell them
+/// apart.
 fn frame_ids<'a>(show: &'a Show, findings: &mut Findings) -> BTreeSet<&'a str> {
     let mut ids = BTreeSet::new();
     for (index, frame) in show.frames.iter().enumerate() {
@@ -71,7 +72,7 @@ fn frame_ids<'a>(show: &'a Show, findings: &mut Findings) -> BTreeSet<&'a str> {
     ids
 }
 
-/// What names frames: its kind, its name, and the id of the frame.
+/// References to frames: kind and name of the part that refers, and id of the frame.
 fn named_frames(show: &Show) -> impl Iterator<Item = (&'static str, &str, &str)> {
     let layers = show.layers.iter().flat_map(|layer| match &layer.span {
         LayerSpan::Frames { first, last, .. } => {
@@ -88,7 +89,7 @@ fn named_frames(show: &Show) -> impl Iterator<Item = (&'static str, &str, &str)>
     layers.chain(cues).chain(paths)
 }
 
-/// Checks that moments are on the timeline and that stretches have an end after their start.
+/// Warns about moments that are not on the timeline, and about stretches that do not end after their start.
 fn times(show: &Show, findings: &mut Findings) {
     let layers = show.layers.iter().filter_map(|layer| match layer.span {
         LayerSpan::Seconds { from_s, to_s } => Some(("layer", layer.name.as_str(), from_s, to_s)),
@@ -151,7 +152,7 @@ fn beats(show: &Show, findings: &mut Findings) {
     }
 }
 
-/// Checks that pixels and sources name what is there.
+/// Warns about pixels and sources that refer to a missing source or file, and about boxes without an area.
 fn sources(show: &Show, findings: &mut Findings) {
     for (index, frame) in show.frames.iter().enumerate() {
         let label = frame_label(index, &frame.name);

@@ -2,8 +2,7 @@
 
 use lightbots_base::Vec2;
 
-/// Magnitudes from the first to below the second are written in full. Larger and smaller ones get an exponent, so that
-/// lines stay short: no show needs them.
+/// Range of magnitudes that are written in full. Others get an exponent, so that lines stay short: no show needs them.
 const IN_FULL: std::ops::Range<f64> = 1e-4..1e7;
 
 /// A number in messages.
