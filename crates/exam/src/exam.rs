@@ -1,4 +1,4 @@
-//! The exam as its user sees it: inputs with `now`, and outputs to drain. The script is polled after each input.
+//! An exam as its user sees it: inputs with the time `now`, and outputs to drain. Each input polls the script.
 
 use std::future::Future;
 use std::pin::Pin;
@@ -27,35 +27,35 @@ impl Exam {
         Self { session, script: Some(script), ending: None }
     }
 
-    /// The broker is connected, and all topics of robots below `T/LightBot/` are subscribed.
+    /// Begins the exam. The broker is connected, and all topics of robots below `T/LightBot/` are subscribed.
     pub fn connected(&mut self, now: Instant) {
         self.poll(now);
     }
 
-    /// A message arrived.
+    /// Handles a message that arrived.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         self.session.receive(now, topic, payload);
         self.poll(now);
     }
 
-    /// The robot may be driven.
+    /// Permits driving the robot.
     pub fn go(&mut self, now: Instant) {
         self.session.permit();
         self.poll(now);
     }
 
-    /// The answer to [`ExamEvent::Look`]; `None`: the person could not tell.
+    /// Answers [`ExamEvent::Look`]; `None`: the person could not tell.
     pub fn answer(&mut self, now: Instant, yes: Option<bool>) {
         self.session.answer(yes);
         self.poll(now);
     }
 
-    /// Time has passed.
+    /// Lets the script go on when time has passed.
     pub fn wake(&mut self, now: Instant) {
         self.poll(now);
     }
 
-    /// Latest moment for the next [`wake`](Self::wake); `None`: the exam waits for another input, or is over.
+    /// Latest moment for the next call of [`wake`](Self::wake). `None` if the exam waits for another input, or is over.
     pub fn wake_at(&self) -> Option<Instant> {
         self.session.alarm().filter(|_| self.script.is_some())
     }

@@ -3,7 +3,8 @@
 use crate::finding::{Finding, RuleTest, RuleVerdict};
 use crate::rules::{RULES, Scope};
 
-/// Most successful attempts that are stored per rule, to keep reports short. The first failed attempt is always stored.
+/// Largest number of successful attempts stored per rule, to keep reports short. The first failed attempt is always
+/// stored.
 const ATTEMPTS_MAX: usize = 6;
 
 #[derive(Clone, Debug, Default)]
@@ -39,7 +40,7 @@ impl Ledger {
         self.0[usize::from(rule) - 1].missing = Some(what.to_owned());
     }
 
-    /// Notes why a rule cannot be tried; the first reason counts.
+    /// Notes why a rule cannot be tried. Only the first reason is kept.
     pub fn mark_untried(&mut self, rule: u8, why: &str) {
         self.0[usize::from(rule) - 1].excused.get_or_insert_with(|| why.to_owned());
     }

@@ -1,9 +1,9 @@
 //! Tests whether a robot keeps the rules of `docs/protocol.md`, from outside, by messages alone.
 //!
-//! The crate is sans-IO like the controller core: [`Exam`] takes messages and the time, and gives messages and events. The
-//! test is one script (`script`), an `async fn` that waits for messages and moments. `exam` polls the script after each
-//! input. There is no runtime, thread or clock behind it, and equal inputs give equal findings. The crate knows nothing of
-//! brokers, terminals or our own robot, and shares only the wire format with the controller.
+//! The crate is sans-IO like the controller core: [`Exam`] takes messages and the time, and returns messages and
+//! events. The test is one script (`script`), an `async fn` that waits for messages and moments. `exam` polls the
+//! script after each input. There is no runtime, thread or clock behind it, and equal inputs give equal findings. The
+//! crate has no code for brokers, terminals or our own robot, and shares only the wire format with the controller.
 //!
 //! In reading order: [`Exam`], [`Options`], [`ExamEvent`], [`Finding`] with its [`RuleVerdict`], [`RULES`].
 //!

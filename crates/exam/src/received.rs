@@ -3,7 +3,7 @@
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_wire::{Report, TimeQuestion, Topic};
 
-/// Most messages that are stored, so that a flooding robot cannot fill the memory. At the 2 reports a second of R41
+/// Largest number of messages stored, so that a flooding robot cannot fill the memory. At the 2 reports a second of R41
 /// this is more than two hours.
 const MESSAGES_MAX: usize = 20_000;
 
@@ -45,7 +45,7 @@ impl Received {
         })
     }
 
-    /// The first word: the name of the sender, also in an invalid message.
+    /// The first word of the message, which is the name of the sender, also in an invalid message.
     pub fn name(&self) -> &str {
         self.text.split_ascii_whitespace().next().unwrap_or("")
     }
@@ -79,7 +79,7 @@ impl Received {
 pub(crate) struct ReceivedLog(Vec<Received>);
 
 impl ReceivedLog {
-    /// Stores a message; drops it beyond `MESSAGES_MAX`.
+    /// Stores a message. Drops it if `MESSAGES_MAX` are stored already.
     pub fn push(&mut self, received: Received) {
         if self.0.len() < MESSAGES_MAX {
             self.0.push(received);
@@ -91,7 +91,7 @@ impl ReceivedLog {
         self.0.len()
     }
 
-    /// Messages from `mark` on.
+    /// Messages with index `mark` and higher.
     pub fn since(&self, mark: usize) -> &[Received] {
         self.0.get(mark..).unwrap_or(&[])
     }

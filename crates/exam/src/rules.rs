@@ -1,25 +1,25 @@
 //! The rules of `docs/protocol.md` and how each can be tested.
 
-/// Robots that a rule concerns, and what shows whether it is kept.
+/// Robots that a rule concerns, and how a test can see whether it is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// All robots: the original protocol.
     AllRobots,
     /// Robots whose reports say `can=route`.
     Route,
-    /// All robots, judged by their light.
+    /// All robots. The light shows whether the rule is kept.
     Light,
-    /// Robots whose reports say `can=fade`, judged by their light.
+    /// Robots whose reports say `can=fade`. The light shows whether the rule is kept.
     Fade,
     /// Robots whose reports say `can=light`.
     Ahead,
     /// Robots whose reports say `can=live`.
     Live,
-    /// Robots whose reports say `can=blink`, judged by their light.
+    /// Robots whose reports say `can=blink`. The light shows whether the rule is kept.
     Blink,
     /// Robots that report more fields than the original.
     Details,
-    /// No message shows it; holds the reason.
+    /// No message shows whether the rule is kept. Holds the reason.
     Hidden(&'static str),
 }
 

@@ -16,10 +16,10 @@ use crate::ledger::Ledger;
 use crate::received::{Received, ReceivedLog};
 use crate::sight::Question;
 
-/// Most names of other robots that are stored: twice the largest fleet of docs/benchmarks.md.
+/// Largest number of names of other robots that are stored: twice the largest fleet of docs/benchmarks.md.
 const OTHERS_MAX: usize = 20_000;
-/// Time that a person has to answer a question about the light. Shorter: the exam continues without the answer, and the rule
-/// is not tried. The value is a generous choice; no measurement is behind it.
+/// Time that a person has to answer a question about the light. Without an answer in this time the exam continues, and
+/// the rule is not tried. The value is a generous choice; no measurement is behind it.
 const LOOK_MAX: Span = Span::from_millis(300_000);
 
 /// Receiver of a message.
@@ -290,7 +290,7 @@ impl Session {
         self.until(Instant::FAR, || self.state.borrow().is_permitted.then_some(())).await;
     }
 
-    /// Asks the observer of the robot; `None`: no answer.
+    /// Asks the observer of the robot a question. `None` without an answer, or if the observer could not tell.
     pub async fn ask_person(&self, question: Question) -> Option<bool> {
         self.state.borrow_mut().answer = None;
         self.emit(ExamEvent::Look(question));
@@ -335,7 +335,7 @@ impl State {
     }
 }
 
-/// Topic of a robot whose name differs in its last byte.
+/// Topic of a robot that does not exist: its name differs from `id` in the last byte.
 fn absent_topic(id: &RobotId) -> String {
     let mut name = id.as_str().to_owned();
     let last = name.pop();

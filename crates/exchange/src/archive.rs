@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 pub(crate) const DOCUMENT: &str = "show.lightbots.json";
 /// Folder of the assets in an archive.
 const ASSETS: &str = "assets/";
-/// Most files of an archive: the document and the most assets of a show.
+/// Largest number of files in an archive: the document and the largest number of assets of a show.
 const ENTRIES_MAX: usize = 1 + lightbots_show::MAX_ASSETS;
 
 /// The SHA-256 by which a show names a file.
@@ -25,7 +25,7 @@ pub fn hash_of(content: &[u8]) -> AssetHash {
     AssetHash(Sha256::digest(content).into())
 }
 
-/// A file as an asset that a show holds, by its hash.
+/// Makes an asset from the bytes of a file. Returns its hash and the asset.
 pub fn asset_of(name: &str, media_type: &str, content: Arc<[u8]>) -> (AssetHash, Asset) {
     let hash = hash_of(&content);
     let asset = Asset {

@@ -1,5 +1,5 @@
-//! Skybrush's CSV: a zip archive with one table a robot, whose file has the robot's name. Rows have a time in
-//! milliseconds, a place in metres and a colour in linear light; everything changes evenly between rows.
+//! Skybrush's CSV: a zip archive with one table per robot, whose file is named after the robot. Rows have a time in
+//! milliseconds, a place in metres and a colour in linear light. Places and colours change linearly between rows.
 
 mod read;
 mod write;
@@ -24,7 +24,7 @@ fn is_table(name: &str) -> bool {
     is_table_bytes(name.as_bytes())
 }
 
-/// The same for a name that may be no text. Names of macOS's own files begin with two underscores.
+/// Whether a file of an archive is a table. The name may be no text. Names of macOS's own files begin with `__MACOSX/`.
 fn is_table_bytes(name: &[u8]) -> bool {
     name.len() > 4 && name[name.len() - 4..].eq_ignore_ascii_case(b".csv") && !name.starts_with(b"__MACOSX/")
 }

@@ -45,17 +45,17 @@ impl ReadError {
         Self { place: Some((line, column)), ..Self::whole(code, what) }
     }
 
-    /// The error with the part of the file that it is in.
+    /// Returns the error with the name of the part of the file that it is in.
     pub(crate) fn within(self, part: &str) -> Self {
         Self { what: format!("{} (in {part})", self.what), ..self }
     }
 
-    /// The error with the one of several things that it is about, counted from 0.
+    /// Returns the error with the number of the thing that it concerns. `index` counts from 0, the message from 1.
     pub(crate) fn of_nth(self, thing: &str, index: usize) -> Self {
         Self { what: format!("{thing} {}: {}", index + 1, self.what), ..self }
     }
 
-    /// The error as an issue, for lists of issues.
+    /// Converts the error into an issue, for lists of issues.
     pub fn issue(&self) -> Issue {
         let mut issue = Issue::error(self.code, self.to_string());
         issue.frame = self.frame.as_ref().map(|(index, _)| *index);

@@ -1,4 +1,4 @@
-//! What a format is, what a file holds, and what writing gives.
+//! File formats, and the results of reading and writing a file.
 
 use std::fmt;
 
@@ -18,48 +18,50 @@ pub struct Format {
     pub endings: &'static [&'static str],
     /// Media type of the bytes, for HTTP.
     pub media_type: &'static str,
-    /// What a file keeps besides frames with their names, air times and pixels, which every format keeps.
+    /// Parts of a show that a file keeps. Besides these, every format keeps frames with their names, air times and
+    /// pixels.
     pub carries: &'static [Part],
     /// Whether a file holds the music itself, if the show does.
     pub holds_music: bool,
     /// Whether a file holds timed paths or lights, so that it cannot be written without the plan of the show.
     pub needs_plan: bool,
-    /// Whether bytes look like this format. Reads nothing and never fails.
+    /// Whether bytes look like this format. Does not parse them, and never fails.
     pub sniff: fn(&[u8]) -> bool,
     /// Reads the bytes of a file.
     pub(crate) read: fn(&[u8]) -> Result<Loaded, ReadError>,
-    /// Writes the parts that the format carries. What it does not carry is left out without an issue.
+    /// Writes the parts that the format carries. Other parts are left out without an issue.
     pub(crate) encode: fn(&Show, Option<&ShowPlan>) -> Written,
 }
 
-/// What a file holds.
+/// The result of reading a file.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The show.
     pub show: Show,
     /// The plan, if the file has one. It is not proven: a file may hold any plan.
     pub plan: Option<ShowPlan>,
-    /// Whether the file says what stage it plays on. Without one the floor is 3 m by 3 m and may be replaced.
+    /// Whether the file has a stage. If not, the floor is 3 m by 3 m and may be replaced.
     pub has_stage: bool,
-    /// Why the file holds more than was read, such as fields of a newer version, in words after "because". A file of
-    /// which this is known must not be replaced by what was read. `None`: everything was read.
+    /// Why the file holds more than was read, such as fields of a newer version, in words after "because". What was
+    /// read must then not replace the file. `None`: everything was read.
     pub unread: Option<String>,
-    /// Issues of reading, such as unknown fields. Without those that [`validate`](lightbots_show::validate) finds.
+    /// Issues found while reading, such as unknown fields. Issues of [`validate`](lightbots_show::validate) are not
+    /// among them.
     pub issues: Issues,
 }
 
-/// A file to be saved.
+/// The result of writing a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
-    /// The bytes of the file; empty where an error among the issues says why there is none.
+    /// The bytes of the file. Empty if an error among the issues says why there is no file.
     pub bytes: Vec<u8>,
-    /// One warning for each part that is used and that the format does not keep, then what else the format finds.
+    /// A warning for each part that the show uses and the format does not keep, then issues of the format itself.
     pub issues: Issues,
 }
 
 impl Format {
-    /// The bytes of a file with the show and, where the format keeps it, the plan. The same bytes for the same show.
-    /// A format that [needs](Self::needs_plan) a plan gives an error without one, and for a plan that is not sound.
+    /// Writes a file with the show and, if the format keeps it, the plan. The same show gives the same bytes. A format
+    /// that [needs](Self::needs_plan) a plan gives an error without one, and for a plan that is not sound.
     pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
         let mut issues = self.losses(show, plan);
         let written = (self.encode)(show, plan);
@@ -67,9 +69,9 @@ impl Format {
         Written { bytes: written.bytes, issues }
     }
 
-    /// A warning for each part that the show uses and a file does not keep, in the order of [`Part::all`].
+    /// A warning for each part that the show uses and the format does not keep, in the order of [`Part::all`].
     fn losses(&self, show: &Show, plan: Option<&ShowPlan>) -> Issues {
-        // A music that the format holds is not lost with the list of files.
+        // Music that the format holds is not lost with the list of files.
         let is_music = |asset: &Asset| self.holds_music && show.music.as_ref() == Some(&asset.name);
         let others = show.assets.values().any(|asset| !is_music(asset));
         let counts = |part: Part| others || !matches!(part, Part::Assets | Part::AssetFiles);

@@ -11,10 +11,11 @@ use crate::sequence_file::{MAGIC, SequenceFile};
 use crate::timed::export::{ExportedShow, SAMPLE, sampled_note, written};
 use crate::timed::sequence::add_file;
 
-/// Samples of a frame: 40 ms, which every player of FSEQ keeps up with.
+/// Samples from one frame of the file to the next: 40 ms, which every player of FSEQ keeps up with.
 const SAMPLES: usize = 2;
-/// Most bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Some readers know no compression,
-/// others only zstd (docs/exchange.md). With a larger bound, files of large fleets are ten times as long.
+/// Largest number of bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Some readers support
+/// no compression, others only zstd (docs/exchange.md). With a larger bound, files of large fleets would be ten times
+/// as long.
 const PLAIN_MAX: usize = 16 << 20;
 
 /// Whether the bytes begin like a file of FSEQ.
@@ -22,7 +23,7 @@ pub fn sniff(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// A file of FSEQ alone is no show.
+/// Always fails: a file of FSEQ alone is no show.
 pub(crate) fn read(_: &[u8]) -> Result<Loaded, ReadError> {
     let what = "an FSEQ file has colours and no places: put it on a show that you have, by \
                 `lightbots convert FILE.fseq OUT --onto SHOW`";
@@ -56,10 +57,10 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
 }
 
 /// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins with the air time of the
-/// first frame, as the music does; of its channels, the first three are those of robot 0.
+/// first frame, as the music does. Its first three channels are those of robot 0.
 ///
 /// # Errors
-/// If the bytes are no FSEQ file, or a file that is not read.
+/// If the bytes are no FSEQ file, or one that this program does not read.
 pub fn put_onto(show: &mut Show, bytes: &[u8]) -> Result<Issues, ReadError> {
     let robots = most_pixels(show).max(1);
     let refused = |why: String| ReadError::whole("bad-fseq", format!("the file {why}"));

@@ -1,4 +1,4 @@
-//! A JSON reader without a tree, and the parts that JSON formats share (`frames`, `text`).
+//! A JSON reader that builds no tree, and the parts that JSON formats share (`frames`, `text`).
 //!
 //! Reading takes no memory besides the show. Unlike common parsers this one reads `NaN` and `Infinity`, so that an error
 //! can name the pixel that has them.
@@ -19,7 +19,7 @@ pub(crate) struct Json<'a> {
     at: usize,
 }
 
-/// A value; of lists and objects only the kind.
+/// A value. Of a list or an object it has only the kind.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Scalar<'a> {
     Number(f64),
@@ -51,7 +51,7 @@ impl<'a> Json<'a> {
         ReadError::at(code, self.text, self.at, what)
     }
 
-    /// The next byte that is not white space. The position stops before it.
+    /// Returns the next byte that is not white space. Moves the position to that byte.
     pub fn peek(&mut self) -> Read<u8> {
         self.blank();
         self.text.as_bytes().get(self.at).copied().ok_or_else(|| self.cut_off())
@@ -63,7 +63,7 @@ impl<'a> Json<'a> {
         self.at >= self.text.len()
     }
 
-    /// Reads an object. `field` gets each key and must read its value.
+    /// Reads an object. Calls `field` with each key; `field` must read the value.
     pub fn object(&mut self, mut field: impl FnMut(&mut Self, &str) -> Read<()>) -> Read<()> {
         self.open(b'{', "an object in { }")?;
         if self.peek()? == b'}' {
@@ -86,7 +86,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// Reads a list. `item` gets the index of each value and must read the value.
+    /// Reads a list. Calls `item` with the index of each value; `item` must read the value.
     pub fn list(&mut self, mut item: impl FnMut(&mut Self, usize) -> Read<()>) -> Read<()> {
         self.open(b'[', "a list in [ ]")?;
         if self.peek()? == b']' {
@@ -112,7 +112,7 @@ impl<'a> Json<'a> {
         self.scalar().map(drop)
     }
 
-    /// Reads a finite number. `name` stands for the number in messages.
+    /// Reads a finite number. `name` names the number in messages.
     pub fn number(&mut self, name: &str) -> Read<f64> {
         self.blank();
         let before = self.clone();
@@ -152,10 +152,10 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// The value of `key` in the object that follows. The position stays. `None` if the key cannot be read.
+    /// Returns the value of `key` in the object that follows. The position stays. `None` if the key cannot be read.
     pub fn ahead(&self, key: &str) -> Option<Scalar<'a>> {
         let mut found = None;
-        // An error behind the key does not matter: the value names the place of that error.
+        // An error after the key does not matter: the caller uses the value to say where that error is.
         let _ = self.clone().object(|json, name| {
             let value = json.scalar()?;
             if name == key {
@@ -166,7 +166,7 @@ impl<'a> Json<'a> {
         found
     }
 
-    /// The error that something else than `wanted` follows.
+    /// Returns the error that something other than `wanted` follows.
     pub fn unexpected(&self, wanted: &str) -> ReadError {
         match self.text[self.at..].chars().next() {
             None => self.cut_off(),
@@ -229,7 +229,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// A number, or `true`, `false` or `null`.
+    /// Reads a number, or `true`, `false` or `null`.
     fn word(&mut self) -> Read<Scalar<'a>> {
         let rest = &self.text[self.at..];
         let part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'+' | b'.');
@@ -253,7 +253,7 @@ impl<'a> Json<'a> {
         Ok(scalar)
     }
 
-    /// A text in double quotes. The position is before the opening quote.
+    /// Reads a text in double quotes. The position is before the opening quote.
     fn string(&mut self) -> Read<Cow<'a, str>> {
         self.at += 1;
         let start = self.at;
@@ -284,7 +284,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// The character that a backslash and what follows stand for.
+    /// Reads the character that a backslash and the characters after it stand for.
     fn escape(&mut self) -> Read<char> {
         let escaped = self.text.as_bytes().get(self.at + 1).copied().ok_or_else(|| self.cut_off())?;
         let char = match escaped {
@@ -301,7 +301,7 @@ impl<'a> Json<'a> {
         Ok(char)
     }
 
-    /// `\uXXXX`, or a pair of surrogates. A surrogate without its pair becomes U+FFFD.
+    /// Reads `\uXXXX`, or a pair of surrogates. A surrogate without its pair becomes U+FFFD.
     fn unicode_escape(&mut self) -> Read<char> {
         let hex = |at: usize| {
             let digits = self.text.get(at..at + 6)?.strip_prefix("\\u")?;
@@ -340,7 +340,7 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
 }
 
 impl Scalar<'_> {
-    /// The value in messages.
+    /// The value, described for messages.
     fn kind(&self) -> String {
         match self {
             Self::Number(number) if number.is_finite() => format!("the number {}", text::exact(*number)),

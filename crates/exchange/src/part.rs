@@ -54,7 +54,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// Every part of a show that a document has: without files and plan.
+    /// All parts that the document of a show has: all but the plan and the files themselves.
     pub(crate) const DOCUMENT: [Self; 20] = [
         Self::Title,
         Self::FloorSize,
@@ -78,7 +78,7 @@ impl Part {
         Self::Assets,
     ];
 
-    /// Every part of a show, without the plan.
+    /// All parts of a show, without the plan.
     pub const SHOW: [Self; 21] = {
         let mut parts = [Self::AssetFiles; 21];
         let (documents, _) = parts.split_at_mut(Self::DOCUMENT.len());
@@ -86,7 +86,7 @@ impl Part {
         parts
     };
 
-    /// The parts that timed paths say, and the name of the show.
+    /// The parts that timed paths express, and the name of the show.
     pub(crate) const TIMED: [Self; 7] = [
         Self::Title,
         Self::Identity,
@@ -106,7 +106,7 @@ impl Part {
         parts
     };
 
-    /// The parts that tables of places with names of robots say.
+    /// The parts that tables of places with names of robots express.
     pub(crate) const TABLES: [Self; 6] =
         [Self::Identity, Self::Starts, Self::Durations, Self::Easing, Self::ChosenRobots, Self::Plan];
 
@@ -143,7 +143,7 @@ impl Part {
         }
     }
 
-    /// The part in messages.
+    /// The part in words, for messages.
     pub fn words(self) -> &'static str {
         match self {
             Self::Title => "the name of the show",
@@ -172,7 +172,7 @@ impl Part {
     }
 }
 
-/// Whether a part differs from what a reader takes where a file does not have it.
+/// Whether a part of the show differs from what a reader assumes if a file does not have the part.
 pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
     let (stage, usual) = (&show.stage, Stage::default());
     let mut pixels = show.frames.iter().flat_map(|frame| &frame.pixels);

@@ -1,4 +1,4 @@
-//! From the bytes of a file to what it holds.
+//! Reads the bytes of a file of any format.
 
 use lightbots_show::excerpt;
 
@@ -12,8 +12,8 @@ use crate::table::{for_file, formats_in_words, sniff};
 /// messages clearer.
 ///
 /// # Errors
-/// If the bytes are not a show. A show that can be held in memory and must not be played is not an error here:
-/// [`validate`](lightbots_show::validate) finds it.
+/// If the bytes are not a show. A show that can be read but must not be played is not an error here:
+/// [`validate`](lightbots_show::validate) finds its issues.
 pub fn read(bytes: &[u8], file: Option<&str>) -> Result<Loaded, ReadError> {
     if bytes.len() > MAX_BYTES {
         let size_mb = bytes.len() as f64 / 1e6;

@@ -1,5 +1,5 @@
-//! FSEQ 2: colours of lights, one frame each few milliseconds. Header, lists of blocks and of ranges of channels, variables,
-//! then frames of one byte a channel, little endian.
+//! FSEQ 2: colours of lights, one frame every few milliseconds. A file has a header, lists of blocks and of ranges of
+//! channels, variables, and then frames of one byte per channel. Numbers are little endian.
 
 mod header;
 
@@ -13,22 +13,22 @@ use lightbots_show::LayerPicture;
 pub(crate) use header::MAGIC;
 use header::{BadSequence, ChannelRange, HEADER, Header, PLAIN, ZLIB, cut_off};
 
-/// Most blocks that readers of version 2.0 count: one byte.
+/// Largest number of blocks: readers of version 2.0 count them with one byte.
 const BLOCKS_MAX: usize = 255;
-/// Frames of a block, unless the file would have too many blocks.
+/// Number of frames in a block, unless the file would have too many blocks.
 const BLOCK_FRAMES: usize = 250;
-/// Bytes of whole frames that are unpacked at once, unless one frame has more. One by one, 358 million frames of three
-/// channels took 46 s, and with this 0.9 s (2026-11-28).
+/// Bytes of whole frames that are unpacked at once, unless one frame has more. Unpacking 358 million frames of three
+/// channels took 46 s one by one, and 0.9 s with this bound (2026-11-28).
 const UNPACKED_AT_ONCE: usize = 64 << 10;
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SequenceFile {
-    /// Distance of two frames, milliseconds.
+    /// Time from one frame to the next, milliseconds.
     pub step_ms: u8,
-    /// Bytes of a frame: red, green and blue of each robot.
+    /// Number of bytes of a frame: red, green and blue of each robot.
     pub channels: usize,
-    /// Frames one after another.
+    /// Colour codes, frame after frame.
     pub codes: Vec<u8>,
     /// File name of the music.
     pub music: Option<String>,
@@ -40,7 +40,7 @@ impl SequenceFile {
         self.codes.len() / self.channels.max(1)
     }
 
-    /// The bytes of a file, in zlib blocks.
+    /// Writes a file with zlib blocks.
     pub fn bytes(&self) -> Vec<u8> {
         let block_frames = BLOCK_FRAMES.max(self.frames().div_ceil(BLOCKS_MAX));
         let frames = self.codes.chunks(block_frames * self.channels.max(1));
@@ -55,14 +55,14 @@ impl SequenceFile {
         bytes
     }
 
-    /// The bytes of a file that is not compressed. Every reader of FSEQ 2 understands it.
+    /// Writes a file without compression. Every reader of FSEQ 2 understands it.
     pub fn plain_bytes(&self) -> Vec<u8> {
         let mut bytes = self.head(PLAIN, &[]);
         bytes.extend(&self.codes);
         bytes
     }
 
-    /// All that stands before the frames. The list of blocks has eight bytes for each.
+    /// Everything before the frames. `blocks`: the list of blocks, eight bytes each.
     fn head(&self, compression: u8, blocks: &[u8]) -> Vec<u8> {
         let mut variables = variable(b"sp", "LightBots");
         if let Some(music) = &self.music {
@@ -78,7 +78,7 @@ impl SequenceFile {
         bytes.extend((self.channels as u32).to_le_bytes());
         bytes.extend((self.frames() as u32).to_le_bytes());
         bytes.extend([self.step_ms, 0, compression, (blocks.len() / 8) as u8, 0, 0]);
-        // A number of its own for the file; a moment would make the same show give other bytes.
+        // The unique number of the file. It stays 0, because a time would make the same show give other bytes.
         bytes.extend([0; 8]);
         bytes.extend(blocks);
         bytes.extend(variables);
@@ -86,8 +86,8 @@ impl SequenceFile {
         bytes
     }
 
-    /// Reads a file; the first `channels` channels at most, and of many frames each n-th, so that the lights have at most
-    /// [`PICTURE_PIXELS_MAX`] colours. Channels that a sparse file leaves out are black.
+    /// Reads a file, at most its first `channels` channels. Of many frames only every n-th is kept, so that the lights
+    /// have at most [`PICTURE_PIXELS_MAX`] colours. Channels that a sparse file leaves out are black.
     pub fn read(bytes: &[u8], channels: usize) -> Result<Self, BadSequence> {
         let header = Header::read(bytes)?;
         let ranges = header.ranges(bytes)?;
@@ -109,7 +109,7 @@ impl SequenceFile {
     }
 }
 
-/// Of each `every`-th frame, the first `kept` channels.
+/// The first `kept` channels of every `every`-th frame.
 fn kept_codes(
     header: &Header,
     bytes: &[u8],
@@ -138,7 +138,7 @@ fn kept_codes(
     Ok(codes)
 }
 
-/// Adds the first `kept` channels of a frame.
+/// Adds the first `kept` channels of a frame to `codes`.
 fn add_row(codes: &mut Vec<u8>, row: &[u8], ranges: &[ChannelRange], kept: usize) {
     let begin = codes.len();
     codes.resize(begin + kept, 0);
@@ -153,7 +153,7 @@ fn add_row(codes: &mut Vec<u8>, row: &[u8], ranges: &[ChannelRange], kept: usize
     }
 }
 
-/// The colours in the file of a layer of the kind `sequence`: one pixel a robot, one row a frame.
+/// Reads the colours in the file of a layer of the kind `sequence`: one pixel per robot, one row per frame.
 ///
 /// # Errors
 /// What is wrong with the file, and what to do.
@@ -165,12 +165,12 @@ pub fn sequence_picture(bytes: &[u8]) -> Result<LayerPicture, String> {
 
 fn compressed(frames: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    // A list of bytes takes all that is written.
+    // Writing to a list of bytes cannot fail.
     let _ = encoder.write_all(frames);
     encoder.finish().unwrap_or_default()
 }
 
-/// A variable: its length, two letters, and a text with a zero behind.
+/// Writes a variable: its length, two letters, and a text with a zero byte at its end.
 fn variable(name: &[u8; 2], text: &str) -> Vec<u8> {
     let text: String = text.chars().take(200).filter(|char| *char != '\0').collect();
     let length = (4 + text.len() + 1) as u16;
@@ -273,7 +273,7 @@ mod tests {
             for flip in 1..=255 {
                 let mut changed = bytes.clone();
                 changed[at] ^= flip;
-                // Either is no fault, but it must end.
+                // Success and failure are both right, but reading must end.
                 let _ = SequenceFile::read(&changed, usize::MAX);
             }
         }

@@ -17,7 +17,7 @@ use crate::zip_files::holds;
 
 /// Name of the document in an archive.
 pub(crate) const DOCUMENT: &str = "show.json";
-/// Most drones of a file that Skybrush reads.
+/// Largest number of drones that Skybrush reads in a file.
 const DRONES_MAX: usize = 5_000;
 /// Ticks of light programs in a second.
 const TICKS_PER_S: f64 = 50.0;

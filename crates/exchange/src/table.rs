@@ -1,14 +1,14 @@
-//! The table of formats, and how programs find a row.
+//! The table of formats, and functions that find a row.
 
 use crate::format::Format;
 use crate::part::Part;
 use crate::{archive, csv, fseq, lightbots, original, skyc, vviz};
 
-/// Every format. The last whose `sniff` accepts the bytes of a file reads it. So a format that looks at fewer
-/// bytes stands before one that looks at more.
+/// Every format. The last format whose `sniff` accepts the bytes of a file reads the file. A format that checks fewer
+/// bytes therefore comes before one that checks more.
 pub static FORMATS: [&Format; 7] = [&LIGHTBOTS, &ARCHIVE, &ORIGINAL, &SKYC, &CSV, &VVIZ, &FSEQ];
 
-/// Our own format. It keeps every part of a show but the files that belong to it.
+/// Our own format. It keeps every part of a show except the files that belong to the show.
 pub static LIGHTBOTS: Format = Format {
     name: "lightbots",
     program: "LightBots",
@@ -111,7 +111,7 @@ pub fn sniff(bytes: &[u8]) -> Option<&'static Format> {
     FORMATS.into_iter().rev().find(|format| (format.sniff)(bytes))
 }
 
-/// The format of that name.
+/// The format with this name.
 pub fn named(name: &str) -> Option<&'static Format> {
     FORMATS.into_iter().find(|format| format.name == name)
 }

@@ -1,7 +1,7 @@
 //! Shows as other programs keep them: for each robot a timed path and its light over time, without frames.
 //!
-//! [`export`] makes this of a planned show, [`import`] makes frames and trajectories of it. The formats `skyc`,
-//! `csv`, `vviz` and `fseq` are between this and bytes.
+//! [`export`] makes a timed show from a planned one, [`import`] makes frames and trajectories from a timed show. The
+//! formats `skyc`, `csv`, `vviz` and `fseq` convert between timed shows and bytes.
 
 pub(crate) mod export;
 pub(crate) mod fit;
@@ -17,24 +17,24 @@ use light::TimedLight;
 use music::TimedMusic;
 use path::TimedPath;
 
-/// A show of a file.
+/// A timed show, as a file has it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TimedShow {
     /// Name for people; may be empty.
     pub name: String,
     /// The robots in the order of the file.
     pub robots: Vec<TimedRobot>,
-    /// Its music; `None`: the file holds none.
+    /// Its music; `None` if the file holds none.
     pub music: Option<TimedMusic>,
 }
 
-/// A robot of a file.
+/// A robot of a timed show.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TimedRobot {
     /// Its name in the file; may be empty.
     pub name: String,
-    /// Where it is, on the floor.
+    /// Its path on the floor.
     pub path: TimedPath,
-    /// What it shows.
+    /// Its light over time.
     pub light: TimedLight,
 }

@@ -13,9 +13,9 @@ use crate::limits::MAX_BYTES;
 
 /// First bytes of a record of the archive's directory.
 const DIRECTORY_RECORD: &[u8] = b"PK\x01\x02";
-/// Where a record of the directory has the length of the file's name, and the name itself, bytes (APPNOTE 6.3.10, 4.3.12).
+/// Offset of the length of the file's name in a record of the directory, bytes (APPNOTE 6.3.10, 4.3.12).
 const NAME_LENGTH_AT: usize = 28;
-/// See [`NAME_LENGTH_AT`].
+/// Offset of the file's name: see [`NAME_LENGTH_AT`].
 const NAME_AT: usize = 46;
 
 /// Whether the bytes begin like an archive: `PK` and the kind of its first record, an entry or the end.
@@ -23,12 +23,12 @@ pub(crate) fn is_zip(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
 }
 
-/// Whether the directory of an archive seems to hold a file of which `is_wanted` accepts the name. Unpacks nothing.
+/// Whether the directory of an archive seems to hold a file whose name `is_wanted` accepts. Unpacks nothing.
 pub(crate) fn holds(bytes: &[u8], is_wanted: impl Fn(&[u8]) -> bool) -> bool {
     is_zip(bytes) && records(bytes).any(|record| name_of(record).is_some_and(&is_wanted))
 }
 
-/// The bytes from each record of the directory on.
+/// For each record of the directory, the bytes from its begin on.
 fn records(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let begins = bytes.windows(DIRECTORY_RECORD.len()).enumerate();
     begins.filter(|(_, window)| *window == DIRECTORY_RECORD).map(|(at, _)| &bytes[at..])
@@ -40,14 +40,14 @@ fn name_of(record: &[u8]) -> Option<&[u8]> {
     record.get(NAME_AT..NAME_AT + length)
 }
 
-/// Unpacks the files of an archive with at most `entries_max` entries, and gives each with its name to `take`. All
-/// together have at most [`MAX_BYTES`].
+/// Unpacks the files of an archive with at most `entries_max` entries. Calls `take` with the name and the bytes of
+/// each. All files together have at most [`MAX_BYTES`].
 pub(crate) fn unpack(
     bytes: &[u8],
     entries_max: usize,
     mut take: impl FnMut(String, Vec<u8>) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
-    // The library keeps the whole directory in memory before it can be counted.
+    // Records are counted first, because the library keeps the whole directory in memory.
     if records(bytes).take(2 * entries_max).count() == 2 * entries_max {
         return Err(too_many(entries_max));
     }
@@ -75,7 +75,7 @@ fn leaves_the_archive(name: &str) -> bool {
     name.starts_with('/') || name.contains(['\\', ':', '\0']) || name.split('/').any(|part| part == "..")
 }
 
-/// Unpacks one file into the `room` that is left.
+/// Unpacks one file. `room`: number of bytes left for all files.
 fn content(name: &str, file: &mut impl Read, room: &mut usize) -> Result<Vec<u8>, ReadError> {
     let mut content = Vec::new();
     file.take(*room as u64 + 1)
@@ -102,7 +102,7 @@ pub(crate) fn damaged(why: &str) -> ReadError {
     ReadError::whole("bad-archive", what)
 }
 
-/// An archive of files with their names. The same files give the same bytes: entries have no date.
+/// Packs files with their names into an archive. The same files give the same bytes: entries have no date.
 pub(crate) fn pack<'a>(files: impl IntoIterator<Item = (String, &'a [u8])>) -> Result<Vec<u8>, Issue> {
     let cannot = |error| Issue::error("not-packed", format!("the archive could not be made: {error}"));
     packed(files).map_err(cannot)

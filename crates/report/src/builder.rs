@@ -1,4 +1,4 @@
-//! From a recording to its report.
+//! Makes the report of a recording.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -19,17 +19,17 @@ use crate::track::{Scrub, ScrubTrack, encoded};
 use crate::truth::Truth;
 use crate::words;
 
-/// Planned places are sampled this often.
+/// Interval at which planned places are sampled.
 const SAMPLE: Span = Span::from_millis(100);
-/// Most incidents that are listed.
+/// Largest number of incidents listed.
 const INCIDENTS_MAX: usize = 300;
-/// Closest pairs that are listed.
+/// Number of closest approaches listed.
 const APPROACHES: usize = 10;
-/// A frame that waited for its last robot longer than this beyond the plan was late, seconds. Arrivals of a healthy fleet
-/// differ by less.
+/// A frame is late if it waited for its last robot longer than this beyond the plan, seconds. Arrivals of a healthy
+/// fleet differ by less.
 const LATE_S: f64 = 0.3;
 
-/// A report while its recording is replayed.
+/// A report that is made while its recording is replayed.
 #[derive(Debug, Default)]
 pub struct ReportBuilder {
     show: Option<Arc<Show>>,
@@ -43,13 +43,13 @@ pub struct ReportBuilder {
     from: usize,
     frames: FrameNotes,
     began: Option<Instant>,
-    /// The latest input.
+    /// Time of the latest input.
     now: Instant,
     outcome: Option<RunOutcome>,
     frames_played: usize,
-    /// The operator went to another frame than the next one.
+    /// Whether frames were not played once each in order: one was chosen, skipped, left out or repeated.
     is_order_changed: bool,
-    /// Frames that stood.
+    /// Frames that robots reached.
     shown: BTreeSet<usize>,
     planned_s: f64,
     /// Errors of all frames, metres.
@@ -62,12 +62,12 @@ pub struct ReportBuilder {
     truth: Option<Truth>,
 }
 
-/// The report of a recording, and its replay. `progress` is called with the share that is done.
+/// Makes the report of a recording, and its replay. `progress` is called with the share that is done.
 pub fn report_of(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<(ShowReport, Scrub), LogError> {
     report_with_truth(log, None, progress)
 }
 
-/// [`report_of`] a rehearsal, with what its simulator knows.
+/// Makes the report of a rehearsal as [`report_of`] does. `truth`: what its simulator knows.
 pub fn report_with_truth(
     log: &[u8],
     truth: Option<Truth>,
@@ -80,7 +80,7 @@ pub fn report_with_truth(
 }
 
 impl ReportBuilder {
-    /// Takes in a step of a replay.
+    /// Handles a step of a replay.
     pub fn step(&mut self, now: Instant, controller: &Controller, step: ReplayStep<'_>) {
         match step {
             ReplayStep::Message { topic, payload } if self.is_running => self.message(now, topic, payload),
@@ -171,7 +171,7 @@ impl ReportBuilder {
 
     fn stand(&mut self, frame: usize, now: Instant, controller: &Controller) {
         let snapshot = controller.snapshot(now);
-        // Without air time the next drive may have begun: its goals are not this frame's.
+        // Without air time the next drive may have begun, whose goals are not those of this frame.
         let stands = snapshot.run.as_ref().is_none_or(|run| run.frame == frame || self.is_home);
         let mut errors_m = Vec::new();
         for view in snapshot.robots.iter().filter(|view| stands && view.takes_part) {
@@ -249,7 +249,7 @@ impl ReportBuilder {
     }
 
     fn add(&mut self, at: Instant, incident: ReportedEvent) {
-        // The end of the run is always told.
+        // The end of the run is always listed.
         if self.incidents.len() < INCIDENTS_MAX || self.outcome.is_some() {
             self.incidents.push((at, incident));
         } else {
@@ -257,8 +257,7 @@ impl ReportBuilder {
         }
     }
 
-    /// The report.
-    /// The replay is over.
+    /// Returns the report and the replay, once the recording is read to its end.
     pub fn finish(mut self, replayed: ReplayReport) -> (ShowReport, Scrub) {
         let began = self.began.unwrap_or(self.now);
         let since = |at: Instant| round((at - began).as_secs().max(0.0), 3);
@@ -388,7 +387,7 @@ fn area(obstacle: &Obstacle) -> Vec<f64> {
     }
 }
 
-/// A note of the recording.
+/// The value of a note of the recording.
 fn note<'a>(replayed: &'a ReplayReport, name: &str) -> Option<&'a str> {
     replayed.notes.iter().find(|note| note.0 == name).map(|note| note.1.as_str())
 }

@@ -9,20 +9,20 @@ use crate::model::FrameFigures;
 const WIDTH: f64 = 460.0;
 /// Height of the bars of the histogram.
 const HEIGHT: f64 = 130.0;
-/// Bars of the histogram.
+/// Number of bars of the histogram.
 const BINS: usize = 14;
 /// Height of a row of arrivals.
 const ROW: f64 = 24.0;
 /// Space for names of frames.
 const NAMES: f64 = 110.0;
-/// Most rows of arrivals; the table of robots has all.
+/// Largest number of rows of arrivals.
 const ROWS_MAX: usize = 40;
-/// Most dots in a row: all robots of a small fleet. A larger one shows this many, evenly chosen, and the latest ones.
+/// Largest number of evenly chosen dots in a row: all robots of a small fleet. The latest robots are shown besides.
 const DOTS_MAX: usize = 100;
-/// The latest robots of a frame that are always shown.
+/// Number of the latest robots of a frame that are always shown.
 const LATEST: usize = 10;
 
-/// A histogram of errors, metres, with median and 99th percentile.
+/// Draws a histogram of errors, metres, with median and 99th percentile.
 pub(crate) fn histogram(errors_m: &[f64], figures: &ThreeFigures) -> String {
     let mut svg = String::new();
     let most = (figures.max * 1e3).max(1.0);
@@ -90,7 +90,7 @@ pub(crate) fn histogram(errors_m: &[f64], figures: &ThreeFigures) -> String {
     svg
 }
 
-/// Arrivals of the robots of each frame after the first one: one dot, one robot.
+/// Draws the arrivals of robots in each frame, as times after the first arrival: one dot per robot.
 pub(crate) fn arrivals(frames: &[FrameFigures], names: &[String]) -> String {
     let rows = frames.len().min(ROWS_MAX);
     let most_s = frames.iter().take(rows).map(|frame| frame.arrival_spread_s).fold(0.05, f64::max);
@@ -113,7 +113,7 @@ pub(crate) fn arrivals(frames: &[FrameFigures], names: &[String]) -> String {
             WIDTH - 8.0
         );
         for (index, at_s) in dots(&frame.arrivals_s) {
-            // Dots of one moment are spread over the row, by their order, so that all are seen.
+            // Dots are spread over the row by their order, so that dots of the same moment are all seen.
             let y = y + ((index * 7) % 11) as f64 - 5.0;
             let class = if *at_s > 0.3 { " class=\"late\"" } else { "" };
             let _ = write!(svg, "<circle{class} cx=\"{:.1}\" cy=\"{y:.0}\" r=\"2.4\"/>", x_of(*at_s));
@@ -135,7 +135,7 @@ pub(crate) fn arrivals(frames: &[FrameFigures], names: &[String]) -> String {
     svg
 }
 
-/// The dots of a row, with their numbers.
+/// The arrivals of a row that are drawn as dots, with their indices.
 fn dots(arrivals_s: &[f64]) -> impl Iterator<Item = (usize, &f64)> {
     let every = arrivals_s.len().div_ceil(DOTS_MAX).max(1);
     let latest = arrivals_s.len().saturating_sub(LATEST);
@@ -152,7 +152,7 @@ fn nice(least: f64) -> f64 {
         .unwrap_or(power)
 }
 
-/// A number without needless digits.
+/// A number with at most two decimals, without zeros at the end.
 fn short(number: f64) -> String {
     let text = format!("{number:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -1,6 +1,6 @@
-//! Text of files, shows and robots inside a page.
+//! Escapes text of files, shows and robots for a page.
 
-/// Text that is nothing but text in HTML, attributes included; control characters become spaces.
+/// Text escaped for HTML, attributes included. Control characters become spaces.
 pub(crate) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -17,7 +17,7 @@ pub(crate) fn escaped(text: &str) -> String {
     safe
 }
 
-/// JSON that ends no element of a page: `<` stands only in strings of JSON, where its escape means the same.
+/// JSON that cannot end an element of a page. `<` occurs only in strings of JSON, where its escape means the same.
 pub(crate) fn json_in_html(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

@@ -1,4 +1,4 @@
-//! Many numbers in three.
+//! Summary of many numbers by three.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub struct ThreeFigures {
 }
 
 impl ThreeFigures {
-    /// Of these numbers, in any order, rounded to `decimals`.
+    /// Summarises numbers in any order. Figures are rounded to `decimals`.
     pub fn of(numbers: &[f64], decimals: i32) -> Self {
         let mut sorted = numbers.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);
@@ -32,23 +32,24 @@ impl ThreeFigures {
     }
 }
 
-/// Decimals of numbers that are counted.
+/// Decimals to which counted numbers are rounded.
 const COUNTED_DECIMALS: i32 = 5;
-/// Counted numbers are at most this large, so that strange ones do not need much memory.
+/// Largest number that is counted. Larger ones count as this one, so that implausible numbers do not need much memory.
 const COUNTED_MAX: f64 = 10.0;
 
-/// Numbers that are counted by their rounded values: millions of them take little memory, and give the same three figures.
+/// Numbers that are counted by their rounded values. Millions of them take little memory, and give the same three
+/// figures.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CountedNumbers(BTreeMap<u32, usize>);
 
 impl CountedNumbers {
-    /// Adds a number; below 0, and what is no number, is 0.
+    /// Adds a number. Numbers below 0 and NaN count as 0.
     pub fn add(&mut self, number: f64) {
         let value = (number.clamp(0.0, COUNTED_MAX) * 10f64.powi(COUNTED_DECIMALS)).round() as u32;
         *self.0.entry(value).or_default() += 1;
     }
 
-    /// Their three figures.
+    /// Median, 99th percentile, maximum and count of the numbers.
     pub fn figures(&self) -> ThreeFigures {
         let count = self.0.values().sum();
         let at = |percent: usize| {
@@ -67,7 +68,7 @@ impl CountedNumbers {
     }
 }
 
-/// A number with `decimals` digits after the point, never −0.
+/// Rounds a number to `decimals` digits after the point. Never gives -0.
 pub(crate) fn round(number: f64, decimals: i32) -> f64 {
     let scale = 10f64.powi(decimals);
     (number * scale).round() / scale + 0.0

@@ -8,19 +8,19 @@ use crate::figures::{ThreeFigures, round};
 use crate::model::FrameFigures;
 use crate::robots::AllRobots;
 
-/// Most frames that are listed; a show that loops for a day has more.
+/// Largest number of frames listed; a show that loops for a day has more.
 const FRAMES_MAX: usize = 2_000;
 
-/// The frame under way, and those that stood.
+/// The frame under way, and the frames that were reached.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FrameNotes {
-    /// The frame that is driven to or stands, counted from 0.
+    /// The frame that robots drive to or have reached, counted from 0.
     pub current: usize,
     left: Option<Instant>,
     planned_s: f64,
-    /// The frame stands: the next departure begins another one.
+    /// Whether robots have reached the frame. The next departure then begins another one.
     stands: bool,
-    /// The drive was planned anew: its legs do not add to what was planned first.
+    /// Whether the drive was planned anew. Further departures then do not add to the planned duration.
     is_planned_anew: bool,
     arrivals: BTreeMap<RobotId, Instant>,
     pub list: Vec<FrameFigures>,
@@ -28,7 +28,7 @@ pub(crate) struct FrameNotes {
 }
 
 impl FrameNotes {
-    /// Robots leave for a frame.
+    /// Notes that robots leave for a frame.
     pub fn leave(&mut self, frame: usize, starts: Instant, duration: Span) {
         if self.stands || self.left.is_none() || self.current != frame {
             (self.left, self.planned_s) = (Some(starts), duration.as_secs());
@@ -40,20 +40,20 @@ impl FrameNotes {
         self.current = frame;
     }
 
-    /// The drive is planned anew.
+    /// Notes that the drive is planned anew.
     pub fn plan_anew(&mut self) {
         self.is_planned_anew = true;
     }
 
-    /// A robot reports its arrival.
+    /// Notes an arrival that a robot reports.
     pub fn arrive(&mut self, id: RobotId, now: Instant) {
         if !self.stands {
             self.arrivals.insert(id, now);
         }
     }
 
-    /// The frame stands. `errors_m`: distance of each robot from its pixel. Planned drive and air time are returned,
-    /// seconds.
+    /// Notes that robots have reached the frame. `errors_m`: distance of each robot from its pixel. Returns the planned
+    /// duration of the drive, seconds.
     pub fn stand(
         &mut self,
         (frame, name): (usize, String),

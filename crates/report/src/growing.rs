@@ -1,4 +1,4 @@
-//! The report of a run that is on.
+//! The report of a run under way.
 
 use lightbots_control::{GrowingReplay, LogError};
 
@@ -6,8 +6,8 @@ use crate::builder::ReportBuilder;
 use crate::model::ShowReport;
 use crate::track::Scrub;
 
-/// Reads the log of a run as it is written, so that the report is there when the run is over: from a whole log, that of
-/// half an hour with a thousand robots takes minutes.
+/// Reads the log of a run while it is written, so that the report is ready when the run is over. Reading the whole log
+/// afterwards would take minutes for half an hour with a thousand robots.
 #[derive(Debug, Default)]
 pub struct GrowingReport {
     replay: GrowingReplay,
@@ -15,13 +15,13 @@ pub struct GrowingReport {
 }
 
 impl GrowingReport {
-    /// Takes in the next bytes of the log.
+    /// Reads the next bytes of the log.
     pub fn feed(&mut self, bytes: &[u8]) -> Result<(), LogError> {
         let Self { replay, builder } = self;
         replay.feed(bytes, &mut |now, controller, step| builder.step(now, controller, step))
     }
 
-    /// The run is over: its report and its replay.
+    /// Returns the report and the replay, once the run is over.
     pub fn finish(self) -> Result<(ShowReport, Scrub), LogError> {
         Ok(self.builder.finish(self.replay.finish()?))
     }

@@ -1,4 +1,4 @@
-//! The page of a report: one file, without anything from elsewhere.
+//! The page of a report: one file that needs no other.
 
 use std::fmt::Write as _;
 
@@ -15,14 +15,15 @@ use crate::words::{count, millimetres, some};
 const TOKENS: &str = include_str!("../../../ui/src/style/tokens.css");
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-/// Chooses light or dark before anything is drawn, as the system says.
+/// Chooses light or dark colours before anything is drawn, by the setting of the system.
 const SCHEME: &str = "if (matchMedia('(prefers-color-scheme: light)').matches) \
      document.documentElement.dataset.mantineColorScheme = 'light';";
 
-/// Most rows of robots that are laid out before they are seen. A thousand take a quarter of a second.
+/// Number of robots above which their rows are laid out only when they are visible. Laying out a thousand takes a
+/// quarter of a second.
 const ROWS_LAID_OUT: usize = 100;
 
-/// The page. The same report gives the same bytes.
+/// Writes the page. The same report gives the same bytes.
 pub fn page(report: &ShowReport, scrub: &Scrub) -> String {
     let title = if report.show.trim().is_empty() { "A show".to_owned() } else { escaped(&report.show) };
     let kind = kind(report.kind);
@@ -147,7 +148,7 @@ fn replay(page: &mut String, report: &ShowReport, scrub: &Scrub) {
     );
 }
 
-/// `3 Heart`
+/// Number and name of a frame, such as `3 Heart`.
 fn name_of(frame: &FrameFigures) -> String {
     format!("{} {}", frame.frame + 1, escaped(&frame.name)).trim_end().to_owned()
 }

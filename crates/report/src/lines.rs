@@ -52,7 +52,7 @@ pub struct LogNote {
     pub what: String,
 }
 
-/// Plays a log again and gives its lines. `progress` is called again and again with the share that is done.
+/// Replays a log and passes its lines to `write`. `progress` is called repeatedly with the share that is done.
 pub fn run_lines(
     log: &[u8],
     progress: &mut dyn FnMut(f64),

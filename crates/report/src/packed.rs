@@ -1,5 +1,4 @@
-//! The replay's numbers as the page carries them: small, because the page of half an hour with a thousand robots has a
-//! million samples.
+//! The numbers of a replay, packed for the page: half an hour with a thousand robots has a million samples.
 
 use std::io::Write as _;
 
@@ -20,7 +19,7 @@ struct Facts<'a> {
     end_s: f64,
     tolerance_m: f64,
     areas: &'a [Vec<f64>],
-    /// Of each robot: its numbers of planned and driven places and of lights, and when it was lost, 1/100 s.
+    /// Of each robot: numbers of planned places, driven places and lights, and when it was lost, 1/100 s.
     tracks: Vec<(usize, usize, usize, Option<i64>)>,
 }
 
@@ -34,9 +33,9 @@ pub(crate) fn facts(scrub: &Scrub) -> String {
     serde_json::to_string(&Facts { floor, radius_m, end_s, tolerance_m, areas, tracks }).unwrap_or_default()
 }
 
-/// The numbers of all tracks in Base64, compressed with zlib (RFC 1950). They stand by columns, all robots' planned times
-/// first, because numbers of one kind compress best together; each is a variable-length integer of 7 bits a byte, lowest
-/// first, and its sign is its lowest bit.
+/// The numbers of all tracks in Base64, compressed with zlib (RFC 1950). They are in columns, all robots' planned times
+/// first, because numbers of one kind compress best together. Each is a variable-length integer of 7 bits a byte,
+/// lowest first, and its sign is its lowest bit.
 pub(crate) fn numbers(scrub: &Scrub) -> String {
     let mut bytes = Vec::new();
     let mut column = |list: &dyn Fn(&ScrubTrack) -> Vec<i64>| {

@@ -1,4 +1,4 @@
-//! What is noted of each robot while a recording is replayed.
+//! Notes of each robot while a recording is replayed.
 
 use std::collections::BTreeMap;
 
@@ -10,26 +10,26 @@ use crate::figures::{ThreeFigures, round};
 use crate::model::RobotFigures;
 use crate::track::{PlaceTrack, SAMPLES_MAX};
 
-/// Most robots of a report; the controller remembers no more either.
+/// Largest number of robots in a report; the controller remembers no more either.
 const ROBOTS_MAX: usize = 20_000;
 
-/// One robot.
+/// Notes of one robot.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RobotNotes {
     pub arrivals: usize,
     pub latest_s: f64,
     pub errors_m: Vec<f64>,
     off_m: f64,
-    /// The count that it reported last.
+    /// The count of brakes that it reported last.
     counted: Option<u32>,
     brakes: u64,
-    /// Least gap that it reported, when, and on the way to which frame.
+    /// Least gap that it reported, metres, when, and on the way to which frame.
     pub near: Option<(f64, Instant, usize)>,
     messages: u64,
     battery: Option<(u8, u8)>,
     pub planned: PlaceTrack,
     pub driven: PlaceTrack,
-    /// When its light changed, and to what.
+    /// When its light changed, and the new colour (R·65536 + G·256 + B).
     pub lights: Vec<(Instant, u32)>,
     pub lost: Option<Instant>,
 }
@@ -43,7 +43,7 @@ pub(crate) struct AllRobots {
 }
 
 impl AllRobots {
-    /// The notes of a robot; `None` beyond [`ROBOTS_MAX`].
+    /// The notes of a robot; `None` for a further robot beyond [`ROBOTS_MAX`].
     pub fn get(&mut self, id: RobotId) -> Option<&mut RobotNotes> {
         if self.by_name.len() >= ROBOTS_MAX && !self.by_name.contains_key(&id) {
             return None;
@@ -51,12 +51,12 @@ impl AllRobots {
         Some(self.by_name.entry(id).or_default())
     }
 
-    /// Keeps fewer places of a run that is long.
+    /// Leaves out places of a long run, until at most [`SAMPLES_MAX`] are kept.
     pub fn thin(&mut self) {
         let count = |robots: &Self| -> usize {
             robots.by_name.values().map(|robot| robot.planned.count() + robot.driven.count()).sum()
         };
-        // Each doubling leaves fewer; beyond a few metres there is one line a track.
+        // Each round doubles the tolerance and keeps fewer places. At a few metres, one line per track is left.
         for _ in 0..10 {
             if count(self) <= SAMPLES_MAX {
                 return;
@@ -68,7 +68,7 @@ impl AllRobots {
         }
     }
 
-    /// A report comes while the robots are on the way to `frame`.
+    /// Handles a report that comes while the robots are on the way to `frame`.
     pub fn receive(&mut self, now: Instant, topic: Topic, report: &Report, frame: usize) {
         let Some(robot) = self.get(report.id) else { return };
         robot.messages += 1;
@@ -79,7 +79,7 @@ impl AllRobots {
         if let Some(percent) = details.battery {
             robot.battery = Some((robot.battery.map_or(percent, |battery| battery.0), percent));
         }
-        // A count that fell began again: the robot was switched on.
+        // A count lower than the one before has begun at 0 again: the robot was switched on.
         let before = robot.counted.replace(details.brakes).unwrap_or(details.brakes);
         let base = if details.brakes < before { 0 } else { before };
         robot.brakes += u64::from(details.brakes - base);
@@ -95,14 +95,14 @@ impl AllRobots {
         }
     }
 
-    /// Brakes of all robots.
+    /// Number of brakes of all robots.
     pub fn brakes(&self) -> u64 {
         self.by_name.values().map(|robot| robot.brakes).sum()
     }
 }
 
 impl RobotNotes {
-    /// The robot's row.
+    /// The robot's row in the table of the report.
     pub fn figures(&self, id: RobotId) -> RobotFigures {
         RobotFigures {
             name: id.as_str().to_owned(),

@@ -1,29 +1,29 @@
 //! Places over time, sparse enough to be small.
 //!
-//! The rule: a sample is left out where a straight line in time between the samples that are kept passes within
-//! [`TOLERANCE_M`] of it. While a run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has
-//! fewer, so that neither the memory nor the page of a long run grows; the page carries the tolerance.
+//! A sample is left out if a straight line in time between the samples that are kept passes within [`TOLERANCE_M`] of
+//! it. While a run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has fewer. Neither the
+//! memory nor the page of a long run then grows. The page contains the tolerance.
 
 use lightbots_base::Vec2;
 
-/// Largest distance between a place and the line that stands for it, metres. Below, pages grow; above, a line on a floor of
-/// three metres is off by more than a pixel of a screen.
+/// Largest distance between a sample and the line that replaces it, metres. With less, pages grow. With more, a line on
+/// a floor of three metres is off by more than a pixel of a screen.
 const TOLERANCE_M: f64 = 0.003;
-/// Most samples of a report: about 2.5 bytes each in the page, and 24 while the run is on.
+/// Largest number of samples in a report: about 2.5 bytes each in the page, and 24 bytes during the run.
 pub(crate) const SAMPLES_MAX: usize = 1_000_000;
-/// Most samples between two that are kept, which bounds the work for a robot that stands: then one is kept anyway.
+/// Largest number of samples left out between two that are kept. Bounds the work for a robot that stands.
 const SKIPPED_MAX: usize = 64;
 
-/// A place at a moment, seconds of the show clock.
+/// A place (metres) at a moment (seconds of the show clock).
 type Sample = (f64, Vec2);
 
-/// One robot's places over time, simplified while they come.
+/// One robot's places over time, simplified while samples are added.
 #[derive(Clone, Debug)]
 pub(crate) struct PlaceTrack {
-    /// How far a place may be off the line that stands for it, metres.
+    /// Largest distance of a sample from the line that replaces it, metres.
     tolerance_m: f64,
     kept: Vec<Sample>,
-    /// Samples since the last one that is kept, at most `SKIPPED_MAX`.
+    /// Samples since the last kept one, at most `SKIPPED_MAX`.
     open: Vec<Sample>,
 }
 
@@ -65,7 +65,7 @@ impl PlaceTrack {
         self.open.push((at_s, place));
     }
 
-    /// The samples that are kept, the last one included.
+    /// The kept samples, and the last sample.
     fn finish(mut self) -> Vec<Sample> {
         self.kept.extend(self.open.last());
         self.kept
@@ -78,7 +78,7 @@ fn along(from: Sample, to: Sample, at_s: f64) -> Vec2 {
     from.1 + (to.1 - from.1) * share
 }
 
-/// Fewer of these samples, so that lines pass within `tolerance_m` of those that are left out.
+/// Keeps fewer of these samples. Lines between them pass within `tolerance_m` of those that are left out.
 fn thinned(samples: &[Sample], tolerance_m: f64) -> Vec<Sample> {
     let mut kept: Vec<Sample> = samples.first().copied().into_iter().collect();
     let mut anchor = 0;
@@ -97,16 +97,16 @@ fn thinned(samples: &[Sample], tolerance_m: f64) -> Vec<Sample> {
     kept
 }
 
-/// What a replay to scrub shows.
+/// What a replay with a slider shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scrub {
     /// Floor, metres.
     pub floor: [f64; 2],
     /// Radius of a robot, metres.
     pub radius_m: f64,
-    /// Length, seconds.
+    /// Duration, seconds.
     pub end_s: f64,
-    /// How far lines are off the samples, metres.
+    /// Largest distance of lines from the samples that they replace, metres.
     pub tolerance_m: f64,
     /// No-go areas: `[x, y, radius]` or `[left, bottom, right, top]`, metres.
     pub areas: Vec<Vec<f64>>,
@@ -117,20 +117,21 @@ pub struct Scrub {
 /// One robot's places and lights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScrubTrack {
-    /// Where its paths said it should be: differences of time (1/100 s), x and y (mm).
+    /// Places of its planned paths: differences of time (1/100 s), x and y (mm).
     pub planned: Vec<i32>,
-    /// Where it reported to be.
+    /// Places that it reported, or its true places in a rehearsal; differences as in `planned`.
     pub driven: Vec<i32>,
     /// Its light: difference of time (1/100 s) and colour (R·65536 + G·256 + B).
     pub light: Vec<i64>,
-    /// When it was lost, 1/100 s.
+    /// When it was lost, 1/100 s. `None` if it was not, or is back.
     pub lost: Option<i64>,
 }
 
 /// Planned and driven samples of one robot as differences.
 pub(crate) type Encoded = (Vec<i32>, Vec<i32>);
 
-/// Planned and driven samples of each robot as differences, and their tolerance in metres. Times count from `began_s`.
+/// Encodes planned and driven samples of each robot as differences. Also returns their tolerance, metres. Times count
+/// from `began_s`.
 pub(crate) fn encoded(tracks: Vec<(PlaceTrack, PlaceTrack)>, began_s: f64) -> (Vec<Encoded>, f64) {
     let reached = tracks.iter().flat_map(|(planned, driven)| [planned.tolerance_m, driven.tolerance_m]);
     let mut tolerance_m = reached.fold(TOLERANCE_M, f64::max);

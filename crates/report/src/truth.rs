@@ -12,9 +12,9 @@ use crate::track::PlaceTrack;
 pub struct Truth {
     /// Contacts of rims.
     pub contacts: u64,
-    /// Times that the safety layer began to slow a robot.
+    /// Number of times that the safety layer began to slow a robot.
     pub brakes: u64,
-    /// Of them, those with no faulty and no off-route robot ahead.
+    /// Number of these times with no faulty and no off-route robot ahead.
     pub false_brakes: u64,
     /// Messages that were lost on the way.
     pub messages_lost: u64,
@@ -24,12 +24,12 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Adds where a robot is. Samples of a robot come in order of time.
+    /// Adds the place of a robot. Samples of one robot must come in order of time.
     pub fn add(&mut self, at: Instant, robot: RobotId, place: Vec2) {
         self.places.entry(robot).or_default().add(at.as_secs(), place);
     }
 
-    /// Fills in what the recorded inputs do not say.
+    /// Fills in the figures of a report that the recorded inputs do not contain.
     pub(crate) fn tell(&self, report: &mut ShowReport) {
         report.contacts = Some(self.contacts);
         report.brakes.all = self.brakes;
@@ -39,7 +39,7 @@ impl Truth {
         report.has_true_places = !self.places.is_empty();
     }
 
-    /// Takes the places of a robot.
+    /// Removes and returns the places of a robot.
     pub(crate) fn take(&mut self, robot: RobotId) -> Option<PlaceTrack> {
         self.places.remove(&robot)
     }

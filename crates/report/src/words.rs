@@ -6,7 +6,7 @@ use lightbots_show::Severity;
 use crate::model::ShowReport;
 
 /// A report in one sentence, such as "All 8 frames shown, no contacts, one robot lost." `frame`: where the run ended,
-/// counted from 0. Read of the report are robots, frames, contacts and losses.
+/// counted from 0. Uses robots, frames, contacts and losses of the report.
 pub fn verdict(report: &ShowReport, outcome: Option<&RunOutcome>, is_home: bool, frame: usize) -> String {
     let mut parts = vec![match outcome {
         _ if report.robots == 0 => return "Nothing was played.".into(),
@@ -40,7 +40,7 @@ fn lower(text: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
 }
 
-/// `no contacts`, `one contact`, `2 contacts`.
+/// A number with its noun: `no contacts`, `one contact`, `2 contacts`.
 pub(crate) fn some(number: usize, noun: &str) -> String {
     match number {
         0 => format!("no {noun}s"),
@@ -49,12 +49,12 @@ pub(crate) fn some(number: usize, noun: &str) -> String {
     }
 }
 
-/// `1 frame`, `2 frames`.
+/// A number with its noun: `1 frame`, `2 frames`.
 pub(crate) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
-/// `14 mm`
+/// A distance in millimetres, such as `14 mm`.
 pub(crate) fn millimetres(metres: f64) -> String {
     let mm = metres * 1e3;
     if mm < 9.95 { format!("{mm:.1} mm") } else { format!("{mm:.0} mm") }

@@ -1,13 +1,13 @@
-//! What all reports said of brakes and neighbours: R53.
+//! Brakes and neighbours in all reports of the exam: R53.
 
 use super::pilot::Pilot;
 use crate::received::Received;
 
-/// Farthest gap that counts as seen, metres. No proximity sensor of such a robot sees farther, so a larger number is in
-/// another unit.
+/// Largest plausible gap in a report, metres. No proximity sensor of such a robot sees farther, so a larger number is
+/// in another unit.
 const SIGHT_M: f64 = 1.0;
 
-/// Judges all reports of the exam.
+/// Checks all reports of the exam.
 pub(super) fn judge(pilot: &Pilot) {
     if !pilot.has_details {
         return;

@@ -13,12 +13,14 @@ use crate::session::{Addressee, OtherRobot, Session};
 
 /// Time to wait for reports: status reports come every two seconds (R41).
 const LISTEN: Span = Span::from_millis(2_500);
-/// Number of calls for robots, because a robot may just be connecting. Fewer: a robot that reconnects is missed.
+/// Number of `UUID` commands to find robots, because a robot may just be connecting. With fewer, a robot that
+/// reconnects may be missed.
 const CALLS: u32 = 4;
 /// Time that a robot has to find its position after power-on: ten times the limit of R14.
 const FIRST_FIX: Span = Span::from_millis(5_000);
 
-/// Chooses the robot; returns the names of all robots.
+/// Chooses the robot. Returns the names of all robots. Fails if there is no robot, or if there are several and none was
+/// requested.
 pub(super) async fn choose(session: &Session) -> Result<BTreeSet<String>, Ending> {
     let mut found = Err(Ending::NoRobot);
     for _ in 0..CALLS {

@@ -13,7 +13,7 @@ const RED: Rgb = Rgb::new(255, 0, 0);
 const GREEN: Rgb = Rgb::new(0, 255, 0);
 /// As `RED`.
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// Time in which a person looks up. Shorter: the person misses the beginning. A choice, not measured.
+/// Time in which a person looks up. With less, the person would miss the beginning. A choice, not measured.
 pub(super) const LOOK_UP: Span = Span::from_millis(3_000);
 
 /// Tests plain colours.

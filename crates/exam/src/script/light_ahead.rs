@@ -11,7 +11,7 @@ use crate::sight::Sight;
 const RED: Rgb = Rgb::new(255, 0, 0);
 const GREEN: Rgb = Rgb::new(0, 255, 0);
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// Beyond the exam: a stretch that waits for it never plays.
+/// Time beyond the end of the exam: a stretch that begins then never plays.
 const NEVER: Span = Span::from_millis(3_000_000);
 
 /// Tests stretches of light; the robot must be synchronised.
@@ -35,12 +35,13 @@ fn stretch(number: u32, at: Instant, records: &[LightRecord]) -> String {
     let anchor = LightAnchor::Moment(at);
     let light = LightStretch { number, anchor, skip: Span::ZERO, over: Span::ZERO, start: RED, records };
     let mut text = String::new();
-    // A text takes all bytes.
+    // Writing to a text cannot fail.
     let _ = encode(&Command::Light(light), &mut text);
     text
 }
 
-/// The robot reports the number of a stretch at once, and that of the newest for an old message.
+/// Tests that the robot reports the number of a stretch at once. After an older stretch it must report the newest
+/// number.
 async fn keeps(pilot: &Pilot, number: u32) {
     let at = pilot.session.show() + NEVER;
     for sent_number in [number, number - 5] {
@@ -62,7 +63,7 @@ async fn keeps(pilot: &Pilot, number: u32) {
     pilot.send("|STOP|");
 }
 
-/// A step, a line and a repeat are played from their moment on.
+/// Tests that a step, a line and a repeat are played from their moment on.
 async fn plays(pilot: &Pilot, number: u32) {
     let begin = pilot.session.now() + LOOK_UP;
     let records = [
@@ -86,7 +87,7 @@ async fn plays(pilot: &Pilot, number: u32) {
     ask(pilot, 57, &sent, text, "red, green to blue, green to blue", sights).await;
 }
 
-/// The time of a stretch stands while routes are held.
+/// Tests that the time of a stretch stands while routes are held.
 async fn stands_in_a_hold(pilot: &Pilot, number: u32) {
     let begin = pilot.session.now() + LOOK_UP;
     let shift = pilot.session.shift();
@@ -103,7 +104,7 @@ async fn stands_in_a_hold(pilot: &Pilot, number: u32) {
     ask(pilot, 56, &sent, text, "red for six seconds, then green", sights).await;
 }
 
-/// `STOP` deletes a stretch that waits.
+/// Tests that `STOP` deletes a stretch that waits.
 async fn forgets(pilot: &Pilot, number: u32) {
     let at = pilot.session.show() + LOOK_UP;
     let sent = stretch(number, at, &[LightRecord::Step { ticks: 10, to: GREEN }]);

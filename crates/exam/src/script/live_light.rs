@@ -1,4 +1,4 @@
-//! Light from elsewhere: R59 by reports, R60 to R62 if a person watches the light.
+//! Live light: R59 by reports, R60 to R62 if a person watches the light.
 
 use lightbots_base::{Rgb, Span};
 use lightbots_wire::{Command, LiveColours, LiveRelease, Topic, encode};
@@ -12,11 +12,11 @@ use crate::sight::Sight;
 const RED: Rgb = Rgb::new(255, 0, 0);
 const GREEN: Rgb = Rgb::new(0, 255, 0);
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// Slots that the robot is given, the last of which it keeps: the largest possible one, and one of a full message.
+/// Slots that the robot is given in turn: the largest possible one, then one of a full message, which the robot keeps.
 const SLOTS: [u16; 2] = [65_535, 100];
 /// Number of the first message; later ones have higher numbers.
 const NUMBER: u32 = 1_000;
-/// Time between two equal messages: as a controller repeats them (R63).
+/// Time between two equal messages, as a controller repeats them (R63).
 const AGAIN: Span = Span::from_millis(500);
 
 /// Tests live light.
@@ -42,7 +42,7 @@ pub(super) async fn run(pilot: &Pilot) {
     goes_on_beneath(pilot).await;
 }
 
-/// The robot reports its slot at once.
+/// Tests that the robot reports its slot at once.
 async fn keeps(pilot: &Pilot, slot: u16) {
     let sent = written(Command::Slot(slot));
     let expected = format!("slot={slot} on T/LightBot/Status");
@@ -59,7 +59,8 @@ async fn keeps(pilot: &Pilot, slot: u16) {
     pilot.session.record(59, is_kept, &sent, &expected, if is_kept { "it" } else { "no such report" });
 }
 
-/// The newest colour of the robot's slot is shown; colours of other slots and old messages change nothing.
+/// Tests that the newest colour of the robot's slot is shown. Colours of other slots and old messages must change
+/// nothing.
 async fn shows(pilot: &Pilot) {
     pilot.send(format!("|COLOR {}|", BLUE.number()));
     pilot.session.pause(LOOK_UP).await;
@@ -81,7 +82,7 @@ async fn shows(pilot: &Pilot) {
     ask(pilot, 60, &sent, text, "red for two seconds, then green", sights).await;
 }
 
-/// `RELEASE` of its slot ends live light, `RELEASE` of others does not.
+/// Tests that `RELEASE` of its slot ends live light, and that `RELEASE` of other slots does not.
 async fn is_released(pilot: &Pilot) {
     let [_, slot] = SLOTS;
     pilot.session.pause(LOOK_UP).await;
@@ -103,7 +104,7 @@ async fn is_released(pilot: &Pilot) {
     ask(pilot, 61, &sent, text, "red for two seconds, then blue", sights).await;
 }
 
-/// Without further messages live light ends 2.5 s after the last one.
+/// Tests that live light ends 2.5 s after the last message.
 async fn falls_back(pilot: &Pilot) {
     let [_, slot] = SLOTS;
     pilot.session.pause(LOOK_UP).await;
@@ -120,7 +121,7 @@ async fn falls_back(pilot: &Pilot) {
     ask(pilot, 61, &sent, text, "red for three seconds, then blue", sights).await;
 }
 
-/// A `COLOR` during live light is seen when that ends.
+/// Tests that a `COLOR` received during live light is shown when live light ends.
 async fn goes_on_beneath(pilot: &Pilot) {
     let [_, slot] = SLOTS;
     pilot.session.pause(LOOK_UP).await;
@@ -153,7 +154,7 @@ fn live(number: u32, first: u16, colours: &[Rgb]) -> String {
 
 fn written(command: Command) -> String {
     let mut text = String::new();
-    // A text takes all bytes.
+    // Writing to a text cannot fail.
     let _ = encode(&command, &mut text);
     text
 }

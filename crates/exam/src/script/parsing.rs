@@ -18,7 +18,7 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests whether the robot answers `UUID` within a payload as wanted.
+/// Tests whether the robot answers `UUID` within a payload; `wanted`: whether it must.
 pub(super) async fn answers(pilot: &Pilot, rule: u8, sent: &str, wanted: bool) -> Step {
     let mark = pilot.send(sent);
     let patience = if wanted { ANSWER } else { ONCE };

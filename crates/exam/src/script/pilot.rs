@@ -11,7 +11,7 @@ use super::step::{Halt, Step};
 use crate::received::Received;
 use crate::session::{Addressee, Session};
 
-/// Longest time to an answer. An Elisa-3 answers within one step of 16 ms; the rest is for slow networks.
+/// Longest time to wait for an answer. An Elisa-3 answers within one step of 16 ms; the rest is for slow networks.
 pub(super) const ANSWER: Span = Span::from_millis(2_000);
 /// Time after an answer in which a second answer counts as a duplicate.
 pub(super) const ONCE: Span = Span::from_millis(1_000);
@@ -24,7 +24,8 @@ const RANGE_M: f64 = 0.55;
 pub(super) const STILL_M: f64 = 0.015;
 /// Largest distance from a reached target, metres: 0.02 m of R17 and 5 mm for a fix between test and report.
 pub(super) const THERE_M: f64 = 0.025;
-/// Interval of questions to a moving robot. Longer: its speed is measured less precisely (`fastest_mps`).
+/// Interval of position requests to a moving robot. A longer one would make its measured speed less precise
+/// (`fastest_mps`).
 const LOOK: Span = Span::from_millis(150);
 
 /// The robot under test.
@@ -93,7 +94,8 @@ impl Pilot {
         mark
     }
 
-    /// Asks for a report on `UUID`, up to three times; then the robot counts as silent.
+    /// Requests a report with `UUID`, up to three times. Without an answer the robot counts as silent, and the script
+    /// ends.
     pub async fn ask(&self) -> Step<Received> {
         for _ in 0..3 {
             let asked = self.session.now();
@@ -117,7 +119,7 @@ impl Pilot {
         Err(self.fell_silent().await)
     }
 
-    /// Asks for the position, stage metres.
+    /// Requests the position, stage metres. Fails if the robot no longer knows it.
     pub async fn place(&self) -> Step<Vec2> {
         let received = self.ask().await?;
         match received.place() {
@@ -126,7 +128,7 @@ impl Pilot {
         }
     }
 
-    /// Asks for positions until the robot stands at `goal` or `most` has passed.
+    /// Requests positions until the robot stands at `goal` or `most` has passed.
     pub async fn watch(&self, goal: Vec2, most: Span) -> Step<Trip> {
         let until = self.session.now() + most;
         let mut trip = Trip { places: Vec::new(), reached: false };
@@ -142,7 +144,7 @@ impl Pilot {
         }
     }
 
-    /// Whether the robot stands: its positions within `span` are equal.
+    /// Whether the robot stands: its positions during `span` are equal but for noise.
     pub async fn stands(&self, span: Span) -> Step<bool> {
         let first = self.place().await?;
         let until = self.session.now() + span;
@@ -157,7 +159,7 @@ impl Pilot {
         Ok(true)
     }
 
-    /// Sends the robot to a target, with decimal points, and waits until it is there.
+    /// Sends the robot to a target, with decimal points, and waits until it is there, for at most 15 s.
     pub async fn drive_to(&self, goal: Vec2) -> Step<Trip> {
         self.send(target(goal));
         self.watch(goal, Span::from_millis(15_000)).await
@@ -179,7 +181,7 @@ impl Pilot {
         Err(Halt("it drove too far away and was stopped".into()))
     }
 
-    /// Records silence, or a change of the robot's name.
+    /// Records silence, or a change of the robot's name. Returns why the script ends.
     async fn fell_silent(&self) -> Halt {
         let asked = self.session.now();
         self.session.send(Addressee::AllRobots, "|UUID|");
@@ -198,7 +200,7 @@ impl Pilot {
 }
 
 impl Trip {
-    /// Whether the last three positions are equal.
+    /// Whether the last three positions are equal but for noise.
     fn rests(&self) -> bool {
         let [.., (_, a), (_, b), (_, c)] = self.places[..] else { return false };
         a.distance(c) <= 0.008 && b.distance(c) <= 0.008
@@ -218,12 +220,12 @@ impl Trip {
     }
 }
 
-/// The original's arrival test (R17) with another bound.
+/// Whether both coordinates are within `bound_m` of the goal, as in the original's arrival test (R17).
 pub(super) fn within(at: Vec2, goal: Vec2, bound_m: f64) -> bool {
     (at.x - goal.x).abs() <= bound_m && (at.y - goal.y).abs() <= bound_m
 }
 
-/// `|TARGET x y|`.
+/// The command `|TARGET x y|`.
 pub(super) fn target(goal: Vec2) -> String {
     format!("|TARGET {:.6} {:.6}|", goal.x, goal.y)
 }

@@ -1,4 +1,4 @@
-//! What a robot on a timed path is tested for: R27, R35, R36, R41.
+//! Checks of a robot on a timed path: R27, R35, R36, R41.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
@@ -10,7 +10,7 @@ use crate::received::Received;
 
 /// Largest distance from the route, metres: four times the typical 5 mm of R35.
 const BESIDE_M: f64 = 0.02;
-/// Largest delay along the route: ten times the 5 ms of R27, minus the age of reports that the network hides.
+/// Largest delay along the route: ten times the 5 ms of R27. The age of reports is added to it.
 const LATE: Span = Span::from_millis(50);
 
 /// Records the distance from the path (R35) and the delay along it (R27).
@@ -48,7 +48,7 @@ pub(super) fn record_beside(pilot: &Pilot, rule: u8, fit: &Fit, sent: &str, expe
     pilot.session.record(rule, fit.reports > 0 && fit.beside_m <= BESIDE_M, sent, expected, came);
 }
 
-/// Tests for one arrival, at the end, with the number of the route.
+/// Tests that one arrival comes, at the end, with the number of the route.
 pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
     let seq = u64::from(timed_route.route.seq);
     let end = timed_route.path().end();
@@ -77,7 +77,7 @@ pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize
     pilot.session.record(36, there && in_time, &sent, &expected, words);
 }
 
-/// Tests that reports come every 0.5 s while the robot drives.
+/// Tests that reports come every 0.5 s while the robot drives, with gaps of at most 1 s.
 pub(super) fn statuses(pilot: &Pilot, mark: usize, timed_route: &TimedRoute) {
     let shift = pilot.session.shift();
     let moments: Vec<Instant> = pilot.session.since(mark, |received| {

@@ -68,7 +68,7 @@ pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
             .map_or(last, |received| received.text);
     }
     let kinds = ["R ", "L ", "C "].iter().filter(|kind| sent.contains(*kind)).count();
-    // A robot that keeps routes at all keeps one that only rests.
+    // If R31 is already broken, a route with several kinds of pieces may be refused because of its pieces.
     let rule = if kinds > 1 && pilot.session.is_broken(31) { 31 } else { 32 };
     pilot.session.record(rule, false, &sent, &format!("route={wanted} on T/LightBot/Status at once"), last);
     false
@@ -86,7 +86,7 @@ pub(super) async fn start(pilot: &Pilot, to: Addressee, seq: u32, at: Instant) -
 /// A straight route to `away`, with the tests before it: R31 to R33, R35, R36, R12, R27.
 async fn forth(pilot: &Pilot) -> Step {
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
-    // A target would end the route, so none is under way.
+    // No target is under way, because it would end the route.
     if !keep(pilot, &route).await {
         return Ok(());
     }
@@ -109,7 +109,7 @@ async fn forth(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that the robot keeps the route and stays.
+/// Tests that the robot keeps the route and waits at its start.
 async fn waits(pilot: &Pilot, route: &Route) -> Step {
     // A robot updates its state once per step.
     pilot.session.pause(Span::from_millis(200)).await;
@@ -160,7 +160,8 @@ async fn refuses(pilot: &Pilot, route: &Route) {
     }
 }
 
-/// Sends a `START`, a later one, an earlier one, and one for another route; returns the moment that counts.
+/// Sends a `START`, a later one, an earlier one, and one for another route. Returns the start that the robot reported
+/// last.
 async fn moved_start(pilot: &Pilot) -> Instant {
     let seq = pilot.seq.get();
     let first = pilot.session.show() + LEAD;
@@ -218,7 +219,7 @@ async fn not_before(pilot: &Pilot, timed_route: &TimedRoute) -> Step {
     Ok(())
 }
 
-/// Asks for status all along the route; returns the mark before its reports.
+/// Requests a status every 0.1 s until the route is over. Returns the mark before the reports.
 pub(super) async fn follow(pilot: &Pilot, timed_route: &TimedRoute) -> Step<usize> {
     let mark = pilot.session.mark();
     let until = timed_route.over() + Span::from_millis(700);
@@ -284,7 +285,7 @@ async fn chained(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that many questions at once have one answer.
+/// Tests that many requests at once get one report.
 async fn one_report(pilot: &Pilot) -> Step {
     let mark = pilot.send("|STATUS||STATUS||STATUS||STATUS||STATUS||STATUS|");
     pilot.session.pause(ONCE).await;

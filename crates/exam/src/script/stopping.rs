@@ -19,7 +19,7 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     far_off(pilot).await
 }
 
-/// States the START of a straight route from `home` to `away`; `None`: the robot does not keep it.
+/// Sends a straight route from `home` to `away` and its START. `None` if the robot does not keep the route.
 async fn begin_route(pilot: &Pilot) -> Step<Option<(Route, Instant)>> {
     pilot.drive_to(pilot.home).await?;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
@@ -51,7 +51,7 @@ async fn held(pilot: &Pilot) -> Step {
     pilot.session.send(Addressee::AllRobots, format!("|RESUME {}|", resume.0));
     pilot.session.pause(resume - pilot.session.show() + Route::EASE).await;
     let mark = follow(pilot, &timed_route).await?;
-    // With a wrong clock this test would say nothing about holds.
+    // With a wrong clock this test would not show anything about holds.
     if !pilot.session.is_broken(27) {
         let fit = pilot
             .session
@@ -61,7 +61,7 @@ async fn held(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that a hold before the route does not count, and that `STOP` during it does.
+/// Tests that a hold before the start of a route does not count, and that `STOP` on the route does.
 async fn stopped(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
@@ -72,7 +72,7 @@ async fn stopped(pilot: &Pilot) -> Step {
     let hold = starts + Span::from_millis(-600);
     pilot.session.send(Addressee::AllRobots, format!("|HOLD {}|", hold.0));
     start(pilot, Addressee::AllRobots, route.seq, starts).await;
-    // A third of the path.
+    // A third of the path is driven by then.
     pilot.session.pause(starts - pilot.session.show() + REST + Span::from_millis(800)).await;
     let gone_m = pilot.place().await?.distance(pilot.home);
     let sent = format!("|HOLD {}||START {} {}|", hold.0, route.seq, starts.0);
@@ -97,7 +97,7 @@ async fn stopped(pilot: &Pilot) -> Step {
     stop_target(pilot).await
 }
 
-/// Tests `STOP at`, which no `RESUME` revokes. A robot that does not know `at` stops at once.
+/// Tests `STOP at`, which no `RESUME` revokes. A robot that does not understand `at` stops at once.
 async fn stopped_at_a_moment(pilot: &Pilot) -> Step {
     let Some((_, starts)) = begin_route(pilot).await? else { return Ok(()) };
     pilot.session.pause(starts - pilot.session.show() + REST + Span::from_millis(200)).await;
@@ -135,7 +135,7 @@ async fn stop_target(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests a route that begins far from the robot.
+/// Tests that the robot aborts a route that begins far from it.
 async fn far_off(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     let way = (pilot.away - pilot.home).normalized().unwrap_or_default();

@@ -79,7 +79,7 @@ fn stands_there(pilot: &Pilot, trip: &Trip, goal: Vec2, sent: &str) {
 async fn again(pilot: &Pilot) -> Step {
     let sent = target(pilot.away);
     let mark = pilot.send(&sent);
-    // If an arrival is already missing, this test says nothing new.
+    // If an arrival is already missing, this test shows nothing new.
     if !pilot.session.is_broken(18) {
         let came = await_arrival(pilot, mark).await.is_some();
         let words = if came { "an Arrival" } else { "none" };

@@ -60,7 +60,7 @@ async fn asks(pilot: &Pilot) -> bool {
     fits
 }
 
-/// Asks whether the robot reports `clock=`.
+/// Requests a status. Returns whether it has the field `clock=`.
 pub(super) async fn has_clock(pilot: &Pilot) -> Step<bool> {
     let mark = pilot.send("|STATUS|");
     let status =
@@ -127,7 +127,7 @@ async fn begins_afresh(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests the interval of questions after the jump.
+/// Tests the intervals of time questions after the jump, and of reports without commands.
 async fn pace(pilot: &Pilot) -> Step {
     let mark = pilot.session.mark();
     pilot.session.pause(Span::from_millis(10_000)).await;

@@ -7,9 +7,10 @@ use crate::received::Received;
 
 /// Rest at the beginning of a route: an Elisa-3 at 4.5 rad/s turns by 180° within it (docs/simulator.md).
 pub(super) const REST: Span = Span::from_millis(700);
-/// Acceleration of the routes: half the limit of the Elisa-3 (docs/simulator.md), so that robots of others can follow.
+/// Acceleration of the routes: half the limit of the Elisa-3 (docs/simulator.md), so that other robots can follow as
+/// well.
 const RAMP_MPS2: f64 = 0.5;
-/// Interval of the samples of a path among which the place of a report is found: 2 mm at the cruising speed of the routes.
+/// Interval of the samples of a path with which reports are compared: 2 mm at the cruising speed of the routes.
 const SAMPLE: Span = Span::from_millis(10);
 
 /// A route with its start moment and a hold.
@@ -30,7 +31,7 @@ pub(super) struct Fit {
     pub reports: usize,
 }
 
-/// A straight route with ramps, after a rest.
+/// A straight route that begins with a rest and has a ramp at each end.
 pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Route {
     let way = end - start;
     let direction = way.normalized().unwrap_or_default();
@@ -47,7 +48,7 @@ pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Rout
     route(seq, start, &pieces)
 }
 
-/// A curve to the left of the straight line, slow at both ends.
+/// A route on a curve to the left of the straight line, slow at both ends.
 pub(super) fn curve(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     let way = end - start;
     let aside = way.left() * 0.33;
@@ -63,7 +64,7 @@ pub(super) fn curve(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     route(seq, start, &pieces)
 }
 
-/// A rest of this duration.
+/// A route that rests at a place for this duration.
 pub(super) fn rest(seq: u32, at: Vec2, over: Span) -> Route {
     route(seq, at, &[Piece::rest(at, over)])
 }
@@ -78,7 +79,7 @@ fn route(seq: u32, start: Vec2, pieces: &[Piece]) -> Route {
     }
 }
 
-/// `|PATH …|`.
+/// The command `|PATH ...|` of a route.
 pub(super) fn text(route: &Route) -> String {
     let mut text = String::new();
     // Writing into a string cannot fail.
@@ -96,7 +97,7 @@ impl TimedRoute {
         PathRef::new(self.route.start, &self.route.pieces)
     }
 
-    /// End, show clock.
+    /// Moment at which the route is over, show clock.
     pub fn over(&self) -> Instant {
         let held = self.hold.map_or(Span::ZERO, |(hold, resume)| resume - hold);
         self.starts + self.path().duration() + held
@@ -107,7 +108,7 @@ impl TimedRoute {
         let free = (show - self.starts).as_secs();
         let Some((hold, resume)) = self.hold else { return free };
         let ease = Route::EASE.as_secs();
-        // Integral of a rate that falls from 1 to 0 within the ease, and of one that rises.
+        // Integrals of a rate that falls from 1 to 0 within the ease, and of a rate that rises from 0 to 1.
         let falling =
             |since: f64| if since < ease { since - since * since / (2.0 * ease) } else { ease / 2.0 };
         let rising =

@@ -16,7 +16,7 @@ use crate::zip_files::{damaged, unpack};
 struct Files {
     document: Option<Vec<u8>>,
     assets: BTreeMap<AssetHash, Arc<[u8]>>,
-    /// Names of files that no show has.
+    /// Names of files that are neither the document nor assets.
     unknown: Vec<String>,
 }
 
@@ -38,7 +38,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     with_files(loaded, files)
 }
 
-/// Takes one file.
+/// Adds one file of the archive to `files`. Fails for a second document, and for an asset with another hash than its
+/// name.
 fn take(files: &mut Files, name: String, content: Vec<u8>) -> Result<(), ReadError> {
     if name == DOCUMENT {
         return match files.document.replace(content) {
@@ -59,7 +60,8 @@ fn take(files: &mut Files, name: String, content: Vec<u8>) -> Result<(), ReadErr
     Ok(())
 }
 
-/// The show with the files that it names, and with issues about the others.
+/// Adds the files to the show's assets, and issues about missing and unknown files. Fails if a file has another length
+/// than the show says.
 fn with_files(mut loaded: Loaded, mut files: Files) -> Result<Loaded, ReadError> {
     for (hash, asset) in &mut loaded.show.assets {
         asset.content = files.assets.remove(hash);

@@ -42,7 +42,7 @@ fn stem(file: &str) -> &str {
     &name[..name.len().saturating_sub(".csv".len())]
 }
 
-/// Numbers in names count as numbers, so that "Robot 10" stands behind "Robot 9".
+/// Sort key of a file's name. Numbers in names count as numbers, so that "Robot 10" comes after "Robot 9".
 fn natural(name: &str) -> Vec<(u64, String)> {
     let mut parts = Vec::new();
     let mut rest = stem(name);
@@ -51,7 +51,7 @@ fn natural(name: &str) -> Vec<(u64, String)> {
         let (word, numbers) = rest.split_at(letters);
         let digits = numbers.find(|char: char| !char.is_ascii_digit()).unwrap_or(numbers.len());
         let (number, after) = numbers.split_at(digits);
-        // Letters before numbers; a number of more digits than count is as large as all of those.
+        // Words and numbers take turns. A number with too many digits for 64 bits becomes the largest one.
         parts.push((0, word.to_owned()));
         let value = if number.is_empty() { 0 } else { number.parse().unwrap_or(u64::MAX) };
         parts.push((value, String::new()));
@@ -80,7 +80,7 @@ fn table(name: &str, content: &[u8], room: &mut (usize, usize)) -> Result<TimedR
         if light.stretches.is_empty() {
             light.start = code;
         }
-        // Fades of one colour are holds, which become one.
+        // A fade to the same colour is a hold. Holds that follow each other become one.
         let fades = code != light.last();
         light.push(CodeStretch { end_s: at_s, to: code, fades }, &mut room.1).map_err(fail)?;
     }
@@ -88,7 +88,7 @@ fn table(name: &str, content: &[u8], room: &mut (usize, usize)) -> Result<TimedR
     Ok(TimedRobot { name: name.to_owned(), path, light })
 }
 
-/// Seconds, place and codes of a row. A row that ends after z is white.
+/// Reads a row: seconds, place in metres and colour codes. A row that ends after z is white.
 fn row(line: &str) -> Result<(f64, [f64; 3], [u8; 3]), String> {
     let wrong = |what: &str| format!("\"{}\": {what}; a row is {HEAD}", excerpt(line));
     let fields: Vec<&str> = line.trim_end().split(',').map(str::trim).collect();

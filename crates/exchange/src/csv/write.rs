@@ -15,9 +15,9 @@ use crate::timed::export::{ExportedRobot, ExportedShow, SAMPLE, linear, sampled_
 use crate::timed::fit::{FittedStretch, fitted};
 use crate::zip_files::pack;
 
-/// Distance of rows: ten a second.
+/// Time from one row to the next: ten rows a second.
 const ROW: Span = Span::from_millis(100);
-/// How long before a step of colour a row has the colour before.
+/// How long before a step of colour a row repeats the colour before the step.
 const BEFORE_STEP: Span = Span::from_millis(1);
 
 pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
@@ -45,7 +45,7 @@ fn archive(exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Issue> {
     Ok((bytes, vec![note]))
 }
 
-/// A name for the table of a robot that every system of files takes and no other robot has.
+/// A file name for the table of a robot. Every file system accepts it, and no other robot has it.
 fn file_name(name: &str, names: &mut BTreeSet<String>) -> String {
     let plain = |char: char| if char.is_ascii_alphanumeric() || " -_".contains(char) { char } else { '_' };
     let mut stem: String = name.chars().map(plain).collect();
@@ -63,13 +63,13 @@ fn table(robot: &ExportedRobot) -> String {
     while let Some((at, [r, g, b])) = rows.pop_first() {
         let Vec2 { x, y } = place.at(at);
         let milliseconds = number(at.as_secs() * 1e3);
-        // A text takes all that is written.
+        // Writing to a text cannot fail.
         let _ = writeln!(text, "{milliseconds},{},{},0,{r},{g},{b}", number(x), number(y));
     }
     text
 }
 
-/// Moments of rows, and their codes.
+/// Times of rows, and the colour codes at these times.
 fn rows(path: &Path, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> {
     let duration = path.as_ref().duration();
     let moments = moments(path);
@@ -100,7 +100,7 @@ fn rows(path: &Path, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> {
     rows
 }
 
-/// Moments at which a row says where the robot is: each [`ROW`], and where it starts and stops.
+/// Times at which a row gives the place of the robot: each [`ROW`], and where the robot starts and stops.
 fn moments(path: &Path) -> BTreeSet<Span> {
     let whole = path.as_ref().duration();
     let mut moments: BTreeSet<Span> = (0..whole.0 / ROW.0).map(|nth| ROW * nth).collect();
@@ -112,7 +112,7 @@ fn moments(path: &Path) -> BTreeSet<Span> {
     moments
 }
 
-/// Places of a path at moments that increase.
+/// Evaluates a path at times that increase.
 struct Places<'a> {
     path: &'a Path,
     next: usize,

@@ -5,7 +5,7 @@ use lightbots_show::{Issue, Issues, MAX_FRAMES, MAX_PIXELS, Pixel, excerpt};
 use super::{Json, Scalar, text};
 use crate::error::{PixelName, ReadError};
 
-/// Reads a whole file with `content`, and gives the notes that were taken on the way.
+/// Reads a whole file with `content`. Returns what `content` gives, and the notes that were taken on the way.
 pub(crate) fn document<T>(
     bytes: &[u8],
     content: impl FnOnce(&mut Json<'_>, &mut Notes) -> Result<T, ReadError>,
@@ -18,30 +18,30 @@ pub(crate) fn document<T>(
     if json.is_at_end() { Ok((read, notes)) } else { Err(json.unexpected("the end of the file")) }
 }
 
-/// Issues that reading finds.
+/// Notes of a reader: issues, and numbers of values for bounds on the whole file.
 #[derive(Default)]
 pub(crate) struct Notes {
     pub issues: Issues,
-    /// Values of settings that were read, for the bound on all of them.
+    /// Number of values of settings that were read, for the bound on those of a show.
     pub settings: usize,
-    /// Sources of frames that were read, for the bound on all of them.
+    /// Number of sources of frames that were read, for the bound on those of a show.
     pub sources: usize,
     /// Unknown fields that were reported: level, such as "pixel", and name.
     unknown: Vec<(&'static str, String)>,
-    /// Whether there are more unknown fields than those.
+    /// Whether further unknown fields were found.
     has_more_unknown: bool,
     /// The file's version of the format, if it is newer than the reader.
     newer_version: Option<u32>,
 }
 
 impl Notes {
-    /// Most unknown fields that are reported, each once. Bounds list and memory for hostile files; one more issue
-    /// stands for all others.
+    /// Largest number of unknown fields that are reported, each once. One more issue stands for all others. Bounds list
+    /// and memory for hostile files.
     const UNKNOWN_MAX: usize = 20;
-    /// Most unknown fields that [`Self::unread`] names: what fits on a line.
+    /// Largest number of unknown fields that [`Self::unread`] names: what fits on a line.
     const NAMED_MAX: usize = 4;
 
-    /// Skips the value of an unknown field, and reports each name once for each level.
+    /// Skips the value of an unknown field. Reports each name once for each level.
     pub fn unknown(&mut self, json: &mut Json<'_>, level: &'static str, key: &str) -> Result<(), ReadError> {
         let known = self.unknown.iter().any(|(at, name)| *at == level && name == key);
         if !known && self.unknown.len() < Self::UNKNOWN_MAX {
@@ -134,7 +134,7 @@ pub(crate) fn pixels(
     Ok(pixels)
 }
 
-/// The error that a required field is missing.
+/// Returns the error that a required field is missing.
 pub(crate) fn missing(json: &Json<'_>, what: &str) -> ReadError {
     json.fail("missing-field", format!("{what} is missing; add it"))
 }

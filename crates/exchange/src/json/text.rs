@@ -2,10 +2,11 @@
 
 use lightbots_base::Vec2;
 
-/// Scale of the four decimals that a written number keeps: tenths of a millimetre, as in the original's files. Fewer
-/// would move pixels by more than sensors notice; more would only lengthen files.
+/// Factor by which numbers are rounded to four decimals: tenths of a millimetre, as in the original's files. With fewer
+/// decimals, pixels would move by more than sensors notice. More would only lengthen files.
 const DECIMALS_SCALE: f64 = 1e4;
-/// Above this magnitude a double has no such decimals: 2^53 / `DECIMALS_SCALE`, rounded down.
+/// Magnitude from which numbers are not rounded, because a double has no four decimals: 2^53 / `DECIMALS_SCALE`,
+/// rounded down.
 const WITHOUT_DECIMALS: f64 = 9e11;
 
 /// A number with at most four decimals. A number that is not finite becomes `null`, which readers refuse.
@@ -19,9 +20,9 @@ pub(crate) fn number(value: f64) -> String {
     rounded.to_string()
 }
 
-/// Below this magnitude, and from [`IN_FULL_BELOW`] on, a number is written with an exponent, so that it stays short.
+/// Magnitude below which a number is written with an exponent, so that it stays short.
 const IN_FULL_FROM: f64 = 1e-7;
-/// See [`IN_FULL_FROM`]. JavaScript has the same limits.
+/// Magnitude from which a number is written with an exponent. JavaScript has the same two limits.
 const IN_FULL_BELOW: f64 = 1e21;
 
 /// A number with all its digits, so that it is read back the same. A number that is not finite becomes `null`, which

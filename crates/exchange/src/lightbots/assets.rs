@@ -31,7 +31,7 @@ pub(super) fn read(json: &mut Json<'_>, notes: &mut Notes) -> Result<Assets, Rea
     Ok(assets)
 }
 
-/// The hash of an asset that another object names.
+/// Reads the hash by which another object names an asset.
 pub(super) fn hash(json: &mut Json<'_>, name: &str) -> Result<AssetHash, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -67,7 +67,7 @@ fn asset(json: &mut Json<'_>, notes: &mut Notes) -> Result<Asset, ReadError> {
     })
 }
 
-/// The object of assets, one a line.
+/// Writes the object of assets, one per line.
 pub(super) fn text(assets: &Assets) -> String {
     let rows = assets.iter().map(|(hash, asset)| {
         let (name, media_type) = (quoted(&asset.name), quoted(&asset.media_type));

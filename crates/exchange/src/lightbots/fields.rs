@@ -6,7 +6,7 @@ use lightbots_show::{MAX_LABEL_CHARS, excerpt};
 use crate::error::ReadError;
 use crate::json::Json;
 
-/// `[x, y]` in stage metres.
+/// Reads a place `[x, y]` in stage metres.
 pub(super) fn place(json: &mut Json<'_>, name: &str) -> Result<Vec2, ReadError> {
     let mut at = [None; 2];
     json.list(|json, index| {
@@ -27,7 +27,7 @@ pub(super) fn place(json: &mut Json<'_>, name: &str) -> Result<Vec2, ReadError> 
     }
 }
 
-/// The value of one of the words that a field may have.
+/// Reads one of the words that a field may have. Returns the value of the word.
 pub(super) fn one_of<T: Copy>(json: &mut Json<'_>, name: &str, words: &[(&str, T)]) -> Result<T, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -39,7 +39,7 @@ pub(super) fn one_of<T: Copy>(json: &mut Json<'_>, name: &str, words: &[(&str, T
     })
 }
 
-/// A text of at most [`MAX_LABEL_CHARS`] characters: a name, an id or a word.
+/// Reads a text of at most [`MAX_LABEL_CHARS`] characters: a name, an id or a word.
 pub(super) fn label(json: &mut Json<'_>, name: &str) -> Result<String, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -51,7 +51,7 @@ pub(super) fn label(json: &mut Json<'_>, name: &str) -> Result<String, ReadError
     Ok(text.into_owned())
 }
 
-/// A list of at most `most` items. `name` stands for them in messages: "layers".
+/// Reads a list of at most `most` items. `name` names the items in messages, such as "layers".
 pub(super) fn bounded<T>(
     json: &mut Json<'_>,
     name: &str,

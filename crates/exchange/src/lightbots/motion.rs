@@ -25,7 +25,7 @@ struct Fields {
     delay_s: Option<f64>,
 }
 
-/// Reads a motion. A kind that is not known is an error, as for sources: the drive would be another one.
+/// Reads a motion. An unknown kind is an error, as for sources, because the drive would be another one.
 pub(super) fn read(json: &mut Json<'_>, notes: &mut Notes) -> Result<PictureMotion, ReadError> {
     let mut fields = Fields::default();
     let kinds: Vec<(&str, usize)> = PictureMotion::NAMES.into_iter().zip(0..).collect();

@@ -13,8 +13,8 @@ use crate::format::Loaded;
 use crate::json::frames::{Notes, document, frames, missing, pixels};
 use crate::json::{Json, Scalar};
 
-/// Newest version of the format that this reader knows, in the field `lightbots`. Fields of all versions are read
-/// whatever the number says.
+/// Newest version of the format that this reader knows, in the field `lightbots`. Known fields are read in files of any
+/// version.
 const NEWEST: u32 = 2;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
@@ -22,16 +22,16 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     Ok(Loaded { show, plan: None, has_stage, unread: notes.unread(), issues: notes.issues })
 }
 
-/// Reads one layer, as it stands in `layers` of a show. Fields without meaning change nothing.
+/// Reads one layer, written as in `layers` of a show. Unknown fields are skipped.
 ///
 /// # Errors
-/// What is wrong, and where.
+/// If the bytes are not a layer: what is wrong, and where.
 pub fn read_layer(bytes: &[u8]) -> Result<Layer, ReadError> {
     document(bytes, timeline::layer).map(|(layer, _)| layer)
 }
 
-/// The show, and whether the file has a stage. An error in a file of a newer version names that version, because the
-/// file may be right.
+/// Reads the show, and whether the file has a stage. An error in a file of a newer version names that version, because
+/// the file may be right.
 fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadError> {
     let start = json.clone();
     let read = known_parts(json, notes);
@@ -85,7 +85,7 @@ fn known_parts(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), R
     Ok((show, has_stage))
 }
 
-/// Reads the version. A newer one is no error here: what is known of the file is read.
+/// Reads the version. A newer version is noted and is no error here: the known parts of the file are read.
 fn version(json: &mut Json<'_>, notes: &mut Notes) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -241,7 +241,8 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
     })
 }
 
-/// The part of a source: a pixel that names either belongs to one. Without an index it is the first source.
+/// The part of a source that a pixel belongs to. `None` if the pixel names neither a source nor a part. Without an
+/// index it is the first source.
 fn source_part(source: Option<u32>, name: Option<String>) -> Option<SourcePart> {
     let is_from_source = source.is_some() || name.is_some();
     is_from_source.then(|| SourcePart { source: source.unwrap_or(0), name: name.unwrap_or_default() })

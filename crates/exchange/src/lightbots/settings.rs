@@ -35,7 +35,7 @@ fn object(json: &mut Json<'_>, room: &mut usize, depth: usize) -> Result<NamedSe
     Ok(settings)
 }
 
-/// The value of the setting `name`, or a part of it.
+/// Reads the value of the setting `name`, or a part of that value.
 fn value(json: &mut Json<'_>, name: &str, room: &mut usize, depth: usize) -> Result<Setting, ReadError> {
     *room = room.checked_sub(1).ok_or_else(|| {
         let what = format!(
@@ -73,7 +73,7 @@ fn scalar(json: &mut Json<'_>, name: &str) -> Result<Setting, ReadError> {
     })
 }
 
-/// The settings as JSON on one line.
+/// Writes the settings as JSON on one line.
 pub(super) fn text(settings: &NamedSettings) -> String {
     let fields = settings.iter().map(|(name, value)| format!("{}: {}", quoted(name), value_text(value)));
     let fields: Vec<String> = fields.collect();

@@ -64,7 +64,7 @@ fn moved(json: &mut Json<'_>) -> Result<Vec<u32>, ReadError> {
     Ok(ids)
 }
 
-/// The list of sources, one a line.
+/// Writes the list of sources, one per line.
 pub(super) fn text(sources: &[FrameSource]) -> String {
     lines(sources.iter().map(source_text), "      ")
 }

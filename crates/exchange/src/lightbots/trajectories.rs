@@ -37,7 +37,7 @@ fn trajectory(json: &mut Json<'_>, notes: &mut Notes, room: &mut usize) -> Resul
     })
 }
 
-/// `[end_s, x, y]`, or `[end_s, x1, y1, x2, y2, x, y]` for a curve with two control points.
+/// Reads a piece: `[end_s, x, y]`, or `[end_s, x1, y1, x2, y2, x, y]` for a curve with two control points.
 fn piece(json: &mut Json<'_>) -> Result<TrajectoryPiece, ReadError> {
     let numbers = bounded(json, "numbers of a piece", 7, |json| json.number("a number of the piece"))?;
     match numbers[..] {

@@ -86,7 +86,7 @@ fn obstacle(obstacle: &Obstacle) -> String {
     }
 }
 
-/// The limits that differ from the default, with all digits: a wheel radius of 0.00451 m would lose its last ones.
+/// The limits that differ from the default, with all digits: rounding would change a wheel radius of 0.00451 m.
 fn limits(limits: &Limits) -> String {
     let usual = Limits::default();
     let all = [
@@ -141,7 +141,7 @@ fn pixel(pixel: &Pixel) -> String {
         let _ = write!(line, ", \"robot\": {}", quoted(robot));
     }
     if let Some(part) = &pixel.part {
-        // The first source goes without saying where the part has a name.
+        // The index of the first source is left out if the part has a name.
         if part.source != 0 || part.name.is_empty() {
             let _ = write!(line, ", \"source\": {}", part.source);
         }

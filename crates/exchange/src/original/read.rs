@@ -9,7 +9,7 @@ use crate::format::Loaded;
 use crate::json::Json;
 use crate::json::frames::{Notes, document, frames, missing, pixels};
 
-/// How far a colour component may lie outside 0 to 1. Covers the rounding of 32-bit numbers (6e-8 near 1); without it
+/// How far a colour component may lie outside 0 to 1. Covers the rounding of 32-bit numbers (6e-8 near 1). Without it,
 /// files of other programs with 1.0000001 would be refused.
 const COLOR_SLACK: f64 = 1e-6;
 
@@ -105,7 +105,7 @@ fn rgb(json: &mut Json<'_>) -> Result<Rgb, ReadError> {
     }
 }
 
-/// A colour component, which files state as 0 to 1, as 0 to 255.
+/// Reads a colour component, which is 0 to 1 in files, as a number from 0 to 255.
 fn channel_byte(json: &mut Json<'_>, name: &str) -> Result<u8, ReadError> {
     json.peek()?;
     let before = json.clone();

@@ -12,7 +12,7 @@ use crate::json::text::{lines, number, quoted};
 /// Side of a picture in the original's row of frames, canvas pixels. The original's
 /// value: the range of `pixelTimelineLocation` in its files.
 const TIMELINE_PX: f64 = 100.0;
-/// Robots of the original's fleet: its controller gives pixels to robots only once 30 robots have reported.
+/// Number of robots of the original's fleet: its controller gives pixels to robots only once 30 robots have reported.
 const ROBOTS: usize = 30;
 
 pub(crate) fn encode(show: &Show, _: Option<&ShowPlan>) -> Written {
@@ -65,7 +65,8 @@ fn location(at: Vec2) -> String {
     format!("{{\"X\":{},\"Y\":{}}}", real(at.x), real(at.y))
 }
 
-/// Components from 0 to 1 as 32-bit numbers, as the original keeps them: its files come out as they went in.
+/// Components from 0 to 1 as 32-bit numbers, as the original keeps them. A file of the original is thus written as it
+/// was read.
 fn color(color: Rgb) -> String {
     let share = |byte: u8| match f64::from(f32::from(byte) / 255.0) {
         whole if whole.fract() == 0.0 => format!("{whole:.1}"),

@@ -1,4 +1,4 @@
-//! What an FSEQ file says before its frames: channels, blocks, ranges of channels, music.
+//! The header of an FSEQ file: channels, blocks, ranges of channels, music.
 
 use std::io::{Cursor, Read};
 
@@ -11,25 +11,25 @@ pub(crate) const MAGIC: &[u8] = b"PSEQ";
 pub(super) const HEADER: usize = 32;
 /// Length of a range of channels in the header: first channel and number of channels, of three bytes each.
 const RANGE: usize = 6;
-/// Most channels of a file: a frame is held in memory.
+/// Largest number of channels in a file, because a frame is held in memory.
 const CHANNELS_MAX: usize = 8 << 20;
-/// Most bytes that a file unpacks to: 1 GiB takes three seconds.
+/// Largest number of bytes that a file unpacks to: 1 GiB takes three seconds.
 const UNPACKED_MAX: u64 = 1 << 30;
-/// Kinds of compression in the header: none, zstd, zlib.
+/// Code in the header for no compression.
 pub(super) const PLAIN: u8 = 0;
-/// See [`PLAIN`].
+/// Code in the header for zstd.
 pub(super) const ZSTD: u8 = 1;
-/// See [`PLAIN`].
+/// Code in the header for zlib.
 pub(super) const ZLIB: u8 = 2;
 
-/// Words after "the file".
+/// Why a file cannot be read: words that follow "the file".
 pub(super) type BadSequence = String;
 
-/// The head of a file.
+/// The header of a file.
 pub(super) struct Header {
     data_at: usize,
     variables_at: usize,
-    /// Bytes of a frame.
+    /// Number of bytes of a frame.
     pub channels: usize,
     pub frames: usize,
     pub step_ms: u8,
@@ -38,7 +38,7 @@ pub(super) struct Header {
     ranges: usize,
 }
 
-/// Some frames of a file.
+/// A block of frames, as the file holds it.
 pub(super) struct FrameBlock<'a> {
     bytes: &'a [u8],
     pub frames: usize,
@@ -47,7 +47,7 @@ pub(super) struct FrameBlock<'a> {
 /// Channels that follow each other in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ChannelRange {
-    /// Number of the first one.
+    /// Number of the first channel.
     pub first: usize,
     pub count: usize,
 }
@@ -88,7 +88,7 @@ impl Header {
         Ok(header)
     }
 
-    /// Which channels a frame has, in their order. A sparse file has only some.
+    /// Which channels a frame has, in the order of its bytes. A sparse file has only some.
     pub fn ranges(&self, bytes: &[u8]) -> Result<Vec<ChannelRange>, BadSequence> {
         if self.ranges == 0 {
             return Ok(vec![ChannelRange { first: 0, count: self.channels }]);
@@ -112,7 +112,7 @@ impl Header {
         Ok(ranges)
     }
 
-    /// The blocks, together with all frames.
+    /// The blocks of a file. Together they hold all frames.
     pub fn blocks<'a>(&self, bytes: &'a [u8]) -> Result<Vec<FrameBlock<'a>>, BadSequence> {
         let data = bytes.get(self.data_at..).ok_or_else(cut_off)?;
         if self.compression == PLAIN {
@@ -141,7 +141,7 @@ impl Header {
         Ok(blocks)
     }
 
-    /// The name of the music among the variables.
+    /// The name of the music; `None` if the variables have none.
     pub fn music(&self, bytes: &[u8]) -> Option<String> {
         let mut at = self.variables_at;
         while at + 4 <= self.data_at.min(bytes.len()) {
@@ -171,7 +171,7 @@ impl Header {
 }
 
 impl ChannelRange {
-    /// Number of the channel behind the last one.
+    /// Number of the channel after the last one.
     pub fn end(self) -> usize {
         self.first + self.count
     }

@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::error::ReadError;
 use crate::json::Json;
 
-/// The bytes of a text. An error names `what` they are, and the `remedy`.
+/// Reads the bytes of a base64 text. An error names `what` the bytes are, and the `remedy`.
 pub(super) fn encoded(json: &mut Json<'_>, what: &str, remedy: &str) -> Result<Vec<u8>, ReadError> {
     json.peek()?;
     let begin = json.clone();

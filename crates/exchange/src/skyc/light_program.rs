@@ -1,4 +1,4 @@
-//! Light programs: bytes of an operation, its colour and its duration in ticks of 20 ms.
+//! Light programs: operations, each with its colour and its duration in ticks of 20 ms.
 
 use lightbots_base::varint;
 
@@ -25,7 +25,7 @@ const LOOP_END: u8 = 0x0d;
 /// Pyrotechnics: one byte follows, and no time passes.
 const PYRO: [u8; 2] = [0x14, 0x15];
 
-/// The program of a light whose samples are a tick apart.
+/// Writes the program of a light. Its stretches were fitted to samples one tick apart.
 pub(super) fn program(stretches: &[FittedStretch]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut begin = 0;
@@ -47,7 +47,7 @@ pub(super) fn program(stretches: &[FittedStretch]) -> Vec<u8> {
     bytes
 }
 
-/// The shortest of four operations for a colour.
+/// Adds the shortest operation for a colour. `first`: the first of the four operations that set a colour or fade to it.
 fn colour(bytes: &mut Vec<u8>, first: u8, code: [u8; 3]) {
     match code {
         [0, 0, 0] => bytes.push(first + 2),
@@ -57,19 +57,19 @@ fn colour(bytes: &mut Vec<u8>, first: u8, code: [u8; 3]) {
     }
 }
 
-/// A program that is read.
+/// A program that is being read.
 struct Program<'a> {
     bytes: &'a [u8],
     at: usize,
     /// The present tick.
     tick: u64,
     light: TimedLight,
-    /// Where the body of each open loop begins, and how often it is still repeated; `None`: for ever.
+    /// Of each open loop: where its body begins, and how often it is still repeated; `None`: for ever.
     loops: Vec<(usize, Option<u32>)>,
 }
 
-/// The light of a program. `room` is the number of operations and stretches that the file may still have. A loop for
-/// ever ends at `end_s`.
+/// Reads the light of a program. `room` is the number of operations and stretches that the file may still have. An
+/// endless loop ends at `end_s`.
 pub(super) fn read(bytes: &[u8], end_s: f64, room: &mut usize) -> Result<TimedLight, String> {
     let light = TimedLight { is_linear: true, ..TimedLight::default() };
     let mut program = Program { bytes, at: 0, tick: 0, light, loops: Vec::new() };
@@ -84,7 +84,7 @@ pub(super) fn read(bytes: &[u8], end_s: f64, room: &mut usize) -> Result<TimedLi
 }
 
 impl Program<'_> {
-    /// Takes one operation; whether more follow.
+    /// Runs one operation. Returns whether more follow.
     fn step(&mut self, last_tick: u64, room: &mut usize) -> Result<bool, String> {
         let operation = self.byte()?;
         match operation {
@@ -157,7 +157,7 @@ impl Program<'_> {
         Err("its light program has a duration of more than five bytes; export it again".into())
     }
 
-    /// The colour of one of four operations: a colour, grey, black or white.
+    /// Reads the colour of one of four operations: a colour, grey, black or white.
     fn colour(&mut self, kind: u8) -> Result<[u8; 3], String> {
         Ok(match kind {
             0 => [self.byte()?, self.byte()?, self.byte()?],

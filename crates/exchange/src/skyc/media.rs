@@ -13,14 +13,14 @@ use crate::json::{Json, Scalar};
 use crate::limits::LONGEST_S;
 use crate::timed::music::TimedMusic;
 
-/// The media type that Skybrush states. Its programs write it for every sound.
+/// The media type that Skybrush's programs write for every sound.
 const MPEG: &str = "audio/mpeg";
-/// Name of music without one.
+/// Name of music that has no name in the file.
 const NAME: &str = "music.mp3";
 /// Longest media type that is kept, bytes.
 const MEDIA_TYPE_MAX: usize = 60;
 
-/// What `media` says.
+/// The contents of `media`.
 #[derive(Default)]
 pub(super) struct Media {
     pub music: Option<TimedMusic>,
@@ -28,7 +28,7 @@ pub(super) struct Media {
     pub left_out: &'static str,
 }
 
-/// Reads `media`. The file of the music is taken out of `files`.
+/// Reads `media`. Removes the file of the music from `files`.
 pub(super) fn read(json: &mut Json<'_>, files: &mut BTreeMap<String, Vec<u8>>) -> Result<Media, ReadError> {
     let mut media = Media::default();
     json.object(|json, key| {
@@ -49,7 +49,7 @@ pub(super) fn read(json: &mut Json<'_>, files: &mut BTreeMap<String, Vec<u8>>) -
     Ok(media)
 }
 
-/// The music; `None`: its sound is not in the file.
+/// Reads the music. `None` if its sound is not in the file.
 fn audio(
     json: &mut Json<'_>,
     files: &mut BTreeMap<String, Vec<u8>>,
@@ -77,8 +77,8 @@ fn audio(
     Ok(Some(TimedMusic { name: name.to_owned(), media_type, start_s, content: content.into() }))
 }
 
-/// The bytes of a sound; none: the file that is named is not in the archive. `name` becomes the name of that file if there
-/// is no other.
+/// Reads the bytes of a sound. Empty if they are in a file that is not in the archive. If `name` is empty, it becomes
+/// the name of that file.
 fn sound(
     json: &mut Json<'_>,
     files: &mut BTreeMap<String, Vec<u8>>,
@@ -97,7 +97,7 @@ fn sound(
     encoded(json, "the sound of the music", "export the show again")
 }
 
-/// When the music begins, seconds.
+/// Reads when the music begins, seconds.
 fn start(json: &mut Json<'_>) -> Result<f64, ReadError> {
     json.peek()?;
     let begin = json.clone();
@@ -108,14 +108,15 @@ fn start(json: &mut Json<'_>) -> Result<f64, ReadError> {
     Err(begin.fail("bad-time", format!("the music starts at {start_s} s; it must start within a day")))
 }
 
-/// Music for an archive: the name of its file there, its sound, and the words of the document after `"version":1,`.
+/// Music for an archive: the name of its file there, its sound, and the text of the document after `"version":1,`.
 pub(super) struct WrittenMusic {
     pub file: String,
     pub content: Arc<[u8]>,
     pub words: String,
 }
 
-/// The music of a show that begins at `start_s`. `None`: the show has none. The issue: the show does not hold it.
+/// The music of a show, which begins at `start_s`. `None` if the show has none. Fails if the show does not hold its
+/// music.
 pub(super) fn written(show: &Show, start_s: f64) -> Result<Option<WrittenMusic>, Issue> {
     let Some(name) = &show.music else { return Ok(None) };
     let own = |asset: &&Asset| asset.name == *name && asset.content.is_some();
@@ -138,7 +139,7 @@ pub(super) fn written(show: &Show, start_s: f64) -> Result<Option<WrittenMusic>,
     Ok(Some(WrittenMusic { file, content, words }))
 }
 
-/// The ending of a file's name. Skybrush reads files that end in `.json` or `.yaml` as documents.
+/// The ending of a file's name, or `bin`. It is never `json` or `yaml`, because Skybrush reads such files as documents.
 fn ending(name: &str) -> String {
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     let is_plain = (1..=8).contains(&ending.len()) && ending.bytes().all(|byte| byte.is_ascii_alphanumeric());

@@ -1,4 +1,4 @@
-//! Skybrush's compiled show -> a show of ours. Parts of a drone stand in the document or in files of their own.
+//! Skybrush's compiled show -> a show of ours. Parts of a drone are in the document or in files of their own.
 
 use std::collections::BTreeMap;
 
@@ -17,9 +17,9 @@ use crate::timed::path::{PIECES_MAX, PathReader, TimedPath};
 use crate::timed::{TimedRobot, TimedShow, import};
 use crate::zip_files::{damaged, unpack};
 
-/// Most files of an archive: the document, and up to three of a drone.
+/// Largest number of files in an archive: the document, and up to three per drone.
 const ENTRIES_MAX: usize = 1 + 3 * MAX_PIXELS;
-/// Most bytes of files that drones refer to. Each drone may refer to the same one, which is then read again.
+/// Largest number of bytes of files that drones refer to. A file to which several drones refer is read again for each.
 const REFERRED_MAX: usize = 4 * MAX_BYTES;
 /// Codes of a drone without lights.
 const WHITE: [u8; 3] = [255; 3];
@@ -39,7 +39,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
         unused: Vec::new(),
     };
     let show = reader.document(&document)?;
-    // Memory for the show instead of its text.
+    // Frees the memory of the text for the show.
     drop((document, std::mem::take(&mut reader.files)));
     let mut loaded = import::loaded(&show)?;
     if !reader.unused.is_empty() {
@@ -52,19 +52,19 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     Ok(loaded)
 }
 
-/// Reads drones, and counts what they may still have.
+/// Reads drones, and counts what the rest of the file may still have.
 struct Reader {
     /// The other files of the archive.
     files: BTreeMap<String, Vec<u8>>,
     pieces: usize,
     stretches: usize,
-    /// See [`REFERRED_MAX`].
+    /// Number of bytes of files to which drones may still refer: see [`REFERRED_MAX`].
     referred: usize,
-    /// Names of parts that robots on a floor have no use for.
+    /// Names of parts that are left out, because robots on a floor have no use for them.
     unused: Vec<&'static str>,
 }
 
-/// What a drone has.
+/// The parts of a drone that are read.
 #[derive(Default)]
 struct Drone {
     name: String,
@@ -122,7 +122,7 @@ impl Reader {
         json.skip()
     }
 
-    /// Notes that a part is left out; an empty name is none.
+    /// Notes that a part is left out. An empty name is ignored.
     fn left_out(&mut self, name: &'static str) {
         if !name.is_empty() && !self.unused.contains(&name) {
             self.unused.push(name);
@@ -179,7 +179,7 @@ impl Reader {
     }
 }
 
-/// The version of a part, which must be 1.
+/// Reads the version of a part, which must be 1.
 fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -192,7 +192,7 @@ fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
     }
 }
 
-/// Reads a part that stands here, or in a file that is named here: `{"$ref": "./drones/1/lights.json#"}`. `room` is
+/// Reads a part that is either here, or in a file that is named here: `{"$ref": "./drones/1/lights.json#"}`. `room` is
 /// the number of bytes of such files that may still be read.
 fn referred<T>(
     json: &mut Json<'_>,
@@ -241,7 +241,7 @@ fn trajectory(json: &mut Json<'_>, pieces: &mut usize) -> Result<TimedPath, Read
     }
 }
 
-/// `[t, [x, y, z], controls]` each.
+/// Reads points, each `[t, [x, y, z], controls]`. Adds `shift_s` to the times.
 fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<TimedPath, ReadError> {
     let mut reader = PathReader::new(pieces);
     let mut before: Option<[f64; 3]> = None;
@@ -269,7 +269,7 @@ fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<Timed
     reader.end().map_err(|what| json.fail("bad-path", what))
 }
 
-/// The control points of a cubic curve from those of a line, a quadratic or a cubic one.
+/// The control points of a cubic curve, from those of a line, a quadratic or a cubic one. `None` for a line.
 fn cubic(controls: &[[f64; 3]], from: [f64; 3], to: [f64; 3]) -> Result<Option<[[f64; 3]; 2]>, String> {
     // A quadratic curve is a cubic one whose control points are two thirds of the way to its own.
     let towards = |end: [f64; 3], via: [f64; 3]| {
@@ -297,7 +297,7 @@ fn triples(json: &mut Json<'_>) -> Result<Vec<[f64; 3]>, ReadError> {
     Ok(triples)
 }
 
-/// `[x, y, z]`, metres.
+/// Reads a place `[x, y, z]`, metres.
 fn triple(json: &mut Json<'_>) -> Result<[f64; 3], ReadError> {
     json.peek()?;
     let begin = json.clone();
@@ -318,7 +318,7 @@ fn triple(json: &mut Json<'_>) -> Result<[f64; 3], ReadError> {
     Err(begin.fail("bad-place", what))
 }
 
-/// The bytes of a light program.
+/// Reads the bytes of a light program.
 fn lights(json: &mut Json<'_>) -> Result<Vec<u8>, ReadError> {
     let (mut has_version, mut data) = (false, None);
     json.object(|json, key| {

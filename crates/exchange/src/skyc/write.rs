@@ -15,9 +15,9 @@ use crate::timed::export::{ExportedRobot, ExportedShow, linear, sampled_note, wr
 use crate::timed::fit::fitted;
 use crate::zip_files::pack;
 
-/// Most bytes of the document besides its drones: the names of show and music, and words.
+/// Largest number of bytes of the document besides its drones: the names of show and music, and fixed text.
 const HEAD_MAX: usize = 8 << 10;
-/// Control points that differ less from those of a line are on one, metres.
+/// Largest distance of control points from those of a line at which a piece counts as a line, metres.
 const STRAIGHT_M: f64 = 1e-9;
 
 pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
@@ -104,7 +104,7 @@ fn is_line(from: Vec2, piece: &Piece) -> bool {
     line.c1.distance(piece.c1) <= STRAIGHT_M && line.c2.distance(piece.c2) <= STRAIGHT_M
 }
 
-/// On the floor. There is no form without a height.
+/// A place on the floor, with height 0: the format has no places without a height.
 fn place(at: Vec2) -> String {
     format!("[{},{},0]", exact(at.x), exact(at.y))
 }

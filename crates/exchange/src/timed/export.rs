@@ -9,37 +9,37 @@ use lightbots_show::{Issue, Issues, Show};
 
 use crate::format::Written;
 
-/// Distance of two samples of light: the grid of Skybrush's light programs.
+/// Time between two samples of light: a tick of Skybrush's light programs.
 pub(crate) const SAMPLE: Span = Span::from_millis(20);
-/// Most samples of all lights: 180 MB. 1,000 robots for 20 minutes.
+/// Largest number of samples of all lights: 180 MB, which is enough for 1,000 robots and 20 minutes.
 const SAMPLES_MAX: usize = 60_000_000;
-/// A line that stands for a curve is at most this far off, metres.
+/// Largest distance of a line from the curve that it replaces, metres.
 const CHORD_M: f64 = 0.000_5;
-/// Most lines of one curve.
+/// Largest number of lines for one curve.
 const CHORDS_MAX: usize = 1_000;
 
-/// A show as it goes into a file.
+/// A show, converted for a file.
 #[derive(Debug)]
 pub(crate) struct ExportedShow {
     /// The sample at which the air time of the first frame begins, and with it the music.
     pub first_sample: usize,
-    /// The same moment, seconds.
+    /// When the air time of the first frame begins, seconds.
     pub first_s: f64,
     pub robots: Vec<ExportedRobot>,
 }
 
-/// A robot as it goes into a file.
+/// A robot, converted for a file.
 #[derive(Debug)]
 pub(crate) struct ExportedRobot {
-    /// Unique. Robots without a name of their own are "Robot 1" and so on, which no robot can be called.
+    /// Unique name. Robots without a name are "Robot 1" and so on. No robot can have such a name itself.
     pub name: String,
-    /// Its path, rests included; as long as the show.
+    /// Its path with all rests, as long as the show.
     pub path: Path,
-    /// Its colours, one each [`SAMPLE`], the last at the end of the show or less than a sample behind it.
+    /// Its colours, one for each [`SAMPLE`]. The last one is at the end of the show, or less than a sample after it.
     pub colours: Vec<Rgb>,
 }
 
-/// The show by its plan; the first error is the only issue.
+/// Converts a planned show. Fails if there is no plan, or if the plan has errors.
 pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedShow, Issue> {
     let plan = plan.ok_or_else(|| {
         Issue::error("no-plan", "a file with timed paths needs the plan of the show; plan it first")
@@ -55,7 +55,7 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
     let paths = paths(show, plan);
     let duration = paths.first().map_or(Span::ZERO, |path| path.as_ref().duration());
     let colours = colours(&planned, paths.len(), duration)?;
-    // As effects number robots, so that robot n of a file is robot n of a layer `sequence`.
+    // In the order in which effects number robots, so that robot n of a file is robot n of a layer `sequence`.
     let numbers = planned.numbers();
     let names = names(plan, numbers);
     let robots = names.into_iter().zip(paths).zip(colours);
@@ -67,7 +67,8 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
     Ok(ExportedShow { first_sample, first_s: planned.first_drive_s(), robots })
 }
 
-/// The file of a show, or the error that there is none. `encode` gets the show as it goes into the file.
+/// Converts a planned show and writes its file with `encode`. If either fails, the file is empty and the error is its
+/// only issue.
 pub(crate) fn written(
     show: &Show,
     plan: Option<&ShowPlan>,
@@ -98,7 +99,7 @@ fn paths(show: &Show, plan: &ShowPlan) -> Vec<Path> {
     (0..robots).filter_map(whole).collect()
 }
 
-/// Adds a piece; rests become one.
+/// Adds a piece. Rests that follow each other become one. A piece without a duration is skipped.
 fn push(path: &mut Path, piece: Piece) {
     if piece.duration <= Span::ZERO {
         return;
@@ -111,7 +112,7 @@ fn push(path: &mut Path, piece: Piece) {
     }
 }
 
-/// `[robot][sample]`.
+/// `[robot][sample]`: colour of the light. Fails if there are too many samples.
 fn colours(planned: &PlannedShow<'_>, robots: usize, duration: Span) -> Result<Vec<Vec<Rgb>>, Issue> {
     let samples = usize::try_from((duration.0 + SAMPLE.0 - 1) / SAMPLE.0).unwrap_or(0) + 1;
     if samples.saturating_mul(robots) > SAMPLES_MAX {
@@ -132,7 +133,7 @@ fn colours(planned: &PlannedShow<'_>, robots: usize, duration: Span) -> Result<V
     Ok(colours)
 }
 
-/// `[robot]`: a unique name. It is that by which pixels ask for the robot, or its number, counted from 1.
+/// `[robot]`: a unique name. It is the name by which pixels ask for the robot, or its number, counted from 1.
 fn names(plan: &ShowPlan, numbers: &[u32]) -> Vec<String> {
     let digits = numbers.len().to_string().len();
     let numbered = numbers.iter().map(|number| format!("Robot {:0digits$}", number + 1));
@@ -148,13 +149,13 @@ fn names(plan: &ShowPlan, numbers: &[u32]) -> Vec<String> {
     names
 }
 
-/// A path as lines in time: the end of each, since the begin of the path, and its place. Each is within [`CHORD_M`] of the
-/// path at every moment.
+/// Converts a path into lines. Returns the end of each line: time since the begin of the path, and place. Each line is
+/// within [`CHORD_M`] of the path at every moment, unless a curve would need too many lines.
 pub(crate) fn lines(path: &Path) -> Vec<(Span, Vec2)> {
     let mut lines = Vec::new();
     for (from, begin, piece) in path.as_ref().timed() {
-        // Between two moments of a curve, a line is off by at most its largest acceleration times the square of the
-        // duration, by 8.
+        // A line between two moments of a curve is off by at most an eighth of the largest acceleration times the
+        // square of the duration.
         let seconds = piece.duration.as_secs();
         let bend = (piece.c2 - piece.c1 - (piece.c1 - from))
             .length()
@@ -169,12 +170,12 @@ pub(crate) fn lines(path: &Path) -> Vec<(Span, Vec2)> {
     lines
 }
 
-/// The light of a robot in linear codes, one each [`SAMPLE`].
+/// Converts the colours of a light into linear codes.
 pub(crate) fn linear(colours: &[Rgb]) -> Vec<[u8; 3]> {
     colours.iter().map(|colour| super::light::linear_codes(*colour)).collect()
 }
 
-/// The note that lights were sampled.
+/// The issue that lights were sampled.
 pub(crate) fn sampled_note(what: &str) -> Issue {
     Issue::warning("sampled", format!("{what}; keep the show in a file of LightBots as well"))
 }

@@ -2,27 +2,28 @@
 
 /// Largest difference between a fade and the samples that it replaces, codes.
 const TOLERANCE: f64 = 1.0;
-/// The same for codes below [`DARK`]. A code of linear light is 13 sRGB codes there: a light that should be out would glow.
+/// Largest difference for codes below [`DARK`], codes. One code of linear light is 13 sRGB codes there: a light that
+/// should be out would glow.
 const TOLERANCE_DARK: f64 = 0.5;
-/// See [`TOLERANCE_DARK`].
+/// Codes below this are dark: see [`TOLERANCE_DARK`].
 const DARK: u8 = 8;
-/// Longest hold or fade, samples: bounds the time of a fit.
+/// Longest hold or fade, samples. Bounds the time of a fit.
 const LONGEST: usize = 3_000;
 
 /// A hold or a fade, as in a light program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FittedStretch {
-    /// Its end, samples from the first one on.
+    /// Index of the sample at its end.
     pub end: usize,
     /// Codes at its end.
     pub to: [u8; 3],
-    /// Whether codes change evenly from those before to `to`; else `to` holds all the time. A hold without duration sets
-    /// codes before a fade.
+    /// Whether codes change linearly from those before to `to`. Otherwise `to` holds all the time. A hold without
+    /// duration sets codes before a fade.
     pub fades: bool,
 }
 
-/// Holds and fades that differ from each sample by at most one code, dark ones by half of that. Each fade is as long
-/// as it can be. A step takes place at a sample.
+/// Fits holds and fades to samples. They differ from each sample by at most one code, and from dark ones by half a
+/// code. Each fade is as long as it can be. A step takes place at a sample.
 pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     let mut stretches: Vec<FittedStretch> = Vec::new();
     let hold = |stretches: &mut Vec<FittedStretch>, end: usize, to: [u8; 3]| match stretches.last_mut() {
@@ -53,7 +54,7 @@ pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     stretches
 }
 
-/// The last sample to which a line from sample `begin` keeps within the tolerance of all in between.
+/// The last sample to which a line from sample `begin` is within the tolerance of all samples in between.
 fn farthest(samples: &[[u8; 3]], begin: usize) -> usize {
     let mut best = begin + 1;
     let mut slopes = [(f64::NEG_INFINITY, f64::INFINITY); 3];
@@ -85,7 +86,7 @@ fn farthest(samples: &[[u8; 3]], begin: usize) -> usize {
 mod tests {
     use super::*;
 
-    /// Samples again.
+    /// Samples the stretches again.
     fn played(stretches: &[FittedStretch], count: usize) -> Vec<[f64; 3]> {
         let mut samples = Vec::new();
         for at in 0..count {

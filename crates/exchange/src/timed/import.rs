@@ -1,4 +1,5 @@
-//! A show of a file -> frames and trajectories. Where all robots stand is a frame; what they drive between is prescribed.
+//! A timed show -> frames and trajectories. Each time all robots stand is a frame. Drives between frames are
+//! prescribed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
@@ -18,18 +19,19 @@ use super::{TimedRobot, TimedShow, music, sequence};
 use crate::error::ReadError;
 use crate::format::Loaded;
 
-/// Most pixels of all frames: a pixel takes 120 bytes.
+/// Largest number of pixels of all frames: a pixel takes 120 bytes.
 const PIXELS_MAX: usize = 1_000_000;
-/// Floor around the places of robots, metres.
+/// Width of the floor around the places of robots, metres.
 const MARGIN_M: f64 = 0.5;
-/// Shortest air time that turning for the next drive leaves a picture, seconds.
+/// Shortest air time of a picture, seconds. The rest of the time in which robots stand is for turning to the next
+/// drive.
 const AIR_LEAST_S: f64 = 0.05;
-/// Most pieces of a path that a robot keeps (docs/protocol.md, R20).
+/// Largest number of pieces of a path that a robot keeps (docs/protocol.md, R20).
 const PIECES_OF_DRIVE_MAX: usize = 128;
-/// A larger step in velocity is a jump, m/s: that of the planner's proof.
+/// Largest step in velocity that is no jump, m/s, as in the planner's proof.
 const JUMP_MPS: f64 = 1e-3;
 
-/// The show of a file with frames.
+/// Converts the timed show of a file into a show with frames.
 pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
     let robots = file.robots.len();
     if !(1..=MAX_PIXELS).contains(&robots) {
@@ -43,10 +45,11 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
     if differs(file, &show, &times) {
         let dark_s = dark_s(file, &times[0]);
         if !file.robots.iter().all(|robot| robot.light.is_dark_until(dark_s)) {
-            // Layers shine on robots with a pixel: one where they begin lets them shine on the way to the first picture.
+            // Layers shine only on robots with a pixel. A frame at the begin gives them one on the way to the first
+            // picture.
             times.insert(0, FrameTimes { drive_s: 0.0, air_s: 0.0, end_s: 0.0 });
             issues.clear();
-            // Only one of both fits into the memory that a hostile file may take.
+            // The old show is freed first, because a hostile file could make both too large for the memory.
             drop(std::mem::take(&mut show));
             show = framed(file, stage, &times, &mut issues)?;
         }
@@ -58,15 +61,15 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
     Ok(Loaded { show, plan: None, has_stage: true, unread: None, issues })
 }
 
-/// Until when robots must be dark for the show to begin with its first picture. Music that begins with the picture is worth
-/// more than how lights fade in before it: that is faded twice.
+/// Until when robots must be dark for the show to begin with its first picture, seconds. If music begins with that
+/// picture, lights may fade in before it: music in time is worth more than an exact fade.
 fn dark_s(file: &TimedShow, first: &FrameTimes) -> f64 {
     let is_in_step = file.music.as_ref().is_some_and(|music| music.late_s(first.air_s) == 0.0);
     let fade_s = fade_of(Span::from_secs(first.air_s - first.drive_s)).as_secs();
     if is_in_step { first.air_s - fade_s - EARLIER_S } else { first.air_s }
 }
 
-/// The show of a file with frames at these times.
+/// Makes the show of a file with frames at these times.
 fn framed(
     file: &TimedShow,
     stage: Stage,
@@ -92,7 +95,7 @@ fn framed(
     let mut taken = BTreeSet::new();
     for (number, robot) in (0..).zip(&file.robots) {
         let name = RobotId::new(&robot.name).map(|id| id.as_str().to_owned());
-        // A name means one robot.
+        // A name stands for one robot: the first that has it.
         let name = name.filter(|name| taken.insert(name.clone()));
         perform(&mut show, (number, name), robot, times);
     }
@@ -101,8 +104,8 @@ fn framed(
     Ok(show)
 }
 
-/// The trajectories of a show left out: drives between its frames are planned, in as much time as they took where robots can
-/// do that.
+/// Removes the trajectories of a show, so that its drives are planned. A planned drive takes as long as the
+/// trajectories did, if robots can do that.
 pub fn replanned(show: &mut Show) {
     let mut longest: BTreeMap<String, f64> = BTreeMap::new();
     for trajectory in std::mem::take(&mut show.trajectories) {
@@ -120,7 +123,7 @@ pub fn replanned(show: &mut Show) {
     }
 }
 
-/// `[frame]`: when it is driven to, reached and left, seconds since the begin of the file.
+/// `[frame]`: when robots leave for it, reach it, and leave it again, seconds since the begin of the file.
 fn times(file: &TimedShow, turn_s: f64) -> Vec<FrameTimes> {
     let ends = file.robots.iter().map(|robot| robot.path.end_s().max(robot.light.end_s()));
     let end_s = ends.fold(0.0, f64::max);
@@ -128,7 +131,7 @@ fn times(file: &TimedShow, turn_s: f64) -> Vec<FrameTimes> {
     let moves = stands.last().is_some_and(|last| last.begin_s > 0.0);
     let is_dark = |robot: &TimedRobot| robot.light.player().at(0.0) == Rgb::BLACK;
     if moves && stands[0].begin_s == 0.0 && file.robots.iter().all(is_dark) {
-        // Robots that wait in the dark are on their starts, before the drive to the first picture.
+        // Robots that wait in the dark are at their starts, before the drive to the first picture.
         stands.remove(0);
     }
     let mut times: Vec<FrameTimes> = Vec::new();
@@ -186,13 +189,14 @@ fn perform(show: &mut Show, (number, name): (u32, Option<String>), robot: &Timed
     }
 }
 
-/// The way of a robot to a frame, from piece `first` of its path on, and the number of the next piece. `None`: it stays.
+/// The path of a robot to a frame, from piece `first` of its whole path on, and the number of the next piece. `None` if
+/// the robot stays.
 fn drive(robot: &TimedRobot, first: usize, times: &FrameTimes) -> (Option<Trajectory>, usize) {
     let mut next = first;
     let mut way: Option<Trajectory> = None;
     let mut moved = 0;
     for (from, begin_s, piece) in robot.path.begun_from(first) {
-        // A rest goes on into the frame, and is looked at again from the next one.
+        // A rest that goes on into the frame ends the drive. The drive to the next frame begins with it.
         if begin_s >= times.air_s || piece.end_s > times.air_s {
             break;
         }
@@ -221,7 +225,7 @@ fn drive(robot: &TimedRobot, first: usize, times: &FrameTimes) -> (Option<Trajec
     (way, next)
 }
 
-/// Leaves out trajectories that a file of ours could not hold.
+/// Removes all trajectories if a file of ours could not hold them. Drives are planned instead.
 fn bounded(show: &mut Show, issues: &mut Issues) {
     let pieces: usize = show.trajectories.iter().map(|trajectory| trajectory.pieces.len()).sum();
     if show.trajectories.len() > MAX_TRAJECTORIES || pieces > MAX_TRAJECTORY_PIECES {
@@ -235,7 +239,7 @@ fn bounded(show: &mut Show, issues: &mut Issues) {
     }
 }
 
-/// The floor: it holds all places, and the origin is in its middle.
+/// The floor, which holds all places. Its middle is the origin.
 fn stage(file: &TimedShow) -> Stage {
     let mut reach = Vec2::ZERO;
     for robot in &file.robots {
@@ -250,7 +254,7 @@ fn stage(file: &TimedShow) -> Stage {
     Stage { width_m: side_m(reach.x), depth_m: side_m(reach.y), ..Stage::default() }
 }
 
-/// What people should know of a show that robots on a floor play.
+/// Warnings about a show of a file that robots on a floor are to play.
 fn findings(file: &TimedShow, show: &Show) -> Issues {
     let mut issues = Issues::new();
     let mut find = |code: &str, what: String| issues.push(Issue::warning(code, what));
@@ -287,7 +291,7 @@ fn findings(file: &TimedShow, show: &Show) -> Issues {
     issues
 }
 
-/// Whether the velocity along a trajectory has a step.
+/// Whether the velocity along a trajectory jumps. Begin and end count as standing.
 fn jumps(trajectory: &Trajectory) -> bool {
     let (mut from, mut begin_s, mut velocity) = (trajectory.start, 0.0, Vec2::ZERO);
     for piece in &trajectory.pieces {
@@ -304,7 +308,7 @@ fn jumps(trajectory: &Trajectory) -> bool {
     !is_ramp(velocity)
 }
 
-/// Whether a step in velocity is none.
+/// Whether a step in velocity is small enough to be no jump.
 fn is_ramp(step: Vec2) -> bool {
     (0.0..=JUMP_MPS).contains(&step.length())
 }

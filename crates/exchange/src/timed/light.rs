@@ -5,28 +5,28 @@ use lightbots_light::Linear;
 
 use crate::limits::LONGEST_S;
 
-/// Most stretches of light of a file: 16 bytes each.
+/// Largest number of stretches of light in a file: 16 bytes each.
 pub(crate) const STRETCHES_MAX: usize = 4_000_000;
 
 /// Light over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct TimedLight {
-    /// Whether codes are linear light; else they are sRGB.
+    /// Whether codes are linear light. Otherwise they are sRGB.
     pub is_linear: bool,
     /// Codes at the begin.
     pub start: [u8; 3],
-    /// Stretches in order; the last codes hold afterwards.
+    /// Stretches in order. The codes at the end of the last one hold afterwards.
     pub stretches: Vec<CodeStretch>,
 }
 
 /// A stretch of a robot's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CodeStretch {
-    /// Its end, seconds from the begin of the show; not before that of the stretch before.
+    /// Its end, seconds from the begin of the show; not before the end of the stretch before.
     pub end_s: f64,
     /// Codes at its end.
     pub to: [u8; 3],
-    /// Whether codes change evenly from those before to `to`; else `to` holds all the time.
+    /// Whether codes change linearly from those before to `to`. Otherwise `to` holds all the time.
     pub fades: bool,
 }
 
@@ -41,7 +41,7 @@ impl TimedLight {
         self.stretches.last().map_or(0.0, |stretch| stretch.end_s)
     }
 
-    /// Whether it is black all the time before `at_s` seconds.
+    /// Whether the light is black all the time before `at_s` seconds.
     pub fn is_dark_until(&self, at_s: f64) -> bool {
         let (mut begin_s, mut from) = (0.0, self.start);
         for stretch in &self.stretches {
@@ -62,7 +62,8 @@ impl TimedLight {
         self.stretches.last().map_or(self.start, |stretch| stretch.to)
     }
 
-    /// Adds a stretch; holds of one code become one. `room` is the number of stretches that the file may still have.
+    /// Adds a stretch. Holds of the same codes that follow each other become one. `room` is the number of stretches
+    /// that the file may still have.
     pub fn push(&mut self, stretch: CodeStretch, room: &mut usize) -> Result<(), String> {
         if !(0.0..=LONGEST_S).contains(&stretch.end_s) {
             return Err("its light lasts longer than a day; shorten it".into());
@@ -84,7 +85,7 @@ impl TimedLight {
         Ok(())
     }
 
-    /// The light at moments that do not decrease.
+    /// Returns a player of the light, for moments that do not decrease.
     pub fn player(&self) -> CodePlayer<'_> {
         CodePlayer { light: self, next: 0, begin: (0.0, self.start) }
     }
@@ -105,12 +106,12 @@ pub(crate) struct CodePlayer<'a> {
     light: &'a TimedLight,
     /// Number of the stretch that plays.
     next: usize,
-    /// When it began, seconds, and the codes before it.
+    /// When that stretch began, seconds, and the codes before it.
     begin: (f64, [u8; 3]),
 }
 
 impl CodePlayer<'_> {
-    /// The colour at `at_s` seconds, not before the moment asked for last.
+    /// The colour at `at_s` seconds, which must not be before the moment of the last call.
     pub fn at(&mut self, at_s: f64) -> Rgb {
         while let Some(stretch) = self.light.stretches.get(self.next) {
             let (begin_s, from) = self.begin;

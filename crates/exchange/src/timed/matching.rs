@@ -1,4 +1,4 @@
-//! Whether the colours of pixels say all of a file's light.
+//! Whether the colours of pixels express all of a file's light.
 
 use lightbots_base::{Rgb, Span};
 use lightbots_lighting::{FrameTimes, changed};
@@ -6,17 +6,18 @@ use lightbots_show::Show;
 
 use super::TimedShow;
 
-/// Largest difference that is none, codes: linear light of eight bits makes the six darkest codes black.
+/// Largest difference of a channel that counts as none, codes. Linear light of eight bits makes the six darkest codes
+/// black.
 const CODES: u8 = 8;
-/// A file samples light at moments of its own, seconds: a change may be this much earlier or later.
+/// How much earlier or later a change may be, seconds, because a file samples light at moments of its own.
 pub(super) const EARLIER_S: f64 = 0.025;
-/// Distance of two compared moments, seconds.
+/// Time between two comparisons, seconds.
 const STEP_S: f64 = 0.02;
-/// Most comparisons. A longer show is compared at moments farther apart.
+/// Largest number of comparisons. A longer show is compared less often.
 const COMPARISONS_MAX: f64 = 20e6;
 
-/// Whether robots ever show something else than the colours of their pixels, changing at the ends of drives as a show
-/// without layers does.
+/// Whether robots ever show something other than the colours of their pixels. These change at the ends of drives, as in
+/// a show without layers.
 pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bool {
     let end_s = times.last().map_or(0.0, |times| times.end_s);
     let step_s = STEP_S.max(end_s * file.robots.len() as f64 / COMPARISONS_MAX);
@@ -40,7 +41,7 @@ pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bo
     })
 }
 
-/// Whether a colour is as near as counts to the range of others.
+/// Whether each channel of a colour is in the range of the others, or at most [`CODES`] outside.
 fn is_between(colour: Rgb, others: [Rgb; 3]) -> bool {
     let channels: [fn(Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
     channels.into_iter().all(|channel| {

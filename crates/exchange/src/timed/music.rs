@@ -1,4 +1,4 @@
-//! The music of a file -> that of a show.
+//! The music of a file -> the music of a show.
 
 use std::sync::Arc;
 
@@ -6,7 +6,8 @@ use lightbots_show::{Issue, MAX_LABEL_CHARS, Show};
 
 use crate::archive::asset_of;
 
-/// Music that begins further away from the first frame than this is heard to be wrong, seconds (docs/exchange.md).
+/// Largest time between the begins of music and first frame at which no difference is heard, seconds
+/// (docs/exchange.md).
 const TOLERANCE_S: f64 = 0.05;
 
 /// Music in a file.
@@ -14,7 +15,7 @@ const TOLERANCE_S: f64 = 0.05;
 pub(crate) struct TimedMusic {
     /// Name of its file, for people.
     pub name: String,
-    /// Such as `audio/mpeg`.
+    /// Media type, such as `audio/mpeg`.
     pub media_type: String,
     /// When it begins, seconds since the begin of the file.
     pub start_s: f64,
@@ -23,15 +24,15 @@ pub(crate) struct TimedMusic {
 }
 
 impl TimedMusic {
-    /// How much later than `first_s` of the file it begins, seconds; 0 if no difference is heard.
+    /// How much later than `first_s` of the file it begins, seconds; negative: earlier. 0 if no difference is heard.
     pub fn late_s(&self, first_s: f64) -> f64 {
         let late_s = self.start_s - first_s;
         if late_s.abs() > TOLERANCE_S { late_s } else { 0.0 }
     }
 }
 
-/// Adds the music to a show whose first frame is on air at `first_s` of the file. Music of a show begins there, so an issue
-/// says if it began at another moment.
+/// Adds the music to a show. The air time of its first frame begins at `first_s` of the file. Music of a show begins
+/// there too: returns an issue if it began at another moment.
 pub(super) fn add(show: &mut Show, music: &TimedMusic, first_s: f64) -> Option<Issue> {
     let name: String = music.name.chars().take(MAX_LABEL_CHARS).collect();
     show.assets.extend([asset_of(&name, &music.media_type, music.content.clone())]);

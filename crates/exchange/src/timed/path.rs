@@ -5,11 +5,11 @@ use lightbots_show::{MAX_TRAJECTORY_PIECES, TrajectoryPiece};
 
 use crate::limits::LONGEST_S;
 
-/// A robot that moves less within a piece stands, metres: files round places to a tenth of a millimetre.
+/// Distance within a piece up to which a robot stands, metres: files round places to a tenth of a millimetre.
 const STILL_M: f64 = 1e-4;
-/// Farthest place of a file, metres. No floor is as large, and squares of places stay exact.
+/// Largest coordinate in a file, metres. No floor is as large, and squares of coordinates stay exact.
 const FARTHEST_M: f64 = 100_000.0;
-/// Above this height a robot flies, metres: places on the floor are written with a few millimetres of noise.
+/// Height above which a robot flies, metres: places on the floor are written with a few millimetres of noise.
 const FLIES_M: f64 = 0.01;
 
 /// A path. It rests at `start` before its first piece and at its end afterwards.
@@ -23,7 +23,7 @@ pub(crate) struct TimedPath {
     pub top_m: f64,
 }
 
-/// A piece with where and when it begins, stage metres and seconds.
+/// A piece, after the place and the time of its begin, stage metres and seconds.
 pub(crate) type BegunPiece<'a> = (Vec2, f64, &'a TrajectoryPiece);
 
 impl TimedPath {
@@ -37,7 +37,7 @@ impl TimedPath {
         self.pieces.last().map_or(self.start, |piece| piece.end)
     }
 
-    /// The pieces from number `first` on.
+    /// The pieces from number `first` on, with the places and times of their begins.
     pub fn begun_from(&self, first: usize) -> impl Iterator<Item = BegunPiece<'_>> {
         let before = first.checked_sub(1).and_then(|before| self.pieces.get(before));
         let mut begin = before.map_or((self.start, 0.0), |piece| (piece.end, piece.end_s));
@@ -48,7 +48,7 @@ impl TimedPath {
         })
     }
 
-    /// When the robot moves: begin and end of each piece that leads anywhere, seconds.
+    /// When the robot moves: begin and end of each piece in which it does not stand, seconds.
     pub fn moves(&self) -> impl Iterator<Item = (f64, f64)> {
         self.begun_from(0)
             .filter(|(from, _, piece)| !is_still(*from, piece))
@@ -62,7 +62,7 @@ pub(crate) fn is_still(from: Vec2, piece: &TrajectoryPiece) -> bool {
     points.into_iter().all(|point| point.distance(from) <= STILL_M)
 }
 
-/// Reads a path point by point. Errors are words after the name of the robot.
+/// Reads a path point by point. Errors are words that follow the name of the robot.
 #[derive(Debug)]
 pub(crate) struct PathReader<'a> {
     path: Option<TimedPath>,
@@ -78,8 +78,8 @@ impl<'a> PathReader<'a> {
         Self { path: None, room }
     }
 
-    /// The next place of the robot, `[x, y, z]` in metres with z up, at `at_s` seconds. `controls` are those of a cubic
-    /// Bézier curve to it. The first place also holds before its moment.
+    /// Adds the next place of the robot, `[x, y, z]` in metres with z up, at `at_s` seconds. `controls` are those of a
+    /// cubic curve to the place. The robot is at the first place before its time too.
     pub fn point(
         &mut self,
         at_s: f64,
@@ -117,7 +117,8 @@ impl<'a> PathReader<'a> {
         if let Some(path) = &mut self.path {
             let piece = TrajectoryPiece { end_s, controls, end };
             let from = path.end();
-            // Rests become one, so that the hundreds of rows of a robot that stands do not count.
+            // Rests that follow each other become one, so that the hundreds of rows of a robot that stands do not
+            // count.
             let stood = path.pieces.len().checked_sub(2).map_or(path.start, |before| path.pieces[before].end);
             match path.pieces.last_mut() {
                 Some(last) if is_rest(stood, last) && is_rest(from, &piece) => {
@@ -130,7 +131,7 @@ impl<'a> PathReader<'a> {
         Ok(())
     }
 
-    /// The whole path.
+    /// Returns the whole path. Fails if there was no point.
     pub fn end(self) -> Result<TimedPath, String> {
         self.path.ok_or_else(|| "it has no place; give it one at 0 s".into())
     }

@@ -1,4 +1,4 @@
-//! Light of a file that colours of pixels do not say -> a layer with one colour for each robot and moment.
+//! Light of a file that the colours of pixels do not express -> a layer with one colour for each robot and moment.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use super::TimedShow;
 use crate::archive::asset_of;
 use crate::sequence_file::SequenceFile;
 
-/// Distances of two samples that are tried, milliseconds: the first at which the samples of all robots fit.
+/// Times between two samples that are tried, milliseconds. The first at which the samples of all robots fit is taken.
 const STEPS_MS: [u8; 6] = [20, 25, 40, 50, 100, 200];
 /// Media type of sequences among the files of a show.
 const MEDIA_TYPE: &str = "application/x-fseq";
 
-/// Adds a layer with the light of a file. Without room for it, an issue says so.
+/// Adds a layer with the light of a file. If there is no room for it, returns an issue that says so.
 pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Option<Issue> {
     let first_s = times.first().map_or(0.0, |times| times.air_s);
     let end_s = times.last().map_or(0.0, |times| times.end_s);

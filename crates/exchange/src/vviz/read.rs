@@ -11,7 +11,7 @@ use crate::timed::light::{CodeStretch, STRETCHES_MAX, TimedLight};
 use crate::timed::path::{PIECES_MAX, PathReader, TimedPath};
 use crate::timed::{TimedRobot, TimedShow, import};
 
-/// Frames a second that a file may state.
+/// Allowed numbers of frames a second.
 const RATES: std::ops::RangeInclusive<f64> = 0.01..=1_000.0;
 /// Codes of a robot without a light.
 const WHITE: [u8; 3] = [255; 3];
@@ -30,21 +30,21 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     Ok(loaded)
 }
 
-/// Reads performances, and counts what they may still have.
+/// Reads performances, and counts what the rest of the file may still have.
 struct Reader {
     show: TimedShow,
-    /// Steps of place and frames of colour in a second.
+    /// Steps of place, and frames of colour, in a second.
     rates: [f64; 2],
-    /// When everything begins, seconds.
+    /// When the performances begin, seconds.
     offset_s: f64,
     pieces: usize,
     stretches: usize,
-    /// Whether there are payloads besides lights.
+    /// Whether there are payloads other than lights.
     has_pyro: bool,
 }
 
 impl Reader {
-    /// Reads the head ahead, because performances may stand before it.
+    /// Reads the head in advance, because performances may come before it in the file.
     fn new(json: &mut Json<'_>) -> Result<Self, ReadError> {
         json.peek()?;
         let number = |name: &str, usual: f64| match json.ahead(name) {
@@ -152,7 +152,7 @@ impl Reader {
         path.end().map_err(|what| json.fail("bad-path", what))
     }
 
-    /// The light of a payload; `None`: it is something else.
+    /// Reads the light of a payload; `None` if it is something else.
     fn payload(&mut self, json: &mut Json<'_>) -> Result<Option<TimedLight>, ReadError> {
         json.peek()?;
         if json.ahead("type") != Some(Scalar::Text("Light".into())) {
@@ -192,12 +192,12 @@ fn version(json: &mut Json<'_>) -> Result<bool, ReadError> {
     if is_known { Ok(true) } else { Err(before.fail("unknown-version", what)) }
 }
 
-/// A place of VVIZ as x, y and height of a stage.
+/// Converts a place of VVIZ into x, y and height of a stage.
 fn floor([x, up, forward]: [f64; 3]) -> [f64; 3] {
     [x, forward, up]
 }
 
-/// How far a step leads in x, y and z, and its duration in seconds.
+/// Reads a step: how far it leads in x, y and z, metres, and its duration in seconds.
 fn step(json: &mut Json<'_>) -> Result<([f64; 3], Option<f64>), ReadError> {
     let (mut by, mut seconds) = ([0.0; 3], None);
     json.object(|json, key| {
@@ -213,7 +213,7 @@ fn step(json: &mut Json<'_>) -> Result<([f64; 3], Option<f64>), ReadError> {
     Ok((by, seconds))
 }
 
-/// Codes and the number of frames for which they are held.
+/// Reads an action: codes, and the number of frames for which they are held.
 fn action(json: &mut Json<'_>) -> Result<([u8; 3], f64), ReadError> {
     let (mut code, mut frames) = ([0; 3], 1.0);
     json.object(|json, key| {

@@ -1,4 +1,4 @@
-//! A planned show as VVIZ. Readers add up steps, so the sums are rounded and not the steps.
+//! A planned show as VVIZ. Readers add up steps, so places are rounded and not steps.
 
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::ShowPlan;
@@ -9,7 +9,7 @@ use crate::json::text::{lines, quoted};
 use crate::limits::MAX_BYTES;
 use crate::timed::export::{self, ExportedRobot, ExportedShow, SAMPLE, sampled_note, written};
 
-/// Places are whole numbers of this many to the metre: hundredths of a millimetre.
+/// Units per metre to which places are rounded: hundredths of a millimetre.
 const UNITS_PER_M: f64 = 1e5;
 /// Decimals of a place.
 const PLACE_DECIMALS: usize = 5;
@@ -70,12 +70,12 @@ fn actions(colours: &[Rgb]) -> String {
     actions.join(",")
 }
 
-/// See [`UNITS_PER_M`].
+/// A place in whole units: see [`UNITS_PER_M`].
 fn units(at: Vec2) -> [i64; 2] {
     [at.x, at.y].map(|metres| (metres * UNITS_PER_M).round() as i64)
 }
 
-/// A whole number of the last decimal as text, exactly.
+/// Writes a number of units of the last decimal, exactly.
 fn decimal(value: i64, decimals: usize) -> String {
     let sign = if value < 0 { "-" } else { "" };
     let digits = format!("{:0width$}", value.unsigned_abs(), width = decimals + 1);
