@@ -207,7 +207,7 @@ mod tests {
         }
     }
 
-    /// A file of two frames of six channels that are those with these numbers.
+    /// A file of two frames of six channels, whose numbers are given by `ranges`.
     fn sparse(compression: u8, ranges: &[(u32, u32)]) -> Vec<u8> {
         let codes = file(2).codes;
         let block = match compression {

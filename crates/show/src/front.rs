@@ -34,8 +34,8 @@ const COMPARISONS_MAX: usize = 200_000_000;
 /// no-go areas are left out.
 ///
 /// All distances grow with the radius of the robot. If the floor is too small, rows move closer, down to 60 mm for an
-/// Elisa-3. If that is not enough, they go on beyond the edge, which [`validate`](crate::validate) reports. The list
-/// always has `count` places.
+/// Elisa-3. If that is not enough, further rows are beyond the far edge, which [`validate`](crate::validate) reports.
+/// The list always has `count` places.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
     let [wide_m, medium_m, narrow_m] = STEPS_M;

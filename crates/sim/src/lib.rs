@@ -1,5 +1,5 @@
 //! The simulated world: seeded wheels, sensors, contacts and networks, with the real robot core and the real controller
-//! core in it. `docs/simulator.md` has it in words, beside what was measured in Webots.
+//! core in it. `docs/simulator.md` describes the world, beside what was measured in Webots.
 //!
 //! Deterministic: no clock, IO or thread; the same seed gives the same bits. It knows nothing of brokers, files or
 //! screens.
