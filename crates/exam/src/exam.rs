@@ -60,12 +60,12 @@ impl Exam {
         self.session.alarm().filter(|_| self.script.is_some())
     }
 
-    /// The next message to publish.
+    /// Takes the next message to publish; `None` if there is none.
     pub fn next_publish(&mut self) -> Option<Publish> {
         self.session.next_publish()
     }
 
-    /// The next event.
+    /// Takes the next event; `None` if there is none.
     pub fn next_event(&mut self) -> Option<ExamEvent> {
         self.session.next_event()
     }

@@ -7,14 +7,14 @@ use lightbots_base::{Instant, Rgb};
 pub struct Question {
     /// Question with the answers yes and no.
     pub text: String,
-    /// The same question for a program that has recorded the light: yes if all of these hold.
+    /// The question for a program that has recorded the light: the answer is yes if the light showed all of these.
     pub sights: Vec<Sight>,
 }
 
 /// What the light shows if the rule is kept. Moments are on the exam's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
-    /// This colour at that moment.
+    /// The light has a colour at a moment.
     Colour {
         /// Moment.
         at: Instant,

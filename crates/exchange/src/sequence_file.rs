@@ -156,7 +156,7 @@ fn add_row(codes: &mut Vec<u8>, row: &[u8], ranges: &[ChannelRange], kept: usize
 /// Reads the colours in the file of a layer of the kind `sequence`: one pixel per robot, one row per frame.
 ///
 /// # Errors
-/// What is wrong with the file, and what to do.
+/// If the file cannot be read: what is wrong with it, and what to do.
 pub fn sequence_picture(bytes: &[u8]) -> Result<LayerPicture, String> {
     let file = SequenceFile::read(bytes, usize::MAX).map_err(|why| format!("the file {why}"))?;
     // `read` bounds both.

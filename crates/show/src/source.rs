@@ -13,9 +13,9 @@ pub struct FrameSource {
     pub kind: SourceKind,
     /// The file behind the source; `None`: the settings suffice.
     pub asset: Option<AssetHash>,
-    /// Seed of everything random in placing its pixels.
+    /// Seed of all random choices in placing its pixels.
     pub seed: u32,
-    /// Where its picture lies on the floor; `None`: the whole floor.
+    /// Where the picture of the source lies on the floor; `None`: the whole floor.
     pub floor_box: Option<FloorBox>,
     /// Ids of pixels that a user moved by hand. They keep their place when the others are placed anew. Sorted, unique.
     pub moved: Vec<u32>,

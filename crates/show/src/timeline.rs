@@ -129,7 +129,8 @@ pub struct Trajectory {
     pub frame: Option<String>,
     /// Id of the pixel.
     pub pixel: u32,
-    /// Start of the path: seconds after the transition to the frame begins, or after the show begins.
+    /// Start of the path: seconds after the transition to the frame begins. For the whole show, seconds after the show
+    /// begins.
     pub at_s: f64,
     /// Place at the start, stage metres.
     pub start: Vec2,

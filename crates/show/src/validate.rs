@@ -20,7 +20,7 @@ pub use limits::{
 };
 
 /// Returns the issues of a show: first those of the stage and the fleet, then those of each frame, then those of other
-/// parts. Empty if there are none. Accepts any show, and returns the same issues for the same show.
+/// parts. A show with an error must not be planned. Accepts any show, and returns the same issues for the same show.
 pub fn validate(show: &Show) -> Issues {
     let mut findings = Findings::default();
     let is_sound = stage::check(&show.stage, &mut findings);

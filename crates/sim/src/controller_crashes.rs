@@ -52,7 +52,7 @@ impl ControllerCrashes {
         Self { coming: Timetable::new(crashed.iter().flat_map(events).collect()), ..Self::default() }
     }
 
-    /// Whether there is any.
+    /// Whether a crash or a restart of the controller is still to come.
     pub fn are_there(&self) -> bool {
         !self.coming.is_empty()
     }

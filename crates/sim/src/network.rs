@@ -44,9 +44,9 @@ pub(crate) struct NetworkMessage {
 /// Numbers of messages sent and lost. A broadcast counts once for each receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct MessageCounts {
-    /// Sent.
+    /// Number of messages sent.
     pub sent: u64,
-    /// Lost on the way.
+    /// Number of messages lost on the way.
     pub lost: u64,
 }
 

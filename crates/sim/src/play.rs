@@ -232,7 +232,7 @@ impl Play {
         Progress::Playing { at_s: self.now.as_secs(), planned_s: self.planned_s, frames }
     }
 
-    /// The report of what was played.
+    /// Makes the report of what was played.
     pub fn report(mut self) -> RehearsalReport {
         self.robots.world.imprint(&mut self.hash);
         self.hash.word(self.now.0);

@@ -8,7 +8,7 @@ use crate::light_watch::LightCounts;
 use crate::network::MessageCounts;
 use crate::statistics::Spread;
 
-/// The report of a rehearsal. Its JSON has these keys.
+/// The report of a rehearsal. The names of its fields are the keys of its JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RehearsalReport {
     /// Whether all frames were played without a contact, and no more robots dropped out than had a breakdown.

@@ -9,9 +9,9 @@ use crate::sight::{Question, Sight};
 const UNSEEN: &str = "the light was not watched; --look asks you about it";
 /// Colours of the tests: each channel alone, so that swapped channels show.
 const RED: Rgb = Rgb::new(255, 0, 0);
-/// As `RED`.
+/// Green alone, as in `RED`.
 const GREEN: Rgb = Rgb::new(0, 255, 0);
-/// As `RED`.
+/// Blue alone, as in `RED`.
 const BLUE: Rgb = Rgb::new(0, 0, 255);
 /// Time in which a person looks up. With less, the person would miss the beginning. A choice, not measured.
 pub(super) const LOOK_UP: Span = Span::from_millis(3_000);

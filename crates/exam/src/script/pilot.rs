@@ -87,7 +87,7 @@ impl Pilot {
         Span(self.round_trip.get().0 / 2)
     }
 
-    /// Sends a payload to the robot; returns the mark after which its answers are.
+    /// Sends a payload to the robot. Returns the mark after which answers come.
     pub fn send(&self, text: impl Into<String>) -> usize {
         let mark = self.session.mark();
         self.session.send(Addressee::Robot, text);

@@ -70,7 +70,7 @@ pub(crate) struct PathReader<'a> {
     room: &'a mut usize,
 }
 
-/// Most pieces of all paths of a file.
+/// Largest number of pieces in all paths of a file.
 pub(crate) const PIECES_MAX: usize = MAX_TRAJECTORY_PIECES;
 
 impl<'a> PathReader<'a> {

@@ -52,7 +52,7 @@ impl fmt::Display for Violation {
 struct Watched {
     /// When it received its last message.
     received: Instant,
-    /// It has no power, or its wheels are stuck.
+    /// Whether it has no power, or its wheels are stuck.
     is_broken: bool,
     /// When it dropped out; `None` while it takes part.
     out: Option<Instant>,

@@ -30,8 +30,7 @@ const RECOVERS_WITHIN_S: f64 = 40.0;
 /// Multiple of the show's duration that each fault may also cost (`control/src/run/recovery_bound.rs`).
 const REPLAYS: f64 = 2.0;
 
-/// The log of the first controller is replayed for one seed in this number, because a replay costs as much as planning
-/// once more.
+/// Number of seeds of which one has the log of its first controller replayed: that costs as much as planning once more.
 const REPLAYED: u64 = 4;
 
 /// One seed of the campaign, played.

@@ -12,7 +12,7 @@ use crate::broker_outages::BrokerEvent;
 use crate::controller_crashes::CrashEvent;
 use crate::mishap::Mishap;
 
-/// Distance of the first route numbers of two controllers that follow each other.
+/// Difference between the first route numbers of one controller and the next.
 const SEQ_STEP: u32 = 1_000_000;
 
 impl Play {
