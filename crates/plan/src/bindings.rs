@@ -1,5 +1,5 @@
-//! Bindings of pixels to robots: pins, names and identity. Unbound pixels are assigned by distance in
-//! [`crate::transition()`]. Planning of a show and of a run use the same bindings.
+//! Bindings of pixels to robots by pins, names and identity. [`crate::transition()`] assigns unbound pixels by
+//! distance. Planning of a show and of a run use the same bindings.
 
 use crate::assignment::Choice;
 use lightbots_base::Vec2;
@@ -7,24 +7,25 @@ use lightbots_show::{Identity, Pixel};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The robot that showed each pixel id last. `R` identifies a robot.
+/// For each pixel id, the robot that showed it last. `R` identifies a robot.
 #[derive(Clone, Debug)]
 pub struct Claims<R> {
-    /// The robot, and the number of claims before this one.
+    /// By pixel id: the robot, and the number of claims made before this one.
     of: BTreeMap<u32, (R, u64)>,
     told: u64,
 }
 
-/// Bindings of pixels to robots, from frame to frame. A robot is its index in a list.
+/// Bindings of pixels to robots, carried from frame to frame. A robot is given by its index in a list.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings {
     /// Robots by name.
     pub by_name: BTreeMap<String, usize>,
-    /// Whether `by_name` is complete. Otherwise another name means any robot without one.
+    /// Whether `by_name` is complete. If it is not, a name missing from it may be given to any robot that has no name
+    /// yet.
     pub names_known: bool,
-    /// Pixel ids pinned to robots for all frames; `None`: to a robot that is not here.
+    /// Pixel ids pinned to robots for all frames; `None` if the robot is not here.
     pub pins: BTreeMap<u32, Option<usize>>,
-    /// The robots that showed pixels, of those that are here.
+    /// For each pixel id, the robot that showed it last, if that robot is here.
     pub claims: Claims<usize>,
 }
 
@@ -33,22 +34,23 @@ pub struct Bindings {
 pub struct BoundFrame<'a> {
     /// Pixels that are shown.
     pub pixels: Vec<&'a Pixel>,
-    /// `[pixel]`: the robot bound to it; `None`: any robot.
+    /// `[pixel]`: the robot bound to it; `None` if any robot may show it.
     pub pinned: Vec<Option<usize>>,
     /// Ids of the pixels that stay dark.
     pub dark: Vec<u32>,
-    /// Unexpected results, with the pixel.
+    /// Unexpected results, each with the id of its pixel.
     pub issues: Vec<(u32, BindingIssue)>,
 }
 
 /// An unexpected result of a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BindingIssue {
-    /// Two pixels ask for one robot: this one stays dark.
+    /// Two pixels ask for the same robot. The pixel of this issue stays dark.
     BoundTwice,
-    /// The pixel asks for a robot that is not here: it stays dark.
+    /// The pixel asks for a robot that is not here, and stays dark.
     Unknown,
-    /// Identity is fixed, but the robot that showed the pixel must show another: the pixel gets another robot.
+    /// Identity is fixed, but the robot that showed this pixel last must show another pixel. The pixel gets another
+    /// robot.
     Lost,
 }
 
@@ -59,7 +61,7 @@ impl<R> Default for Claims<R> {
 }
 
 impl<R: Copy + PartialEq> Claims<R> {
-    /// A robot shows a pixel.
+    /// Records that a robot shows a pixel.
     pub fn show(&mut self, id: u32, robot: R) {
         self.of.insert(id, (robot, self.told));
         self.told += 1;
@@ -84,8 +86,9 @@ impl<R: Copy + PartialEq> Claims<R> {
 }
 
 impl Bindings {
-    /// Binds a frame for robots at `places`, stage metres. A pixel gets the robot it asks for or is pinned to; with
-    /// fixed identity, the robot that showed it last. Pixels that stay dark, and those without a robot, are not shown.
+    /// Binds a frame's pixels for robots at `places`, stage metres. A pixel gets the robot that it names or is pinned
+    /// to; with fixed identity, also the robot that showed it last. Pixels for which `stays_dark` holds, and those for
+    /// which no robot is left, are not shown.
     pub fn bind<'a>(
         &self,
         frame: &'a [Pixel],
@@ -118,7 +121,7 @@ impl Bindings {
         binder.done()
     }
 
-    /// Remembers the robot of each pixel; `goal_of[robot]` is an index into the frame's pixels.
+    /// Records which robot shows each pixel of `bound`; `goal_of[robot]` is an index into its pixels.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
             let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
@@ -148,13 +151,14 @@ struct Binder<'a, 'b> {
     bindings: &'b Bindings,
     places: &'b [Vec2],
     roles: Vec<Role<'a>>,
-    /// `[robot]`: whether it has a pixel.
+    /// `[robot]`: whether a pixel is bound to it.
     taken: Vec<bool>,
     issues: Vec<(u32, BindingIssue)>,
 }
 
 impl<'a> Binder<'a, '_> {
-    /// Gives a pixel to a robot, unless the robot has one.
+    /// Binds a pixel to a robot. Returns `false`, and changes nothing, if the robot has a pixel already or does not
+    /// exist.
     fn give(&mut self, role: usize, robot: usize) -> bool {
         let free = self.taken.get(robot) == Some(&false);
         if free {
@@ -197,12 +201,12 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// The robot that showed a pixel last, if it is here.
+    /// Returns the robot that showed a pixel last, if that robot is here.
     fn owner(&self, role: usize) -> Option<usize> {
         self.bindings.claims.of.get(&self.roles[role].pixel.id).map(|&(robot, _)| robot)
     }
 
-    /// Pixels that ask for a name without a robot.
+    /// Indices of the open pixels that ask for a name to which no robot belongs yet.
     fn nameless(&self) -> Vec<usize> {
         let asks = |&role: &usize| self.roles[role].is_open() && self.roles[role].pixel.robot.is_some();
         (0..self.roles.len()).filter(asks).collect()
@@ -215,7 +219,7 @@ impl<'a> Binder<'a, '_> {
         named
     }
 
-    /// Gives a name to the robot that showed its pixel last, if that has none.
+    /// Binds pixels that ask for an unknown name to the robots that showed them last, if those robots have no name.
     fn name_owners(&mut self) {
         let named = self.named();
         for role in self.nameless() {
@@ -225,8 +229,9 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Gives names without a robot to robots without a name: two names are two robots. Where no robot has a name yet,
-    /// any robots will do. Robots that keep their pixel come last.
+    /// Binds pixels with unknown names to robots without a name, so that two names are always two robots. Robots that
+    /// keep a pixel by fixed identity are used only if the others do not suffice. If all free robots are without a name
+    /// and there are enough of them, nothing is bound here: the assignment may choose any.
     fn name_others(&mut self, identity: Identity) {
         let nameless = self.nameless();
         if nameless.is_empty() {
@@ -256,7 +261,7 @@ impl<'a> Binder<'a, '_> {
         self.place(fit, self.nameless());
     }
 
-    /// Pixels stay with the robots that showed them last. A robot that showed another of them later keeps that one.
+    /// Binds pixels to the robots that showed them last. A robot that has shown several of them keeps the latest.
     fn keep_owners(&mut self) {
         let told = |role: usize| {
             let pixel = self.roles[role].pixel;
@@ -276,12 +281,12 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// With fewer robots than pixels, those with the highest ids that nothing binds stay dark.
+    /// With fewer robots than pixels, leaves unbound pixels dark: those at the end of the frame first.
     fn drop_surplus(&mut self) {
         let open = self.roles.iter().filter(|role| role.is_open()).count();
         let free = self.taken.iter().filter(|&&taken| !taken).count();
         let mut surplus = open.saturating_sub(free);
-        // Pixels that ask for a robot come before those that do not.
+        // Pixels that ask for a robot by name are kept longer than those that do not.
         for asks in [false, true] {
             for role in self.roles.iter_mut().rev() {
                 if surplus > 0 && role.is_open() && role.pixel.robot.is_some() == asks {
@@ -292,7 +297,7 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Gives new ids to robots that have shown nothing yet, where there are enough.
+    /// Binds pixels with new ids to robots that have shown no pixel yet, if there are enough of these.
     fn place_newcomers(&mut self) {
         let mut fresh = vec![true; self.taken.len()];
         self.bindings.claims.of.values().for_each(|&(robot, _)| fresh[robot] = false);
@@ -304,7 +309,7 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Assigns pixels to enough robots by least squared distance.
+    /// Binds pixels to robots by least squared distance; needs at least as many robots as pixels.
     fn place(&mut self, robots: Vec<usize>, roles: Vec<usize>) {
         let from: Vec<Vec2> = robots.iter().map(|&robot| self.places[robot]).collect();
         let to: Vec<Vec2> = roles.iter().map(|&role| self.roles[role].pixel.at).collect();

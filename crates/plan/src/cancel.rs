@@ -1,4 +1,4 @@
-//! Cancellation of a plan that is not wanted any more, or takes too long.
+//! Cancellation of planning that is no longer wanted, or takes too long.
 
 use core::fmt;
 
@@ -6,8 +6,8 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
 
-/// Polled in every long loop of the planner. Once it says yes it goes on saying yes. A loop that ends early leaves
-/// meaningless values; the entry points of this crate poll again before they return any.
+/// A cancellation that every long loop of the planner polls. Once it returns `true`, it must keep returning `true`. A
+/// loop that ends early leaves meaningless values, so the entry points of this crate poll again before they return any.
 #[derive(Clone, Copy)]
 pub(crate) struct Cancel<'a>(&'a dyn Fn() -> bool);
 
@@ -15,12 +15,12 @@ impl<'a> Cancel<'a> {
     /// Never cancelled.
     pub const NEVER: Cancel<'static> = Cancel(&|| false);
 
-    /// Cancelled once `is_wanted` says so; it must go on saying so.
+    /// Cancelled once `is_wanted` returns `true`, which it must then keep returning.
     pub fn when(is_wanted: &'a dyn Fn() -> bool) -> Self {
         Self(is_wanted)
     }
 
-    /// Whether to give up.
+    /// Whether cancellation is wanted.
     pub fn is_wanted(self) -> bool {
         (self.0)()
     }
@@ -32,7 +32,7 @@ impl fmt::Debug for Cancel<'_> {
     }
 }
 
-/// Works until it is done, or `is_wanted` has said yes once.
+/// Runs `work` and returns its result; `Err` if `is_wanted` returned `true` at any poll, including one after `work`.
 pub(crate) fn unless<T>(
     is_wanted: &dyn Fn() -> bool,
     work: impl FnOnce(Cancel<'_>) -> T,

@@ -7,40 +7,40 @@ use lightbots_base::Span;
 /// What the planner tried for one transition.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
-    /// Solvers in the order in which they ran.
+    /// Rows of the schedule, in the order in which they ran or were skipped.
     pub rows: Vec<ExplainedRow>,
-    /// The row whose plan was chosen; `None`: no plan.
+    /// Index in `rows` of the chosen plan; `None` if there is no plan.
     pub chosen: Option<usize>,
-    /// Why that row, one line.
+    /// Reason for the choice, one line.
     pub reason: String,
 }
 
-/// One row of the schedule that ran.
+/// One row of the schedule, and its outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExplainedRow {
     /// Solver and parameters, a few words.
     pub solver: String,
-    /// What it came to.
+    /// Outcome of the row.
     pub outcome: RowOutcome,
 }
 
-/// What a row of the schedule came to.
+/// Outcome of a row of the schedule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowOutcome {
-    /// Its condition does not hold; the text says which.
+    /// Skipped, because a condition of the row does not hold; the text names the condition.
     Skipped(&'static str),
-    /// It has no first guess: a search found no path, or there are no nodes.
+    /// The row has no first guess: a search found no path, or there are no nodes.
     NoGuess,
-    /// It left contacts or illegal motion of this many robots and pairs.
+    /// The paths of the row still have contacts or illegal motion.
     Rejected {
-        /// Number of contacts and faults; 0 where only the proof's verdict is known.
+        /// Number of contacts and faults; 0 if only the proof's verdict is known.
         contacts: usize,
     },
     /// A plan that the proof accepts.
     Solved {
-        /// How long it takes at full speed.
+        /// Duration of the plan at full speed.
         duration: Span,
-        /// Its stop-safe share in percent; `None` where no other candidate was left to compare it with.
+        /// Stop-safe share of the plan in percent; `None` if no other candidate was left to compare it with.
         stop_safe_percent: Option<u8>,
     },
 }
@@ -51,12 +51,12 @@ impl Explanation {
         self.rows.push(ExplainedRow { solver, outcome });
     }
 
-    /// The last row is the choice.
+    /// Marks the last row as chosen.
     pub(crate) fn choose(&mut self, reason: &str) {
         (self.chosen, self.reason) = (self.rows.len().checked_sub(1), reason.into());
     }
 
-    /// Adds the rows of another attempt at the same transition; its choice counts.
+    /// Adds the rows of a later attempt at the same transition. The choice of `later` replaces the earlier one.
     pub(crate) fn append(&mut self, later: Self) {
         let before = self.rows.len();
         self.rows.extend(later.rows);

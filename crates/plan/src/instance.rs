@@ -10,24 +10,26 @@ use crate::margins::{EDGE_M, SPLINE_M};
 
 /// A transition with a given assignment.
 pub(crate) struct Instance<'a> {
-    /// When to give up.
+    /// Cancellation of the search.
     pub cancel: Cancel<'a>,
     /// `[robot]`: its start, stage metres.
     pub starts: Vec<Vec2>,
-    /// `[robot]`: its end, stage metres; `None`: a spare robot that may end anywhere.
+    /// `[robot]`: its end, stage metres; `None` if the robot is spare and may end anywhere.
     pub ends: Vec<Option<Vec2>>,
     /// Obstacles and standing robots.
     pub walls: Vec<Obstacle>,
     /// Half the extents of the rectangle that centres stay in, metres.
     pub inner: Vec2,
-    /// Distance of rims from the floor's edge, metres, where ends and walls leave it.
+    /// Distance that rims keep from the floor's edge, metres, except where starts, ends and walls force robots closer
+    /// to it.
     pub off_edge_m: f64,
     /// Limits of the robots.
     pub limits: Limits,
 }
 
 impl Instance<'_> {
-    /// The instance of a problem; `None` where the assignment does not fit, or a number is not finite.
+    /// The instance of a problem. `None` if the assignment does not fit the problem, a place is not finite, or a limit
+    /// or the floor is not positive.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;
@@ -63,7 +65,7 @@ impl Instance<'_> {
         self.starts.len()
     }
 
-    /// The smaller of the distances between two starts and two ends, metres.
+    /// The smaller of two distances between robots `a` and `b`, metres: that of their starts and that of their ends.
     pub fn ends_apart(&self, a: usize, b: usize) -> f64 {
         let before = self.starts[a].distance(self.starts[b]);
         match (self.ends[a], self.ends[b]) {
@@ -72,24 +74,26 @@ impl Instance<'_> {
         }
     }
 
-    /// Least distance of two centres, metres.
+    /// Distance that the centres of robots `a` and `b` must keep, metres: less than [`Self::widest_gap_m`] if their
+    /// starts or ends are closer.
     pub fn least_gap(&self, a: usize, b: usize) -> f64 {
         self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
     }
 
-    /// The greatest of all least distances, metres: pairs that are farther apart need no closer look.
+    /// The greatest distance that any two centres must keep, metres. Pairs farther apart need no further check.
     pub fn widest_gap_m(&self) -> f64 {
         self.limits.contact_m() + SPLINE_M
     }
 
-    /// Distance of a robot's rim from a wall, at most `wish`, that its ends allow, metres.
+    /// Distance that a robot's rim must keep from a wall, metres: `wish`, or less if the robot's start or end is
+    /// closer.
     pub fn wall_gap(&self, robot: usize, wall: usize, wish: f64) -> f64 {
         let at = |place| self.off_wall(wall, place).0;
         let end = self.ends[robot].map_or(wish, at);
         wish.min(at(self.starts[robot])).min(end)
     }
 
-    /// Gap between a robot's rim at `place` and a wall, and the direction away from it.
+    /// Gap between the rim of a robot at `place` and a wall, metres, and the unit vector away from the wall.
     pub fn off_wall(&self, wall: usize, place: Vec2) -> (f64, Vec2) {
         let (gap, away) = off_shape(&self.walls[wall], place);
         (gap - self.limits.radius_m, away)
@@ -101,8 +105,8 @@ impl Instance<'_> {
         on_floor && (0..self.walls.len()).all(|wall| self.off_wall(wall, place).0 >= margin_m)
     }
 
-    /// Whether a robot may drive straight from one place to another, `margin_m` from every wall. Ends that are closer
-    /// keep their own distance.
+    /// Whether a robot can drive straight from one place to another with its rim `margin_m` from every wall. If an end
+    /// is closer to a wall than `margin_m`, the line only has to keep that distance.
     pub fn is_way_free(&self, from: Vec2, to: Vec2, margin_m: f64) -> bool {
         let samples = (from.distance(to) / 0.01).min(4000.0) as usize + 1;
         (0..self.walls.len()).all(|wall| {
@@ -112,8 +116,8 @@ impl Instance<'_> {
         })
     }
 
-    /// Distance of rims from the floor's edge that leaves gaps to the edge open, and lets two robots pass on a narrow
-    /// floor.
+    /// Distance that rims keep from the floor's edge, metres. It is small enough that robots fit between walls and the
+    /// edge, and that two robots pass each other on a narrow floor.
     fn room_at_edge_m(&self) -> f64 {
         let least_m = 2.0 * self.limits.radius_m + SPLINE_M;
         let gaps = self.walls.iter().flat_map(|wall| self.off_edges(wall)).map(|gap_m| gap_m - least_m);
@@ -134,7 +138,8 @@ impl Instance<'_> {
         [min.x + half.x, half.x - max.x, min.y + half.y, half.y - max.y]
     }
 
-    /// The nearest place for a robot `off_edge_m` from the floor's edge, or as far out as its own ends.
+    /// The nearest place to `place` at which the robot's rim is `off_edge_m` from the floor's edge. A robot with a
+    /// start or end closer to the edge may go as far out as that.
     pub fn on_floor(&self, robot: usize, place: Vec2, off_edge_m: f64) -> Vec2 {
         let room = self.inner - Vec2::new(off_edge_m, off_edge_m);
         if place.x.abs() <= room.x && place.y.abs() <= room.y {
@@ -148,7 +153,7 @@ impl Instance<'_> {
     }
 }
 
-/// Distance of a place from a shape's rim, negative inside, and the unit vector away from it.
+/// Distance of a place from a shape's rim, metres, negative inside, and the unit vector away from the shape.
 fn off_shape(shape: &Obstacle, place: Vec2) -> (f64, Vec2) {
     match *shape {
         Obstacle::Disc { at, radius_m } => {
@@ -185,7 +190,7 @@ mod tests {
         assert!((off_shape(&shape, Vec2::new(4.0, 6.0)).0 - 5.0).abs() < 1e-12);
     }
 
-    /// A robot from one place to another on a floor of this half size.
+    /// An instance of one robot on a floor of this half size.
     fn instance(
         start: (f64, f64),
         end: (f64, f64),
@@ -221,7 +226,7 @@ mod tests {
         assert_eq!(off_edge_mm(0.2, half), 3.5);
         assert_eq!(off_edge_mm(0.059, half), 1.9);
         assert_eq!(off_edge_mm(0.056, half), 3.5);
-        // Two pass each other on a floor that is 114 mm deep with 1.45 mm to spare on either side.
+        // Two robots pass each other on a floor that is 114 mm deep, with 1.45 mm to spare on either side.
         assert_eq!(off_edge_mm(0.056, Vec2::new(0.5, 0.057)), 1.45);
     }
 }

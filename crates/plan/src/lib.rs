@@ -1,12 +1,12 @@
-//! The planner: a show becomes an assignment and timed paths, with a proof that no two robots touch.
+//! Plans shows: finds an assignment and timed paths for each transition, with a proof that no two robots touch.
 //!
-//! Pure: the same input gives the same bits. It knows nothing of messages, clocks or files.
+//! Pure: the same input gives the same bits. The planner reads no messages, clocks or files.
 //!
-//! In reading order: [`TransitionProblem`] is one drive; [`Bindings`] bind pixels to robots; [`assignment`] assigns
-//! goals; `motion` makes straight lines with one progress; `prescribed` keeps to the drives that a show prescribes;
-//! `solve` runs the table of solvers where straight lines conflict; [`proof`] judges the paths without trusting any of
-//! them; [`transition()`] puts these together; [`show()`] chains transitions through all frames. docs/planner.md explains
-//! the methods.
+//! In reading order: [`TransitionProblem`] is the drive from one frame to the next. [`Bindings`] bind pixels to robots.
+//! [`assignment`] assigns goals to robots. `motion` makes straight lines that all robots drive with the same progress.
+//! `prescribed` makes the drives that a show prescribes. `solve` runs a table of solvers where straight lines conflict.
+//! [`proof`] checks the paths without relying on the code that made them. [`transition()`] puts these together, and
+//! [`show()`] chains the transitions of all frames. docs/planner.md explains the methods.
 //!
 //! ```
 //! use lightbots_base::{Limits, Vec2};

@@ -10,10 +10,10 @@
 
 use lightbots_base::Span;
 
-/// A plan this many times as long as the shortest may still be chosen for its stop-safety.
+/// A plan may be chosen for its stop-safety if its duration is at most this many times the shortest.
 const MOST_LONGER: f64 = 1.05;
 
-/// What the order looks at first.
+/// Properties of a candidate plan that the order compares first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlanQuality {
     /// Contacts and faults; 0: contact-free.
@@ -25,13 +25,14 @@ pub(crate) struct PlanQuality {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chosen {
     pub index: usize,
-    /// Why, one line.
+    /// Reason for the choice, one line.
     pub reason: &'static str,
-    /// Stop-safe shares that were measured, `(index, percent)`.
+    /// Stop-safe shares that were measured, `(index of the candidate, percent)`.
     pub stop_safe_percents: Vec<(usize, u8)>,
 }
 
-/// Chooses among candidates; `None` where there are none. `stop_safe_percent` is asked at most once for each.
+/// Chooses among candidates; `None` if there are none. `stop_safe_percent(index)` is called at most once for each
+/// candidate.
 pub(crate) fn choose(
     candidates: &[PlanQuality],
     mut stop_safe_percent: impl FnMut(usize) -> u8,

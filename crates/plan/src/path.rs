@@ -2,7 +2,7 @@
 
 use lightbots_base::{PathRef, Piece, Span, Vec2};
 
-/// A path that owns its pieces.
+/// A timed path that owns its pieces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
     /// Its start, stage metres.
@@ -12,7 +12,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// Most pieces of a path: the storage of a robot.
+    /// Most pieces of a path, because a robot stores no more.
     pub(crate) const MOST_PIECES: usize = 128;
 
     /// Duration of the longest of these paths; 0 where there are none.

@@ -7,32 +7,35 @@ use crate::margins::MARGIN_M;
 use crate::proof::{Closest, ProofInput};
 use crate::{BoundFrame, Path, Prescribed};
 
-/// A drive may take this much longer than it was asked to, seconds: times are whole milliseconds.
+/// Tolerance on the asked duration of a drive, seconds: a drive counts as on time if it exceeds that duration by no
+/// more. Durations are whole milliseconds.
 pub(crate) const ASKED_SLACK_S: f64 = 5e-3;
 
-/// A drive from one set of places to another.
+/// The problem of one transition: all robots drive from their starts to the goals.
 #[derive(Clone, Debug)]
 pub struct TransitionProblem {
     /// Start of each robot, stage metres.
     pub starts: Vec<Vec2>,
-    /// Places to reach, stage metres. At most as many as `starts`: the other robots are spare, and may stay or step
-    /// aside.
+    /// Places to reach, stage metres. There are at most as many goals as starts. Robots without a goal are spare: they
+    /// may stay or step aside.
     pub goals: Vec<Vec2>,
-    /// `pinned[goal]`: the start that must go there; goals beyond its end are not pinned.
+    /// `pinned[goal]`: index of the start whose robot must go to that goal; `None` if any robot may. Goals beyond the
+    /// end of this list are not pinned.
     pub pinned: Vec<Option<usize>>,
-    /// Discs that do not move: dead robots and robots that do not take part. Stage metres.
+    /// Centres of discs that do not move, stage metres: dead robots and robots that do not take part.
     pub standing: Vec<Vec2>,
     /// No-go areas.
     pub obstacles: Vec<Obstacle>,
-    /// Half the floor's width and depth, metres; centres stay a radius inside.
+    /// Half the floor's width and depth, metres. Robots' centres stay at least a robot's radius inside the edge.
     pub half_floor: Vec2,
     /// Limits of the robots.
     pub limits: Limits,
-    /// Asked duration; `None`, or less than is legal: as fast as legal.
+    /// Asked duration of the drive. If it is `None` or shorter than the limits allow, robots drive as fast as the
+    /// limits allow.
     pub duration: Option<Span>,
     /// Shape of the speed over time.
     pub easing: Easing,
-    /// The drive that the show prescribes, for robots that stand where it begins.
+    /// The drive that the show prescribes. It applies only if the robots' starts are where that drive begins.
     pub prescribed: Option<Prescribed>,
 }
 
@@ -59,7 +62,7 @@ impl TransitionProblem {
         Self { obstacles: stage.obstacles.clone(), ..Self::on_floor(half_floor, stage.limits) }
     }
 
-    /// The same, driven as a frame asks for.
+    /// A problem without robots on a stage, with the duration and the easing that a frame asks for.
     pub fn timed_as(stage: &Stage, frame: &Frame) -> Self {
         Self {
             duration: frame.transition_s.filter(|seconds| seconds.is_finite()).map(Span::from_secs),
@@ -68,7 +71,8 @@ impl TransitionProblem {
         }
     }
 
-    /// The drive to frame `index` of a show: the one place that reads a stage and a frame for the planner.
+    /// The problem of the drive to frame `index` of a show. Panics if there is no such frame, or if `bound` does not
+    /// have one binding for each pixel.
     pub fn of_frame(show: &Show, index: usize, starts: Vec<Vec2>, bound: &BoundFrame<'_>) -> Self {
         assert_eq!(bound.pixels.len(), bound.pinned.len(), "each pixel of a bound frame has a binding");
         Self {
@@ -80,7 +84,7 @@ impl TransitionProblem {
         }
     }
 
-    /// The proof's input for paths of this problem.
+    /// Returns the input with which the proof checks paths of this problem.
     pub fn to_prove<'a>(&'a self, paths: &'a [Path]) -> ProofInput<'a> {
         ProofInput {
             paths,
@@ -97,46 +101,48 @@ impl TransitionProblem {
 /// A solved and proven transition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// `goal_of[start]`: the goal of that robot; `None`: it is spare.
+    /// `goal_of[start]`: index of the goal of the robot at that start; `None` if the robot is spare.
     pub goal_of: Vec<Option<usize>>,
-    /// `paths[start]`: all last exactly `duration`, and begin with the rest in which robots turn.
+    /// `paths[start]`: the timed path of the robot at that start. All paths last exactly `duration`, and begin with a
+    /// rest in which robots turn.
     pub paths: Vec<Path>,
-    /// Duration.
+    /// Duration of all paths.
     pub duration: Span,
-    /// Least duration within the limits.
+    /// Duration of the same drive at full speed: the least within the limits of the robots.
     pub least: Span,
-    /// Bottleneck distance over the speed limit, seconds; the longest straight line where identity is fixed.
+    /// Lower bound on the duration, seconds: the bottleneck distance of the assignment divided by the speed limit.
+    /// Where the show fixes the assignment, its longest straight line counts.
     pub lower_bound_s: f64,
-    /// The two centres that come closest; `None` with fewer than two robots.
+    /// The closest approach of two centres; `None` with fewer than two robots.
     pub closest: Option<Closest>,
 }
 
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Infeasible {
-    /// Goals (indices) in each other's way; may be empty.
+    /// Indices of the goals that cause the failure; may be empty.
     pub goals: Vec<usize>,
-    /// Starts (indices) in each other's way; may be empty.
+    /// Indices of the starts whose robots cause the failure; may be empty.
     pub starts: Vec<usize>,
-    /// One line for people: the reason, and a distance that would do.
+    /// One line for the user: the reason, and what to change.
     pub message: String,
 }
 
-/// Solved paths of a given assignment.
+/// Paths that a solver found for a given assignment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repaired {
-    /// `paths[start]`: all last equally long, at least the asked duration, and begin with the rest in which robots
-    /// turn.
+    /// `paths[start]`: the timed path of the robot at that start. All paths last equally long, at least the asked
+    /// duration, and begin with a rest in which robots turn.
     pub paths: Vec<Path>,
-    /// Least duration within the limits.
+    /// Duration of the same drive at full speed: the least within the limits of the robots.
     pub least: Span,
 }
 
-/// Two robots that do not get past each other.
+/// Two robots for which a solver found no paths past each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// Indices into `starts`.
     pub pair: (usize, usize),
-    /// Half way between the two, stage metres.
+    /// Point half way between the two robots, stage metres.
     pub place: Vec2,
 }

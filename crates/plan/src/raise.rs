@@ -16,13 +16,14 @@ use lightbots_base::Span;
 /// Largest share of the planned duration that delays may cost.
 const SHARE: f64 = 0.05;
 
-/// Measures the stop-safety of a transition, and raises it for at most 5 % of its duration, unless `problem` asks for
-/// a duration. The order on candidate plans decides. The transition stays proven.
+/// Measures the stop-safety of a transition, and raises it by delays of at most 5 % of the duration. Transitions with
+/// an asked duration or a prescribed drive are only measured. The order on candidate plans chooses between the paths
+/// with and without delays. Returns the stop-safety of the chosen paths, which stay proven.
 pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
     raised(problem, transition, Cancel::NEVER)
 }
 
-/// [`raise`], cancelled as soon as `is_wanted` says so; the transition stays proven.
+/// [`raise`], cancelled as soon as `is_wanted` returns `true`; the transition stays proven then too.
 pub fn raise_unless(
     problem: &TransitionProblem,
     transition: &mut Transition,
@@ -31,15 +32,15 @@ pub fn raise_unless(
     unless(is_wanted, |cancel| raised(problem, transition, cancel))
 }
 
-/// The transition of a problem with its stop-safety raised: one link of the chain that plans shows and runs. A plan that
-/// is cancelled while it is raised is returned as it was proven.
+/// Plans the transition of a problem and raises its stop-safety. If cancellation comes while stop-safety is raised, the
+/// proven plan is returned without the delays.
 pub fn planned_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,
 ) -> Result<Result<Transition, Infeasible>, Cancelled> {
     let mut found = transition_unless(problem, is_wanted)?;
     if let Ok(transition) = &mut found {
-        // The transition stays proven also where the planner is cancelled.
+        // The transition stays proven even if raising is cancelled.
         let _ = raise_unless(problem, transition, is_wanted);
     }
     Ok(found)

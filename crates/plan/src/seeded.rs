@@ -1,4 +1,4 @@
-//! Repeatable numbers for tests.
+//! Repeatable pseudo-random numbers for tests.
 
 use lightbots_base::random::split_mix;
 
@@ -14,12 +14,12 @@ impl Seeded {
         split_mix(&mut self.0)
     }
 
-    /// From `low` to `high`.
+    /// Returns a number from `low` to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// From 0 to `count` − 1; 0 where there is nothing.
+    /// Returns a whole number from 0 to `count` − 1; 0 if `count` is 0.
     pub fn below(&mut self, count: usize) -> usize {
         (self.next() % count.max(1) as u64) as usize
     }

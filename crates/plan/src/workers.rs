@@ -1,17 +1,17 @@
-//! Work that may run on several threads. The planner starts none: they are passed in.
+//! Work that may run on several threads. The planner starts no threads: a [`Workers`] is passed in.
 
-/// One task; it is cancelled once the function says so, which the task polls.
+/// A task, called with its index and a function. The task polls the function, and is cancelled once it returns `true`.
 pub type WorkerTask<'a> = &'a (dyn Fn(usize, &dyn Fn() -> bool) + Sync);
 
 /// Runs independent tasks.
 pub trait Workers {
-    /// Calls `task(index, is_wanted)` once for each index below `count`, in any order and on any thread, and returns when
-    /// all calls have returned. `is_cancelled` is asked on the calling thread only; each task gets a function that says yes
-    /// soon after.
+    /// Calls `task(index, is_wanted)` once for each index below `count`, in any order and on any thread, and returns
+    /// after all calls. `is_cancelled` is called on the calling thread only. Soon after it returns `true`, the tasks'
+    /// `is_wanted` returns `true` as well.
     fn each(&self, count: usize, is_cancelled: &dyn Fn() -> bool, task: WorkerTask<'_>);
 }
 
-/// The calling thread, one task after the other.
+/// Runs the tasks one after the other on the calling thread.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneThread;
 

@@ -1,10 +1,9 @@
-//! The least longest way: an exact bottleneck matching of places in the plane.
+//! The assignment with the shortest longest line: an exact bottleneck matching of places in the plane.
 //!
-//! Whether a perfect matching exists within a reach is decided by augmenting paths (breadth-first searches from all
-//! open rows at once, Azad, Buluç & Pothen 2017) over edges that are never listed: a k-d tree hands out places within
-//! reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected between bounds that a
-//! failed search
-//! and a found matching sharpen to distances that really occur.
+//! Augmenting paths decide whether a perfect matching with edges up to a given length, the reach, exists. They are
+//! breadth-first searches from all open rows at once (Azad, Buluç & Pothen 2017). Edges are never listed: a k-d tree
+//! yields columns within reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected
+//! between bounds. A failed search and a found matching tighten them to distances that occur between places.
 
 use super::kdtree::{KdTree, Remaining};
 use super::partner::NONE;
@@ -12,7 +11,7 @@ use super::within::Within;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Squared distances this close are one: they differ by rounding only.
+/// Ratio of two squared distances from which they count as equal, because they differ by rounding only.
 const SAME: f64 = 1.0 - 1e-12;
 
 /// Rows between two polls of the cancellation.
@@ -20,13 +19,14 @@ const POLLED: usize = 256;
 
 /// A matching of all rows with the least longest edge.
 pub(super) struct Bottleneck {
-    /// That edge's length squared, square metres.
+    /// Square of the length of the longest edge, square metres.
     pub reach_squared: f64,
-    /// `column_of[row]`.
+    /// `column_of[row]`: the column matched with that row.
     pub column_of: Vec<u32>,
 }
 
-/// Matches every row to its own column. `known[row]` is some matching of all rows, the better the faster.
+/// Finds the bottleneck matching of all rows. `known[row]` is any matching of all rows; a better one makes the search
+/// faster. A cancelled search returns the best matching found until then.
 pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel: Cancel<'_>) -> Bottleneck {
     let mut low = least_thinkable(rows, columns);
     let mut best =
@@ -35,7 +35,8 @@ pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel:
         return best;
     }
     let mut matcher = Matcher::new(rows, columns, best.reach_squared, cancel);
-    // The matching of the last search that failed: it is within any reach that is tried after it.
+    // The matching of the last failed search. Its edges are within every reach that is tried later, because later
+    // reaches are longer.
     let mut partial = vec![NONE; rows.len()];
     while low < best.reach_squared * SAME && !cancel.is_wanted() {
         let middle = (low.sqrt() + best.reach_squared.sqrt()) / 2.0;
@@ -56,7 +57,8 @@ pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel:
     best
 }
 
-/// A lower bound: every row needs some column, and every column a row if there are no more columns than rows.
+/// Lower bound of the bottleneck, square metres. Every row needs some column, and every column needs a row if there are
+/// equally many.
 fn least_thinkable(rows: &[Vec2], columns: &[Vec2]) -> f64 {
     let farthest = |from: &[Vec2], to: &[Vec2]| {
         let tree = KdTree::new(to);
@@ -77,24 +79,24 @@ struct Matcher<'a> {
     cancel: Cancel<'a>,
     rows: &'a [Vec2],
     columns: &'a [Vec2],
-    /// Columns the phase has not seen.
+    /// Columns that the current phase has not seen.
     within: Within<'a>,
     column_of: Vec<u32>,
     row_of: Vec<u32>,
-    /// How the phase got to each row.
+    /// `[row]`: how the current phase reached it.
     reached: Vec<Reached>,
-    /// Rows seen in this phase, in order.
+    /// Rows that the current phase has reached, in order.
     queue: Vec<u32>,
-    /// Columns the phase has seen.
+    /// Columns that the current phase has seen.
     seen: Vec<u32>,
 }
 
 /// A row's place in a search.
 #[derive(Clone, Copy)]
 struct Reached {
-    /// The open row the path begins at.
+    /// The open row at which the path begins.
     root: u32,
-    /// The row before it on the path.
+    /// The row before this one on the path; [`NONE`] at the root.
     from: u32,
 }
 
@@ -111,7 +113,7 @@ impl<'a> Matcher<'a> {
         (self.columns[column as usize] - self.rows[row]).length_squared()
     }
 
-    /// Starts from those edges of a matching that are within reach, or from another matching if that has more.
+    /// Starts from the edges of `known` that are within reach, or from `partial` if that has more edges.
     fn begin(&mut self, known: &[u32], partial: &[u32], reach_squared: f64) {
         for (row, &column) in known.iter().enumerate() {
             let keep = self.squared(row, column) <= reach_squared;
@@ -130,15 +132,16 @@ impl<'a> Matcher<'a> {
         self.within.reset(&self.row_of);
     }
 
-    /// Extends the matching to all rows with edges within reach. Where that cannot be: a greater reach (squared) that
-    /// any perfect matching needs. `before[row]` is a matching with longer edges.
+    /// Extends the matching to all rows, with edges within reach. If that is impossible, returns a greater reach,
+    /// squared, that every perfect matching needs. `before[row]` is a matching of all rows with longer edges.
     fn complete(&mut self, before: &[u32], reach_squared: f64) -> Result<(), f64> {
         let mut open: Vec<u32> = (0..self.rows.len() as u32).collect();
         open.retain(|&row| self.column_of[row as usize] == NONE);
         let length = |row: u32| self.squared(row as usize, before[row as usize]);
         open.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
         while let Some(&hardest) = open.first().filter(|_| !self.cancel.is_wanted()) {
-            // Where there is no matching, the row with the longest edge most likely has no path: that decides.
+            // If there is no matching, the row with the longest edge in `before` most likely has no path. Then one
+            // search decides.
             if self.phase(&[hardest], reach_squared) == 0 {
                 return Err(self.needed());
             }
@@ -153,8 +156,8 @@ impl<'a> Matcher<'a> {
         Ok(())
     }
 
-    /// Searches from all open rows at once, breadth first, and flips one augmenting path for every row that has one
-    /// left; how many. What was seen stays in `queue` and out of `within` until [`Self::forget_seen`].
+    /// Searches breadth first from all open rows at once, and flips one augmenting path for every row that still has
+    /// one. Returns the number of flipped paths. Columns seen stay out of `within` until [`Self::forget_seen`].
     fn phase(&mut self, open: &[u32], reach_squared: f64) -> usize {
         let mut found = 0;
         for &row in open {
@@ -187,7 +190,8 @@ impl<'a> Matcher<'a> {
         found
     }
 
-    /// Gives a row a free column, and each row before it on its path the column of the row after it.
+    /// Flips the path to `row`: matches `row` with a free column, and each row before it with the column of the row
+    /// after it.
     fn flip(&mut self, mut row: u32, mut column: u32) {
         self.seen.push(column);
         while row != NONE {
@@ -197,7 +201,7 @@ impl<'a> Matcher<'a> {
         }
     }
 
-    /// Makes a new phase possible: every column that has a row is unseen again.
+    /// Prepares a new phase: every matched column counts as unseen again.
     fn forget_seen(&mut self) {
         for column in self.seen.drain(..) {
             self.within.put(column);
@@ -205,8 +209,8 @@ impl<'a> Matcher<'a> {
         self.queue.clear();
     }
 
-    /// After a phase that found nothing: the rows seen are more than the columns they reach (Hall), so one of them
-    /// needs a column not seen. The nearest such distance, squared.
+    /// Returns the least squared distance from a seen row to an unseen column, after a phase without a path. The seen
+    /// rows outnumber the columns that they reach (Hall), so every perfect matching needs a line at least that long.
     fn needed(&mut self) -> f64 {
         let least = |least, &row: &u32| self.within.nearest_squared(row, least);
         let least = self.queue.iter().fold(f64::INFINITY, least);

@@ -1,24 +1,25 @@
-//! The costs of edges, and the assignment with the least sum of them: exact and sparse.
+//! The costs of edges, and the exact assignment with the least sum of costs, found on few edges.
 //!
-//! Shortest augmenting paths with duals (Jonker & Volgenant 1987) over a few edges of each row, those that good duals
-//! call cheapest; the duals then price all edges that were left out, through a k-d tree that prunes whole regions, and
-//! those that would improve the sum are added until there are none.
+//! Shortest augmenting paths with duals (Jonker & Volgenant 1987) run over a few edges of each row: those that are
+//! cheapest by good initial duals. The duals then price all edges that were left out, through a k-d tree that prunes
+//! whole regions. Edges that would improve the sum are added until there are none.
 
 use super::kdtree::{KdTree, Most, Weights};
 use super::search::{Edges, Search};
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Edges each row begins with.
+/// Number of edges with which each row begins.
 const FIRST: usize = 12;
 /// At most this many edges are added to a row in one round of pricing.
 const ADDED: usize = 6;
-/// Rounds of pricing; at ten thousand robots a dozen is the most seen. What is left after this many is not quite exact.
+/// Most rounds of pricing. Ten thousand robots need a dozen at most. If this many rounds do not suffice, the assignment
+/// may be slightly worse than the best.
 const ROUNDS: usize = 200;
-/// Reduced costs above minus this are not improvements, square metres.
+/// Tolerance of reduced costs, square metres: an edge improves the sum only if its reduced cost is below minus this.
 const EPSILON: f64 = 1e-11;
 
-/// Rows and columns in the space of the costs, and first column duals.
+/// Rows and columns in a space in which squared distances are the costs, and the initial column duals.
 #[derive(Clone, Debug)]
 pub(super) struct Costs<'a> {
     cancel: Cancel<'a>,
@@ -28,12 +29,13 @@ pub(super) struct Costs<'a> {
 }
 
 impl<'a> Costs<'a> {
-    /// The squared ways themselves, with column duals to begin with: all 0 where there are fewer rows than columns.
+    /// Costs that are the squared distances of `rows` and `columns`, with initial column duals. With fewer rows than
+    /// columns, these must all be 0.
     pub fn plain(rows: &[Vec2], columns: &[Vec2], duals: Vec<f64>, cancel: Cancel<'a>) -> Self {
         Self { cancel, rows: rows.to_vec(), tree: KdTree::new(columns), duals }
     }
 
-    /// Takes these column duals to begin with, where the sum of all duals is greater with them.
+    /// Replaces the initial column duals with these if they give a greater sum of all duals.
     pub fn with_better_duals(mut self, duals: Vec<f64>) -> Self {
         if self.dual_sum(&duals) > self.dual_sum(&self.duals) {
             self.duals = duals;
@@ -41,7 +43,7 @@ impl<'a> Costs<'a> {
         self
     }
 
-    /// The sum of all duals when column duals are these: no assignment costs less.
+    /// Returns the sum of all duals for these column duals: no assignment costs less.
     fn dual_sum(&self, duals: &[f64]) -> f64 {
         let mut sum = duals.iter().sum();
         let most = Most { count: 1, below: f64::INFINITY };
@@ -49,7 +51,8 @@ impl<'a> Costs<'a> {
         sum
     }
 
-    /// Calls `each` with every row's cheapest edges less column duals, as [`KdTree::cheapest`] finds them.
+    /// Calls `each` once for every row with its edges of least cost minus column dual, as [`KdTree::cheapest`] finds
+    /// them. Once cancelled, the list is empty.
     fn cheapest(&self, duals: &[f64], most: Most, mut each: impl FnMut(&[(f64, f64, u32)])) {
         let greatest = self.tree.greatest(duals);
         let weights = Weights { of: duals, greatest: &greatest };
@@ -65,7 +68,7 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// The cheapest edges of every row, and one that all can have together.
+    /// Returns the cheapest edges of every row, plus one edge each that together form a matching of all rows.
     fn first_edges(&self) -> Vec<Edges> {
         let mut edges: Vec<Edges> = Vec::with_capacity(self.rows.len());
         let most = Most { count: FIRST, below: f64::INFINITY };
@@ -88,14 +91,15 @@ impl<'a> Costs<'a> {
         (self.tree.place(column) - self.rows[row]).length_squared()
     }
 
-    /// The best assignment without any limit to ways.
+    /// Finds the assignment with the least sum, without a limit on the length of edges.
     pub fn solve(&self) -> Search {
         let mut search = Search::new(self.first_edges(), self.duals.clone());
         self.improve(&mut search, |_, _| true);
         search
     }
 
-    /// Completes an assignment, and prices edges among those `allowed(row, column)` until it is the best.
+    /// Completes an assignment, then adds edges for which `allowed(row, column)` holds and improves it until it is the
+    /// best.
     pub fn improve(&self, search: &mut Search, allowed: impl Fn(usize, u32) -> bool) {
         search.complete(self.cancel);
         for _ in 0..ROUNDS {
@@ -111,8 +115,8 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Adds edges that would improve the sum, and returns their rows. Only rows whose dual rose above the known bound
-    /// are looked at.
+    /// Adds edges that would improve the sum, and returns their rows. A row is searched only if its dual exceeds the
+    /// bound below which all its edges are listed.
     fn price(&self, search: &mut Search, allowed: &impl Fn(usize, u32) -> bool) -> Vec<u32> {
         let mut improved = Vec::new();
         let mut found = Vec::new();
@@ -134,7 +138,7 @@ impl<'a> Costs<'a> {
     }
 }
 
-/// Below which reduced cost all edges are among those that [`KdTree::cheapest`] found.
+/// Returns the reduced cost below which [`KdTree::cheapest`] found all edges.
 fn complete_below(found: &[(f64, f64, u32)], most: Most) -> f64 {
     if found.len() < most.count { most.below } else { found[most.count - 1].0 }
 }

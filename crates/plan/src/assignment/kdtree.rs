@@ -1,11 +1,11 @@
-//! A static k-d tree over places: near ones, cheap ones, and ones that have not been taken yet.
+//! A static k-d tree over places: finds places that are near, cheap, or not taken yet.
 
 use lightbots_base::Vec2;
 
-/// Leaves hold this many places at most.
+/// Most places in a leaf, up to one more by uneven division.
 const LEAF: usize = 6;
 
-/// Number of places to find, and their highest cost.
+/// Limits of a search: the number of places to find, and the cost below which they must be, square metres.
 #[derive(Clone, Copy)]
 pub(super) struct Most {
     pub count: usize,
@@ -15,20 +15,20 @@ pub(super) struct Most {
 /// Weights that are subtracted from squared distances.
 #[derive(Clone, Copy)]
 pub(super) struct Weights<'a> {
-    /// `of[id]`.
+    /// `of[id]`: the weight of a place.
     pub of: &'a [f64],
-    /// The greatest in every node.
+    /// `greatest[node]`: the greatest weight in that node.
     pub greatest: &'a [f64],
 }
 
 /// Places in a balanced tree. Nodes are numbered as in a binary heap: node k has children 2k and 2k + 1, the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct KdTree {
-    /// In tree order.
+    /// Places in tree order.
     places: Vec<Vec2>,
-    /// `ids[position]`: the place's index as it was given.
+    /// `ids[position]`: the index of that place in the list that built the tree.
     ids: Vec<u32>,
-    /// `leaf_of[id]` and `position_of[id]`.
+    /// `leaf_of[id]`: the leaf of a place; `position_of[id]`: its position in tree order.
     leaf_of: Vec<u32>,
     position_of: Vec<u32>,
     nodes: Vec<Node>,
@@ -57,7 +57,7 @@ impl KdTree {
         Self::with_leaves(points, LEAF)
     }
 
-    /// With `leaf` places at most in every leaf, and one more where they do not come out even.
+    /// Builds a tree with at most `leaf` places in every leaf, or one more where places do not divide evenly.
     pub fn with_leaves(points: &[Vec2], leaf: usize) -> Self {
         let mut levels = 0;
         while points.len() >> levels > leaf {
@@ -101,7 +101,7 @@ impl KdTree {
         let wide = max.x - min.x >= max.y - min.y;
         let key = |id: u32| if wide { points[id as usize].x } else { points[id as usize].y };
         if last > first {
-            // Ties by index: the same tree from the same places.
+            // Ties are broken by index, so that the same places give the same tree.
             self.ids[first..last]
                 .select_nth_unstable_by(middle - first, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
         }
@@ -109,13 +109,13 @@ impl KdTree {
         self.divide(points, 2 * node + 1, middle, last);
     }
 
-    /// Where the place of an index is.
+    /// Returns the place with this index, metres.
     pub fn place(&self, id: u32) -> Vec2 {
         self.places[self.position_of[id as usize] as usize]
     }
 
-    /// Pairs of an index in this tree and one in the other, which holds at least as many places: all of this tree's,
-    /// each with one of its own that is about as far along in tree order.
+    /// Pairs each place of this tree with a different place of `other` at about the same share of the tree order, as
+    /// two indices. `other` must hold at least as many places.
     pub fn in_step_with(&self, other: &Self) -> impl Iterator<Item = (u32, u32)> {
         let (own, others) = (self.len(), other.len());
         self.ids.iter().enumerate().map(move |(rank, &id)| (id, other.ids[rank * others / own]))
@@ -125,12 +125,12 @@ impl KdTree {
         self.places.len()
     }
 
-    /// A node and those it is in.
+    /// Returns a node and all nodes that contain it, up to the root.
     fn up_from(&self, node: usize) -> impl Iterator<Item = usize> + use<> {
         core::iter::successors(Some(node), |&node| (node > 1).then_some(node / 2))
     }
 
-    /// The greatest weight in every node, for [`Self::cheapest`]; `weights[id]`.
+    /// Returns the greatest weight in every node, for [`Self::cheapest`]; `weights[id]` is the weight of a place.
     pub fn greatest(&self, weights: &[f64]) -> Vec<f64> {
         let mut greatest = vec![f64::NEG_INFINITY; self.nodes.len()];
         for (id, &weight) in weights.iter().enumerate() {
@@ -143,9 +143,9 @@ impl KdTree {
         greatest
     }
 
-    /// Adds to `found` the places with the least squared distance less weight, if that is below `below` and
-    /// `allowed(id)`: at most `count`, cheapest first, as (squared distance less weight, squared distance, id).
-    /// `greatest` comes from [`Self::greatest`].
+    /// Replaces `found` with the cheapest places; the cost of a place is its squared distance minus its weight. Only
+    /// places with a cost below `most.below` for which `allowed(id)` holds count, at most `most.count`. They are sorted
+    /// by cost, as (cost, squared distance, id).
     pub fn cheapest(
         &self,
         from: Vec2,
@@ -185,7 +185,7 @@ impl KdTree {
         }
     }
 
-    /// All places no farther than the root of `reach_squared` away, with their squared distances.
+    /// Replaces `found` with all places whose squared distance is at most `reach_squared`, as (squared distance, id).
     pub fn within(&self, from: Vec2, reach_squared: f64, found: &mut Vec<(f64, u32)>) {
         found.clear();
         let mut stack = Stack::new(1);
@@ -208,7 +208,8 @@ impl KdTree {
         }
     }
 
-    /// The mean place of every leaf, in tree order; leaves of trees with equally many places hold equally many.
+    /// Returns the mean place of every leaf, in tree order. Leaves of two trees with equally many places hold equally
+    /// many.
     pub fn leaf_centres(&self) -> Vec<Vec2> {
         let leaves = self.nodes[self.first_leaf..].iter();
         let centre = |leaf: &Node| {
@@ -219,7 +220,7 @@ impl KdTree {
     }
 }
 
-/// Nodes still to be looked at: one per level and its sibling.
+/// Nodes still to visit. Depth-first search keeps at most one sibling for each level.
 struct Stack {
     nodes: [u32; 72],
     count: usize,
@@ -242,7 +243,7 @@ impl Stack {
         Some(self.nodes[self.count] as usize)
     }
 
-    /// Both children, so that the one nearer to `from` comes first.
+    /// Pushes both children, so that the one nearer to `from` is popped first.
     fn push_both(&mut self, tree: &KdTree, node: usize, from: Vec2) {
         let (left, right) = (2 * node, 2 * node + 1);
         let left_first = tree.nodes[left].distance_squared(from) <= tree.nodes[right].distance_squared(from);
@@ -251,14 +252,14 @@ impl Stack {
     }
 }
 
-/// Which places of a tree are still there.
+/// The places of a tree that have not been taken.
 pub(super) struct Remaining {
     here: Vec<bool>,
     counts: Vec<u32>,
 }
 
 impl Remaining {
-    /// The places for which `here(id)` holds.
+    /// Contains the places for which `here(id)` holds.
     pub fn new(tree: &KdTree, here: impl Fn(usize) -> bool) -> Self {
         let mut remaining = Self { here: Vec::new(), counts: Vec::new() };
         remaining.reset(tree, here);
@@ -280,26 +281,26 @@ impl Remaining {
         }
     }
 
-    /// Puts a place back; it must not be there.
+    /// Puts a place back, which must have been taken.
     pub fn put(&mut self, tree: &KdTree, id: usize) {
         self.here[tree.position_of[id] as usize] = true;
         let leaf = tree.leaf_of[id] as usize;
         tree.up_from(leaf).for_each(|node| self.counts[node] += 1);
     }
 
-    /// Takes some place no farther than the root of `reach_squared` away.
+    /// Takes one place whose squared distance from `from` is at most `reach_squared`; `None` if there is none.
     pub fn take(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64) -> Option<u32> {
         let mut taken = None;
         self.pull(tree, from, reach_squared, 1, |id| taken = Some(id));
         taken
     }
 
-    /// Takes all places no farther than the root of `reach_squared` away, in the order in which [`Self::take`] would.
+    /// Takes all places whose squared distance is at most `reach_squared`, in the order in which [`Self::take`] would.
     pub fn drain(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64, taken: &mut Vec<u32>) {
         self.pull(tree, from, reach_squared, u32::MAX, |id| taken.push(id));
     }
 
-    /// Takes up to `most` places no farther than the root of `reach_squared` away.
+    /// Takes up to `most` places whose squared distance is at most `reach_squared`, and calls `take` with each.
     fn pull(
         &mut self,
         tree: &KdTree,
@@ -336,7 +337,7 @@ impl Remaining {
         }
     }
 
-    /// The squared distance of the nearest place, or `bound` where none is nearer.
+    /// Returns the squared distance of the nearest remaining place, or `bound` if none is nearer.
     pub fn nearest_squared(&self, tree: &KdTree, from: Vec2, bound: f64) -> f64 {
         let mut least = bound;
         let mut stack = Stack::new(1);

@@ -1,27 +1,29 @@
-//! The least sum of squared ways among edges within reach.
+//! The assignment with the least sum of squared lines, none of them longer than a reach.
 //!
-//! It begins with the best assignment without a limit, from which edges beyond the reach are taken.
+//! The search begins with the best assignment without a limit, from which edges beyond the reach are removed.
 
 use super::costs::Costs;
 use super::partner::NONE;
 use super::search::Search;
 use lightbots_base::Vec2;
 
-/// An assignment with limited ways.
+/// The search for the best assignment whose edges are within a reach.
 pub(super) struct LeastSquares<'a> {
-    /// True places, metres: they decide what is within reach.
+    /// True places of rows and `columns`, metres. Their distances decide which edges are within reach.
     rows: &'a [Vec2],
     columns: &'a [Vec2],
     costs: &'a Costs<'a>,
     search: Search,
-    /// Row duals of the best assignment without limit: no edge of a row, however long, costs less after column duals,
-    /// which only fall; where columns are left over, they begin anew, and nothing is known.
+    /// Lower bound for each row on the cost minus column dual of any edge: its row dual in the best assignment without
+    /// a limit. It holds because column duals only fall. With more columns than rows, column duals start again at 0,
+    /// and the bound is minus infinity.
     unlimited_duals: Vec<f64>,
     reach_squared: f64,
 }
 
 impl<'a> LeastSquares<'a> {
-    /// Limits `unlimited`, the best assignment, to ways within reach; `feasible[row]` is a matching of such ways.
+    /// Limits `unlimited`, the best assignment, to edges within reach. `feasible[row]` is a matching with such edges
+    /// only.
     pub fn new(
         (rows, columns): (&'a [Vec2], &'a [Vec2]),
         (costs, unlimited): (&'a Costs<'a>, &Search),
@@ -49,8 +51,9 @@ impl<'a> LeastSquares<'a> {
         Self { rows, columns, costs, search, unlimited_duals, reach_squared }
     }
 
-    /// The best assignment within `reach_squared`, which must not be less than before: `column_of[row]`. `None` where
-    /// there is none, which a feasible matching rules out.
+    /// Returns the best assignment within `reach_squared` as `column_of[row]`. `reach_squared` must not shrink from
+    /// call to call. `None` if none was found, which only a cancellation can cause, because the feasible matching
+    /// exists.
     pub fn solve(&mut self, reach_squared: f64) -> Option<&[u32]> {
         let within = |row: usize, column: u32| {
             (self.columns[column as usize] - self.rows[row]).length_squared() <= reach_squared

@@ -1,8 +1,9 @@
-//! Assignment of goals: the shortest longest line first, then the least sum of squares among assignments with no
+//! Assignment of goals to starts: minimises the longest line first, then the sum of squares among assignments with no
 //! longer line.
 //!
-//! Both are exact and sparse: ten thousand robots have a hundred million edges, of which a few for each robot are
-//! looked at. The same places give the same assignment, bit for bit; of equal ones the first in the k-d tree wins.
+//! Both steps are exact and sparse: ten thousand robots have a hundred million edges, of which a few for each robot are
+//! examined. The same places give the same assignment, bit for bit. Of equally good edges, the first in the k-d tree
+//! wins.
 
 mod bottleneck;
 mod costs;
@@ -33,7 +34,7 @@ const ROUNDING: f64 = 1.0 + 1e-11;
 pub struct Choice<'a> {
     starts: usize,
     goals: usize,
-    /// Assigned pairs of goal and start.
+    /// Pinned pairs of goal and start.
     pinned: Vec<(usize, usize)>,
     /// Goals that are not pinned.
     open_goals: Vec<usize>,
@@ -51,14 +52,14 @@ pub struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Finds the bottleneck distance. `pinned[goal]` is the start that must go there; goals beyond its end are not
-    /// pinned. `None` where starts are fewer than goals, a place is not finite, or a pin names a missing or taken
-    /// start.
+    /// Finds the bottleneck distance. `pinned[goal]` is the start that must go there; goals beyond the end of the list
+    /// are not pinned. `None` if there are fewer starts than goals, a place is not finite, or a pin names a missing or
+    /// taken start.
     pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
         Choice::unless(Cancel::NEVER, starts, goals, pinned)
     }
 
-    /// [`Choice::new`] with a cancellation, after which it is `None`.
+    /// [`Choice::new`] with a cancellation; `None` if it is cancelled.
     pub(crate) fn unless(
         cancel: Cancel<'a>,
         starts: &[Vec2],
@@ -73,7 +74,8 @@ impl<'a> Choice<'a> {
         Some(choice)
     }
 
-    /// The choice that contains a known assignment `start_of[goal]`: no line needs to be longer than its longest.
+    /// A choice whose reach is the longest line of a known assignment `start_of[goal]`, instead of the bottleneck
+    /// distance.
     pub(crate) fn containing(
         cancel: Cancel<'a>,
         starts: &[Vec2],
@@ -154,7 +156,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// Finds assignments with the least sum of squares, for growing reach.
+/// Finds assignments with the least sum of squares for a growing limit on their longest line.
 pub struct Minimiser<'a> {
     choice: &'a Choice<'a>,
     solver: LeastSquares<'a>,
@@ -169,9 +171,9 @@ impl<'a> Minimiser<'a> {
         Self { choice, solver }
     }
 
-    /// `start_of[goal]` with the least sum of squares among assignments without a line longer than `(1 + slack)` × the
-    /// bottleneck. `slack` must not shrink from call to call. `None` where none was found, which `Choice::new` rules
-    /// out.
+    /// Returns `start_of[goal]` with the least sum of squares among assignments without a line longer than `(1 +
+    /// slack)` × the bottleneck distance. `slack` must not shrink from call to call. `None` if the search was
+    /// cancelled.
     pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;
         let column_of = self.solver.solve(choice.reach_squared * (1.0 + slack) * (1.0 + slack) * ROUNDING)?;

@@ -1,10 +1,10 @@
-//! Column duals to begin with, from coarser and coarser pictures of the same places.
+//! Initial column duals, found on ever coarser clusterings of the same places.
 //!
-//! Near the best, duals change smoothly over the floor: where a whole crowd has to move, they rise and fall by far more
-//! than a neighbour's distance, and shortest augmenting paths would have to find that one path at a time. So places
-//! are drawn together into the leaves of their k-d trees, which hold equally many on both sides; the duals of that
-//! smaller problem, solved in the same way, tell how dear every place is but for what its neighbours make of it
-//! (multiscale transport: Mérigot 2011; the duals spread to single places by the c-transform).
+//! Near the optimum, duals change smoothly over the floor. Where a whole crowd has to move, they rise and fall by far
+//! more than a neighbour's distance. Shortest augmenting paths would have to find this rise one path at a time.
+//! Therefore places are clustered by the leaves of their k-d trees, which hold equally many rows and columns. The duals
+//! of the smaller problem, solved in the same way, approximate those of single places (multiscale transport: Mérigot
+//! 2011). The c-transform spreads them to single places.
 
 use super::costs::Costs;
 use super::kdtree::{KdTree, Most, Weights};
@@ -12,25 +12,26 @@ use super::space;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Problems this small need no help.
+/// Most rows of a problem that starts without such duals.
 const SMALL: usize = 60;
 
-/// At most this many places become one. With more, the finer problem begins with duals that are too rough, and its
-/// augmenting paths grow long.
+/// Most places in a cluster. With more, the finer problem begins with duals that are too rough, and its augmenting
+/// paths grow long.
 const DRAWN_TOGETHER: usize = 3;
 
-/// Squared ways between places on the floor, or costs for which the same assignments are best, with first column duals.
+/// Returns costs for which the same assignments are best as for squared distances on the floor, with initial column
+/// duals.
 pub(super) fn costs_with_duals<'a>(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'a>) -> Costs<'a> {
     let (rows, columns) = space::common(rows, columns);
     let costs = Costs::plain(&rows, &columns, vec![0.0; columns.len()], cancel);
-    // A column left free must cost nothing: only where all are used may there be better duals than none.
+    // An unmatched column must have a dual of 0, so other duals than 0 are allowed only if all columns are matched.
     if rows.len() != columns.len() {
         return costs;
     }
     costs.with_better_duals(duals(&rows, &columns, cancel))
 }
 
-/// Duals for the columns of a problem with as many rows as columns.
+/// Returns duals for the columns of a problem with as many rows as columns.
 fn duals(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'_>) -> Vec<f64> {
     if rows.len() <= SMALL {
         return vec![0.0; columns.len()];

@@ -5,11 +5,11 @@ use crate::cancel::Cancel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A partial assignment that is optimal for the rows it holds: no edge has a reduced cost (cost − row dual − column
-/// dual) below zero, matched edges have zero, columns never used have a dual of zero.
+/// A partial assignment that is optimal for its matched rows. No edge has a reduced cost (cost − row dual − column
+/// dual) below zero. Matched edges have a reduced cost of zero, and columns never used have a dual of zero.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
-    /// `edges[row]`.
+    /// `edges[row]`: the listed edges of that row.
     edges: Vec<Edges>,
     row_duals: Vec<f64>,
     column_duals: Vec<f64>,
@@ -21,31 +21,33 @@ pub(super) struct Search {
 /// The edges of a row that are listed.
 #[derive(Clone, Debug)]
 pub(super) struct Edges {
-    /// Columns and costs, in no order.
+    /// Columns and costs of the edges, in no order.
     pub list: Vec<(u32, f64)>,
-    /// No edge that may be used and is not listed costs less than this after column duals. That stays true while
+    /// Lower bound on the cost minus column dual of all allowed edges that are not listed. The bound stays true while
     /// column duals fall.
     pub complete_below: f64,
 }
 
-/// The state of one search for a path, cleared by `touched`.
+/// The state of one search for a path. It is cleared through `touched`.
 #[derive(Clone, Debug)]
 struct Scratch {
-    /// `distance[column]`: length of the shortest path known; infinite where none is.
+    /// `distance[column]`: length of the shortest known path to it; infinite if there is none.
     distance: Vec<f64>,
-    /// `from[column]`: the row that path comes from.
+    /// `from[column]`: the last row on the shortest known path to that column.
     from: Vec<u32>,
     touched: Vec<u32>,
-    /// Columns whose shortest path is settled, in order.
+    /// Columns whose shortest path is known, in order of its length.
     settled: Vec<u32>,
-    /// Columns to be settled that are no farther than the last one.
+    /// Columns to be settled next, at the same distance as the last settled one.
     level: Vec<u32>,
-    /// The other paths to be settled, by length (bits of a float that is not negative order as it does), then column.
+    /// The other columns to be settled, by path length, then by index. Lengths are the bits of a float; these order
+    /// like the floats, because no length is negative.
     heap: BinaryHeap<Reverse<(u64, u32)>>,
 }
 
 impl Scratch {
-    /// The nearest column not settled and nearer than `below`; now it is settled.
+    /// Returns the nearest column that is not settled, and counts as settled from then on; `None` if none is nearer
+    /// than `below`.
     fn next(&mut self, below: f64) -> Option<u32> {
         if let Some(column) = self.level.pop() {
             return Some(column);
@@ -98,7 +100,8 @@ impl Search {
         &self.column_duals
     }
 
-    /// Adds edges a row does not have yet; whether one of them is so cheap that the row must be reopened.
+    /// Adds edges that a row does not have yet. Returns whether one of them is cheap enough that the row must be
+    /// reopened.
     pub fn add(&mut self, row: usize, edges: impl Iterator<Item = (u32, f64)>) -> bool {
         let (list, dual) = (&mut self.edges[row].list, self.row_duals[row]);
         let before = list.len();
@@ -112,7 +115,7 @@ impl Search {
         undercuts
     }
 
-    /// See [`Edges::complete_below`].
+    /// Returns the row's [`Edges::complete_below`].
     pub fn complete_below(&self, row: usize) -> f64 {
         self.edges[row].complete_below
     }
@@ -121,15 +124,15 @@ impl Search {
         self.edges[row].complete_below = cost;
     }
 
-    /// More edges may be used from now on; `complete_below[row]` holds for all of them.
+    /// Allows further edges. Each row's bound for edges that are not listed becomes `complete_below[row]`.
     pub fn allow_more(&mut self, complete_below: &[f64]) {
         for (edges, &below) in self.edges.iter_mut().zip(complete_below) {
             edges.complete_below = below;
         }
     }
 
-    /// Keeps only edges for which `keep(row, column)` holds; the rows that lose the one they have and must be
-    /// reopened.
+    /// Removes listed edges for which `keep(row, column)` does not hold. Returns the rows whose matched edge was
+    /// removed; they must be reopened.
     pub fn retain(&mut self, keep: impl Fn(usize, u32) -> bool) -> Vec<u32> {
         let mut losers = Vec::new();
         for (row, edges) in self.edges.iter_mut().enumerate() {
@@ -142,10 +145,12 @@ impl Search {
         losers
     }
 
-    /// Takes rows out of the assignment, after their edges changed.
+    /// Unmatches rows after their edges changed. With more columns than rows, unmatches all rows and resets all column
+    /// duals.
     pub fn reopen(&mut self, rows: &[u32]) {
         if self.edges.len() < self.column_duals.len() {
-            // A column left free must cost nothing, which holds only for those never used: start again.
+            // An unmatched column must have a dual of 0, which holds only for columns never used. Therefore the search
+            // starts again.
             self.column_duals.fill(0.0);
             self.edges.iter_mut().for_each(|edges| edges.complete_below = f64::NEG_INFINITY);
             self.row_of.fill(NONE);
@@ -168,7 +173,7 @@ impl Search {
         self.row_duals[row] = least.fold(f64::INFINITY, f64::min);
     }
 
-    /// Gives every row a column, as far as the edges allow.
+    /// Matches every row with a column, as far as its edges allow.
     pub fn complete(&mut self, cancel: Cancel<'_>) {
         for row in self.bid_for_all() {
             if cancel.is_wanted() {
@@ -178,7 +183,7 @@ impl Search {
         }
     }
 
-    /// Gives most rows a column, quickly; the rows left open.
+    /// Matches most open rows with a column quickly. Returns the rows that are still open.
     fn bid_for_all(&mut self) -> Vec<u32> {
         let is_open = |&row: &u32| self.column_of[row as usize] == NONE;
         let open: Vec<u32> = (0..self.edges.len() as u32).filter(is_open).collect();
@@ -186,8 +191,8 @@ impl Search {
         self.bid(&open)
     }
 
-    /// Every open row takes its cheapest column and lowers that column's dual until its second cheapest is as good. A
-    /// row that loses its column goes on in its place (augmenting row reduction). Returns the rows left open.
+    /// Every open row takes its cheapest column, and lowers that column's dual until the second cheapest is as good. A
+    /// row that loses its column bids next (augmenting row reduction). Returns the rows that are still open.
     fn bid(&mut self, open: &[u32]) -> Vec<u32> {
         let mut left = Vec::new();
         let mut bids_left = open.len() * 8;
@@ -211,8 +216,8 @@ impl Search {
         left
     }
 
-    /// One bid of an open row; the row it took the column from. Nothing is taken where two columns are equally cheap
-    /// and the first is not free.
+    /// Makes one bid of an open row. Returns the row that lost its column, if any. If two columns are equally cheap and
+    /// the first is not free, nothing is taken.
     fn take_cheapest(&mut self, row: u32) -> Option<u32> {
         let (mut first, mut second, mut column) = (f64::INFINITY, f64::INFINITY, NONE);
         for &(candidate, cost) in &self.edges[row as usize].list {
@@ -232,7 +237,7 @@ impl Search {
             self.row_duals[row as usize] = first;
             return None;
         }
-        // A free column keeps its dual unless it is used from now on, which it is.
+        // A column's dual may fall only if the column is used, which it is from here on.
         let gain = if gain.is_finite() { gain } else { 0.0 };
         self.row_duals[row as usize] = first + gain;
         self.column_duals[column as usize] -= gain;
@@ -270,11 +275,12 @@ impl Search {
         self.clear();
     }
 
-    /// The nearest free column and its distance in reduced costs; fills the scratch.
+    /// Returns the nearest free column and its distance in reduced costs, and fills the scratch. `None` if no free
+    /// column can be reached.
     fn shortest(&mut self, root: u32) -> Option<(u32, f64)> {
         let scratch = &mut self.scratch;
         let (mut row, mut length) = (root, 0.0);
-        // The nearest free column so far: what is farther away need not be remembered.
+        // The nearest free column found up to here. Columns farther away need not be remembered.
         let (mut nearest, mut last) = (f64::INFINITY, NONE);
         loop {
             let base = length - self.row_duals[row as usize];

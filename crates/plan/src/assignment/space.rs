@@ -1,18 +1,20 @@
-//! A space in which an assignment looks like a short one.
+//! A space in which the partners of the best assignment are near each other.
 //!
-//! With as many rows as columns, the squared ways of an assignment differ from −2 Σ row · column only by a constant.
-//! That product does not change when columns are scaled by m along an axis and rows by 1/m, and moving either set
-//! changes it by a constant. So both sets are centred and brought to the same spread: the same assignment is optimal,
-//! but partners are now near each other, and a few nearest neighbours are nearly all edges that matter, even when a
-//! band along the floor's edge spreads over the whole floor.
+//! With as many rows as columns, the sum of squared distances of an assignment differs from −2 Σ row · column only by a
+//! constant. That product does not change when columns are scaled by m along an axis and rows by 1/m. Moving either set
+//! changes it by a constant. Therefore both sets are centred and scaled to the same spread, and the same assignment
+//! stays optimal. Partners are then near each other, and few edges besides those to the nearest neighbours matter. This
+//! holds even when a band along the floor's edge spreads over the whole floor.
 
 use lightbots_base::Vec2;
 
-/// Sets thinner than this, metres, are not stretched to more than [`MOST`] times.
+/// Added to the spread of a set, metres, so that thin sets are not stretched without bound; [`MOST`] is the largest
+/// factor.
 const THIN_M: f64 = 1e-6;
 const MOST: f64 = 1e3;
 
-/// Rows and columns moved and scaled to the same centre and spread. Sets of unequal size are returned as they are.
+/// Returns rows and columns moved and scaled to the same centre and spread. Sets of different sizes are returned
+/// unchanged.
 pub(super) fn common(rows: &[Vec2], columns: &[Vec2]) -> (Vec<Vec2>, Vec<Vec2>) {
     if rows.len() != columns.len() || rows.is_empty() {
         return (rows.to_vec(), columns.to_vec());
@@ -26,7 +28,7 @@ pub(super) fn common(rows: &[Vec2], columns: &[Vec2]) -> (Vec<Vec2>, Vec<Vec2>) 
     (moved(rows, row_centre, 1.0 / mx, 1.0 / my), moved(columns, column_centre, mx, my))
 }
 
-/// The mean place and the standard deviation along each axis.
+/// Returns the mean place and the standard deviation along each axis, metres.
 fn measure(places: &[Vec2]) -> (Vec2, Vec2) {
     let count = places.len() as f64;
     let centre = places.iter().fold(Vec2::ZERO, |sum, &at| sum + at) / count;

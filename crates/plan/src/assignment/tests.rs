@@ -1,4 +1,4 @@
-//! Against a dense library solver, on thousands of small floors.
+//! Compares assignments with a dense library solver on thousands of small floors.
 
 use super::*;
 use crate::seeded::Seeded;
@@ -7,7 +7,7 @@ fn squared(starts: &[Vec2], goals: &[Vec2], goal: usize, start: usize) -> f64 {
     (starts[start] - goals[goal]).length_squared()
 }
 
-/// The least sum of costs by a dense solver; infinite where forbidden edges (infinite) cannot be avoided.
+/// The least sum of costs by a dense solver; infinite if forbidden edges, which have infinite costs, cannot be avoided.
 fn oracle(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> f64) -> f64 {
     let costs: Vec<f64> = (0..rows * columns)
         .map(|edge| cost(edge / columns, edge % columns))
@@ -18,7 +18,7 @@ fn oracle(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> f64) -> f6
     if sum >= 1e6 { f64::INFINITY } else { sum }
 }
 
-/// The bottleneck by trying every distance that occurs.
+/// The bottleneck distance, found by trying every distance that occurs.
 fn oracle_bottleneck(starts: &[Vec2], goals: &[Vec2], allowed: &dyn Fn(usize, usize) -> bool) -> f64 {
     let mut all: Vec<f64> = (0..goals.len())
         .flat_map(|goal| (0..starts.len()).map(move |start| (goal, start)))

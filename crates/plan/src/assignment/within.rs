@@ -1,22 +1,23 @@
-//! Columns within reach of a row that a search for a matching has not used yet.
+//! Columns within reach of a row that a search for a matching has not seen yet.
 
 use super::kdtree::{KdTree, Remaining};
 use super::partner::NONE;
 use lightbots_base::Vec2;
 
-/// Where rows have more columns than this within reach, on average, they are not listed: the k-d tree hands them out.
+/// Most columns within reach of a row, on average, for which they are listed. With more, the k-d tree is searched
+/// instead.
 const LISTED_MOST: usize = 64;
 
-/// Hands out columns, each once.
+/// Yields columns near rows, each column once until it is put back.
 pub(super) enum Within<'a> {
-    /// What is within reach of each row was listed.
+    /// The columns within reach of each row are listed.
     Listed(Listed),
-    /// It is looked up in a tree.
+    /// Columns are looked up in a k-d tree.
     Tree(InTree<'a>),
 }
 
 impl<'a> Within<'a> {
-    /// For no reach greater than this.
+    /// Prepares for searches up to this squared reach, square metres.
     pub fn new(rows: &'a [Vec2], columns: &[Vec2], reach_squared: f64) -> Self {
         let tree = KdTree::new(columns);
         match Listed::new(rows, &tree, reach_squared) {
@@ -25,7 +26,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Starts again: columns without a row are free, the others not seen yet.
+    /// Starts again: unmatched columns are free, matched ones unseen.
     pub fn reset(&mut self, row_of: &[u32]) {
         match self {
             Self::Listed(listed) => {
@@ -39,7 +40,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Takes a free column no farther from a row than the root of `reach_squared`.
+    /// Takes a free column whose squared distance from a row is at most `reach_squared`.
     pub fn take_free(&mut self, row: u32, reach_squared: f64) -> Option<u32> {
         match self {
             Self::Listed(listed) => {
@@ -53,7 +54,8 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Takes all columns not seen yet that are no farther from a row.
+    /// Takes all unseen matched columns whose squared distance from a row is at most `reach_squared`, and adds them to
+    /// `seen`.
     pub fn drain(&mut self, row: u32, reach_squared: f64, seen: &mut Vec<u32>) {
         match self {
             Self::Listed(listed) => {
@@ -70,7 +72,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// A column that was taken counts as not seen yet.
+    /// Marks a matched column that was taken as unseen again.
     pub fn put(&mut self, column: u32) {
         match self {
             Self::Listed(listed) => listed.states[column as usize] = State::Unseen,
@@ -78,7 +80,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// The squared distance of the nearest column that is there, or `bound` where none is nearer.
+    /// Returns the squared distance from a row to the nearest column that is not taken, or `bound` if none is nearer.
     pub fn nearest_squared(&self, row: u32, bound: f64) -> f64 {
         match self {
             Self::Listed(listed) => {
@@ -104,12 +106,13 @@ enum State {
 
 pub(super) struct Listed {
     near: Near,
-    /// `[column]`.
+    /// `[column]`: its state.
     states: Vec<State>,
 }
 
 impl Listed {
-    /// `None` where that would be too much.
+    /// Lists the columns within reach of each row; `None` if there are more than [`LISTED_MOST`] for each row on
+    /// average.
     fn new(rows: &[Vec2], tree: &KdTree, reach_squared: f64) -> Option<Self> {
         let mut near = Near { first: vec![0], columns: Vec::new(), squares: Vec::new() };
         let mut found = Vec::new();
@@ -129,10 +132,10 @@ impl Listed {
 
 /// The columns near each row, nearest first.
 struct Near {
-    /// `first[row]..first[row + 1]` are a row's.
+    /// `first[row]..first[row + 1]`: range of a row's entries in `columns` and `squares`.
     first: Vec<usize>,
     columns: Vec<u32>,
-    /// Their squared distances.
+    /// Squared distances of these columns from the row, square metres.
     squares: Vec<f64>,
 }
 

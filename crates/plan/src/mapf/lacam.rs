@@ -1,7 +1,7 @@
-//! Lazy constraints addition search over configurations of all robots (LaCAM; Okumura 2023). It goes depth first from
-//! one configuration to the next that [`Pibt`] makes. Where that is known already, constraints send single
-//! robots to other nodes, one constraint more each time. Without its bound on work, the search is complete on the
-//! nodes.
+//! Lazy constraints addition search over configurations of all robots (LaCAM; Okumura 2023). The search goes depth
+//! first: [`Pibt`] generates the next configuration from the current one. If that configuration is known already,
+//! constraints force single robots to other nodes, one constraint more each time. Without its bound on work, the search
+//! is complete on the graph.
 
 use std::collections::BTreeMap;
 use std::collections::VecDeque;
@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use crate::mapf::pibt::{ConflictRule, Constraint, Pibt};
 use crate::roads::graph::NONE;
 
-/// Steps of robots before the search gives up.
+/// Bound on the work of a search, in robots times expanded configurations.
 const MOST_WORK: usize = 1_500_000;
 
 /// A configuration that has been reached.
@@ -18,13 +18,15 @@ struct SearchNode {
     from: usize,
     /// Robots by urgency, the most urgent first.
     ranks: Vec<usize>,
-    /// Priority of each robot: steps since it was last at its goal, and a share for its first cost.
+    /// Priority of each robot: the steps since it was last at its goal, plus a share from 0 to 1 by the cost from its
+    /// start.
     urgency: Vec<f64>,
     /// Constraints not tried yet, breadth first.
     constraints: VecDeque<Vec<Constraint>>,
 }
 
-/// `[step][robot]`: nodes from `starts` until all robots with a goal are there; `None` where none were found.
+/// `[step][robot]`: nodes from `starts` until all robots with a goal are at it. `None` if there is no path, or the
+/// search is over its bound or cancelled.
 pub(crate) fn search(
     pibt: &mut Pibt<'_, impl ConflictRule>,
     starts: &[u32],
@@ -77,7 +79,7 @@ impl SearchNode {
         Self { nodes, from, ranks, urgency, constraints: VecDeque::from([Vec::new()]) }
     }
 
-    /// Adds each constraint on the next robot by priority to the constraints given.
+    /// Extends `constraints` by one constraint on the next robot by priority, once for each node that it may go to.
     fn branch(&mut self, rule: &impl ConflictRule, constraints: &[Constraint]) {
         let Some(&robot) = self.ranks.get(constraints.len()) else { return };
         let here = self.nodes[robot];
@@ -124,7 +126,7 @@ mod tests {
         Lattice::new(&Instance::new(&problem, &[]).unwrap(), 0.072).unwrap()
     }
 
-    /// No two robots share a node, swap, or follow around a sharp corner.
+    /// Asserts that no two robots share a node, swap, or follow each other around a sharp corner.
     fn assert_legal(lattice: &Lattice, steps: &[Vec<u32>]) {
         for pair in steps.windows(2) {
             for (a, (&a0, &a1)) in pair[0].iter().zip(&pair[1]).enumerate() {

@@ -1,5 +1,6 @@
-//! The conflict rule of the hexagonal lattice. A robot may follow another into its node only where the two directions
-//! differ by at most 60°. Then centres stay 0.86 pitches apart on the way, otherwise half a pitch.
+//! The conflict rule of the hexagonal lattice. A robot may follow another into the node that the other leaves only if
+//! their directions differ by at most 60°. Then their centres stay 0.86 pitches apart on the way; in other cases only
+//! half a pitch.
 
 use crate::cancel::Cancel;
 use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};
@@ -10,25 +11,25 @@ use crate::roads::lattice::Lattice;
 const NO_ROBOT: u32 = u32::MAX;
 /// Direction of a robot that stays.
 const STAYS: u8 = 6;
-/// Most robots × nodes whose steps to goals are kept, two bytes each: a gigabyte.
+/// Largest product of robots and nodes: the steps to goals take two bytes for each, a gigabyte in all.
 const MOST_STEPS: usize = 1 << 29;
-/// Bounds on the work. There are no pairs of robots to look at: nodes say which robot is there.
+/// Bounds on the work. Pairs of robots are not checked, because each node knows its robot.
 const BOUNDS: PibtBounds = PibtBounds { tries: 600, pushed: 500, looks: usize::MAX };
-/// Cost of a node with a robot, in steps: it decides between nodes with as many steps left.
+/// Cost of a node with a robot on it, in steps. It decides between nodes with equally many steps left.
 const TAKEN: f64 = 0.5;
-/// Cost of each metre to the goal, in steps: it decides between nodes that are alike in all else.
+/// Cost of each metre to the goal, in steps. It decides between nodes that are otherwise equal.
 const METRE: f64 = 1e-3;
 
 /// Where robots are on the lattice, and how far from their goals.
 pub(crate) struct LatticeRule<'a> {
     lattice: &'a Lattice,
-    /// `[robot]`: its goal; [`NONE`]: it only makes way.
+    /// `[robot]`: its goal; [`NONE`] if the robot only makes way.
     goals: &'a [u32],
-    /// `[robot][node]`: steps to its goal; empty without a goal.
+    /// `[robot][node]`: number of steps to the robot's goal; empty for a robot without a goal.
     steps: Vec<Vec<u16>>,
-    /// `[robot]`: where it goes, if that is decided.
+    /// `[robot]`: direction of its decided move; meaningless while the move is undecided.
     direction: Vec<u8>,
-    /// `[node]`: the robot that is there before the step, and after it.
+    /// `[node]`: the robot on it before the step; `holder_next`: after the step. [`NO_ROBOT`] if there is none.
     holder_now: Vec<u32>,
     holder_next: Vec<u32>,
 }
@@ -77,7 +78,7 @@ impl ConflictRule for LatticeRule<'_> {
         if steps == u16::MAX { f64::INFINITY } else { f64::from(steps) }
     }
 
-    /// Steps left, then whether a robot stands there, then the straight distance to the goal.
+    /// Compares the steps left first, then whether a robot is on the node, then the straight distance to the goal.
     fn reluctance(&self, moves: &Moves, robot: usize, node: u32) -> f64 {
         let moves_away = node != moves.now[robot];
         let is_taken = moves_away && self.holder_now[node as usize] != NO_ROBOT;

@@ -1,5 +1,5 @@
-//! One step of all robots on a graph: priority inheritance with backtracking (PIBT; Okumura et al. 2022). What counts as a
-//! conflict is a rule of its own for each graph.
+//! One step of all robots on a graph: priority inheritance with backtracking (PIBT; Okumura et al. 2022). A
+//! [`ConflictRule`] for each kind of graph defines which moves conflict.
 
 use crate::cancel::Cancel;
 use crate::roads::graph::NONE;
@@ -7,30 +7,32 @@ use crate::roads::graph::NONE;
 /// A low-level constraint: the robot must go to the node in this step.
 pub(crate) type Constraint = (usize, u32);
 
-/// Says which moves conflict, and which are better.
+/// Defines which moves conflict, and which of them are better.
 pub(crate) trait ConflictRule {
-    /// Nodes that a robot may go to from a node, without the node itself.
+    /// Returns the nodes to which a robot may go from a node, without the node itself.
     fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
 
-    /// Cost of a robot from a node to its goal; infinite where there is no path, 0 without a goal.
+    /// Returns the cost of a robot's path from a node to its goal: infinite if there is no path, 0 for a robot without
+    /// a goal.
     fn far(&self, robot: usize, node: u32) -> f64;
 
-    /// Cost of a move: the least is tried first.
+    /// Returns the cost of a move. Moves are tried in ascending order of cost.
     fn reluctance(&self, moves: &Moves, robot: usize, node: u32) -> f64;
 
-    /// Begins a step from a configuration. Returns the looks at pairs of robots that it took.
+    /// Begins a step from a configuration. Returns the number of pairs of robots checked for it.
     fn begin(&mut self, now: &[u32]) -> usize;
 
-    /// Adds the robots that must make way for a move; `false` where it conflicts with a decided move.
+    /// Adds to `must_make_way` the undecided robots that must make way for a move. Returns `false` if the move
+    /// conflicts with a decided one.
     fn may_go(&self, moves: &Moves, robot: usize, node: u32, must_make_way: &mut Vec<usize>) -> bool;
 
-    /// A move is decided.
+    /// Records a decided move.
     fn decide(&mut self, _moves: &Moves, _robot: usize, _node: u32) {}
 
-    /// A decided move is taken back.
+    /// Takes back a decided move.
     fn undo(&mut self, _robot: usize, _node: u32) {}
 
-    /// Looks at pairs of robots that a look at a move of a robot costs.
+    /// Returns the number of pairs that one call of [`Self::may_go`] for a robot checks.
     fn looks(&self, robot: usize) -> usize;
 }
 
@@ -51,27 +53,27 @@ impl Moves {
 /// Bounds on the work of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PibtBounds {
-    /// Most moves tried for one robot and all that it pushes.
+    /// Most moves tried for one robot and all robots that it pushes.
     pub tries: usize,
-    /// Longest row of robots that one may push.
+    /// Longest chain of robots in which each pushes the next.
     pub pushed: usize,
-    /// Looks at pairs of robots.
+    /// Most checks of pairs of robots.
     pub looks: usize,
 }
 
-/// Memory of a step; kept between steps.
+/// Generates steps of all robots; its buffers are kept between steps.
 pub(crate) struct Pibt<'a, Rule> {
     pub rule: Rule,
     bounds: PibtBounds,
     cancel: Cancel<'a>,
     moves: Moves,
-    /// Decided robots, in order.
+    /// Robots with a decided move, in order of decision.
     decided: Vec<usize>,
-    /// Robots that must make way, of all robots that wait for the decisions of others.
+    /// Stack of the robots that must make way, for all robots whose decision is pending.
     must_make_way: Vec<usize>,
-    /// Moves that a robot may choose, of all robots that wait for the decisions of others.
+    /// Stack of possible moves as (cost, node), for all robots whose decision is pending.
     choices: Vec<(f64, u32)>,
-    /// Moves that may still be tried for this robot.
+    /// Number of moves that may still be tried for the current robot and those that it pushes.
     tries: usize,
 }
 
@@ -89,13 +91,13 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         }
     }
 
-    /// Whether the granted work is used up, or the planner is cancelled.
+    /// Whether the checks of pairs are used up, or the planner is cancelled.
     pub fn is_spent(&self) -> bool {
         self.bounds.looks == 0 || self.cancel.is_wanted()
     }
 
-    /// The configuration after one step from `now`, in which robots earlier in `ranks` choose first and `constraints`
-    /// are kept; `None` where they cannot be kept.
+    /// Returns the configuration after one step from `now`. Robots earlier in `ranks` choose first. `None` if the step
+    /// cannot keep all `constraints`.
     pub fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>> {
         self.moves.now.copy_from_slice(now);
         let looks = self.rule.begin(now);
@@ -106,7 +108,7 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         next
     }
 
-    /// Looks that are left.
+    /// Returns how many checks of pairs are left.
     pub fn looks_left(&self) -> usize {
         self.bounds.looks
     }
@@ -117,7 +119,7 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         self.decided.push(robot);
     }
 
-    /// Takes back all decisions but the first ones.
+    /// Takes back all decisions but the first `kept` ones.
     fn undo(&mut self, kept: usize) {
         while self.decided.len() > kept {
             let Some(robot) = self.decided.pop() else { return };
@@ -126,7 +128,8 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         }
     }
 
-    /// Decides a move and those of all robots that must make way for it, or nothing.
+    /// Decides a move and the moves of all robots that must make way for it. If one of them cannot, decides nothing and
+    /// returns `false`.
     fn go(&mut self, robot: usize, node: u32, depth: usize) -> bool {
         self.bounds.looks = self.bounds.looks.saturating_sub(self.rule.looks(robot));
         let first = self.must_make_way.len();
@@ -151,7 +154,8 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         done
     }
 
-    /// Lets a robot choose, and then the robots in its way. Returns whether there was a choice.
+    /// Decides the cheapest possible move of a robot, together with the moves of the robots in its way. Returns whether
+    /// one was possible.
     fn choose(&mut self, robot: usize, depth: usize) -> bool {
         let (here, first) = (self.moves.now[robot], self.choices.len());
         let (rule, moves) = (&self.rule, &self.moves);
@@ -164,10 +168,10 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         done
     }
 
-    /// Decides the moves of a step; `None` where constraints cannot be kept.
+    /// Decides the moves of all robots in a step; `None` if the constraints cannot be kept.
     fn decide_all(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<()> {
-        // Constraints first, and then the robots in their way: with a constraint for each robot, every legal step is
-        // made.
+        // Constraints come first, and then the robots in their way. With a constraint for each robot, every legal step
+        // can be generated.
         let mut must_make_way = Vec::new();
         for &(robot, node) in constraints {
             let may_go = self.rule.may_go(&self.moves, robot, node, &mut must_make_way);
@@ -182,7 +186,8 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         for &robot in ranks {
             self.tries = self.bounds.tries;
             if !self.moves.is_decided(robot) && !self.choose(robot, 0) {
-                // No decided robot comes near one that stays.
+                // The robot stays. This is safe: a decided move conflicts with no robot that stays, or that robot would
+                // have had to make way.
                 self.decide(robot, now[robot]);
             }
         }

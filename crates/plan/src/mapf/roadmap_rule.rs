@@ -1,5 +1,5 @@
-//! The conflict rule of a roadmap: exact distances. All robots of a step leave, drive and arrive together, so their relative
-//! motion is a straight line, and its least distance from the origin is exact.
+//! The conflict rule of a roadmap: exact distances. All robots of a step leave, drive and arrive together. The relative
+//! motion of two robots is therefore a straight line, and its least distance from the origin is exact.
 
 use crate::instance::Instance;
 use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};
@@ -8,37 +8,37 @@ use crate::roads::roadmap::Roadmap;
 use lightbots_base::Vec2;
 use lightbots_base::shape::point_to_segment_squared;
 
-/// Most moves tried for one robot and all that it pushes.
+/// Most moves tried for one robot and all robots that it pushes.
 const MOST_TRIES: usize = 600;
-/// Longest row of robots that one may push.
+/// Longest chain of robots in which each pushes the next.
 const MOST_PUSHED: usize = 200;
-/// Cost of one node in the search for all distances, in looks at pairs.
+/// Cost of one node in the search for one robot's distances, in checks of pairs.
 const LOOKS_A_NODE: usize = 10;
-/// Pairs of robots whose distance costs as much as a look at their moves.
+/// Number of pairs of robots whose distance costs as much as one check of a pair's moves.
 const LOOKS_A_PAIR: usize = 8;
-/// Cost of pushing a robot, metres.
+/// Cost of a move to a node on which another robot is, metres.
 const PUSH_M: f64 = 0.02;
-/// Cost of a metre of a move, beside its cost to the end: it decides between nodes as far from there.
+/// Cost of each metre of a move. It decides between nodes that are equally far from the robot's end.
 const METRE: f64 = 1e-3;
 
-/// How far robots are from their ends on a roadmap, and which may be in each other's way.
+/// Distances of robots from their ends on a roadmap, and the pairs of robots that may conflict in a step.
 pub(crate) struct RoadmapRule<'a> {
     instance: &'a Instance<'a>,
     roads: &'a Roadmap,
     /// `[robot][node]`: cost to its end.
     far_m: Vec<Vec<f64>>,
-    /// `[robot]`: robots that may be in its way in this step.
+    /// `[robot]`: robots close enough to conflict with it in this step.
     near: Vec<Vec<usize>>,
 }
 
-/// A step generator for all robots of an instance, and this many looks at pairs.
+/// A step generator for all robots of an instance, with a budget of `looks` checks of pairs.
 pub(crate) fn roadmap_pibt<'a>(
     instance: &'a Instance<'a>,
     roads: &'a Roadmap,
     looks: usize,
 ) -> Pibt<'a, RoadmapRule<'a>> {
     let robots = instance.robots();
-    // The search for all distances costs about as much as a few looks for each node.
+    // The search for the distances uses part of the budget.
     let looks = looks.saturating_sub(robots * roads.places.len() * LOOKS_A_NODE);
     let far_m = |robot: usize| match instance.cancel.is_wanted() {
         true => vec![f64::INFINITY; roads.places.len()],
@@ -60,7 +60,7 @@ impl RoadmapRule<'_> {
         self.instance.cancel.is_wanted()
     }
 
-    /// Whether two moves `(robot, from, to)` keep their distance at the same time.
+    /// Whether two moves `(robot, from, to)` in the same step keep the distance that their robots must keep.
     pub fn are_apart(&self, a: (usize, u32, u32), b: (usize, u32, u32)) -> bool {
         let place = |node: u32| self.roads.place(node);
         let (begin, end) = (place(a.1) - place(b.1), place(a.2) - place(b.2));
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_step_that_is_ordered_whole_is_made_as_ordered_or_not_at_all() {
-        // Three robots so close in a ring that they can only move together.
+        // Three robots in a ring, too close to move other than together.
         let place = |third: i32| Vec2::unit(f64::from(third) * std::f64::consts::TAU / 3.0) * 0.068;
         let instance = instance((0..3).map(place).collect(), (1..4).map(place).collect());
         let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();

@@ -1,25 +1,25 @@
 //! Shortens a solution of the depth-first search. One robot after the other searches its cheapest path through space
-//! and time while all others keep theirs; steps without a move are removed. The solution never gets worse.
+//! and time while all others keep their paths. Then steps without a move are removed. The solution never gets worse.
 
 use crate::mapf::pibt::ConflictRule;
 use crate::mapf::roadmap_rule::RoadmapRule;
 use crate::roads::graph::Graph;
 use crate::roads::roadmap::Roadmap;
 
-/// Rounds over all robots.
+/// Most rounds over all robots.
 const ROUNDS: usize = 4;
-/// Pairs of moves that are looked at in all rounds.
+/// Most checks of pairs of moves in all rounds.
 const MOST_LOOKS: usize = 30_000_000;
-/// Cost of a step of standing away from the end.
+/// Cost of a step in which the robot waits away from its end.
 const WAIT: f64 = 1.0;
-/// Cost of a move: above [`WAIT`], so that robots do not move in vain.
+/// Cost of a move. It exceeds [`WAIT`], so that robots do not move in vain.
 const MOVE: f64 = 1.5;
 /// Cost of each metre of a move.
 const METRE: f64 = 4.0;
 /// Marks a node that was not reached.
 const NOWHERE: u32 = u32::MAX;
 
-/// A solution with the same first and last configuration, in at most as many steps.
+/// Returns a solution with the same first and last configuration for robots with an end, in at most as many steps.
 pub(crate) fn shorten(rule: &RoadmapRule, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut looks = MOST_LOOKS;
     for _ in 0..ROUNDS {
@@ -40,7 +40,7 @@ pub(crate) fn shorten(rule: &RoadmapRule, roads: &Roadmap, mut steps: Vec<Vec<u3
     steps
 }
 
-/// The search of one robot among the paths of all others.
+/// The search for one robot's path among the paths of all others.
 struct SingleRobotSearch<'a> {
     rule: &'a RoadmapRule<'a>,
     roads: &'a Roadmap,
@@ -50,7 +50,7 @@ struct SingleRobotSearch<'a> {
 }
 
 impl SingleRobotSearch<'_> {
-    /// `[step]`: the node of the cheapest path; `None` where `looks` are used up.
+    /// `[step]`: the node of the cheapest path. `None` if there is no path, or `looks` are used up.
     fn best(&mut self) -> Option<Vec<u32>> {
         let nodes = self.roads.places.len();
         let last = self.steps.len() - 1;
@@ -74,7 +74,8 @@ impl SingleRobotSearch<'_> {
         (!path.contains(&NOWHERE)).then_some(path)
     }
 
-    /// Cost of being at each node after a step, and the node before.
+    /// Returns for each node the least cost of being there after a step, and the node before it. `None` if `looks` are
+    /// used up.
     fn spread(&mut self, step: usize, costs: &[f64]) -> Option<(Vec<f64>, Vec<u32>)> {
         let mut after = vec![f64::INFINITY; costs.len()];
         let mut from = vec![NOWHERE; costs.len()];
@@ -124,7 +125,7 @@ mod tests {
             Instance::new(&TransitionProblem { starts, goals, ..floor }, &[Some(0), Some(1)]).unwrap();
         let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();
         let pibt = roadmap_pibt(&instance, &roads, usize::MAX);
-        // The first robot drives far around the second, there and back and there again.
+        // The first robot drives far around the second, back, and around it again.
         let mut path = vec![roads.starts[0]];
         let far_m = pibt.rule.far(0, path[0]);
         let node = |x: f64, y: f64| {

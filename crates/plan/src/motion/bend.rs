@@ -16,7 +16,7 @@ pub(crate) struct Displacements {
 impl Displacements {
     /// Adds `offset` at a moment; near moments share a knot.
     pub(crate) fn push(&mut self, at: Span, offset: Vec2) {
-        // The wire carries whole milliseconds without loss.
+        // Messages carry whole milliseconds without loss.
         let at_us = at.0 / 1000 * 1000;
         let rank = self.knots.partition_point(|knot| knot.0 < at_us);
         let near = |rank: usize| self.knots.get(rank).is_some_and(|knot| (knot.0 - at_us).abs() < APART_US);
@@ -29,7 +29,7 @@ impl Displacements {
         }
     }
 
-    /// `path` with these displacements. It keeps its rest, its end and its duration.
+    /// Returns `path` with these displacements. Its rest, its ends and its duration stay the same.
     pub(crate) fn applied_to(&self, path: &Path) -> Path {
         let rest = path
             .pieces
@@ -67,7 +67,7 @@ impl Displacements {
     }
 }
 
-/// The part `from_us..to_us` of a cubic that lasts `begin_us..end_us`.
+/// Control points of the part `from_us..to_us` of a cubic that lasts from `begin_us` to `end_us`.
 fn part(curve: [Vec2; 4], begin_us: i64, end_us: i64, from_us: i64, to_us: i64) -> [Vec2; 4] {
     let (mut curve, length) = (curve, (end_us - begin_us) as f64);
     if to_us < end_us {
@@ -79,7 +79,7 @@ fn part(curve: [Vec2; 4], begin_us: i64, end_us: i64, from_us: i64, to_us: i64) 
     curve
 }
 
-/// A cubic before and after the parameter `u`.
+/// Splits a cubic at the parameter `u` into the parts before and after it (de Casteljau).
 fn halves([a, b, c, d]: [Vec2; 4], u: f64) -> ([Vec2; 4], [Vec2; 4]) {
     let (ab, bc, cd) = (a.lerp(b, u), b.lerp(c, u), c.lerp(d, u));
     let (abc, bcd) = (ab.lerp(bc, u), bc.lerp(cd, u));

@@ -1,9 +1,10 @@
-//! Paths that are begun later.
+//! Paths with delayed starts.
 
 use crate::Path;
 use lightbots_base::{Piece, Span};
 
-/// The paths begun later by these delays; all end together.
+/// Delays the start of each path by `delays[robot]`. All results last equally long: as the longest path, or until the
+/// last delayed robot arrives.
 pub(crate) fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     let driving = paths.iter().zip(delays).filter(|(path, _)| !path.as_ref().rests());
     let latest = driving.map(|(path, delay)| ends(path) + *delay);
@@ -24,7 +25,7 @@ pub(crate) fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     paths.iter().zip(delays).map(later).collect()
 }
 
-/// Moment after which a path rests.
+/// Moment from which a path rests until its end; 0 if it never moves.
 pub(crate) fn ends(path: &Path) -> Span {
     let moving = path.as_ref().timed().filter(|(from, _, piece)| !piece.is_rest(*from));
     moving.map(|(_, begin, piece)| begin + piece.duration).last().unwrap_or(Span::ZERO)

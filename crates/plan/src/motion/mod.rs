@@ -23,9 +23,9 @@ pub(crate) fn quarter_turn(limits: &Limits) -> Span {
     turn_time(core::f64::consts::FRAC_PI_2, limits)
 }
 
-/// `seconds` rounded up to whole milliseconds, at least zero: the wire carries them without loss.
+/// `seconds` rounded up to whole milliseconds, at least zero: messages carry whole milliseconds without loss.
 pub(crate) fn whole_millis(seconds: f64) -> Span {
-    // A little less, so that a whole number stays the same.
+    // Subtracts a little first, so that rounding errors do not lift a whole number to the next.
     let millis = (seconds * 1e3 - 1e-6).clamp(0.0, 1e12);
     Span::from_millis(millis.ceil() as i64)
 }

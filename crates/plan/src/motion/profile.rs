@@ -38,12 +38,12 @@ impl Profile {
         Self { rest, beats }
     }
 
-    /// The same progress without the rest.
+    /// The profile without its rest.
     pub(crate) fn without_rest(self) -> Self {
         Self { rest: Span::ZERO, ..self }
     }
 
-    /// Duration with the rest.
+    /// Duration of the profile, including its rest.
     pub(crate) fn duration(&self) -> Span {
         self.beats.iter().fold(self.rest, |sum, beat| sum + beat.duration)
     }
@@ -69,7 +69,7 @@ impl Profile {
         Self { rest: self.rest, beats }
     }
 
-    /// The line from `from` to `to` with this progress.
+    /// The timed path on the straight line from `from` to `to` with this progress.
     pub(crate) fn path(&self, from: Vec2, to: Vec2) -> Path {
         let total = self.duration();
         if from == to {
@@ -95,12 +95,12 @@ fn along(from: Vec2, to: Vec2, share: f64) -> Vec2 {
     if share >= 1.0 { to } else { from.lerp(to, share) }
 }
 
-/// A trapezoid of speed: two ramps of equal length and a cruise, which short lines do without.
+/// A trapezoid of speed: two ramps of equal length, with a cruise between them unless the line is short.
 fn swift(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     let short = length_m * accel < speed * speed;
     let ramp = whole_millis(if short { (length_m / accel).sqrt() } else { speed / accel });
     let cruise = if short { Span::ZERO } else { whole_millis(length_m / speed - ramp.as_secs()) };
-    // Progress in a ramp is half of that of a cruise as long.
+    // A ramp makes half the progress of a cruise of the same duration.
     let unit = (ramp + cruise).as_secs();
     let (ramp_gain, cruise_gain) = (0.5 * ramp.as_secs() / unit, cruise.as_secs() / unit);
     let brake = ramp_gain + cruise_gain;

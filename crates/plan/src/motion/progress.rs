@@ -3,7 +3,7 @@
 use lightbots_base::Limits;
 use lightbots_show::Easing;
 
-/// Share of the path that lies behind a robot at each moment.
+/// Share of its path that a robot has driven at each moment. It is the same for all robots.
 pub(crate) struct ProgressLaw {
     /// Duration, seconds.
     pub drive_s: f64,
@@ -11,7 +11,7 @@ pub(crate) struct ProgressLaw {
 }
 
 impl ProgressLaw {
-    /// The fastest legal progress on the longest path, slowed down by `stretch`.
+    /// The fastest legal progress on the longest path, at least 0.4 s, with its duration multiplied by `stretch`.
     pub fn new(longest_m: f64, limits: &Limits, easing: Easing, stretch: f64) -> Self {
         let (speed, accel) = (limits.speed_mps, limits.accel_mps2);
         let halves = 2.0 * (longest_m / accel).sqrt();
@@ -37,7 +37,7 @@ impl ProgressLaw {
         self.ramp_s
     }
 
-    /// Progress a second, after `t` seconds.
+    /// Progress per second after `t` seconds.
     pub fn rate(&self, t: f64) -> f64 {
         let top = 1.0 / (self.drive_s - self.ramp_s);
         top * (t.min(self.drive_s - t) / self.ramp_s).clamp(0.0, 1.0)

@@ -1,5 +1,5 @@
 //! Timed stop-and-go paths. In each step all robots that move leave and arrive together, after a rest in which they
-//! turn. They share one progress, so each is on the straight line that the search has looked at.
+//! turn. They share one progress, so their relative motion is the straight line that the search has checked.
 
 use lightbots_base::{Piece, Span, Vec2};
 use lightbots_show::Easing;
@@ -8,13 +8,13 @@ use super::{Profile, quarter_turn};
 use crate::instance::Instance;
 use crate::{Path, Repaired};
 
-/// Factor on the time that the limits ask for.
+/// Factor on the times of turns and the lengths of moves, which leaves a small margin to the limits.
 const EASE: f64 = 1.002;
 
-/// A turn of this much or more needs the whole [`SETTLING_S`], because a controller slows down near its new
-/// direction.
+/// Angle from which a turn needs the whole [`SETTLING_S`], radians: a controller slows down near its new direction.
 const SETTLING_RAD: f64 = 0.2;
-/// Time that a turn takes longer, seconds: a robot that leaves earlier is 7 mm off its line.
+/// Additional time of a turn, in which the controller settles, seconds: a robot that leaves earlier is 7 mm off its
+/// line.
 const SETTLING_S: f64 = 0.18;
 
 /// The paths through `waypoints[step][robot]` in the asked duration or more; `None` where a path has too many pieces.
@@ -58,7 +58,7 @@ impl Step {
     }
 }
 
-/// The least time of each step.
+/// Finds the shortest rest and drive of each step within the limits.
 fn timed(instance: &Instance, waypoints: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
     let limits = &instance.limits;
     let mut headings: Vec<Option<Vec2>> = vec![None; instance.robots()];

@@ -1,4 +1,4 @@
-//! Gives each robot its prescribed way, and asks the proof.
+//! Gives each robot its way, which is its path in a prescribed drive, and checks the drive with the proof.
 
 use std::collections::BTreeMap;
 
@@ -14,14 +14,15 @@ use crate::problem::ASKED_SLACK_S;
 use crate::proof::{Fault, FaultKind, Proof, ProofInput, prove_unless};
 use crate::{Closest, Infeasible, Path, Transition, TransitionProblem};
 
-/// Farthest that a robot may stand from the begin of its way, metres: robots arrive within this.
+/// Greatest distance of a robot from the beginning of its way, metres: robots arrive at places within this.
 const NEAR_START_M: f64 = 0.006;
-/// Farthest that a pixel may be from the end of its way, metres: files round places to a tenth of a millimetre.
+/// Greatest distance of a pixel from the end of its way, metres: files round places to a tenth of a millimetre.
 const NEAR_GOAL_M: f64 = 0.001;
 /// Shares of the asked delay that are tried, one after the other.
 const DELAY_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 
-/// The prescribed drive. `Err(None)`: robots or pixels are not where it leads from and to.
+/// Plans the prescribed drive. `Err(None)` if robots or pixels are not where its ways begin and end; `Err(Some)` if it
+/// must not be driven.
 pub(crate) fn attempt(
     problem: &TransitionProblem,
     prescribed: &Prescribed,
@@ -59,7 +60,8 @@ pub(crate) fn attempt(
     Ok(Transition { goal_of, paths, duration, least: least.max(Span::ZERO), lower_bound_s, closest })
 }
 
-/// `[goal]`: the robot that stands where the way to the goal begins. `None` where one is missing or bound elsewhere.
+/// `[goal]`: the robot at the beginning of the way to that goal. `None` if a robot is missing or taken, or a goal is
+/// pinned to another robot.
 fn starts_of(problem: &TransitionProblem, ways: &[PrescribedWay]) -> Option<Vec<usize>> {
     let cell = |at: Vec2| ((at.x / NEAR_START_M).floor() as i64, (at.y / NEAR_START_M).floor() as i64);
     let mut robots: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
@@ -105,7 +107,7 @@ fn joined(problem: &TransitionProblem) -> impl Fn(((&PrescribedWay, &usize), &Ve
     }
 }
 
-/// The path with its begin and its end moved a little; velocities there stay.
+/// Moves the beginning of a path to `start` and its end to `goal`. The velocities there stay the same.
 fn path_between(path: &Path, start: Vec2, goal: Vec2) -> Path {
     let (first, last) = (start - path.start, goal - path.as_ref().end());
     let moves = |(from, _, piece): &(Vec2, Span, &Piece)| !piece.is_rest(*from);
@@ -130,7 +132,7 @@ fn path_between(path: &Path, start: Vec2, goal: Vec2) -> Path {
     joined
 }
 
-/// The paths of all robots and their goals. Robots without a goal stay.
+/// Returns the paths of all robots and the goal of each. Robots without a goal stay.
 fn of_robots(
     problem: &TransitionProblem,
     ways: Vec<Path>,
@@ -154,7 +156,7 @@ fn of_robots(
     (paths, goal_of)
 }
 
-/// Why a prescribed drive must not be driven, and what would help.
+/// Returns why a prescribed drive must not be driven, and what would help.
 fn refusal(problem: &TransitionProblem, name: &str, goal_of: &[Option<usize>], proof: &Proof) -> Infeasible {
     let goals = |robots: &[usize]| {
         robots.iter().filter_map(|&robot| goal_of.get(robot).copied().flatten()).collect::<Vec<_>>()
@@ -197,8 +199,8 @@ fn faulty(name: &str, fault: &Fault) -> String {
     format!("in the {name}, a robot would {what} after {:.1} s; {remedy}", fault.at.as_secs())
 }
 
-/// An ordinary drive with its starts one after the other: the largest share of the delay that the proof accepts. `None`:
-/// none of them.
+/// An ordinary drive in which robots start one after the other, with the largest share of the asked delay that the
+/// proof accepts. `None` if it accepts none.
 pub(crate) fn staggered(
     problem: &TransitionProblem,
     transition: &Transition,

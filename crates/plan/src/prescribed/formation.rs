@@ -1,4 +1,4 @@
-//! The ways of the robots of a picture that moves as one.
+//! Ways of robots whose picture moves as a whole.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,22 +11,23 @@ use super::shape::{Shape, ShapeCurve};
 use super::smooth_line::SmoothLine;
 use super::way::{PrescribedWay, WayPart};
 
-/// Length over which the corners of a curve that people give are rounded, metres: a robot turns there without a stop.
+/// Length over which the corners of a user's curve are rounded, metres, so that robots turn there without a stop.
 const ROUNDING_M: f64 = 0.06;
-/// A place on a rounded track may be farther along it, or less far, than straight lines say, metres.
+/// Tolerance for the position of a place along a rounded track, metres: it differs from the position along straight
+/// lines.
 const SLACK_M: f64 = 0.05;
-/// Share of its own time by which the circles of the robots that begin last may begin later.
+/// Latest moment at which a robot's circles may begin, as a share of the whole drive.
 const MOST_LATE: f64 = 0.75;
 
-/// Where the pixels of `frame` are after `motion`, by their ids, stage metres. They stay where the motion is none of a
-/// formation.
+/// Returns the places of the pixels of `frame` after `motion`, by id, stage metres. Staggered starts and drives through
+/// pictures leave them unchanged.
 pub fn moved(motion: &PictureMotion, frame: &Frame) -> PlacesById {
     let before = picture(frame);
     let ways = ways(motion, &before);
     before.iter().map(|(&id, &at)| (id, ways.get(&id).and_then(PrescribedWay::end).unwrap_or(at))).collect()
 }
 
-/// The way of each pixel's robot. Empty for motions that are none of a formation.
+/// Returns the way of each pixel's robot, by pixel id. Empty for staggered starts and drives through pictures.
 pub(super) fn ways(motion: &PictureMotion, before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     match motion {
         PictureMotion::Travel { along } => {
@@ -52,12 +53,12 @@ fn each(before: &PlacesById, way: impl Fn(Vec2) -> Vec<WayPart>) -> BTreeMap<u32
     before.iter().map(|(&id, &at)| (id, PrescribedWay::Parts(way(at)))).collect()
 }
 
-/// One part over the whole drive.
+/// Returns a way of one part, which lasts the whole drive.
 fn whole(curve: ShapeCurve) -> Vec<WayPart> {
     vec![WayPart { during: (0.0, 1.0), shape: curve.into() }]
 }
 
-/// The curve of each robot, by where it stands. All share one track.
+/// Returns a function from a robot's place to its curve. All curves share one track.
 fn travel(along: &[Vec2]) -> impl Fn(Vec2) -> ShapeCurve {
     let points: Vec<Vec2> = [Vec2::ZERO].into_iter().chain(along.iter().copied()).collect();
     let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
@@ -67,7 +68,8 @@ fn travel(along: &[Vec2]) -> impl Fn(Vec2) -> ShapeCurve {
     }
 }
 
-/// Out and back, `times` times. Robots drive back backwards, so that they need no time to turn.
+/// Returns a way away from `center` and back, `times` times. Robots drive back in reverse, so that they need no time to
+/// turn.
 fn breathe(center: Vec2, size: f64, times: u32, at: Vec2) -> Vec<WayPart> {
     let wide = center + (at - center) * size;
     let parts = 2 * times.max(1);
@@ -79,15 +81,16 @@ fn breathe(center: Vec2, size: f64, times: u32, at: Vec2) -> Vec<WayPart> {
     (0..parts).map(part).collect()
 }
 
-/// All robots on one track: through their own places, the last first, and then along the curve. Each goes on by the
-/// length of the curve.
+/// Moves all robots along one track: through their own places, from the last robot to the first, and then along the
+/// curve. Each robot advances by the length of the curve.
 fn follow(along: &[Vec2], before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     let Some(&begin) = along.first() else { return BTreeMap::new() };
     let chain = chain(before, begin);
     let points: Vec<Vec2> = chain.iter().rev().map(|id| before[id]).chain(along.iter().copied()).collect();
     let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
     let along_m: f64 = along.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    // The leader stands about where the curve begins, and each robot is as far behind the one ahead as it stands from it.
+    // The leader stands about where the curve begins. Each robot is as far behind the robot ahead along the track as
+    // their places are apart.
     let mut ahead = (begin, track.length_m() - along_m);
     let mut goes_m = None;
     let ways = chain.iter().map(|id| {
@@ -104,7 +107,7 @@ fn follow(along: &[Vec2], before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     ways.collect()
 }
 
-/// The pixels in the order of a line: the nearest to `begin`, then always the nearest that is left.
+/// Orders pixels in a line: first the nearest to `begin`, then always the remaining one nearest to the last.
 fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
     let mut left: Vec<(u32, Vec2)> = before.iter().map(|(&id, &at)| (id, at)).collect();
     let (mut chain, mut here) = (Vec::with_capacity(left.len()), begin);
@@ -118,8 +121,8 @@ fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
     chain
 }
 
-/// Circles, begun later by each robot by where it stands. A whole circle later for each `length_m`, so that all are where a
-/// wave would have them.
+/// Returns circles for all robots. The farther a robot stands along `direction`, the later its circles begin: by one
+/// circle for each `length_m`, as in a wave.
 fn wave(
     radius_m: f64,
     direction: Vec2,
@@ -131,7 +134,7 @@ fn wave(
     let first_m = before.values().map(|&at| along(at)).fold(f64::INFINITY, f64::min);
     let last_m = before.values().map(|&at| along(at)).fold(f64::NEG_INFINITY, f64::max);
     let times = f64::from(times.max(1));
-    // Circles by which the last robot begins later than the first.
+    // Number of circles by which the last robot begins later than the first.
     let late = ((last_m - first_m) / length_m.max(1e-3)).clamp(0.0, times * MOST_LATE / (1.0 - MOST_LATE));
     let begin = direction.angle() - core::f64::consts::FRAC_PI_2;
     each(before, |at| {

@@ -1,4 +1,4 @@
-//! Trajectories that a show holds, taken as they are.
+//! Trajectories that a show contains, used unchanged.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,8 @@ use lightbots_show::{Show, Trajectory};
 use super::way::PrescribedWay;
 use crate::{BoundFrame, Path};
 
-/// The trajectories to a frame. `None` where it has none. A pixel without one has its robot rest at its place.
+/// Returns the trajectories to a frame; `None` if the show has none for it. The robot of a pixel without a trajectory
+/// rests at the pixel's place.
 pub(super) fn ways(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Vec<PrescribedWay>> {
     let id = show.frames[index].id.as_deref()?;
     let mut given: BTreeMap<u32, &Trajectory> = BTreeMap::new();

@@ -1,10 +1,10 @@
-//! Drives that a show prescribes: pictures that move as one, and paths of its own.
+//! Drives that a show prescribes: motions of a picture as a whole, and trajectories that the show contains.
 //!
-//! In reading order: [`shape`] is the way of a robot without times; [`way`] joins such shapes, or is a timed path;
-//! [`formation`] makes ways of a [`PictureMotion`] and a picture; [`timing`] finds the least legal duration and makes timed
-//! paths; [`given`] takes the trajectories of a show as they are; [`drive`] gives each robot its way and asks the proof.
-//! A prescribed drive applies where robots stand on the picture before. From anywhere else the ordinary planner leads to
-//! the frame.
+//! In reading order: [`shape`] is a curve of a robot without times. [`way`] joins shapes to the way of a robot, or is a
+//! timed path. [`formation`] makes ways from a [`PictureMotion`] and a picture. [`timing`] finds the least legal
+//! duration and makes timed paths. [`given`] takes the trajectories of a show unchanged. [`drive`] gives each robot its
+//! way and checks the drive with the proof. A prescribed drive applies only if robots stand on the picture before the
+//! frame. From other places, the ordinary planner plans the drive.
 
 mod drive;
 mod formation;
@@ -31,25 +31,26 @@ use way::PrescribedWay;
 /// The drive that a show prescribes from the picture before a frame to the frame.
 #[derive(Clone, Debug)]
 pub struct Prescribed {
-    /// What people call it: "turn".
+    /// Name of the drive in messages, for example "turn".
     pub(crate) name: &'static str,
-    /// `ways[goal]`: how the robot of that goal gets there.
+    /// `ways[goal]`: the way of the robot to that goal. Empty if `stagger` is set.
     pub(crate) ways: Vec<PrescribedWay>,
-    /// A delay of starts, of an ordinary drive; there are no ways then.
+    /// Delays of the starts of an ordinary drive; `None` for all other prescribed drives.
     pub(crate) stagger: Option<Stagger>,
 }
 
-/// Starts one after the other.
+/// Parameters of starts one after the other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stagger {
-    /// Unit vector in which starts run.
+    /// Unit vector: the farther a robot stands in this direction, the later it starts.
     pub direction: Vec2,
-    /// From the first start to the last, seconds.
+    /// Time from the first start to the last, seconds.
     pub delay_s: f64,
 }
 
 impl Prescribed {
-    /// What the show prescribes for the drive to frame `index`, for the pixels of `bound`. `None`: nothing.
+    /// Returns what the show prescribes for the drive to frame `index` and the pixels of `bound`; `None` if it
+    /// prescribes nothing for them.
     pub fn of_frame(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Self> {
         let frame = show.frames.get(index)?;
         if let Some(motion) = &frame.motion {
@@ -80,7 +81,7 @@ impl Prescribed {
     }
 }
 
-/// What people call a motion in a sentence.
+/// Returns the name of a motion in messages.
 fn noun(motion: &PictureMotion) -> &'static str {
     match motion {
         PictureMotion::Travel { .. } => "travel",

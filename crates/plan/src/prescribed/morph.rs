@@ -1,4 +1,4 @@
-//! Drives through pictures in between, without a stop.
+//! Drives through intermediate pictures, without a stop.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,8 @@ use super::shape::{Shape, ShapeCurve};
 use super::way::{PrescribedWay, WayPart};
 use crate::assignment::Choice;
 
-/// The way to each pixel of the picture after. `None` where two pictures have different numbers of places.
+/// Returns the way to each pixel of the picture `after`, by id. `None` if two pictures have different numbers of
+/// places.
 pub(super) fn ways(
     through: &[Vec<Vec2>],
     before: &PlacesById,
@@ -18,7 +19,8 @@ pub(super) fn ways(
     let starts: Vec<Vec2> = before.values().copied().collect();
     let goals: Vec<Vec2> = after.values().copied().collect();
     let mut lines: Vec<Vec<Vec2>> = starts.iter().map(|&at| vec![at]).collect();
-    // Shares of the way at which the pictures are reached: by the longest line to each, as all arrive together.
+    // Sum of the longest lines up to each picture, metres. All robots reach a picture together, at a share of the way
+    // that these sums decide.
     let mut longest_m = vec![0.0];
     for picture in through.iter().map(Vec::as_slice).chain([&goals[..]]) {
         let here: Vec<Vec2> = lines.iter().map(|line| line[line.len() - 1]).collect();
@@ -32,7 +34,7 @@ pub(super) fn ways(
             line.push(at);
             sorted.push(line);
         }
-        // In the order of the picture, so that the last are in the order of the pixels.
+        // The lines are in the order of the picture just reached. In the end they are in the order of the pixels.
         lines = sorted;
         let steps = lines.iter().map(|line| line[line.len() - 2].distance(line[line.len() - 1]));
         longest_m.push(longest_m[longest_m.len() - 1] + steps.fold(1e-3, f64::max));

@@ -1,4 +1,4 @@
-//! The way of a robot without times: a place for each share of it.
+//! A curve of a robot without times: a place for each share of the curve.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use super::smooth_line::SmoothLine;
 
 /// Step of the numerical derivative, share of the way.
 const STEP: f64 = 1e-4;
-/// Places at which the length of a shape is summed up.
+/// Number of chords whose lengths add up to the length of a shape.
 const LENGTH_STEPS: u32 = 64;
 
-/// A way, moved a little so that it begins and ends exactly where it should.
+/// A curve, displaced a little so that it begins and ends exactly at given places.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     curve: ShapeCurve,
@@ -23,13 +23,13 @@ pub(crate) struct Shape {
 pub(crate) enum ShapeCurve {
     /// A straight line.
     Line { from: Vec2, to: Vec2 },
-    /// A turn about a point, with distances that change to `size` times meanwhile.
+    /// A turn of `arm` about `center` by `turn` radians. Meanwhile the length of `arm` changes to `size` times.
     Turn { center: Vec2, arm: Vec2, turn: f64, size: f64 },
-    /// A stretch of a track, from `from_m` on it to `to_m`, moved by `offset`.
+    /// The stretch of a track from `from_m` to `to_m` along it, moved by `offset`.
     Stretch { track: Arc<SmoothLine>, from_m: f64, to_m: f64, offset: Vec2 },
-    /// Through places, each at its share of the way, with the mean of the velocities before and after.
+    /// A smooth curve through places, each at its share of the curve.
     Through { places: Arc<[Vec2]>, shares: Arc<[f64]> },
-    /// `times` circles from `at`, which is at the angle `begin` of the circle.
+    /// `times` circles from `at`, which is at the angle `begin` of the circle, radians.
     Circles { at: Vec2, radius_m: f64, begin: f64, times: f64 },
 }
 
@@ -58,7 +58,7 @@ impl ShapeCurve {
         }
     }
 
-    /// The pieces that follow the shape within a tenth of a millimetre, on floors of 20 m.
+    /// Number of path pieces that follow the curve within a tenth of a millimetre, on floors of 20 m.
     fn pieces(&self) -> usize {
         match self {
             Self::Line { .. } => 1,
@@ -97,7 +97,8 @@ impl Shape {
         (0..LENGTH_STEPS).map(|step| at(step).distance(at(step + 1))).sum()
     }
 
-    /// The same way, begun at `start` and ended at `end`.
+    /// Displaces the shape so that it begins at `start` and ends at `end`; `None` leaves that end where the curve has
+    /// it.
     pub(crate) fn between(mut self, start: Option<Vec2>, end: Option<Vec2>) -> Self {
         let offset = |to: Option<Vec2>, share: f64| to.map_or(Vec2::ZERO, |to| to - self.curve.at(share));
         self.offsets = (offset(start, 0.0), offset(end, 1.0));
@@ -123,7 +124,7 @@ fn through(places: &[Vec2], shares: &[f64], share: f64) -> Vec2 {
         + slope(index + 1) * (span * (u3 - u2))
 }
 
-/// From 0 to 1 with a slope of 0 at both ends, so that offsets bend no way.
+/// Smooth step from 0 to 1 with a slope of 0 at both ends, so that offsets do not change directions there.
 fn eased(share: f64) -> f64 {
     share * share * (3.0 - 2.0 * share)
 }

@@ -1,10 +1,10 @@
-//! A smooth curve through places, by its length.
+//! A smooth curve through places, parametrised by its length.
 
 use lightbots_base::Vec2;
 
-/// Distance of two places of a track, metres.
+/// Largest distance between consecutive places of a track of up to 400 m, metres.
 const STEP_M: f64 = 0.004;
-/// Most places of a track: 400 m.
+/// Most steps between the places of a track. Longer tracks than 400 m have longer steps.
 const MOST_STEPS: usize = 100_000;
 
 /// A curve as places at equal distances along it.
@@ -30,7 +30,7 @@ impl SmoothLine {
         fine.extend(points.last());
         let even = evened(&fine);
         let half = (rounding_m / 2.0 / even.step_m).round() as usize;
-        // A mean of means has no step in its curvature.
+        // A moving average, taken twice, has no step in its curvature.
         evened(&rounded(&rounded(&even.places, half), half))
     }
 
@@ -39,7 +39,7 @@ impl SmoothLine {
         self.step_m * self.places.len().saturating_sub(1) as f64
     }
 
-    /// The place `along_m` from its begin; straight on before its begin and after its end.
+    /// Returns the place `along_m` from the beginning. Beyond both ends, the curve goes straight on.
     pub(crate) fn at(&self, along_m: f64) -> Vec2 {
         let last = self.places.len() - 1;
         if last == 0 {
@@ -51,7 +51,8 @@ impl SmoothLine {
         from + (to - from) * (steps - index as f64)
     }
 
-    /// Length along the track of the place between two others that is nearest to `at`, metres.
+    /// Returns the length along the track of the place nearest to `at`, metres. Only places between the two given
+    /// lengths are searched.
     pub(crate) fn nearest_m(&self, at: Vec2, (from_m, to_m): (f64, f64)) -> f64 {
         let last = self.places.len() - 1;
         let index = |along_m: f64| ((along_m / self.step_m).max(0.0) as usize).min(last);
@@ -66,7 +67,7 @@ fn catmull_rom([a, b, c, d]: [Vec2; 4], t: f64) -> Vec2 {
     (b * 2.0 + (c - a) * t + (a * 2.0 - b * 5.0 + c * 4.0 - d) * t2 + (b * 3.0 - a - c * 3.0 + d) * t3) * 0.5
 }
 
-/// The same line with places at equal distances along it.
+/// Resamples a line at equal distances along it.
 fn evened(line: &[Vec2]) -> SmoothLine {
     let Some(&first) = line.first() else { return SmoothLine { places: vec![Vec2::ZERO], step_m: STEP_M } };
     let length_m: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -87,7 +88,8 @@ fn evened(line: &[Vec2]) -> SmoothLine {
     SmoothLine { places, step_m }
 }
 
-/// Each place as the mean of those up to `half` steps before and after it, fewer near the ends, which stay.
+/// Replaces each place by the mean of the places up to `half` steps before and after it. Near the ends, fewer places
+/// count, so that the ends stay.
 fn rounded(places: &[Vec2], half: usize) -> Vec<Vec2> {
     let mut sums = vec![Vec2::ZERO];
     for &at in places {

@@ -17,7 +17,7 @@ fn grid(side: usize, pitch_m: f64) -> Vec<Vec2> {
     (0..side * side).map(at).collect()
 }
 
-/// A picture, and the picture after a motion.
+/// A show of a picture and the picture after a motion.
 fn show(places: Vec<Vec2>, motion: PictureMotion) -> Show {
     let first = frame(places);
     let second = Frame { motion: Some(motion.clone()), ..frame(moved(&motion, &first).into_values()) };
@@ -37,7 +37,7 @@ fn problem(show: &Show) -> TransitionProblem {
     TransitionProblem::of_frame(show, 1, starts, &BoundFrame { pixels, pinned, ..BoundFrame::default() })
 }
 
-/// Whether the second transition is the prescribed one, and proven once more.
+/// Asserts that the second transition is the prescribed one, and proves it once more.
 fn assert_prescribed(show: &Show, what: &str) -> ShowPlan {
     let plan = plan(show);
     assert!(plan.ok() && plan.issues.is_empty(), "{what}: {:?}", plan.issues);

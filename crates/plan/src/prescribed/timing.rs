@@ -1,4 +1,4 @@
-//! Times of parts: the shortest drive within the limits of all robots, and timed paths.
+//! Timing of ways: the shortest drive within the limits of all robots, and its timed paths.
 
 use lightbots_base::{Limits, Piece, Span, Vec2};
 use lightbots_show::Easing;
@@ -8,25 +8,25 @@ use crate::Path;
 use crate::motion::progress::ProgressLaw;
 use crate::motion::{quarter_turn, whole_millis};
 
-/// Most corrections of the duration. Each ends within a thousandth of the limit that counts, because all shrink with the
-/// duration.
+/// Most corrections of the duration. Each multiplies it by the largest ratio of a motion to its limit.
 const MOST_TRIES: usize = 24;
-/// Share of the limits that is planned with: rounding to whole milliseconds needs the rest.
+/// Share of the limits that timing uses; the rest is for rounding to whole milliseconds.
 const SHARE: f64 = 0.995;
-/// A shorter part leads nowhere, metres: its robot rests.
+/// Length below which a part counts as a rest, metres.
 const STILL_M: f64 = 1e-6;
-/// Below this speed a path may bend as it likes, m/s. See the proof's `CREEP_MPS`; this is less.
+/// Speed below which the turn rate of a path is not limited, m/s. It is less than the proof's `CREEP_MPS`.
 const SLOW_MPS: f64 = 0.01;
 
-/// Timed paths of one drive. They begin with the rest in which robots turn, and last equally long.
+/// Timed paths of one drive. Those that the planner times begin with a rest in which robots turn, and last equally
+/// long.
 pub(super) struct TimedDrive {
-    /// `paths[goal]`.
+    /// `paths[goal]`: the path of the robot to that goal.
     pub paths: Vec<Path>,
-    /// Least duration within the limits.
+    /// Least duration of all ways that the planner times, within the limits; 0 if none of them moves a robot.
     pub least: Span,
 }
 
-/// Times the ways; as fast as legal, or in `asked` where that is longer.
+/// Times the ways: as fast as the limits allow, or in the duration `asked` if that is longer.
 pub(super) fn timed(
     ways: &[PrescribedWay],
     limits: &Limits,
@@ -49,7 +49,8 @@ pub(super) fn timed(
     TimedDrive { paths, least }
 }
 
-/// A way, and of its parts those that lead anywhere. Lengths are sums, which each try would take anew.
+/// A way, with those of its parts that are at least [`STILL_M`] long. Lengths are computed once, because they are sums
+/// over many places.
 struct MovingWay<'a> {
     way: &'a PrescribedWay,
     /// Parts with their lengths, metres.
@@ -67,7 +68,7 @@ impl<'a> MovingWay<'a> {
     }
 }
 
-/// A duration that no way can undercut.
+/// Returns a lower bound on the duration of all ways.
 fn first_guess(ways: &[MovingWay<'_>], limits: &Limits) -> Span {
     let speed = limits.speed_mps.max(1e-3);
     let seconds = ways.iter().flat_map(|way| &way.parts).map(|(part, length_m)| {
@@ -77,7 +78,7 @@ fn first_guess(ways: &[MovingWay<'_>], limits: &Limits) -> Span {
     whole_millis(seconds.fold(0.0, f64::max))
 }
 
-/// Factor by which the drive must be slower so that all limits hold.
+/// Returns the factor by which the drive must be slower so that all limits hold; at most 1 if they hold.
 fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -> f64 {
     let one = |way: &MovingWay<'_>| {
         let path = path(way, limits, easing, drive, quarter_turn(limits) + drive);
@@ -87,7 +88,7 @@ fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -
     ways.iter().map(one).fold(0.0, f64::max) / SHARE
 }
 
-/// Factor by which a piece is too fast.
+/// Returns the largest ratio of a piece's motion to its limit: above 1, the piece is too fast.
 fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
     if piece.is_rest(from) {
         return 0.0;
@@ -105,7 +106,8 @@ fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
     (0..=8).map(at).fold(0.0, f64::max)
 }
 
-/// The timed path of a way: a drive of `drive` after the rest in which robots turn, `whole` together.
+/// Makes the timed path of a way that lasts `whole`: a rest in which the robot turns, then a drive that lasts `drive`.
+/// A way that is timed already is returned unchanged.
 fn path(moving: &MovingWay<'_>, limits: &Limits, easing: Easing, drive: Span, whole: Span) -> Path {
     if let PrescribedWay::Timed(path) = moving.way {
         return path.clone();
@@ -151,8 +153,8 @@ fn add_part(path: &mut Path, part: &WayPart, lasts: Span, limits: &Limits, easin
     }
 }
 
-/// The ends of pieces: the ends of both ramps, and between them as many as the shape needs, increasing whole
-/// milliseconds.
+/// Returns the moments at which pieces end: the ends of both ramps and, within these and between them, as many as the
+/// shape needs. The moments are increasing whole milliseconds.
 fn moments(law: &ProgressLaw, pieces: usize) -> Vec<Span> {
     let (ramp_s, drive_s) = (law.ramp_s(), law.drive_s);
     let ramp_pieces = ((pieces as f64 * law.share(ramp_s)).ceil() as usize).max(1);

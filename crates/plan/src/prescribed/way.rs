@@ -5,26 +5,26 @@ use lightbots_base::Vec2;
 use super::shape::Shape;
 use crate::Path;
 
-/// The way of one robot.
+/// The way of one robot: its path in a prescribed drive.
 #[derive(Clone, Debug)]
 pub(crate) enum PrescribedWay {
-    /// Parts in order, timed by the planner. They share one drive.
+    /// Parts in order, which the planner times within one drive.
     Parts(Vec<WayPart>),
     /// A timed path of the show.
     Timed(Path),
 }
 
-/// A part of a way with a rest at both ends.
+/// A part of a way, which begins and ends at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct WayPart {
-    /// Begin and end, shares of the duration of the whole drive.
+    /// Begin and end of the part, as shares of the duration of the whole drive.
     pub during: (f64, f64),
-    /// Its places.
+    /// The curve of the part.
     pub shape: Shape,
 }
 
 impl PrescribedWay {
-    /// Where the way begins.
+    /// Returns the place where the way begins; `None` if it has no parts.
     pub(crate) fn start(&self) -> Option<Vec2> {
         match self {
             Self::Parts(parts) => parts.first().map(|part| part.shape.at(0.0)),
@@ -32,7 +32,7 @@ impl PrescribedWay {
         }
     }
 
-    /// Where the way ends.
+    /// Returns the place where the way ends; `None` if it has no parts.
     pub(crate) fn end(&self) -> Option<Vec2> {
         match self {
             Self::Parts(parts) => parts.last().map(|part| part.shape.at(1.0)),

@@ -1,8 +1,8 @@
 //! Delays of single robots that make more moments stop-safe.
 //!
-//! For each moment at which `by` would touch `robot`, `by` is delayed behind it, or `robot` behind `by`. A robot that
-//! comes too near to another because of that delays the other in turn, as far as the time lasts. A chain of delays
-//! counts only if no pair in it gets worse.
+//! If robot `by` would touch `robot` after `robot` stopped dead, `by` is delayed until it can stop, or else `robot` is
+//! delayed behind `by`. If a delayed robot then comes too near a third one, that one is delayed in turn, up to its
+//! largest delay. A chain of delays is kept only if no pair in it gets worse.
 
 mod pair;
 
@@ -14,18 +14,18 @@ use lightbots_base::{Limits, Span, Vec2};
 use pair::{LEVEL, PairLaw};
 use std::collections::BTreeMap;
 
-/// Longest delay of a robot: pairs that come near only after longer delays are not looked at.
+/// Longest delay of a robot. Pairs that come near each other only after longer delays are not checked.
 const MOST: Span = Span::from_millis(400);
-/// Moments of pairs that are looked at, for each robot of the transition.
+/// Most moments of pairs that are checked, for each robot of the transition.
 const MOST_LOOKS: usize = 1_500;
-/// Moments of pairs that are looked at in all.
+/// Most moments of pairs that are checked in all.
 const MOST_LOOKS_IN_ALL: usize = 3_000_000;
-/// Moments between two searches for near robots.
+/// Stride, in moments, with which tracks are searched for near robots.
 const STRIDE: usize = 4;
 /// Most delayed robots in one chain.
 const MOST_CHAIN: usize = 64;
 
-/// `[robot]`: its delay. `most`: how much later the last robot may arrive.
+/// Returns `[robot]`: its delay. `most`: how much later than planned the last robot may arrive.
 pub(super) fn delays(
     paths: &[Path],
     before: &StopSafety,
@@ -54,7 +54,7 @@ pub(super) fn delays(
     search.levels.iter().map(|level| LEVEL * i64::from(*level)).collect()
 }
 
-/// A robot that may come near, and the moments of that.
+/// A robot that may come near another, and the first and last moment at which it may.
 #[derive(Clone, Copy)]
 struct Near {
     other: usize,
@@ -67,10 +67,10 @@ struct Search<'a> {
     /// `[robot][moment]`: its place without delays, stage metres.
     tracks: Vec<Vec<Vec2>>,
     levels: Vec<u8>,
-    /// `[robot]`: its largest delay, in levels.
+    /// `[robot]`: its largest allowed delay, in levels.
     most: Vec<u8>,
     near: BTreeMap<usize, Vec<Near>>,
-    /// Moments of pairs that may still be looked at.
+    /// Number of moments of pairs that may still be checked.
     looks: usize,
 }
 
@@ -95,8 +95,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Delays `later` until it does not touch `sooner` if that stops dead, and others as they need; `None`: that is
-    /// not possible, and nothing has changed.
+    /// Delays `later` until it would not touch `sooner` after `sooner` stopped dead, and delays other robots as far as
+    /// that requires. `None`, without any change, if that is impossible.
     fn put_behind(&mut self, sooner: usize, later: usize) -> Option<()> {
         let pair = self.near(later).iter().find(|near| near.other == sooner).copied()?;
         if self.cost(later, &pair)? == 0 {
@@ -134,7 +134,7 @@ impl<'a> Search<'a> {
         Some(())
     }
 
-    /// The smallest delay of a robot that brings the cost of a pair down to `allowed`.
+    /// Raises a robot's delay to the least that brings the cost of a pair down to `allowed`; `None` if no delay does.
     fn delay(&mut self, robot: usize, pair: &Near, allowed: u32) -> Option<()> {
         for level in self.levels[robot] + 1..=self.most[robot] {
             if self.cost_at(robot, pair, (level, self.levels[pair.other]))? <= allowed {
@@ -149,15 +149,14 @@ impl<'a> Search<'a> {
         self.cost_at(robot, pair, (self.levels[robot], self.levels[pair.other]))
     }
 
-    /// Number of moments at which one of a pair would touch the other if that stopped dead; `None`: the looks are used
-    /// up.
+    /// Returns the cost of a pair with these delays, see [`PairLaw::cost`]; `None` if the checks are used up.
     fn cost_at(&mut self, robot: usize, pair: &Near, levels: (u8, u8)) -> Option<u32> {
         self.looks = self.looks.checked_sub(pair.last - pair.first + 1)?;
         let tracks = (&self.tracks[robot][..], &self.tracks[pair.other][..]);
         Some(self.law.cost(tracks, levels, (pair.first, pair.last)))
     }
 
-    /// All robots that may come near to a robot.
+    /// Returns all robots that may come near a robot.
     fn near(&mut self, robot: usize) -> Vec<Near> {
         if let Some(known) = self.near.get(&robot) {
             return known.clone();
@@ -175,7 +174,7 @@ impl<'a> Search<'a> {
         };
         let found: Vec<Near> =
             (0..self.tracks.len()).filter(|other| *other != robot).filter_map(near).collect();
-        // This search costs a tenth of a look at what follows a stop.
+        // Each moment of this search costs a tenth of a check of a stop.
         self.looks = self.looks.saturating_sub(self.tracks.len() * own.len() / (10 * STRIDE));
         self.near.insert(robot, found.clone());
         found

@@ -13,7 +13,7 @@ fn on_floor(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
     }
 }
 
-/// Two that drive one behind the other, rim to rim at 6 mm.
+/// Two robots that drive one behind the other, with a gap of 6 mm between their rims.
 fn queue() -> TransitionProblem {
     let at = |x: f64| Vec2::new(x, 0.0);
     on_floor(vec![at(-1.0), at(-1.06)], vec![at(1.0), at(0.94)])

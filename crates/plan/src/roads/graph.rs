@@ -1,11 +1,11 @@
-//! What all graphs of places have in common, and the searches over them.
+//! A trait for graphs of places on the floor, and the searches over them.
 
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, VecDeque};
 
 use lightbots_base::Vec2;
 
-/// No node there.
+/// Marks a missing node.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// Places on the floor, and the lines between them along which a robot may drive.
@@ -13,7 +13,7 @@ pub(crate) trait Graph {
     /// Place of each node, stage metres.
     fn places(&self) -> &[Vec2];
 
-    /// Nodes with a line to a node. Each line leads both ways.
+    /// Returns the nodes that have a line to a node. Each line leads both ways.
     fn neighbours(&self, node: u32) -> impl Iterator<Item = u32>;
 
     /// Place of a node, stage metres.
@@ -48,12 +48,12 @@ pub(crate) fn steps_to(graph: &impl Graph, goal: u32) -> Vec<u16> {
 pub(crate) struct CheapestPaths {
     /// `[node]`: cost from the nearest source; infinite where there is no path.
     pub costs: Vec<f64>,
-    /// `[node]`: the node before it; [`NONE`] at a source and where there is no path.
+    /// `[node]`: the node before it on its path; [`NONE`] at a source and where there is no path.
     pub before: Vec<u32>,
 }
 
-/// The cheapest paths from `sources`, each with a cost of its own (Dijkstra 1959). `cost(from, to)` of a line is positive;
-/// infinite where it must not be used.
+/// Finds the cheapest paths from `sources`, which are nodes and their initial costs (Dijkstra 1959). `cost(from, to)`
+/// of a line is positive, or infinite if the line must not be used.
 pub(crate) fn cheapest_paths(
     graph: &impl Graph,
     sources: impl IntoIterator<Item = (u32, f64)>,
@@ -83,7 +83,7 @@ pub(crate) fn cheapest_paths(
     paths
 }
 
-/// A reached node; the cheapest is the greatest, for a heap.
+/// A reached node. The order is reversed, so that a heap returns the cheapest node first.
 #[derive(PartialEq)]
 struct Reached {
     cost: f64,

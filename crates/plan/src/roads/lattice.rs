@@ -6,9 +6,9 @@ use crate::instance::Instance;
 use crate::margins::MARGIN_M;
 use crate::roads::graph::{Graph, NONE};
 
-/// Neighbours to which an added node may be connected.
+/// Most near nodes that are considered for the edges of an added node.
 const MOST_BESIDE: usize = 24;
-/// Larger lattices are not made.
+/// Most nodes of a lattice; larger lattices are not made.
 const MOST_NODES: usize = 200_000;
 
 /// Free places on the floor and their neighbours.
@@ -24,7 +24,7 @@ pub(crate) struct Lattice {
     corner: Vec2,
     /// `[row][column]`: its node, or [`NONE`].
     nodes: Vec<u32>,
-    /// Nodes before this one lie in rows and columns, the others anywhere.
+    /// Number of nodes in rows and columns. The nodes after these were added anywhere.
     in_rows: usize,
 }
 
@@ -34,7 +34,7 @@ impl Lattice {
         Self::around_places(instance, pitch_m, &[], 0.0)
     }
 
-    /// The same without nodes nearer than `apart_m` to some places.
+    /// [`Self::new`] without nodes nearer than `apart_m` to any of `places`.
     pub fn around_places(instance: &Instance, pitch_m: f64, places: &[Vec2], apart_m: f64) -> Option<Self> {
         let rise = pitch_m * 3.0_f64.sqrt() / 2.0;
         let (width, depth) = (instance.inner.x * 2.0, instance.inner.y * 2.0);
@@ -99,7 +99,8 @@ impl Lattice {
         }
     }
 
-    /// Adds a node anywhere, with edges to those that `is_beside` it, nearest first: about one in each direction.
+    /// Adds a node at any place. Connects it to nodes within `reach_m` for which `is_beside` holds, nearest first, at
+    /// most one in each of six directions.
     pub fn add(&mut self, place: Vec2, reach_m: f64, is_beside: impl Fn(Vec2) -> bool) {
         let node = self.places.len() as u32;
         let near = self.around(place, reach_m, MOST_BESIDE);

@@ -1,5 +1,5 @@
-//! Regions of the floor that no gap connects: obstacles with too narrow a gap between them are one wall. Gaps are
-//! measured exactly between shapes; only the run of a wall is rounded to squares.
+//! Regions of the floor that no gap connects. Obstacles with too narrow a gap between them count as one wall. Gaps
+//! between shapes are measured exactly; only the area of a wall is rounded to grid squares.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::nearest_in_rect;
@@ -9,14 +9,14 @@ use crate::TransitionProblem;
 use crate::cancel::Cancel;
 use crate::margins::REGION_M;
 
-/// Squares for each radius of a robot.
+/// Number of grid squares in a robot's radius.
 const SQUARES_A_RADIUS: f64 = 3.0;
-/// Larger floors count as one region.
+/// Most grid squares; larger floors count as one region.
 const MOST_SQUARES: f64 = 4e6;
-/// Share of a radius around an obstacle that belongs to its wall. It is wider than a square, and no centre can be
-/// there.
+/// Thickness of the wall around an obstacle, as a share of a robot's radius. It exceeds one square, and no robot's
+/// centre can be within it.
 const WALL_SHARE: f64 = 0.5;
-/// Thickness of a closed gap's wall on either side, in squares: enough that no fill leaks through.
+/// Thickness of the wall on either side of the line across a closed gap, in squares: enough that no fill leaks through.
 const GAP_SQUARES: f64 = 0.75;
 /// Search radius for the region of a place, in squares.
 const MOST_RINGS: i64 = 4;
@@ -53,7 +53,7 @@ pub(crate) struct Regions {
     square_m: f64,
     columns: i64,
     rows: i64,
-    /// `[square]`: its region.
+    /// `[square]`: its region, or [`WALL`].
     part_of: Vec<u32>,
     /// Number of regions.
     pub parts: usize,
@@ -78,7 +78,7 @@ impl Shape {
         }
     }
 
-    /// The nearest place in its rectangle.
+    /// Returns the place in the shape's rectangle that is nearest to `from`.
     fn core(&self, from: Vec2) -> Vec2 {
         nearest_in_rect(from, self.min, self.max)
     }
@@ -88,7 +88,7 @@ impl Shape {
         self.core(place).distance(place) - self.round_m
     }
 
-    /// The narrowest line between the rectangles of two shapes.
+    /// Returns the shortest line between the rectangles of two shapes.
     fn line_to(&self, other: &Self) -> (Vec2, Vec2) {
         let middle = |a_min: f64, a_max: f64, b_min: f64, b_max: f64| {
             let (low, high) = (a_min.max(b_min), a_max.min(b_max));
@@ -107,7 +107,7 @@ impl Shape {
     }
 }
 
-/// Least width of a gap between two things, metres.
+/// Least width of a gap between two things through which a robot can drive, metres.
 pub(crate) fn enough_m(problem: &TransitionProblem, (_, other): (Thing, Thing)) -> f64 {
     let margins = if other == Thing::Edge { 1.0 } else { 2.0 };
     problem.limits.contact_m() + margins * REGION_M
@@ -145,7 +145,7 @@ impl Regions {
         Some(regions)
     }
 
-    /// Gaps that are too narrow.
+    /// Returns the gaps that are too narrow to drive through.
     fn closed(&self, problem: &TransitionProblem) -> Vec<Gap> {
         let mut gaps = Vec::new();
         for (index, &(thing, shape)) in self.shapes.iter().enumerate() {
@@ -193,7 +193,7 @@ impl Regions {
         }
     }
 
-    /// Marks squares around a rectangle whose middle `is_in` the wall.
+    /// Marks the squares within `around_m` of a rectangle as wall if `is_in` holds for their middle.
     fn wall(&mut self, min: Vec2, max: Vec2, around_m: f64, is_in: impl Fn(Vec2) -> bool) {
         let around = Vec2::new(around_m, around_m);
         let ((left, low), (right, high)) = (self.square(min - around), self.square(max + around));
@@ -243,7 +243,7 @@ impl Regions {
         }
     }
 
-    /// Region of a place; `None` in a wall or off the floor.
+    /// Returns the region of a place, or the nearest one within [`MOST_RINGS`] squares; `None` if there is none.
     pub fn part(&self, place: Vec2) -> Option<u32> {
         let (column, row) = self.square(place);
         (0..=MOST_RINGS).find_map(|ring| {
@@ -259,7 +259,8 @@ impl Regions {
         })
     }
 
-    /// Whether a gap leads out of a region.
+    /// Whether a gap lies between region `part` and another region. Both sides are examined `off_m` from the middle of
+    /// the gap.
     fn leads_out(&self, gap: &Gap, part: u32, off_m: f64) -> bool {
         let (from, to) = gap.ends;
         let Some(along) = (to - from).normalized() else { return false };
@@ -270,14 +271,14 @@ impl Regions {
         }
     }
 
-    /// The widest of the too narrow gaps that lead out of a region.
+    /// Returns the widest of the too narrow gaps between a region and others.
     pub fn way_out(&self, part: u32) -> Option<Gap> {
         let off_m = self.square_m * (MOST_RINGS as f64 - 1.0);
         let out = self.gaps.iter().filter(|gap| gap.wide_m > 0.0 && self.leads_out(gap, part, off_m));
         out.copied().max_by(|a, b| a.wide_m.total_cmp(&b.wide_m))
     }
 
-    /// The things that bound a region.
+    /// Returns the things that bound a region.
     pub fn around(&self, part: u32) -> Vec<Thing> {
         let is_of = |&(_, shape): &&(Thing, Shape)| {
             let reach = shape.round_m + self.square_m * (SQUARES_A_RADIUS * WALL_SHARE + 2.0);

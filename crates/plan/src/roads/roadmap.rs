@@ -1,5 +1,5 @@
-//! The graph for stop-and-go: all ends, places beside corners and in gaps, and a lattice. Edges are all short lines
-//! that are free.
+//! The graph for stop-and-go. Its nodes are all starts and ends, places beside corners and in gaps, and a lattice. Its
+//! edges are all short lines that are free.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::{nearest_in_rect, point_to_segment};
@@ -12,7 +12,7 @@ use crate::roads::visibility::VisibilityGraph;
 
 /// Length of the longest edge, in pitches.
 const REACH: f64 = 1.5;
-/// Lower bound of that length, metres.
+/// Lower bound of the length of the longest edge, metres.
 const LEAST_REACH_M: f64 = 0.075;
 /// Least distance of a node from others, in pitches.
 const APART: f64 = 0.5;
@@ -20,9 +20,9 @@ const APART: f64 = 0.5;
 const MOST_IN_ROW: usize = 40;
 /// Bisections that find the last node of a row.
 const HALVINGS: usize = 12;
-/// Larger roadmaps are not made.
+/// Most nodes of a roadmap; larger roadmaps are not made.
 const MOST_NODES: usize = 5_000;
-/// Cost of a stop beside the length, metres: about what a robot drives in that time.
+/// Cost of each stop in addition to the length of a path, metres: about what a robot drives in the time of a stop.
 const STOP_M: f64 = 0.05;
 
 /// Places and the edges between them.
@@ -39,7 +39,7 @@ pub(crate) struct Roadmap {
     pub ends: Vec<Option<u32>>,
     /// Length of the longest edge, metres.
     pub reach_m: f64,
-    /// Half the extents of the rectangle of all nodes but ends, metres.
+    /// Half the extents of the rectangle of all nodes but starts and ends, metres.
     inner: Vec2,
 }
 
@@ -107,7 +107,7 @@ impl Roadmap {
         }
     }
 
-    /// Nodes in a row beside a place as far as lines are free; the last node is where that ends.
+    /// Adds nodes in a row from a place, as far as the line is free. The last node is at the end of the free line.
     fn add_row(&mut self, instance: &Instance, from: Vec2, step: Vec2, apart_m: f64) {
         let mut at = from;
         for _ in 0..MOST_IN_ROW {
@@ -151,7 +151,8 @@ impl Roadmap {
         !self.is_private[node as usize] || self.starts[robot] == node || self.ends[robot] == Some(node)
     }
 
-    /// `[node]`: cost of a robot to its end, with the cost of stops; infinite where there is no path.
+    /// Returns `[node]`: cost of a robot's path to its end, with stops, metres. Infinite if there is no path; 0 for a
+    /// spare robot.
     pub fn far_m(&self, robot: usize) -> Vec<f64> {
         let Some(end) = self.ends[robot] else { return vec![0.0; self.places.len()] };
         let cost = |from: u32, to: u32| match self.may_be(robot, to) {
@@ -172,8 +173,8 @@ impl Graph for Roadmap {
     }
 }
 
-/// Whether a robot may drive straight from one place to another: [`ROADMAP_M`] from every wall, or as far as its ends
-/// are.
+/// Whether a robot can drive straight from one place to another on the floor, with its rim [`ROADMAP_M`] from every
+/// wall. If an end is closer to a wall, the line only has to keep that distance.
 fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
     let on_floor = |at: Vec2| at.x.abs() <= instance.inner.x + 1e-6 && at.y.abs() <= instance.inner.y + 1e-6;
     on_floor(from)

@@ -11,10 +11,10 @@ use crate::roads::graph::{Graph, steps_to};
 use crate::roads::lattice::Lattice;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Radius in which a path enters the lattice, in pitches.
+/// Radius around a start or end in which its path enters the lattice, in pitches.
 const REACH: f64 = 3.0;
 
-/// Corners of each robot's path from its start to its end; `None` where a robot is walled in.
+/// Corners of each robot's path from its start to its end; `None` if a robot is walled in, or the planner is cancelled.
 pub(crate) fn shortest_paths(
     instance: &Instance,
     lattice: &Lattice,

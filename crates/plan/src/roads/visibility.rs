@@ -9,22 +9,22 @@ use crate::margins::VISIBILITY_M;
 use crate::roads::graph::{Graph, NONE, cheapest_paths};
 use crate::roads::lattice::Lattice;
 
-/// With more walls there is no graph, because too many pairs of corners see each other.
+/// Most walls of a visibility graph. With more it is empty, because too many pairs of corners would see each other.
 pub(crate) const MOST_WALLS: usize = 24;
 /// Least distance of an added node from others, in pitches.
 const LEAST_PITCH: f64 = 0.83;
 /// Longest edge of an added node, in pitches.
 const MOST_PITCH: f64 = 1.45;
-/// Gaps at most this much wider than a robot are narrow, metres: two robots do not pass each other there.
+/// A gap is narrow if it is wider than a robot by less than this, metres. Two robots do not pass each other there.
 const NARROW_M: f64 = 0.04;
 /// Factor on the node distance when a line is divided evenly, so that nodes of crossing lines fit beside it.
 const EVEN: f64 = 1.08;
-/// Step of the places at which a node is tried, metres.
+/// Distance between the places at which an additional node is tried, metres.
 const FILL_STEP_M: f64 = 0.01;
-/// Corners of the line around a disc.
+/// Corners of the polygon around a disc.
 const DISC_CORNERS: u32 = 8;
 
-/// Places beside the corners of walls, and their free lines.
+/// Places beside the corners of walls, and the free lines between these places.
 pub(crate) struct VisibilityGraph {
     places: Vec<Vec2>,
     /// `[place]`: places with a free line to it.
@@ -43,8 +43,8 @@ impl VisibilityGraph {
         Self { places, sees }
     }
 
-    /// A lattice that reaches through gaps: first nodes in narrow gaps, then rows, then more nodes wherever one fits.
-    /// `None` as for any lattice.
+    /// Makes a lattice that reaches through gaps: first nodes in narrow gaps, then rows, then more nodes wherever one
+    /// fits. `None` if it would be too large, or the planner is cancelled.
     pub fn lattice(&self, instance: &Instance, pitch_m: f64) -> Option<Lattice> {
         let (apart_m, reach_m) = (pitch_m * LEAST_PITCH, pitch_m * MOST_PITCH);
         let gaps = self.in_gaps(instance, apart_m);
@@ -129,7 +129,7 @@ impl Graph for VisibilityGraph {
     }
 }
 
-/// Whether the two nearest walls or edges leave a robot less than [`NARROW_M`].
+/// Whether the gaps between a robot and the two nearest walls or edges add up to less than [`NARROW_M`].
 fn is_narrow(instance: &Instance, place: Vec2) -> bool {
     let edges = [instance.inner.x - place.x.abs(), instance.inner.y - place.y.abs()];
     let off_walls = (0..instance.walls.len()).map(|wall| instance.off_wall(wall, place).0);
@@ -144,7 +144,7 @@ fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<u32> {
     (0..places.len() as u32).filter(is_seen).collect()
 }
 
-/// Corners of a line that keeps `off_m` from a wall.
+/// Corners of the polygon around a wall whose sides keep `off_m` from the wall.
 fn around(wall: &Obstacle, off_m: f64) -> Vec<Vec2> {
     match *wall {
         Obstacle::Disc { at, radius_m } => {

@@ -23,8 +23,8 @@ pub(crate) struct LimitProjector<'a> {
 }
 
 impl<'a> LimitProjector<'a> {
-    /// For splines of this span that stay `off_edge_m` from the floor's edge. Fast turns are smoothed in at most
-    /// `smoothing_passes` passes.
+    /// Prepares to project splines with the spans of `splines`, which stay `off_edge_m` from the floor's edge. Fast
+    /// turns are smoothed in at most `smoothing_passes` passes.
     pub fn new(
         instance: &'a Instance<'a>,
         splines: &SplineSet,
@@ -41,8 +41,8 @@ impl<'a> LimitProjector<'a> {
         }
     }
 
-    /// Projects a robot's spline onto its limits in the spans of `dirty`. Returns the spans that are left; `None`
-    /// where it keeps all limits.
+    /// Projects a robot's spline onto its limits in the spans of `dirty`. Returns the spans that may still break
+    /// limits; `None` if the spline keeps all limits.
     pub fn project(
         &self,
         splines: &mut SplineSet,
@@ -71,8 +71,8 @@ impl<'a> LimitProjector<'a> {
     }
 }
 
-/// One pass over a spline: control points at most `step` apart, with second differences at most `bow`. Adds changed
-/// spans to `dirty`.
+/// Makes one pass over a spline, towards control points at most `step` apart with second differences of at most `bow`.
+/// Adds changed spans to `dirty`, and returns whether a limit was clearly exceeded.
 fn project_once(splines: &mut SplineSet, robot: usize, step: f64, bow: f64, dirty: &mut DirtySpans) -> bool {
     let (start, end) = splines.ends(robot);
     let last = splines.spans;

@@ -59,7 +59,8 @@ fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option
 }
 
 impl SplineSet {
-    /// Splines with `place(robot, step)` for steps 0..=spans as control points: corners become round.
+    /// Splines with `place(robot, step)` for steps 0..=spans as control points, which rounds corners. Panics if there
+    /// are more than [`MOST_SPANS`] spans.
     pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
         assert!(spans <= MOST_SPANS, "a path holds at most {MOST_SPANS} spans, not {spans}");
@@ -174,7 +175,8 @@ impl SplineSet {
         }
     }
 
-    /// Weights by which a place on a span follows its four control points, where only free ones move.
+    /// Weights by which the free control points of a span move a place on it. Points at the ends follow free ones, so
+    /// their weights are added to those.
     pub fn influence(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
         fold(weights, span, self.spans, self.ends[robot].1.is_none())
     }

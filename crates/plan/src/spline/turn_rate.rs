@@ -16,11 +16,12 @@ const BETWEEN_MOMENTS: f64 = 0.96;
 const REVERSAL: f64 = 0.5;
 /// Spans whose steps are all shorter than this many `creep_m` are smoothed instead of turned.
 const WIGGLE: f64 = 3.0;
-/// Below this many creep speeds a robot may turn for as long as it is slow.
+/// Multiple of [`CREEP_MPS`] below which a robot counts as slow. While it is slow, it may turn by what this time
+/// allows.
 const SLOW: f64 = 2.6;
-/// Speed between two moments is over 2 % below that at the moments only where v² is below this times a².
+/// Ratio of v² to a² below which the speed between two sampled moments may be over 2 % lower than at these.
 const NARROW_SWING: f64 = 0.25;
-/// Share of the limit for the turn beside the stop of a reversal.
+/// Share of the turn limit that may be used near the stop of a reversal.
 const REVERSAL_UNDERCUT: f64 = 0.6;
 /// Weights of a span's control points for its third derivative.
 const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
@@ -161,7 +162,7 @@ impl TurnRate {
         again
     }
 
-    /// Displacements of a span's control points that lower its turn rate.
+    /// Returns displacements of a span's control points that lower its turn rate; `None` if none are needed.
     fn corrected(
         &self,
         four: &[Vec2],
@@ -182,7 +183,7 @@ impl TurnRate {
         })
     }
 
-    /// The greatest turn rate of a spline over the limit.
+    /// Returns the greatest turn rate of a spline as a multiple of the limit.
     pub fn time_scale(&self, spline: &[Vec2]) -> f64 {
         let fastest = spline.windows(4).fold(0.0_f64, |most, four| {
             let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
@@ -191,8 +192,8 @@ impl TurnRate {
         (fastest / self.turn).max(self.slow_turn(spline).map_or(0.0, |(_, time_scale)| time_scale))
     }
 
-    /// The worst turn of a slow robot over what its slow time allows, and the span in which it is fast again; `None`
-    /// where all turns are legal.
+    /// Returns the worst turn of a slow robot: the span in which it is fast again, and the turn as a multiple of what
+    /// its slow time allows. `None` if all turns are legal.
     fn slow_turn(&self, spline: &[Vec2]) -> Option<(usize, f64)> {
         let slow_m = SLOW * self.creep_m;
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
@@ -270,7 +271,7 @@ impl TurnRate {
         four.windows(2).all(|step| step[0].distance(step[1]) < WIGGLE * self.creep_m)
     }
 
-    /// Whether a span keeps the limit by the convex hull of its velocity.
+    /// Whether the convex hull of a span's velocity shows that the span keeps the limit.
     fn is_easy(&self, four: &[Vec2]) -> bool {
         let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
         let along = steps[1];
@@ -281,8 +282,8 @@ impl TurnRate {
         (slowest > 0.0 && swing * square <= may * may) || self.stays_below(&steps, self.creep_m)
     }
 
-    /// Whether a span surely turns less than `turn` or within the limit. The difference is a polynomial, which stays
-    /// above its least Bernstein coefficient, and above those of its halves more closely.
+    /// Whether a span surely turns by less than `turn`, or keeps the limit. The difference is a polynomial. It stays
+    /// above its least Bernstein coefficient, and above those of its halves, which are closer bounds.
     fn stays_within(&self, four: &[Vec2], turn: f64) -> bool {
         if self.is_easy(four) {
             return true;

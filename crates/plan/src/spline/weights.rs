@@ -20,8 +20,8 @@ pub(crate) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
 }
 
-/// Weights of a span's control points in which points that follow others are added to those: only points 2 to `last`
-/// are free.
+/// Adds the weights of control points at the ends of a spline to those of the free points that they follow. Only points
+/// 2 to `last` are free. `spare`: whether the robot comes to rest at its last free point.
 pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
     if span >= 2 && span + 3 <= last {
         return *weights;

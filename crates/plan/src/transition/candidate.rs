@@ -8,7 +8,7 @@ use crate::proof::{Proof, ProofInput, prove_unless};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Limits, Span};
 
-/// Above this number of robots no following distance is looked for, because that takes too long.
+/// Most robots for which following distances are checked; with more, the check takes too long.
 const ROOM_MOST: usize = 1000;
 
 /// Aim of a deformation.
@@ -16,25 +16,27 @@ const ROOM_MOST: usize = 1000;
 pub(super) enum Aim {
     /// Comfortable clearance between all pairs.
     Comfort,
-    /// Room to stop behind a robot ahead, as well.
+    /// The following distance as well: room to stop behind the robot ahead.
     Room,
 }
 
 /// Paths that may have contacts.
 pub(super) struct Candidate {
     pub transition: Transition,
-    /// The proof's verdict on the comfortable clearance, or on the following distance where that is the aim.
+    /// The proof's verdict. A pair conflicts if it is closer than the comfortable clearance or, with at most
+    /// [`ROOM_MOST`] robots, closer than its following distance.
     pub proof: Proof,
     /// Number of conflicts below the comfortable clearance.
     uncomfortable: usize,
     /// Comfortable distance of centres, metres.
     comfort_m: f64,
-    /// Contacts and faults: pairs closer than the least margin, and robots with illegal motion.
+    /// Number of contacts and faults: pairs closer than the least margin, and robots with illegal motion.
     pub wrong: usize,
 }
 
 impl Candidate {
-    /// Straight lines with one progress; `start_of[goal]`. Robots without a goal stay.
+    /// A candidate of straight lines on which all robots have the same progress. `start_of[goal]` is the start of the
+    /// robot for that goal; robots without a goal stay.
     pub fn straight(problem: &TransitionProblem, start_of: &[usize], cancel: Cancel<'_>) -> Self {
         let mut ends = problem.starts.clone();
         let mut goal_of = vec![None; ends.len()];
@@ -54,8 +56,8 @@ impl Candidate {
         candidate
     }
 
-    /// Paths of one duration, driven `slower` times as slowly as possible. They are judged as if driven at full speed,
-    /// so that the least duration does not depend on the asked duration.
+    /// A candidate of paths of equal duration, which are `slower` times as slow as the limits allow. Following
+    /// distances are checked as at full speed, so that the least duration does not depend on the asked one.
     pub fn of_paths(
         problem: &TransitionProblem,
         paths: Vec<Path>,
@@ -92,18 +94,18 @@ impl Candidate {
         Self { transition, proof, uncomfortable, comfort_m, wrong }
     }
 
-    /// Whether it is free of contacts and faults.
+    /// Whether the candidate is free of contacts and faults.
     pub fn holds(&self) -> bool {
         self.wrong == 0
     }
 
-    /// Pairs to displace; none where there are too many.
+    /// Returns the pairs to displace for an aim; none if there are too many.
     pub fn worth_deforming(&self, aim: Aim) -> Vec<Closest> {
         let is_asked = |found: &&Closest| aim == Aim::Room || found.distance_m < self.comfort_m;
         let robots = self.transition.paths.len();
         let most = match aim {
             Aim::Comfort => robots / 8 + 4,
-            // Rows that turn have as many pairs in line as robots.
+            // A row of robots that turns has about as many pairs in line as robots.
             Aim::Room => robots,
         };
         let asked = self.proof.conflicts.iter().filter(is_asked).copied();
@@ -111,18 +113,19 @@ impl Candidate {
         if asked.len() > most { Vec::new() } else { asked }
     }
 
-    /// Whether it has the comfortable clearance, and the following distance where that is the aim.
+    /// Whether all pairs have the comfortable clearance and, with at most [`ROOM_MOST`] robots, their following
+    /// distance, and all motion is legal.
     pub fn is_comfortable(&self) -> bool {
         self.proof.holds()
     }
 
-    /// The objective of the deformation: fewer contacts and faults, then fewer close pairs, then fewer pairs without the
-    /// following distance.
+    /// Whether this candidate is better than `other`: fewer contacts and faults, then fewer uncomfortable pairs, then
+    /// fewer pairs without their following distance.
     pub fn improves_on(&self, other: &Self) -> bool {
         self.wrong < other.wrong || (self.wrong == other.wrong && self.is_roomier_than(other))
     }
 
-    /// The same without contacts and faults.
+    /// [`Self::improves_on`] without regard to contacts and faults.
     pub fn is_roomier_than(&self, other: &Self) -> bool {
         let rank = |of: &Self| (of.uncomfortable, of.proof.conflicts.len());
         rank(self) < rank(other)
@@ -135,7 +138,7 @@ pub(super) fn slower_than(least: Span, duration: Span, limits: &Limits) -> f64 {
     (duration - rest).as_secs() / (least - rest).as_secs().max(1e-6)
 }
 
-/// Empty paths: nothing else is tried with numbers that are not finite.
+/// A transition with empty paths, for problems with numbers that are not finite or not sensible.
 pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     Transition {
         goal_of: vec![None; problem.starts.len()],
@@ -147,7 +150,7 @@ pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     }
 }
 
-/// All robots stay for the asked duration.
+/// A transition in which all robots stay for the asked duration.
 pub(super) fn standing_still(problem: &TransitionProblem) -> Transition {
     let mut transition =
         Candidate::straight(&TransitionProblem { goals: Vec::new(), ..problem.clone() }, &[], Cancel::NEVER)

@@ -8,16 +8,17 @@ use crate::margins::MARGIN_M;
 use crate::proof::Proof;
 use crate::{Infeasible, Transition, TransitionProblem};
 
-/// Pairs named in a message.
+/// Most pairs named in a message.
 const MOST_NAMED: usize = 4;
 /// Distance of pixels, in diameters, at which any robot may show any pixel: straight lines with the least sum of
 /// squares then keep clear of each other (Turpin et al. 2014).
 const FREE_DIAMETERS: f64 = core::f64::consts::SQRT_2;
-/// The same for fixed identity: measured with shuffled grids that fill the floor, up to 1,000 robots.
+/// Distance of pixels, in diameters, that suffices with fixed identity: measured with shuffled grids that fill the
+/// floor, up to 1,000 robots.
 const BOUND_DIAMETERS: f64 = 2.25;
 
-/// The message of a problem without a plan. `left` are pairs that did not get past each other; where it is empty,
-/// conflicts of the straight lines are named.
+/// Returns the message for a problem without a plan. `left` are the pairs that did not get past each other. If it is
+/// empty, the conflicts of the straight lines are named instead.
 pub(super) fn infeasible(
     problem: &TransitionProblem,
     transition: &Transition,
@@ -33,7 +34,7 @@ pub(super) fn infeasible(
         let (a, b) = meeting.pair;
         let new = [a, b].map(|robot| is_named.get_mut(robot).is_some_and(|is| !std::mem::replace(is, true)));
         starts.extend([a, b].into_iter().zip(new).filter(|(_, new)| *new).map(|(robot, _)| robot));
-        // Pairs without a common robot say most.
+        // Only pairs of which neither robot is in an earlier pair go into the message, because these say most.
         apart.extend((new == [true, true]).then_some(meeting));
     }
     starts.retain(|&robot| robot < problem.starts.len());
@@ -61,7 +62,7 @@ fn on_straight_lines(problem: &TransitionProblem, proof: &Proof) -> Vec<Meeting>
     close.into_iter().map(|found| Meeting { pair: found.pair, place: found.place }).collect()
 }
 
-/// A pair by the goals of its robots and the place where they meet.
+/// Names a pair by the goals of its robots and the place where they meet.
 fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting) -> String {
     let at = |place: Vec2| format!("({:.2}, {:.2})", place.x, place.y);
     let name = |robot: usize| {
@@ -75,7 +76,7 @@ fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting
     format!("{} and {} near {} m", name(meeting.pair.0), name(meeting.pair.1), at(meeting.place))
 }
 
-/// A change of the show that makes room.
+/// Suggests a change of the show that makes room.
 fn remedy(problem: &TransitionProblem) -> String {
     let is_bound = problem.pinned.iter().any(Option::is_some);
     let diameters = if is_bound { BOUND_DIAMETERS } else { FREE_DIAMETERS };

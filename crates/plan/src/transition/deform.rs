@@ -1,4 +1,4 @@
-//! Displaces the paths of close pairs by a few millimetres, without loss of time.
+//! Displaces the paths of close pairs by a few millimetres, at little or no cost of time.
 
 use super::candidate::{Aim, Candidate, slower_than};
 use super::following;
@@ -13,9 +13,9 @@ use std::collections::BTreeMap;
 const POLLED: usize = 1024;
 /// Most rounds of deformation and proof.
 const ROUNDS: usize = 6;
-/// Rounds without a better deformation, after which there are no more.
+/// Successive rounds without a better deformation after which the deformation ends.
 const MOST_IN_VAIN: usize = 2;
-/// Most robots × rounds for the following distance.
+/// Bound on robots × rounds of deformation that aim at the following distance.
 const ROOM_WORK: usize = 2_000;
 /// Largest time scale that a deformation may need.
 const fn slowest(aim: Aim) -> f64 {
@@ -25,10 +25,11 @@ const fn slowest(aim: Aim) -> f64 {
     }
 }
 
-/// Factor on a displacement: at the closest moment it has ebbed a little.
+/// Factor on a displacement, because it has faded a little at the closest moment.
 const EXTRA: f64 = 1.15;
 
-/// The better of the straight candidate for `start_of[goal]` and its deformation; only where few pairs conflict.
+/// Returns the better of the straight candidate for `start_of[goal]` and its deformation. Deforms only if few pairs
+/// conflict.
 pub(super) fn deform(
     problem: &TransitionProblem,
     start_of: &[usize],
@@ -104,7 +105,8 @@ fn deformed(
     best
 }
 
-/// The same paths slowed down to their limits: a robot at full speed has nothing left for a displacement.
+/// Slows all paths of a candidate until they keep the limits of speed and acceleration: a robot at full speed has no
+/// speed left for a displacement. Returns the candidate unchanged if it needs more than [`slowest`].
 fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
     let too_fast = deformed
         .proof
@@ -132,7 +134,8 @@ fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     })
 }
 
-/// The path with each moment after `rest` delayed by `factor`, to the millisecond, equally for all paths.
+/// The path with the time after `rest` multiplied by `factor`. Moments are rounded to whole milliseconds, in the same
+/// way for all paths.
 fn slower(path: &Path, rest: Span, factor: f64) -> Path {
     let late = |at: Span| at.min(rest) + whole_millis((at - rest).as_secs() * factor);
     let pieces = path.as_ref().timed().map(|(_, begin, piece)| {
@@ -162,7 +165,7 @@ fn part(
         Aim::Comfort => problem.limits.contact_m() + COMFORT_M,
         Aim::Room => following::wanted_m(lines, found, &problem.limits, 1.0),
     };
-    // A pair that starts or ends closer than asked keeps that distance.
+    // A pair that starts or ends closer only has to keep that distance.
     let ends_m = |at_end: bool| {
         let end = |disc: usize| match lines.get(disc) {
             Some(line) if at_end => line.as_ref().end(),

@@ -4,12 +4,13 @@ use crate::{Infeasible, TransitionProblem};
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-/// Places farther out are on no floor, metres. Up to here numbers are exact to a micrometre.
+/// Largest coordinate of a place on a floor, metres. Up to it, numbers are exact to a micrometre.
 const FARTHEST_M: f64 = 10_000.0;
-/// Limits and floors outside this range are mistakes in any unit.
+/// Range of sensible limits of robots; values outside it are mistakes in any unit.
 const SANE: core::ops::RangeInclusive<f64> = 1e-4..=1e5;
 
-/// Whether all numbers are finite and sensible; no other check may run with a problem that is not.
+/// Checks that all numbers are finite and sensible; `Err` says which are not. All other checks need a problem that
+/// passes this one.
 pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> {
     // Comparisons with NaN are false.
     let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
@@ -43,7 +44,8 @@ pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> 
     Err(infeasible(Vec::new(), message.into()))
 }
 
-/// Whether the goals can be shown at all.
+/// Checks that the goals can be shown at all: there are enough robots, no goals touch, and all are on the floor, clear
+/// of obstacles and standing robots.
 pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Infeasible> {
     let (starts, goals) = (&problem.starts, &problem.goals);
     if goals.len() > starts.len() {
@@ -66,7 +68,7 @@ pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Infeasible> {
     Ok(())
 }
 
-/// Whether a robot could drive on this floor.
+/// Whether the limits of the robots are sensible, and the floor is larger than a robot.
 fn is_sane(problem: &TransitionProblem) -> bool {
     let (limits, half) = (&problem.limits, problem.half_floor);
     let of_robots = [limits.radius_m, limits.speed_mps, limits.accel_mps2, limits.turn_radps];
@@ -106,7 +108,8 @@ fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), 
     Ok(())
 }
 
-/// Two places nearer to each other than `reach_m`: the first by index, and their distance.
+/// Returns two places nearer to each other than `reach_m`, if there are any: the smaller index, the greater index and
+/// their distance, metres.
 pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f64)> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].x.total_cmp(&places[b].x).then(a.cmp(&b)));
@@ -124,7 +127,7 @@ pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f
     None
 }
 
-/// The message about pins that contradict each other.
+/// Returns the message about pins that contradict each other.
 pub(super) fn pins(problem: &TransitionProblem) -> Infeasible {
     let goals =
         (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());

@@ -13,8 +13,8 @@ pub(super) fn widest_m(limits: &Limits) -> f64 {
     limits.contact_m() + COMFORT_M.max(stopping_m(limits.speed_mps))
 }
 
-/// Following distance of a pair at its closest moment, between centres, metres, at `faster` times the speed of these
-/// paths. Discs counted on from the paths stand.
+/// Following distance of a pair at its closest moment, between centres, metres, if the paths are driven `faster` times
+/// as fast. A pair with a standing disc, which has an index beyond the paths, needs only the comfortable clearance.
 pub(super) fn wanted_m(paths: &[Path], found: &Closest, limits: &Limits, faster: f64) -> f64 {
     let (i, j) = found.pair;
     let comfort_m = limits.contact_m() + COMFORT_M;
@@ -25,7 +25,8 @@ pub(super) fn wanted_m(paths: &[Path], found: &Closest, limits: &Limits, faster:
     limits.contact_m() + COMFORT_M.max(stopping_m(following_mps.min(limits.speed_mps)))
 }
 
-/// Speed at which either robot would approach the other if that stood; `apart` is the direction from one to the other.
+/// Speed at which one robot would approach the other if the other stood, m/s; the greater of the two. `apart` is the
+/// direction from `one` to `other`.
 fn following_mps(apart: Vec2, one: Vec2, other: Vec2) -> f64 {
     one.dot(apart).max(-other.dot(apart)).max(0.0)
 }

@@ -1,4 +1,4 @@
-//! One transition: assignment, straight lines, and the schedule of solvers where these conflict.
+//! One transition: assignment, straight lines, and the schedule of solvers where straight lines conflict.
 
 mod candidate;
 mod conflict;
@@ -26,13 +26,13 @@ use lightbots_base::Span;
 use reachability::Walls;
 use straight::straight_lines;
 
-/// The proven transition that the order on candidate plans prefers, or why there is none.
+/// Plans a transition. Returns the proven plan that the order on candidate plans prefers, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }
 
-/// [`transition`], cancelled as soon as `is_wanted` says so. It is asked about every tenth of a second from this
-/// thread, and must be cheap.
+/// [`transition`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called about every tenth of a second
+/// on this thread, and must be cheap.
 pub fn transition_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,
@@ -40,11 +40,11 @@ pub fn transition_unless(
     unless(is_wanted, |cancel| attempt(problem, cancel).into_result())
 }
 
-/// A transition that can be drawn even where it must not be driven.
+/// The result of planning a transition: it can be drawn even if it must not be driven.
 pub(crate) struct Attempt {
     /// The best transition; straight lines with conflicts if `infeasible` is set.
     pub transition: Transition,
-    /// Why it must not be driven.
+    /// Why the transition must not be driven; `None` if it may be.
     pub infeasible: Option<Infeasible>,
     /// The solvers that ran.
     pub explanation: Explanation,
@@ -53,7 +53,7 @@ pub(crate) struct Attempt {
 }
 
 impl Attempt {
-    /// A drawing that must not be driven.
+    /// An attempt whose transition may be drawn, but must not be driven.
     fn infeasible(transition: Transition, why: Infeasible) -> Self {
         Self { infeasible: Some(why), ..Self::feasible(transition, Explanation::default()) }
     }
@@ -84,7 +84,8 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
     }
 }
 
-/// The drive that the show prescribes, where robots stand where it begins.
+/// The drive that the show prescribes. If robots or pixels are not where it begins and ends, the planner's drive
+/// instead, with the reason.
 fn as_prescribed(problem: &TransitionProblem, prescribed: &Prescribed, cancel: Cancel<'_>) -> Attempt {
     match prescribed::attempt(problem, prescribed, cancel) {
         Ok(transition) => {
@@ -105,7 +106,8 @@ fn as_prescribed(problem: &TransitionProblem, prescribed: &Prescribed, cancel: C
     }
 }
 
-/// The planner's drive with its starts one after the other.
+/// The planner's drive, in which robots start one after the other. If they would touch, all start together, and the
+/// reason is given.
 fn one_after_another(problem: &TransitionProblem, stagger: Stagger, cancel: Cancel<'_>) -> Attempt {
     let delay = Span::from_secs(stagger.delay_s.max(0.0));
     let quicker = problem.duration.map(|asked| (asked - delay).max(Span::ZERO));
@@ -154,7 +156,7 @@ fn ordinary(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     attempt
 }
 
-/// The best transition between places in one region of the floor.
+/// The best transition with an assignment from `choice`.
 fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
     let found = if choice.spares() == 0 {
         settle(problem, choice, cancel)
@@ -166,7 +168,7 @@ fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> At
     })
 }
 
-/// With more robots than goals: the spare robots get places to wait first.
+/// [`settle`] for more robots than goals: the spare robots first get places at which they wait.
 fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let start_of = choice.least_squares().solve(0.0)?;
     let (whole, start_of) = spares::with_spares(problem, start_of, cancel);
@@ -174,8 +176,8 @@ fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>)
     settle(&whole, &choice, cancel)
 }
 
-/// Straight lines if the proof holds for them, else what the schedule of solvers makes of them. Every robot has a goal
-/// here. `None` where there is no assignment.
+/// Returns straight lines if the proof accepts them, else the result of the schedule of solvers. Every robot must have
+/// a goal. `None` if there is no assignment.
 fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let mut explanation = Explanation::default();
     let candidate = straight_lines(problem, choice, cancel, &mut explanation)?;
@@ -200,7 +202,7 @@ fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> O
     })
 }
 
-/// The transition of solved paths, if the proof holds.
+/// Makes a transition of solved paths; `Err` without any meeting if the proof rejects them.
 fn proven(
     problem: &TransitionProblem,
     straight: &Transition,

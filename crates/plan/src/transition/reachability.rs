@@ -1,4 +1,4 @@
-//! Robots and pixels in regions of the floor that no gap connects: an assignment within each region, or a message.
+//! Regions of the floor that no gap connects: assigns robots to pixels within each region, or says what is cut off.
 
 use lightbots_base::Vec2;
 
@@ -7,22 +7,22 @@ use crate::cancel::Cancel;
 use crate::roads::regions::{Gap, Regions, Thing, enough_m};
 use crate::{Infeasible, TransitionProblem};
 
-/// Most things in a message.
+/// Most no-go areas named in a message.
 const MOST_NAMED: usize = 4;
-/// Gaps narrower than this are not named, metres.
+/// Least width of a gap that a message names, metres.
 const LEAST_GAP_M: f64 = 0.001;
 
-/// What walls mean for a transition.
+/// How walls restrict a transition.
 pub(super) enum Walls {
-    /// All robots can drive to all goals.
+    /// No restriction: all robots can drive to all goals, or the regions of places are unknown.
     Open,
-    /// Each robot must stay in its region: `[goal]` is its start.
+    /// Each robot must stay in its region. `[goal]`: the start assigned to that goal.
     Apart(Vec<Option<usize>>),
     /// A robot or a pixel is cut off.
     Closed(Infeasible),
 }
 
-/// Finds the regions of a transition's floor.
+/// Finds how walls restrict a transition, by the regions of its floor.
 pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
     let Some(regions) = Regions::new(problem, cancel).filter(|regions| regions.parts > 1) else {
         return Walls::Open;
@@ -57,7 +57,7 @@ impl Partition<'_> {
         self.problem.pinned.get(goal).copied().flatten()
     }
 
-    /// The message about robots or pixels that are cut off.
+    /// Returns the message about robots or pixels that are cut off; `None` if there are none.
     fn closed(&self) -> Option<Infeasible> {
         let pinned = (0..self.goals.len()).filter_map(|goal| self.pin(goal).map(|start| (goal, start)));
         if let Some((goal, start)) =
@@ -94,7 +94,7 @@ impl Partition<'_> {
         Some(self.infeasible(who, part, Vec::new(), walled))
     }
 
-    /// The message about a region with more pixels than robots.
+    /// Returns the message about a region with more pixels than robots.
     fn pixels_cut_off(&self, goals: Vec<usize>, robots: usize) -> Infeasible {
         let at = place(self.problem.goals[goals[0]]);
         let what = match goals.len() {
@@ -109,7 +109,7 @@ impl Partition<'_> {
         self.infeasible(who, self.goals[goals[0]], goals, Vec::new())
     }
 
-    /// The region of two with fewer robots and pixels.
+    /// Returns the one of two regions that has fewer robots and pixels.
     fn smaller(&self, a: u32, b: u32) -> u32 {
         let count = |part: u32| self.starts.iter().chain(&self.goals).filter(|&&other| other == part).count();
         if count(a) < count(b) { a } else { b }
@@ -141,7 +141,8 @@ impl Partition<'_> {
         )
     }
 
-    /// `[goal]`: its start, within each region.
+    /// Assigns robots to goals within each region; `[goal]`: the start assigned to that goal. `None` if there is no
+    /// assignment.
     fn sent(&self, cancel: Cancel<'_>) -> Option<Vec<Option<usize>>> {
         let mut start_of = vec![None; self.goals.len()];
         for part in 0..self.regions.parts as u32 {
@@ -179,7 +180,7 @@ fn place(at: Vec2) -> String {
     format!("({:.2}, {:.2}) m", at.x + 0.0, at.y + 0.0)
 }
 
-/// Things as text: no-go areas count from 1, in the order of the show.
+/// Names things as text. No-go areas count from 1, in the order of the show.
 fn named(things: &[Thing]) -> String {
     let numbers: Vec<String> = things
         .iter()

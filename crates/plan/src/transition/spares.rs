@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 /// Rings of places tried around a spare robot.
 const RINGS: i32 = 400;
 
-/// The problem with a goal for each robot, and an assignment for it. Waiting places of spare robots follow the real
-/// goals: where a robot stands if no goal is near, else the nearest free place. `start_of[goal]` is an assignment of
-/// the real goals.
+/// Adds a goal for each spare robot, after the real goals, and returns the extended problem and its assignment.
+/// `start_of[goal]` is the assignment of the real goals. A spare robot waits where it stands if no goal or other disc
+/// is near, else at the nearest free place.
 pub(super) fn with_spares(
     problem: &TransitionProblem,
     mut start_of: Vec<usize>,
@@ -23,7 +23,7 @@ pub(super) fn with_spares(
     }
     let spares: Vec<usize> = (0..problem.starts.len()).filter(|&start| !shows[start]).collect();
     let mut taken = Taken::new(problem);
-    // Robots that may stay come first; the others then look for places among them.
+    // The places of robots that may stay are taken first. The others then get free places among them.
     let (stay, go): (Vec<usize>, Vec<usize>) =
         spares.into_iter().partition(|&spare| taken.is_clear(problem.starts[spare]));
     for &spare in &stay {

@@ -1,4 +1,5 @@
-//! Straight lines without contacts: pairs that pass too close are displaced a little, then all paths may get longer.
+//! Straight lines without contacts. Pairs that pass too close are displaced a little. If contacts are left, assignments
+//! with longer lines are tried.
 
 use super::candidate::Candidate;
 use super::deform::deform;
@@ -10,11 +11,11 @@ use crate::order::{PlanQuality, choose};
 
 /// Shares by which the longest path may exceed the bottleneck distance, in the order in which they are tried.
 const SLACKS: [f64; 7] = [0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15];
-/// Robots × rounds of deformation that are spent on clearance where distances are legal already.
+/// Bound on robots × rounds of deformation if all distances are legal already, and only clearance is improved.
 const COMFORT_WORK: usize = 30_000;
 
-/// The first contact-free lines, else those that the order on candidate plans prefers. `None` where there is no
-/// assignment.
+/// Returns the first contact-free candidate, else the one that the order on candidate plans prefers. `None` if there is
+/// no assignment, or the planner is cancelled.
 pub(super) fn straight_lines(
     problem: &TransitionProblem,
     choice: &Choice,
@@ -51,7 +52,7 @@ pub(super) fn straight_lines(
         duration: candidate.transition.duration,
     };
     let qualities: Vec<PlanQuality> = candidates.iter().map(quality).collect();
-    // None of them is contact-free, so that stop-safety does not count.
+    // No candidate is contact-free, so stop-safety does not count.
     let chosen = choose(&qualities, |_| 0)?;
     Some(candidates.swap_remove(chosen.index))
 }

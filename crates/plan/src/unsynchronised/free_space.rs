@@ -1,12 +1,13 @@
-//! Straight lines and paths for one robot while all others stand. Because nothing else moves, they are collision-free at
-//! any speed.
+//! Straight lines and paths for one robot while all others stand still. They are collision-free at any speed, because
+//! nothing else moves.
 
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 use std::collections::VecDeque;
 
-/// Clearance of an original robot, metres: its line is not quite straight, and its stop is known to some millimetres.
+/// Clearance of a robot without a common clock, metres: its line is not quite straight, and its stop is known to some
+/// millimetres.
 const MARGIN_M: f64 = 0.02;
 /// Side of a grid cell in the first search for a path, metres.
 pub(super) const CELL_M: f64 = 0.04;
@@ -24,7 +25,8 @@ pub struct FreeSpace<'a> {
     pub obstacles: &'a [Obstacle],
     /// Radius of a robot, metres.
     pub radius_m: f64,
-    /// Distance of centres to keep, metres. Starts and goals that are closer keep their own distance.
+    /// Distance that centres keep, metres. Near a start or goal that is closer to a disc, the line only has to keep
+    /// that distance.
     pub gap_m: f64,
     /// Side of a cell of the search grid, metres.
     pub cell_m: f64,
@@ -37,7 +39,8 @@ impl<'a> FreeSpace<'a> {
         Self { half_floor, obstacles, radius_m: limits.radius_m, gap_m, cell_m: CELL_M }
     }
 
-    /// Whether the line `a`–`b` keeps the gap to a disc at `p`. Ends that are closer only keep their own distance.
+    /// Whether the line `a`–`b` keeps the gap to a disc at `p`. If `a` or `b` is closer than the gap, the line only has
+    /// to keep that distance. At `b`, two robots' radii remain in any case.
     pub fn clears_disc(&self, a: Vec2, b: Vec2, p: Vec2) -> bool {
         let needed = self.gap_m.min(a.distance(p)).min(b.distance(p));
         point_to_segment(p, a, b) >= needed - 1e-9 && b.distance(p) >= 2.0 * self.radius_m
@@ -63,7 +66,7 @@ impl<'a> FreeSpace<'a> {
         discs.iter().all(|&disc| self.clears_disc(a, b, disc)) && self.clears_obstacles(a, b)
     }
 
-    /// Waypoints from `from` to `to` around all discs and obstacles, without `from`; `None`: there is no path.
+    /// Waypoints from `from` to `to` around all discs and obstacles, without `from`; `None` if there is no path.
     pub fn path(&self, from: Vec2, to: Vec2, discs: &[Vec2]) -> Option<Vec<Vec2>> {
         let came_from = self.search(from, discs, |place| self.is_clear(place, to, discs))?;
         let mut places = vec![to];
@@ -83,7 +86,8 @@ impl<'a> FreeSpace<'a> {
         Some(path)
     }
 
-    /// Waypoints to the nearest place that is `room_m` from all discs, from `keep_free` and from `from`.
+    /// Waypoints to the nearest place that is at least `room_m` from all discs, from `keep_free` and from `from`.
+    /// `None` if there is none.
     pub fn path_aside(
         &self,
         from: Vec2,
@@ -99,8 +103,9 @@ impl<'a> FreeSpace<'a> {
         self.path(from, *back.first()?, discs)
     }
 
-    /// Breadth-first search over the grid from `from` to the nearest place that is `wanted`; its places in reverse order,
-    /// without `from`.
+    /// Searches the grid breadth first from `from` for the nearest place at which `wanted` holds. Returns the places on
+    /// the way there in reverse order, without `from`. `None` if there is none, or the floor has more cells than
+    /// [`CELLS_MAX`].
     fn search(&self, from: Vec2, discs: &[Vec2], wanted: impl Fn(Vec2) -> bool) -> Option<Vec<Vec2>> {
         if wanted(from) {
             return Some(Vec::new());
@@ -156,7 +161,7 @@ impl<'a> FreeSpace<'a> {
         };
         let mut blocked: Vec<bool> =
             (0..columns * rows).map(|cell| !self.clears_obstacles(place(cell), place(cell))).collect();
-        // Half a cell more than the gap, so that steps between two free cells keep the gap too.
+        // The gap and half a cell as the sides of a right angle: steps between two free cells then keep the gap too.
         let free_m = self.gap_m.hypot(self.cell_m / 2.0);
         let reach = (free_m / self.cell_m) as i64 + 1;
         for &disc in discs {

@@ -1,8 +1,9 @@
-//! Plans for robots without a common clock: they know TARGET only, and their speed is unknown.
+//! Plans for robots without a common clock. They understand the command TARGET but no routes, and their speed is
+//! unknown.
 //!
-//! Such robots drive straight lines, in an order in which no two can meet at any speed. [`stages`] finds the order.
-//! [`StraightDrive::yields`] lets drives overlap in time: the controller releases each robot only as far as the
-//! drives it yields to have passed.
+//! These robots drive straight lines, in an order in which no two can meet at any speed. [`stages`] finds the order.
+//! [`StraightDrive::yields`] lets drives overlap in time: the controller lets each robot drive only as far as the
+//! progress of the drives that it yields to allows.
 
 mod free_space;
 mod order;
@@ -18,11 +19,11 @@ use crate::Path;
 use lightbots_base::Vec2;
 use order::Order;
 
-/// Average number of times that each robot may step aside before the search gives up.
+/// Most times that robots step aside, on average for each robot, before the search fails.
 const ASIDES_EACH: usize = 1;
 
-/// Stages that bring all robots to their goals; `None`: no order was found. `drive` plans the synchronised robots among
-/// the discs that stand meanwhile; it returns `None` where they cannot go yet.
+/// Finds stages that bring all robots to their goals; `None` if no order was found. `drive` plans the synchronised
+/// robots among the given discs, which stand meanwhile. It returns `None` if they cannot drive yet.
 pub fn stages(
     problem: &UnsynchronisedProblem<'_>,
     mut drive: impl FnMut(&[Vec2]) -> Option<Vec<(usize, Path)>>,
@@ -79,8 +80,8 @@ mod tests {
         UnsynchronisedProblem { space, starts, goals, unsynchronised, standing: &[] }
     }
 
-    /// Drives at random speeds, with random delays of reports, each robot as far as reports allow. All robots arrive, and
-    /// none comes nearer to another than `gap_m`.
+    /// Drives robots at random speeds with random delays of reports, each robot as far as the reports allow. Asserts
+    /// that all robots arrive, and that none comes nearer to another than `gap_m`.
     fn drive_anyhow(places: &mut [Vec2], drives: &[StraightDrive], gap_m: f64, seed: u64) {
         let mut dice = seed;
         let mut chance = |bound: u64| (congruential(&mut dice) >> 33) % bound;

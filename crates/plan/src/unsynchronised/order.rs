@@ -7,11 +7,11 @@ use super::straight::{StraightDrive, add_yields};
 use crate::Path;
 use lightbots_base::Vec2;
 
-/// Number of robots for which a path around others is searched; the robot with the cheapest detour goes.
+/// Number of robots for which a detour is searched. The robot with the cheapest detour goes first.
 const DETOURS_TRIED: usize = 12;
 /// Cost of a stop on a detour, metres.
 const STOP_M: f64 = 0.15;
-/// Cost of a goal on the line of a robot that still waits, metres.
+/// Cost of each waiting robot whose straight line a robot's goal blocks, metres.
 const BLOCKS_M: f64 = 0.3;
 /// Side of a grid cell in the search for paths through narrow gaps, metres.
 const FINE_CELL_M: f64 = 0.012;
@@ -19,20 +19,20 @@ const FINE_CELL_M: f64 = 0.012;
 /// The state of the search for an order.
 pub(super) struct Order<'a, 'b> {
     problem: &'a UnsynchronisedProblem<'b>,
-    /// `[robot]`: its place after all drives found up to now.
+    /// `[robot]`: its place after all drives found up to here, stage metres.
     places: Vec<Vec2>,
     /// `[robot]`: whether it is unsynchronised and not at its goal.
     pub waiting: Vec<bool>,
-    /// `[robot]`, while it waits: number of discs and obstacles on its straight line.
+    /// `[robot]`: number of discs and obstacles on its straight line; up to date only while the robot waits.
     blockers: Vec<usize>,
-    /// `[robot]`: number of waiting robots whose straight line its goal is on.
+    /// `[robot]`: number of waiting robots whose straight line its goal blocks.
     blocked: Vec<usize>,
     drives: Vec<StraightDrive>,
     stages: Vec<DriveStage>,
 }
 
 impl<'a, 'b> Order<'a, 'b> {
-    /// Nothing is ordered yet.
+    /// Begins the search, with no drive ordered yet.
     pub fn new(problem: &'a UnsynchronisedProblem<'b>) -> Self {
         let mut order = Self {
             problem,
@@ -47,7 +47,7 @@ impl<'a, 'b> Order<'a, 'b> {
         order
     }
 
-    /// Counts again what is on each straight line.
+    /// Recounts which robots wait, and what blocks each straight line.
     fn look_around(&mut self) {
         let robots = 0..self.places.len();
         let waits =
@@ -69,23 +69,23 @@ impl<'a, 'b> Order<'a, 'b> {
         (0..self.places.len()).filter(|&other| self.waiting[other] && self.would_block(robot, other)).count()
     }
 
-    /// Whether another robot is on the straight line of a robot.
+    /// Whether robot `other`, where it is, blocks the straight line of `robot` to its goal.
     fn blocks(&self, robot: usize, other: usize) -> bool {
         let (space, goal) = (&self.problem.space, self.problem.goals[robot]);
         let at = self.places[other];
-        // A robot that is about to leave needs the gap too: nothing may stop closer to it.
+        // A robot that has yet to leave needs the gap too: no other robot may stop closer to it.
         let near = at != self.problem.goals[other] && goal.distance(at) < space.gap_m;
         other != robot && (near || !space.clears_disc(self.places[robot], goal, at))
     }
 
-    /// Whether the goal of a robot is on the straight line of another.
+    /// Whether the goal of `robot` blocks the straight line of robot `other` to its goal.
     fn would_block(&self, robot: usize, other: usize) -> bool {
         let goals = self.problem.goals;
         other != robot && !self.problem.space.clears_disc(self.places[other], goals[other], goals[robot])
     }
 
-    /// The robot that goes next, straight to its goal: of all robots whose line is clear and whose goal is on no other
-    /// line, the one with the longest line.
+    /// Returns the robot to drive next, straight to its goal. Of all robots whose line is clear and whose goal blocks
+    /// no other line, it has the longest line.
     pub fn next(&self) -> Option<usize> {
         let is_free = |&robot: &usize| self.waiting[robot] && self.blockers[robot] + self.blocked[robot] == 0;
         let way_m = |robot: usize| self.places[robot].distance(self.problem.goals[robot]);
@@ -93,7 +93,7 @@ impl<'a, 'b> Order<'a, 'b> {
         (0..self.places.len()).filter(is_free).max_by(shorter)
     }
 
-    /// Adds a straight drive of a robot.
+    /// Adds a straight drive of a robot, and updates the counts.
     pub fn go(&mut self, robot: usize, to: Vec2) {
         let others = |order: &Self| -> Vec<usize> {
             (0..order.places.len()).filter(|&other| other != robot && order.waiting[other]).collect()
@@ -120,7 +120,8 @@ impl<'a, 'b> Order<'a, 'b> {
         }
     }
 
-    /// All unsynchronised robots leave, so that others come through; with `return_too` they come back to their goals.
+    /// Adds drives by which all unsynchronised robots leave, so that others can pass. With `return_too`, they then
+    /// drive to their goals. `None` if no such drives are found.
     pub fn clear_out(&mut self, return_too: bool) -> Option<()> {
         let UnsynchronisedProblem { space, goals, unsynchronised, standing, .. } = self.problem;
         let (movers, others): (Vec<usize>, Vec<usize>) =
@@ -156,19 +157,20 @@ impl<'a, 'b> Order<'a, 'b> {
         }
     }
 
-    /// The stages found.
+    /// Returns the stages found.
     pub fn finish(mut self) -> Vec<DriveStage> {
         self.end_drives();
         self.stages
     }
 
-    /// Discs that stand while the synchronised robots drive.
+    /// Returns the discs that stand while the synchronised robots drive, stage metres.
     pub fn unsynchronised_and_standing(&self) -> Vec<Vec2> {
         let waiting = (0..self.places.len()).filter(|&robot| self.problem.unsynchronised[robot]);
         waiting.map(|robot| self.places[robot]).chain(self.problem.standing.iter().copied()).collect()
     }
 
-    /// A path around others for one robot, or aside: `(robot, waypoints, whether it is only aside)`.
+    /// Finds a path around others to a robot's goal, or a path aside for a robot in the way: `(robot, waypoints,
+    /// whether it is only aside)`.
     pub fn detour(&self) -> Option<(usize, Vec<Vec2>, bool)> {
         let UnsynchronisedProblem { space, goals, unsynchronised, standing, .. } = self.problem;
         let discs_of = |robot: usize| -> Vec<Vec2> {

@@ -5,10 +5,10 @@ use super::straight::StraightDrive;
 use crate::Path;
 use lightbots_base::Vec2;
 
-/// The drives between two moments at which all robots stand.
+/// Drives that begin and end with all robots at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DriveStage {
-    /// Straight drives of robots without a clock, in order. Drives that would meet have yields.
+    /// Straight drives of robots without a common clock, in order. A drive that would meet an earlier one yields to it.
     Targets(Vec<StraightDrive>),
     /// Timed paths of the synchronised robots, `(robot, path)`.
     Routes(Vec<(usize, Path)>),

@@ -1,12 +1,14 @@
-//! The last resort where no robot can reach its goal: all leave, and return in an order in which each finds a path.
+//! The last resort if no robot can reach its goal: all unsynchronised robots leave, and return in an order in which
+//! each finds a path.
 
 use super::free_space::FreeSpace;
 use lightbots_base::Vec2;
 
-/// Distance of a robot that left from everything else, in gaps. Above 2, other robots can pass between.
+/// Distance that a robot keeps from everything else after it has left, as a multiple of the gap. Above 2, other robots
+/// can pass between.
 const APART: f64 = 2.1;
 
-/// Robots that drive one after the other, and discs that do not move meanwhile.
+/// Robots that drive one after the other, and the discs among which they drive.
 pub(super) struct Rearrangement<'a> {
     pub space: &'a FreeSpace<'a>,
     /// Indices of the robots that move.
@@ -16,7 +18,8 @@ pub(super) struct Rearrangement<'a> {
 }
 
 impl Rearrangement<'_> {
-    /// Straight drives in order, `(robot, to)`, that bring all movers from `places` to places away from `keep_free`.
+    /// Returns straight drives in order, `(robot, to)`, that bring all movers from `places` to places away from
+    /// `keep_free`. `None` if a robot finds no path.
     pub fn leave(&self, places: &[Vec2], keep_free: &[Vec2]) -> Option<Vec<(usize, Vec2)>> {
         let room_m = APART * self.space.gap_m;
         let drives =
@@ -29,8 +32,9 @@ impl Rearrangement<'_> {
         )
     }
 
-    /// Straight drives in order that bring all movers from `away` to their goals. The search runs backwards in time:
-    /// the robot that can leave its goal first arrives there last.
+    /// Returns straight drives in order, `(robot, to)`, that bring all movers from `away` to their goals. The search
+    /// runs backwards in time: the first robot that can leave its goal arrives there last. `None` if a robot finds no
+    /// path.
     pub fn come_back(&self, away: &[Vec2], goals: &[Vec2]) -> Option<Vec<(usize, Vec2)>> {
         let left = self.peel(goals, |robot, discs| self.space.path(goals[robot], away[robot], discs))?;
         let back = left.into_iter().rev().flat_map(|(robot, mut path)| {
@@ -42,7 +46,8 @@ impl Rearrangement<'_> {
         Some(back.collect())
     }
 
-    /// Movers leave `places` one after the other: always the first that finds a path past all others.
+    /// Moves robots out of `places` one after the other, always the first that finds a path past all others. Returns
+    /// their paths in that order.
     fn peel(
         &self,
         places: &[Vec2],

@@ -1,22 +1,23 @@
-//! Straight drives of robots without a common clock, and how far each may go while others are on theirs.
+//! Straight drives of robots without a common clock, and how far each robot may drive while others are on their drives.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use std::collections::BTreeMap;
 
-/// Bisections of a drive in the search for its clear part: 14 leave an error of 1 mm on a floor of 16 m.
+/// Number of bisections in the search for the clear part of a drive: 14 leave an error of 1 mm on a floor of 16 m.
 const HALVINGS: usize = 14;
-/// Rounding error that a kept distance may have, metres.
+/// Tolerance for rounding when distances are compared, metres.
 const ROUNDING_M: f64 = 1e-9;
 
-/// Speed of an original robot, m/s. Only the estimate of the duration uses it.
+/// Assumed speed of a robot without a common clock, m/s. Only the estimate of the duration uses it.
 const SPEED_MPS: f64 = 0.27;
-/// Time that a drive takes besides the distance, seconds: the turn at its start and the report at its end.
+/// Time that a drive takes in addition to covering its distance, seconds: the turn at its start and the report at its
+/// end.
 const OVERHEAD_S: f64 = 0.6;
-/// Time after which a robot can leave behind the one that it yields to, seconds.
+/// Assumed time between the departure of a robot and that of a robot that yields to it, seconds.
 const HEADWAY_S: f64 = 0.4;
 
-/// A straight drive from where a robot stands to where it stands next.
+/// A straight drive of one robot from its place to another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightDrive {
     /// Index of the robot.
@@ -25,16 +26,17 @@ pub struct StraightDrive {
     pub from: Vec2,
     /// Place where the drive ends, stage metres.
     pub to: Vec2,
-    /// Earlier drives of other robots that would meet this one. This drive never enters the remaining part of those.
+    /// Earlier drives of other robots that would meet this one. This drive never comes within the gap of their
+    /// remaining parts.
     pub yields: Vec<Yield>,
 }
 
 /// An earlier drive that has the right of way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yield {
-    /// Index of the earlier drive in the list.
+    /// Index of the earlier drive in the list of drives.
     pub to: usize,
-    /// Distance of centres to keep from it, metres.
+    /// Distance to keep between the centre of this robot and the remaining line of the earlier drive, metres.
     pub gap_m: f64,
 }
 
@@ -49,25 +51,25 @@ impl StraightDrive {
         self.from.distance(self.to)
     }
 
-    /// Place after a share of the drive, 0 to 1.
+    /// Place after a share of the drive, 0 to 1, stage metres.
     pub fn at(&self, share: f64) -> Vec2 {
         self.from + (self.to - self.from) * share
     }
 
-    /// Share of the drive behind a robot at `place`; may be less than 0 or more than 1.
+    /// Share of the drive that a robot at `place` has completed; may be less than 0 or more than 1.
     pub fn share_at(&self, place: Vec2) -> f64 {
         let line = self.to - self.from;
         let squared = line.length_squared();
         if squared > 0.0 { (place - self.from).dot(line) / squared } else { 1.0 }
     }
 
-    /// How far a place is from the drive's line, metres.
+    /// Distance of a place from the drive's line, metres.
     pub fn distance_m(&self, place: Vec2) -> f64 {
         point_to_segment(place, self.from, self.to)
     }
 
-    /// Share of this drive, 0 to 1, that keeps `gap_m` to the remaining part of another drive, of which the share
-    /// `passed` is done. It holds at any speed of both robots.
+    /// Share of this drive, 0 to 1, up to which its line keeps `gap_m` from the remaining part of another drive. The
+    /// share `passed` of the other drive is done. The result holds at any speed of both robots.
     pub fn clear_share(&self, other: &Self, passed: f64, gap_m: f64) -> f64 {
         let left = (other.at(passed.clamp(0.0, 1.0)), other.to);
         let clear = |share: f64| segment_to_segment((self.from, self.at(share)), left) >= gap_m - ROUNDING_M;
@@ -83,8 +85,8 @@ impl StraightDrive {
     }
 }
 
-/// Sets the yields of drives that are collision-free one after the other, so that they are collision-free at the same
-/// time too.
+/// Sets the yields of drives. The drives must be collision-free one after the other; with these yields they are also
+/// collision-free when they overlap in time.
 pub(super) fn add_yields(drives: &mut [StraightDrive], gap_m: f64) {
     let (mut next, mut next_of) = (vec![usize::MAX; drives.len()], BTreeMap::new());
     for (place, drive) in drives.iter().enumerate().rev() {
@@ -105,7 +107,8 @@ pub(super) fn add_yields(drives: &mut [StraightDrive], gap_m: f64) {
     }
 }
 
-/// Estimated duration of drives without disturbance, seconds. It is rough, because the speed of such robots is unknown.
+/// Estimates the duration of drives without disturbance, seconds. The estimate is rough, because the speed of these
+/// robots is unknown.
 pub fn expected_s(drives: &[StraightDrive]) -> f64 {
     let (mut begins, mut ends) = (Vec::<f64>::new(), Vec::<f64>::new());
     for (place, drive) in drives.iter().enumerate() {

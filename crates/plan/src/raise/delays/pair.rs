@@ -5,7 +5,7 @@ use crate::proof::stop_safe::{Law, STEP, StopAssumptions};
 use lightbots_base::shape::point_to_segment;
 use lightbots_base::{Limits, Span, Vec2};
 
-/// Delays are whole multiples of this.
+/// Unit of delays: each delay is a whole multiple of it.
 pub(super) const LEVEL: Span = Span(STEP.0 / 2);
 /// Cost of a contact: above any number of moments.
 const CONTACT: u32 = 1 << 20;
@@ -22,13 +22,14 @@ impl<'a> PairLaw<'a> {
         Self { limits, stop: Law::new(limits, assumed), rest: Span::from_secs(assumed.alarm_s) }
     }
 
-    /// Beyond this distance, robots do not affect each other within this time and until they rest, metres.
+    /// Distance in metres beyond which two robots cannot affect each other within a time and until they rest after it.
     pub fn reach_m(&self, within: Span) -> f64 {
         self.limits.contact_m() + COMFORT_M + 2.0 * self.limits.speed_mps * (within + self.rest).as_secs()
     }
 
-    /// Number of moments of `between` at which one would touch the other if that stopped dead; [`CONTACT`] where they
-    /// come closer than without delays and than is comfortable.
+    /// Returns the number of moments in `between`, which is (first, last), at which one robot would touch the other
+    /// after the other stopped dead. [`CONTACT`] if delays bring the two closer than the comfortable clearance and
+    /// closer than without delays.
     pub fn cost(&self, tracks: (&[Vec2], &[Vec2]), levels: (u8, u8), between: (usize, usize)) -> u32 {
         let (one, other) = (Delayed::new(tracks.0, levels.0), Delayed::new(tracks.1, levels.1));
         let undelayed = (Delayed::new(tracks.0, 0), Delayed::new(tracks.1, 0));
@@ -48,7 +49,7 @@ impl<'a> PairLaw<'a> {
         moments.map(|moment| self.touches(&one, &other, moment) + self.touches(&other, &one, moment)).sum()
     }
 
-    /// 1 where `by` would touch `dead` if that stopped dead at a moment.
+    /// Returns 1 if `by` would touch `dead` after `dead` stopped dead at a moment, else 0.
     fn touches(&self, dead: &Delayed<'_>, by: &Delayed<'_>, moment: usize) -> u32 {
         let place = dead.at(moment);
         let far_m = self.limits.contact_m() + COMFORT_M + self.limits.speed_mps * self.rest.as_secs();
@@ -63,7 +64,7 @@ impl<'a> PairLaw<'a> {
 /// Places of a delayed robot.
 struct Delayed<'a> {
     track: &'a [Vec2],
-    /// Half moments.
+    /// Delay of the robot, in half moments.
     level: usize,
 }
 
