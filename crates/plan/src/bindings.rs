@@ -230,8 +230,8 @@ impl<'a> Binder<'a, '_> {
     }
 
     /// Binds pixels with unknown names to robots without a name, so that two names are always two robots. Robots that
-    /// keep a pixel by fixed identity are used only if the others do not suffice. If all free robots are without a name
-    /// and there are enough of them, nothing is bound here: the assignment may choose any.
+    /// keep a pixel by fixed identity are used only if the others do not suffice. Pixels for which no robot is left
+    /// stay dark. If no free robot has a name, nothing is bound: the assignment may choose any.
     fn name_others(&mut self, identity: Identity) {
         let nameless = self.nameless();
         if nameless.is_empty() {
@@ -309,7 +309,7 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Binds pixels to robots by least squared distance; needs at least as many robots as pixels.
+    /// Binds pixels to robots by least squared distance; binds nothing if there are fewer robots than pixels.
     fn place(&mut self, robots: Vec<usize>, roles: Vec<usize>) {
         let from: Vec<Vec2> = robots.iter().map(|&robot| self.places[robot]).collect();
         let to: Vec<Vec2> = roles.iter().map(|&role| self.roles[role].pixel.at).collect();

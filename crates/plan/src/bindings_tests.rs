@@ -36,7 +36,7 @@ fn who_loses_its_robot_to_a_name_gets_the_one_that_is_left() {
     let found = bind(&all, &frame, Identity::Fixed, 3);
     assert_eq!(found.pinned, [Some(1), None, Some(2)]);
     assert_eq!((found.dark, found.issues), (vec![], vec![(1, BindingIssue::Lost)]));
-    // Robots that have shown nothing yet are nobody's, and rather taken.
+    // Robots that have shown no pixel yet are preferred.
     assert_eq!(bind(&all, &frame, Identity::Fixed, 5).pinned[1], Some(3));
 }
 
@@ -80,7 +80,7 @@ fn a_new_name_is_the_robot_that_showed_the_pixel_where_identity_is_fixed() {
     assert_eq!(found.pinned, [Some(2), Some(0), Some(1)]);
     unnamed.remember(&found, &[Some(1), Some(2), Some(0)]);
     assert_eq!(unnamed.by_name, [("ann".to_owned(), 0)].into());
-    // Bob is somebody else, though ann is nearest and showed the pixel.
+    // Bob is another robot, although ann is nearest and showed the pixel.
     let other = frame(&[(1, Some("bob"))]);
     for identity in [Identity::Any, Identity::Fixed] {
         assert!(bind(&unnamed, &other, identity, 5).pinned[0].is_some_and(|robot| robot != 0));

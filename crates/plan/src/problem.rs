@@ -113,7 +113,7 @@ pub struct Transition {
     /// Lower bound on the duration, seconds: the bottleneck distance of the assignment divided by the speed limit.
     /// Where the show fixes the assignment, its longest straight line counts.
     pub lower_bound_s: f64,
-    /// The closest approach of two centres; `None` with fewer than two robots.
+    /// The closest approach of two centres, of robots or standing discs; `None` with fewer than two of them.
     pub closest: Option<Closest>,
 }
 

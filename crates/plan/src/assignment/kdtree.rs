@@ -28,8 +28,9 @@ pub(super) struct KdTree {
     places: Vec<Vec2>,
     /// `ids[position]`: the index of that place in the list that built the tree.
     ids: Vec<u32>,
-    /// `leaf_of[id]`: the leaf of a place; `position_of[id]`: its position in tree order.
+    /// `leaf_of[id]`: the leaf of a place.
     leaf_of: Vec<u32>,
+    /// `position_of[id]`: the position of a place in tree order.
     position_of: Vec<u32>,
     nodes: Vec<Node>,
     first_leaf: usize,

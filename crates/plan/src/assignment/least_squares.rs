@@ -9,8 +9,9 @@ use lightbots_base::Vec2;
 
 /// The search for the best assignment whose edges are within a reach.
 pub(super) struct LeastSquares<'a> {
-    /// True places of rows and `columns`, metres. Their distances decide which edges are within reach.
+    /// True places of rows, metres: distances of true places decide which edges are within reach.
     rows: &'a [Vec2],
+    /// True places of columns, metres.
     columns: &'a [Vec2],
     costs: &'a Costs<'a>,
     search: Search,

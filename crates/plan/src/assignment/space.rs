@@ -8,9 +8,9 @@
 
 use lightbots_base::Vec2;
 
-/// Added to the spread of a set, metres, so that thin sets are not stretched without bound; [`MOST`] is the largest
-/// factor.
+/// Length that is added to the spread of each set, metres, so that thin sets are not stretched without bound.
 const THIN_M: f64 = 1e-6;
+/// Largest factor by which a set is stretched.
 const MOST: f64 = 1e3;
 
 /// Returns rows and columns moved and scaled to the same centre and spread. Sets of different sizes are returned

@@ -29,8 +29,9 @@ pub(crate) struct LatticeRule<'a> {
     steps: Vec<Vec<u16>>,
     /// `[robot]`: direction of its decided move; meaningless while the move is undecided.
     direction: Vec<u8>,
-    /// `[node]`: the robot on it before the step; `holder_next`: after the step. [`NO_ROBOT`] if there is none.
+    /// `[node]`: the robot on it before the step; [`NO_ROBOT`] if there is none.
     holder_now: Vec<u32>,
+    /// `[node]`: the robot on it after the step; [`NO_ROBOT`] if there is none or it is not decided yet.
     holder_next: Vec<u32>,
 }
 

@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 /// Most cells along an axis.
 const MOST_CELLS: f64 = 256.0;
 
-/// A disc that contains a robot for some time.
+/// A disc around the places of a robot during some time.
 #[derive(Clone, Copy)]
 pub(crate) struct Disc {
     pub at: Vec2,
@@ -13,7 +13,7 @@ pub(crate) struct Disc {
     pub owner: u32,
 }
 
-/// Sorts discs into cells; keeps its memory.
+/// Sorts discs into cells; its buffers are kept between calls.
 #[derive(Default)]
 pub(crate) struct Cells {
     sorted: Vec<Disc>,

@@ -1,4 +1,4 @@
-//! Detects spans that come too close to each other or to walls, and how deep.
+//! Detects where robots come too close to each other or to walls within a span, and by how much.
 
 use lightbots_base::Vec2;
 
@@ -9,9 +9,9 @@ use crate::optimise::neighbours::{MOVED_M, MovedNeighbours, Places, STRETCHES, c
 use crate::spline::set::SplineSet;
 use crate::spline::weights::{basis, blend};
 
-/// Pairs this much farther apart than wanted are not looked at until the next detection, metres.
+/// Distance in addition to the wanted one beyond which pairs are ignored until the next detection, metres.
 const SKIN_M: f64 = 0.012;
-/// Bisections of the closest moment to a wall.
+/// Number of bisections in the search for the closest moment to a wall.
 const NEARING: usize = 3;
 /// Largest distance of a span from its straight stretches, metres.
 const CUT_M: f64 = 0.003;
@@ -31,7 +31,7 @@ pub(crate) struct Contact {
     pub least: f64,
     /// Sum of both displacements up to which the pair is surely clear, metres.
     pub clear_until: f64,
-    /// Whether it was too close at the last look.
+    /// Whether the pair was too close at the last check.
     pub is_close: bool,
 }
 
@@ -41,7 +41,7 @@ impl Contact {
         Self { span, a, b: Other::Robot(b), wanted, least: wanted, clear_until: 0.0, is_close: false }
     }
 
-    /// The same contact at the next detection; `None` where one of its robots has moved.
+    /// Returns the contact for the next detection; `None` if one of its robots has moved farther than [`MOVED_M`].
     fn still(&self, near: &MovedNeighbours) -> Option<Self> {
         let moved_m = match self.b {
             Other::Robot(b) => near.moved_m(self.a).max(near.moved_m(b)),
@@ -52,7 +52,7 @@ impl Contact {
     }
 }
 
-/// What a robot may touch.
+/// The robot or wall that a robot is in contact with.
 #[derive(Clone, Copy)]
 pub(crate) enum Other {
     /// Another robot.
@@ -84,14 +84,14 @@ pub(crate) struct Clearances {
     pub slack_m: f64,
 }
 
-/// Looks at each span as some straight stretches.
+/// Detects contacts. It approximates each span by straight stretches.
 pub(crate) struct ContactDetector {
     bases: [[f64; 4]; STRETCHES + 1],
     middle: [f64; 4],
 }
 
 impl ContactDetector {
-    /// With tables of weights.
+    /// A detector with its tables of weights.
     pub fn new() -> Self {
         Self { bases: std::array::from_fn(|i| basis(i as f64 / STRETCHES as f64)), middle: basis(0.5) }
     }
@@ -220,7 +220,8 @@ impl ContactDetector {
         }
     }
 
-    /// The best of the sampled moments, then of two at half the distance from it, and again.
+    /// Finds the closest moment to a wall: first the best of the sampled moments. Then, [`NEARING`] times, the best of
+    /// that moment and two beside it, at half the distance of before.
     fn closest_to_wall(&self, instance: &Instance, wall: usize, four: &[Vec2]) -> Approach {
         let at = |u: f64| {
             let weights = basis(u);

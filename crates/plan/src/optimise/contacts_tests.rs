@@ -1,4 +1,4 @@
-//! Whether a detection that knows the last one finds as many contacts.
+//! Whether a detection that reuses the last one finds as many contacts as a new one.
 
 use super::*;
 use crate::TransitionProblem;
@@ -9,7 +9,7 @@ use lightbots_base::Limits;
 const WISH: Clearances = Clearances { robots_m: 0.06, walls_m: 0.006, edge_m: 0.0, slack_m: 0.002 };
 const ROBOTS: usize = 60;
 
-/// Every pair and span nearer than the contact wants, less `less_m`.
+/// Contacts of every pair and span closer than the wanted distance minus `less_m`.
 fn near(detector: &ContactDetector, instance: &Instance, splines: &SplineSet, less_m: f64) -> Vec<Contact> {
     let pairs = (0..ROBOTS).flat_map(|a| (a + 1..ROBOTS).map(move |b| (a, b)));
     let all = pairs

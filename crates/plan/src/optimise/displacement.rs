@@ -1,26 +1,26 @@
-//! Displacement of control points. A pair that was clear by more than both robots have moved since is not looked at
+//! Displacement of control points. A pair that was clear by more than both robots have moved since then is not checked
 //! again until the next detection.
 
 use lightbots_base::Vec2;
 
 /// Sum of the moves of each control point.
 pub(crate) struct Displacement {
-    /// Control points of a spline.
+    /// Number of control points of a spline.
     width: usize,
-    /// `[robot][point]`, metres; an upper bound.
+    /// `[robot][point]`: upper bound of the sum of its moves, metres.
     moved_m: Vec<f64>,
-    /// The same at the last mark; minus infinity where there was none.
+    /// `[robot][point]`: value of `moved_m` at the last mark; minus infinity if there was none.
     marked_m: Vec<f64>,
 }
 
 impl Displacement {
-    /// No point has moved.
+    /// Begins with points that have not moved.
     pub fn new(robots: usize, width: usize) -> Self {
         let points = robots * width;
         Self { width, moved_m: vec![0.0; points], marked_m: vec![f64::NEG_INFINITY; points] }
     }
 
-    /// Points that moved farther than `far_m` since their mark get a new mark.
+    /// Sets a new mark for all points that moved farther than `far_m` since their last one.
     pub fn mark(&mut self, far_m: f64) {
         for (marked_m, moved_m) in self.marked_m.iter_mut().zip(&self.moved_m) {
             if moved_m - *marked_m > far_m {
@@ -42,15 +42,15 @@ impl Displacement {
         since.fold(0.0, f64::max)
     }
 
-    /// Largest displacement of a span's control points, metres. A place may move farther than this grows, where one
-    /// point catches up with another; the next detection finds such contacts.
+    /// Largest displacement of a span's control points, metres. If a point with less displacement moves, this value
+    /// need not grow, although a place moves. The next detection finds contacts that follow.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let four = &self.moved_m[at..at + 4];
         four[0].max(four[1]).max(four[2].max(four[3]))
     }
 
-    /// A span's control points moved by `shift` times their influence.
+    /// Records that a span's control points moved by `shift` times their influence.
     pub fn displace(&mut self, robot: usize, span: usize, influence: &[f64; 4], shift: Vec2) {
         let far_m = far(shift);
         let at = robot * self.width + span;
@@ -62,7 +62,7 @@ impl Displacement {
         }
     }
 
-    /// A spline moved from `before` to `after`.
+    /// Records that a robot's spline moved from `before` to `after`.
     pub fn follow(&mut self, robot: usize, before: &[Vec2], after: &[Vec2]) {
         let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
         for ((moved_m, before), after) in own.iter_mut().zip(before).zip(after) {
@@ -70,7 +70,7 @@ impl Displacement {
         }
     }
 
-    /// The outer points follow the inner ones, at most as far.
+    /// Sets the displacement of the outer points to that of the inner ones, which they follow at most as far.
     fn tie_ends(&mut self, robot: usize) {
         let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
         let last = own.len() - 3;
@@ -109,7 +109,7 @@ mod tests {
         })
     }
 
-    /// No place on any span moved farther than `said(robot, span)`, metres.
+    /// Asserts that no place on any span moved farther than `said(robot, span)`, metres.
     fn assert_bounds(was: &SplineSet, is: &SplineSet, said: impl Fn(usize, usize) -> f64) {
         for robot in 0..2 {
             for span in 0..SPANS {

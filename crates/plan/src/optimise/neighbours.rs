@@ -5,19 +5,19 @@ use lightbots_base::Vec2;
 use crate::optimise::cells::{Cells, Disc};
 use crate::optimise::displacement::Displacement;
 
-/// Straight stretches of a span.
+/// Number of straight stretches of a span.
 pub(crate) const STRETCHES: usize = 4;
 /// A robot that moved less than this since the last detection counts as still, metres. It is part of
 /// [`SKIN_M`](super::contacts).
 pub(crate) const MOVED_M: f64 = 0.002;
-/// With fewer than one moved robot in this many, each of them is compared with all.
+/// If fewer than one robot in this many has moved, each moved robot is compared with all others directly.
 const FEW: usize = 40;
 
-/// Memory of the detection on one span.
+/// Buffers of the detection on one span.
 #[derive(Default)]
 pub(crate) struct MovedNeighbours {
     cells: Cells,
-    /// `[robot]`: the disc that contains it during the span.
+    /// `[robot]`: the disc around its places during the span.
     pub discs: Vec<Disc>,
     /// `[robot]`: ends of the straight stretches on the span.
     pub places: Vec<Places>,
@@ -68,14 +68,14 @@ impl MovedNeighbours {
     }
 }
 
-/// Distance of a span's ends from its middle.
+/// Distance of a span's farther end from its middle, metres.
 pub(crate) fn reach(places: &Places) -> f64 {
     let middle = places[STRETCHES / 2];
     let (first, last) = (places[0] - middle, places[STRETCHES] - middle);
     first.length_squared().max(last.length_squared()).sqrt()
 }
 
-/// Whether the stretches between places come nearer to the origin than `near`.
+/// Whether the straight stretches between places come nearer to the origin than `near`, metres.
 pub(crate) fn come_near(places: &Places, near: f64) -> bool {
     // Pairs with a similar motion hardly come nearer to each other than their middle is.
     let far = near + reach(places);

@@ -14,13 +14,13 @@ use crate::spline::retime::{moments, smoothed, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 use crate::spline::turn_rate::DirtySpans;
 
-/// With fewer contacts than one in this many robots, the last pairs are perturbed.
+/// The remaining pairs are perturbed once at most one contact for this many robots, plus one, is left.
 const A_FEW: usize = 30;
 /// Length of a perturbation, metres: about a diameter.
 const PERTURBATION_M: f64 = 0.06;
 /// Angle between two perturbations, radians: not a fraction of a turn, so that directions do not repeat.
 const PERTURBATION_TURN: f64 = 2.4;
-/// Weights of the control points around the moment.
+/// Weights of a perturbation at the control points around its contact.
 const PERTURBATION: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
 /// Least number of sweeps between two detections.
 const DETECTION_EVERY: usize = 6;
@@ -30,19 +30,20 @@ const DETECTION_MOVED_M: f64 = 0.006;
 const SMOOTHING: usize = 3;
 /// Largest time scale of a span in one step.
 const MOST_TIME_SCALED: f64 = 1.5;
-/// Longest span, seconds; beyond it there are more spans. Two contacts on one long span cannot be resolved.
+/// Longest duration of a span, seconds; beyond it the splines get more spans. Two contacts on one long span cannot be
+/// resolved.
 const LONGEST_SPAN_S: f64 = 0.36;
-/// Displacements aim beyond the wanted distance by this, metres, because they converge towards it.
+/// Distance by which displacements aim beyond the wanted one, metres, because they converge towards their aim.
 const BEYOND_M: f64 = 0.0002;
 /// Lower bound of the sum of squared influences: control points with little influence do not move far.
 const LEAST_INFLUENCE: f64 = 0.18;
-/// Overshoot of a displacement.
+/// Factor by which a displacement overshoots its aim.
 const OVERSHOOT: f64 = 1.15;
-/// Robots slower than this all count as equally agile, m/s.
+/// Speed below which all robots count as about equally agile, m/s.
 const CLUMSY_MPS: f64 = 0.1;
-/// Passes against fast turns, once most contacts are resolved.
+/// Smoothing passes against fast turns, once most contacts are resolved.
 const SMOOTHING_PASSES: usize = 8;
-/// A time scale that needs no further sweeps.
+/// Time scale below which a solution needs no further sweeps.
 const GOOD_TIME_SCALE: f64 = 1.03;
 
 /// Contacts between two polls of the cancellation.
@@ -53,16 +54,16 @@ const POLLED: usize = 1024;
 pub(crate) struct Effort {
     /// Most sweeps.
     pub sweeps: usize,
-    /// Largest duration, over that of the first guess.
+    /// Largest duration, as a multiple of that of the first guess.
     pub stretch: f64,
-    /// Whether congestion gets more time at once.
+    /// Whether time is added sooner, and more of it where there are many contacts.
     pub hurry: bool,
     /// Distances to reach.
     pub clearances: Clearances,
 }
 
-/// Splines without contacts, or the meetings of the sweep that left fewest. The time scale of the result says by which
-/// factor it must still be slowed down.
+/// Deforms splines until they have no contacts; `Err` with the meetings of the sweep that left the fewest. The result
+/// must still be slowed down by its time scale.
 pub(crate) fn relax(
     instance: &Instance,
     splines: SplineSet,
@@ -84,7 +85,7 @@ pub(crate) struct Relaxation<'a> {
     sweep: usize,
     perturbations: usize,
     is_over: bool,
-    /// Contacts of the last sweep.
+    /// Number of contacts in the last sweep.
     resolved: usize,
     /// The fastest splines without contacts, and their duration, seconds.
     best: Option<(f64, SplineSet)>,
@@ -110,7 +111,7 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// At most `sweeps` sweeps, until `work` is used up.
+    /// Makes at most `sweeps` sweeps, and subtracts their work from `work` until it is used up.
     pub fn go_on(&mut self, sweeps: usize, work: &mut usize) {
         for _ in 0..sweeps {
             let cost = self.state.splines.robots() * self.state.splines.spans;
@@ -125,17 +126,17 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Contacts of the last sweep.
+    /// Returns the number of contacts in the last sweep.
     pub fn resolved(&self) -> usize {
         self.resolved
     }
 
-    /// The result.
+    /// Returns the fastest splines without contacts, or the meetings of the sweep that left the fewest.
     pub fn outcome(self) -> Result<SplineSet, Vec<Meeting>> {
         self.best.map(|(_, splines)| splines).ok_or(self.left_over)
     }
 
-    /// One sweep; whether another one may help.
+    /// Makes one sweep. Returns whether another one may help.
     fn sweep(&mut self) -> bool {
         let anew = self.state.is_detection_due(self.sweep);
         self.sweep += 1;
@@ -183,7 +184,7 @@ struct State<'a> {
     clearances: Clearances,
     detector: ContactDetector,
     contacts: Vec<Contact>,
-    /// The sweep of the last detection, since the number of spans last changed.
+    /// The sweep of the last detection; `None` if there was none since the number of spans changed.
     detected_at: Option<usize>,
     displacement: Displacement,
     /// `[robot]`: spans that may break limits; `None`: no span.
@@ -191,7 +192,7 @@ struct State<'a> {
     /// `[robot]`: whether `time_scale` is out of date.
     stale: Vec<bool>,
     time_scale: Vec<f64>,
-    /// A spline before it changes; kept to save memory.
+    /// Buffer for a spline before it changes.
     before: Vec<Vec2>,
 }
 
@@ -228,7 +229,7 @@ impl<'a> State<'a> {
         self.stale.fill(true);
     }
 
-    /// Multiplies the time of each span.
+    /// Multiplies the duration of span k by `times[k]`.
     fn scale_spans(&mut self, times: &[f64]) {
         let (spans, lasts_s) = (times.len(), self.splines.span_s * times.iter().sum::<f64>());
         let wanted = (lasts_s / LONGEST_SPAN_S).ceil() as usize;
@@ -241,7 +242,7 @@ impl<'a> State<'a> {
         self.detected_at = None;
     }
 
-    /// Displaces one robot of each pair in contact, in turn and in another direction every time.
+    /// Displaces one robot of each pair in contact. From call to call, the robot alternates and the direction changes.
     fn perturb(&mut self, number: usize) {
         let aside = Vec2::unit(number as f64 * PERTURBATION_TURN) * PERTURBATION_M;
         let mut perturbed = vec![false; self.splines.robots()];
@@ -341,7 +342,7 @@ impl<'a> State<'a> {
         resolved
     }
 
-    /// Pairs in contact, each once, and their places.
+    /// Returns the pairs of robots in contact, each once, and their places.
     fn meetings(&self) -> Vec<Meeting> {
         let close = self.contacts.iter().filter(|contact| contact.is_close).enumerate();
         let close = close.take_while(|(number, _)| number % POLLED != 0 || !self.instance.cancel.is_wanted());
@@ -357,8 +358,8 @@ impl<'a> State<'a> {
         meetings
     }
 
-    /// Displaces two robots, or one from a wall, if they are too close. Otherwise it notes for which displacement they
-    /// are clear.
+    /// Displaces two robots, or one from a wall, if they are too close, and returns whether they were. Otherwise
+    /// records up to which displacement they are clear.
     fn resolve(&mut self, contact: &mut Contact) -> bool {
         let closest = self.detector.closest(self.instance, &self.splines, contact);
         if closest.apart >= contact.least {
@@ -391,7 +392,7 @@ impl<'a> State<'a> {
         self.dirty[robot].get_or_insert(DirtySpans::NOTHING).add(span);
     }
 
-    /// A fast robot needs less turn to be displaced.
+    /// Weight of a robot's share in a displacement: a fast robot needs less turn to be displaced, so it moves more.
     fn agility(&self, robot: usize, span: usize) -> f64 {
         let four = self.splines.span(robot, span);
         let (step, clumsy) = (four[2] - four[1], CLUMSY_MPS * self.splines.span_s);

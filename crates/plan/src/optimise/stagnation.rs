@@ -2,7 +2,7 @@
 
 /// Sweeps of a stage, and the share of its contacts that may be left at its end.
 const STAGE: (usize, f64) = (12, 0.5);
-/// The same for large fleets, which get more time sooner.
+/// Sweeps of a stage with `hurry`, and the share of its contacts that may be left at its end. Time is added sooner.
 const HURRIED_STAGE: (usize, f64) = (10, 0.7);
 /// Sweeps of a stage with few contacts: they are cheap, and oscillate for some time.
 const LAST_SWEEPS: usize = 24;
@@ -10,9 +10,9 @@ const LAST_SWEEPS: usize = 24;
 const GROWTH: f64 = 1.03;
 /// Factor on the duration where few contacts are left.
 const LAST_GROWTH: f64 = 1.02;
-/// Addition to the factor for each contact of a robot, in large fleets.
+/// Addition to the factor for each contact per robot, with `hurry`.
 const GROWTH_A_CONTACT: f64 = 0.014;
-/// Contacts of a robot that count at most.
+/// Most contacts per robot that count for this addition.
 const MOST_CONTACTS: f64 = 12.0;
 
 /// Factor on the duration after a stage in vain.
@@ -22,7 +22,7 @@ pub(crate) fn growth(hurry: bool, resolved: usize, few: usize, robots: usize) ->
     least + GROWTH_A_CONTACT * crowding.min(MOST_CONTACTS)
 }
 
-/// Counts the sweeps of a stage.
+/// Counts the sweeps of a stage, and detects stages that resolve too few contacts.
 pub(crate) struct Stagnation {
     /// Sweeps of a stage, and the share of contacts that may be left.
     patience: (usize, f64),
@@ -33,13 +33,13 @@ pub(crate) struct Stagnation {
 }
 
 impl Stagnation {
-    /// The first stage; `hurry` gives more time sooner.
+    /// Begins the first stage; with `hurry`, time is added sooner.
     pub fn new(hurry: bool) -> Self {
         let patience = if hurry { HURRIED_STAGE } else { STAGE };
         Self { patience, sweeps: 0, hoped: usize::MAX }
     }
 
-    /// Counts a sweep that left `wrong` contacts; whether it ended a stage in vain.
+    /// Counts a sweep that left `wrong` contacts. Returns whether it ended a stage in vain.
     pub fn is_stagnant(&mut self, wrong: usize, only_few: bool) -> bool {
         self.sweeps += 1;
         let (sweeps, share) = self.patience;

@@ -13,7 +13,7 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Of the curve with these control points, driven in `seconds`.
+    /// The course of the curve with these control points, driven in `seconds`.
     pub fn new(curve: [Vec2; 4], seconds: f64) -> Self {
         let step = |from: usize| (curve[from + 1] - curve[from]) * (3.0 / seconds);
         let velocity = [step(0), step(1), step(2)];
@@ -22,7 +22,7 @@ impl Course {
         Self { velocity, acceleration }
     }
 
-    /// Both halves.
+    /// Splits the course in the middle.
     pub fn halves(&self) -> (Self, Self) {
         let [a, b, c] = self.velocity;
         let (ab, bc) = (a.lerp(b, 0.5), b.lerp(c, 0.5));
@@ -35,19 +35,19 @@ impl Course {
         )
     }
 
-    /// No speed in it is greater.
+    /// Upper bound of the speed, m/s.
     pub fn speed_bound(&self) -> f64 {
         self.velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max)
     }
 
-    /// No turning rate times squared speed in it is greater: velocity × acceleration by its own control values.
+    /// Upper bound of the turning rate times the squared speed, by the control values of velocity × acceleration.
     pub fn swing_bound(&self) -> f64 {
         let cross = |v: usize, a: usize| self.velocity[v].cross(self.acceleration[a]);
         let middle = [(cross(0, 1) + 2.0 * cross(1, 0)) / 3.0, (cross(2, 0) + 2.0 * cross(1, 1)) / 3.0];
         [cross(0, 0), middle[0], middle[1], cross(2, 1)].iter().fold(0.0, |most, value| value.abs().max(most))
     }
 
-    /// No speed in it is less.
+    /// Lower bound of the speed, m/s.
     pub fn speed_floor(&self) -> f64 {
         let Some(direction) = (self.velocity[0] + self.velocity[2]).normalized() else { return 0.0 };
         self.velocity.iter().map(|velocity| velocity.dot(direction)).fold(f64::INFINITY, f64::min).max(0.0)

@@ -7,7 +7,8 @@ pub(super) type Cubic = [Vec2; 4];
 
 /// Error of distances, metres.
 const TOLERANCE_M: f64 = 1e-7;
-/// Most parts that are divided; curves on a floor need some dozens. The rest counts as its hull, which is nearer.
+/// Most parts that are divided; curves on a floor need some dozens. All further parts count by their hulls, which are
+/// at least as near.
 const MOST_PARTS: usize = 100_000;
 /// Most divisions of a part; parts are shorter than [`SHORTEST`] before that.
 const DEEPEST: usize = 62;
@@ -39,7 +40,7 @@ impl Search {
         }
     }
 
-    /// Looks at the part `between` two parameters, which is the result of `depth` divisions.
+    /// Searches the part `between` two parameters, which is the result of `depth` divisions.
     fn divide(&mut self, part: &Cubic, between: (f64, f64), depth: usize) {
         self.parts += 1;
         let lower = distance_of_hull(part);
@@ -64,7 +65,7 @@ impl Search {
     }
 }
 
-/// No point of the curve is nearer to the origin than this.
+/// Returns a lower bound of the curve's distance from the origin, metres.
 pub(super) fn distance_of_hull(curve: &Cubic) -> f64 {
     let chord = curve[3] - curve[0];
     let share = share_of_foot(curve[0], chord);
@@ -72,7 +73,7 @@ pub(super) fn distance_of_hull(curve: &Cubic) -> f64 {
     curve.iter().fold(f64::INFINITY, |least, point| least.min(point.dot(direction))).max(0.0)
 }
 
-/// Where on `start + share · chord`, share in 0..=1, the origin is nearest.
+/// Returns the share in 0..=1 at which `start + share · chord` is nearest to the origin.
 fn share_of_foot(start: Vec2, chord: Vec2) -> f64 {
     let length_squared = chord.length_squared();
     if length_squared > 0.0 { (-start.dot(chord) / length_squared).clamp(0.0, 1.0) } else { 0.5 }

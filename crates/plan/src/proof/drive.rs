@@ -1,4 +1,4 @@
-//! Whether one robot can drive its path: speed, acceleration, wheels, turns, and no steps.
+//! Whether one robot can drive its path: speed, acceleration, wheels, turns, and no steps in velocity.
 
 use super::course::{CREEP_MPS, Course};
 use super::facing::Facing;
@@ -8,16 +8,16 @@ use lightbots_base::{Limits, Span, Vec2};
 
 /// Share by which limits may be exceeded: rounding to whole microseconds.
 const SHARE: f64 = 1e-3;
-/// A smaller step in velocity is none, m/s.
+/// Largest step in velocity that does not count as a jump, m/s.
 const STEP_MPS: f64 = 1e-3;
-/// Velocity times turning rate below which a piece is straight, m/s · rad/s · m/s.
+/// Squared speed times turning rate below which a piece counts as straight, m²/s² · rad/s.
 const STRAIGHT: f64 = 1e-12;
-/// Places farther out are on no floor, metres; their squares are not exact.
+/// Largest coordinate of a place, metres; a path with a larger one is malformed, because squares would not be exact.
 const FARTHEST_M: f64 = 1e6;
 /// Bisections after which an undecided stretch is judged by its middle.
 const HALVINGS: u32 = 8;
 
-/// Reports illegal motion of a robot; the first of each kind.
+/// Calls `fault` with the first illegal motion of each kind, and the begin of its piece.
 pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl FnMut(FaultKind, Span)) {
     if !is_well_formed(path, horizon) {
         return fault(FaultKind::Malformed, Span::ZERO);
@@ -62,7 +62,7 @@ fn is_well_formed(path: &Path, horizon: Span) -> bool {
     are_places && is_place(&path.start) && path.as_ref().duration() == horizon
 }
 
-/// Whether the speed anywhere in a course is above the limit.
+/// Whether the speed is above the limit anywhere in a course.
 fn exceeds_speed(course: &Course, limit: f64, halvings: u32) -> bool {
     if course.speed_bound() <= limit {
         return false;

@@ -1,13 +1,15 @@
-//! Whether a robot has the time to turn where its path does: as long as it is too slow for its direction to matter.
+//! Whether a robot has enough time to turn where its path turns. It has the time in which it is too slow for its
+//! direction to matter.
 
 use super::course::{CREEP_MPS, Course};
 use lightbots_base::{Limits, Vec2};
 
 /// Time that a robot may lack for a turn while it is slow, seconds: it catches up while it drives off.
 const GRACE_S: f64 = 0.05;
-/// From this share of the creep speed on a robot may count as fast, so that speeds between count as either.
+/// Share of the creep speed above which a robot may count as fast. Between this and the creep speed, it may count as
+/// slow or fast.
 const FAST_SHARE: f64 = 0.9;
-/// Most stretches of one piece; driven paths need some dozens. An undecided rest is rejected.
+/// Most stretches of one piece; driven paths need some dozens. A piece that needs more is rejected.
 const MOST_STRETCHES: usize = 10_000;
 /// Shorter stretches that are neither slow nor fast give no time for turning, seconds.
 const SHORTEST_S: f64 = 1e-3;
@@ -15,11 +17,11 @@ const SHORTEST_S: f64 = 1e-3;
 /// Direction of a robot along its path.
 pub(super) struct Facing<'a> {
     limits: &'a Limits,
-    /// The line of its last fast motion; `None` before the first drive.
+    /// Direction at the end of its last fast motion; `None` before the first drive.
     heading: Option<Vec2>,
-    /// Time for which it has been slow since then, seconds.
+    /// Time for which the robot has been slow since its last fast motion, seconds.
     slow_s: f64,
-    /// Time that it lacks for earlier turns, seconds.
+    /// Time that the robot still lacks for earlier turns, seconds.
     behind_s: f64,
 }
 
@@ -59,7 +61,7 @@ impl<'a> Facing<'a> {
         self.go_on(&second, seconds / 2.0, left) && in_time
     }
 
-    /// Drives fast along a line from now on.
+    /// Begins fast motion along a line. Returns whether there was time to turn towards it.
     fn turn(&mut self, velocity: Vec2) -> bool {
         let Some(line) = velocity.normalized() else { return true };
         self.behind_s = (self.behind_s + self.needed_s(line) - self.slow_s).max(0.0);

@@ -1,4 +1,4 @@
-//! Turning, judged against a robot that is followed step by step.
+//! Compares the proof's verdict on turns with a robot that is simulated step by step.
 
 use super::tests::{LIMITS, REST, kinds};
 use super::*;
@@ -41,8 +41,8 @@ fn many_small_corners_need_the_time_of_all() {
     assert_eq!(kinds(Path { start: Vec2::ZERO, pieces }), [FaultKind::Turn]);
 }
 
-/// The most by which a robot that turns as fast as it can faces away from its line while that matters, seconds of
-/// turning.
+/// Largest error of the direction of a robot that turns as fast as it can, while its direction matters. It is given as
+/// the time to turn by that error, seconds.
 fn most_behind_s(path: &Path) -> f64 {
     let most_rad = LIMITS.turn_radps * STEP_US as f64 * 1e-6;
     let steps = path.as_ref().duration().0 / STEP_US;
@@ -54,7 +54,7 @@ fn most_behind_s(path: &Path) -> f64 {
         let is_fast = velocities[step].length() >= 0.02;
         aims[step] = if is_fast { Some(velocities[step].angle()) } else { aims[step + 1] };
     }
-    // As badly as can be to begin with.
+    // The robot begins at the worst angle to its line.
     let mut facing = aims[0].unwrap_or(0.0) + core::f64::consts::FRAC_PI_2;
     let mut most = 0.0f64;
     for (velocity, aim) in velocities.iter().zip(&aims) {

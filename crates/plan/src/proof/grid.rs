@@ -1,4 +1,4 @@
-//! Boxes that may be near each other.
+//! Finds pairs of boxes that are near each other.
 
 use lightbots_base::Vec2;
 
@@ -10,7 +10,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Holds nothing.
+    /// A box that contains nothing.
     pub const EMPTY: Self = Self {
         min: Vec2::new(f64::INFINITY, f64::INFINITY),
         max: Vec2::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
@@ -33,7 +33,7 @@ impl Bounds {
     }
 }
 
-/// Cells along one side at most.
+/// Most cells along one side of the grid.
 const MOST_CELLS: f64 = 1024.0;
 
 /// Calls `near(i, j)`, i < j, at least for all pairs of boxes nearer to each other than `reach_m`, each pair once.

@@ -1,20 +1,20 @@
-//! What the proof judges.
+//! The input of the proof.
 
 use crate::Path;
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 
-/// Rounding error that a distance may have, metres.
+/// Tolerance for rounding when distances are compared, metres.
 pub(super) const SLACK_M: f64 = 1e-6;
 
-/// Paths to be judged.
+/// Paths to be checked, and the conditions that they must meet.
 #[derive(Clone, Copy, Debug)]
 pub struct ProofInput<'a> {
     /// The path of each robot.
     pub paths: &'a [Path],
     /// Discs of a robot's size that do not move, stage metres.
     pub standing: &'a [Vec2],
-    /// Things on the floor.
+    /// No-go areas.
     pub obstacles: &'a [Obstacle],
     /// Half the floor's width and depth, metres.
     pub half_floor: Vec2,

@@ -1,8 +1,8 @@
 //! The proof: whether timed paths keep all robots apart and within their limits, at every moment of continuous time.
 //!
-//! **Invariant:** it shares nothing with the planner but the type of a path, because a mistake of the planner must not
-//! repeat in its proof. Only the pieces count. Distances and speeds are bounded by convex hulls of Bézier control
-//! points and divided until the bound decides; nothing is sampled.
+//! **Invariant:** the proof shares nothing with the planner but the type of a path, because a mistake of the planner
+//! must not repeat in its proof. The proof reads only the pieces of paths. Distances and speeds are bounded by convex
+//! hulls of Bézier control points. Pieces are divided until the bounds decide; nothing is sampled.
 
 mod course;
 mod curve;
@@ -29,7 +29,7 @@ use crate::Path;
 use crate::cancel::Cancel;
 use lightbots_base::Span;
 
-/// Judges paths.
+/// Checks paths. Returns all conflicts and faults, and the closest pair.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
     prove_unless(input, Cancel::NEVER)
 }
@@ -43,7 +43,7 @@ pub(crate) fn prove_unless(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Proof 
     proof
 }
 
-/// The faults alone.
+/// [`prove_unless`] for single robots only: returns the faults.
 pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     let (horizon, mut faults) = (horizon(input), Vec::<Fault>::new());
     for (robot, path) in input.paths.iter().enumerate() {
@@ -60,7 +60,7 @@ pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     faults
 }
 
-/// End of the last path.
+/// Duration of the longest path.
 fn horizon(input: &ProofInput<'_>) -> Span {
     Path::longest(input.paths)
 }

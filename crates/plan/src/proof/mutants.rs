@@ -1,4 +1,5 @@
-//! Legal plans, spoilt in every way that comes to mind: each must be refused with the right word, and nothing else.
+//! Legal plans that are spoilt in many ways. The proof must reject each with the right kind of fault, and no other
+//! robot.
 
 use super::tests::{LIMITS, input};
 use super::*;
@@ -10,7 +11,7 @@ use lightbots_show::Obstacle;
 const NO_GO: [Obstacle; 1] = [Obstacle::Disc { at: Vec2::new(0.0, 0.0), radius_m: 0.12 }];
 const ROBOTS: usize = 16;
 
-/// Paths that hold on a floor with something in its middle, and their number generator.
+/// Paths that the proof accepts on a floor with a no-go area in its middle, and their number generator.
 fn legal(seed: u64) -> (Vec<Path>, Seeded) {
     let mut seeded = Seeded::new(seed);
     let mut scatter = || {
@@ -38,7 +39,8 @@ fn far_enough(path: &Path) -> bool {
     path.start.distance(path.as_ref().end()) > 0.1
 }
 
-/// Spoils one path that goes somewhere in plans of ten seeds; `expected` is what the proof must say of it.
+/// Spoils the path of one moving robot in plans of ten seeds. `expected` are the kinds of faults that the proof must
+/// report.
 fn each_is_refused(expected: &[FaultKind], spoil: impl Fn(&mut Path, &mut Seeded)) {
     for seed in 0..10 {
         let (mut paths, mut seeded) = legal(seed);
@@ -46,7 +48,7 @@ fn each_is_refused(expected: &[FaultKind], spoil: impl Fn(&mut Path, &mut Seeded
         let robot = movers[seeded.below(movers.len())];
         let before = paths[robot].as_ref().duration();
         spoil(&mut paths[robot], &mut seeded);
-        // Where it takes much longer the others wait for it.
+        // If the spoilt path takes longer, the other robots wait for it.
         let longer = paths[robot].as_ref().duration() - before;
         for path in paths.iter_mut().filter(|path| longer > Span::ZERO && path.as_ref().duration() == before)
         {
@@ -96,7 +98,7 @@ fn who_leaves_late_or_slows_down_is_judged_as_by_samples() {
     for seed in 0..25 {
         let (mut paths, mut seeded) = legal(seed);
         let horizon = paths[0].as_ref().duration();
-        // Everybody leaves a different while late; the others wait at the end.
+        // Each robot leaves late by a different time, and waits at its end.
         for path in &mut paths {
             let late = Span::from_millis(1 + seeded.below(6_000) as i64);
             let wait = Span::from_millis(6_001) - late;
@@ -205,7 +207,8 @@ fn who_crosses_a_no_go_area_is_refused() {
         let (mut paths, mut seeded) = legal(seed);
         let robot = seeded.below(ROBOTS);
         let start = paths[robot].start;
-        // Past the middle at 0 to 129 mm, where 120 mm and the robot's 27 are to be kept clear; or 151 and clear.
+        // The path passes the middle at 0 to 129 mm, although 120 mm and the robot's 27 mm must be clear. At 151 mm it
+        // is clear.
         let aside = start.left().normalized().unwrap();
         for (past_m, refused) in [(seeded.between(0.0, 0.129), true), (0.151, false)] {
             let (from, to) = (start + aside * past_m, aside * past_m - start);

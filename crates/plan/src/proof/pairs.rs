@@ -13,7 +13,7 @@ const POLLED: usize = 4096;
 /// Most slices of time.
 const MOST_SLICES: f64 = 2000.0;
 
-/// All pairs that come closer than they must, and the closest pair of all.
+/// Returns all pairs that come closer than allowed, and the closest pair of all.
 pub(super) fn judge(
     input: &ProofInput<'_>,
     horizon: Span,
@@ -38,14 +38,14 @@ pub(super) fn judge(
 
 /// Robots and standing discs over time.
 struct Discs {
-    /// Of all discs, one after the other.
+    /// Stretches of all discs, one disc after the other.
     stretches: Vec<Stretch>,
-    /// `first[disc]..first[disc + 1]` are a disc's stretches.
+    /// `first[disc]..first[disc + 1]`: range of a disc's stretches.
     first: Vec<usize>,
     horizon_us: i64,
     /// Length of the longest path by its control polygons, metres.
     longest_m: f64,
-    /// Distance at the start of the closest pair with a robot, metres. No least distance over all pairs is greater.
+    /// Distance at the start of the closest pair with a robot, metres. The least distance of all pairs is at most this.
     closest_at_start_m: f64,
 }
 
@@ -76,7 +76,7 @@ impl Discs {
         usual.max(input.gap_m).clamp(1e-3, 1e3)
     }
 
-    /// Where a disc begins and ends.
+    /// Returns the places where a disc begins and ends, stage metres.
     fn ends(&self, disc: usize) -> (Vec2, Vec2) {
         (self.stretches[self.first[disc]].curve[0], self.stretches[self.first[disc + 1] - 1].curve[3])
     }
@@ -115,7 +115,7 @@ struct Slice {
 }
 
 impl Slice {
-    /// Cuts what happens in the slice out of all discs. `cursors[disc]` is the stretch it is in.
+    /// Cuts the motion of all discs during the slice. `cursors[disc]` is the stretch in which the disc is.
     fn cut(&mut self, discs: &Discs, cursors: &mut [usize], from_us: i64, to_us: i64) {
         (self.from_us, self.to_us) = (from_us, to_us);
         self.cuts.clear();
@@ -165,7 +165,7 @@ impl Slice {
     }
 }
 
-/// The closest pair and the conflicts found until now.
+/// The closest pair and the conflicts found up to here.
 struct Verdict<'a> {
     input: &'a ProofInput<'a>,
     closest: Option<Closest>,
@@ -173,7 +173,7 @@ struct Verdict<'a> {
 }
 
 impl Verdict<'_> {
-    /// Pairs farther apart than this do not matter any more.
+    /// Distance beyond which a pair is neither a conflict nor the closest pair, metres.
     fn reach_m(&self) -> f64 {
         self.closest.map_or(f64::INFINITY, |closest| closest.distance_m).max(self.input.gap_m)
     }

@@ -1,9 +1,9 @@
-//! Stop-safety: at which moments a robot may stop dead without any contact.
+//! Stop-safety: the moments at which a robot may stop dead without any contact.
 //!
-//! A robot that stops dead stands where it is from then on. A robot that would touch it before the fleet rests has seen it
-//! after the reaction time and brakes at the grip limit; all others drive on until the fleet eases to rest on one HOLD,
-//! which is sent as soon as the first robot brakes. A robot that brakes becomes an obstacle too, at any moment between the
-//! first at which it may see the dead one and the last at which it must brake: robots behind it must be able to stop in
+//! A robot that stops dead stays where it is. A robot that would touch it before the fleet rests brakes at the grip
+//! limit after the reaction time. All other robots drive on until one HOLD, which is sent as soon as the first robot
+//! brakes, has eased the fleet to rest. A robot that brakes becomes an obstacle too. It may brake at any moment from
+//! the first at which it may see the dead robot to the last at which it must. Robots behind it must be able to stop in
 //! turn at each of these moments. Moments are sampled.
 
 mod corridor;
@@ -23,7 +23,7 @@ pub(crate) use rows::STEP;
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 
-/// Steps in which pairs are looked for once.
+/// Number of steps for which near pairs are searched once.
 const BLOCK: usize = 8;
 /// Most sampled moments; longer drives are sampled more coarsely.
 const MOST_MOMENTS: usize = 10_000;
@@ -31,26 +31,27 @@ const MOST_MOMENTS: usize = 10_000;
 /// Assumptions about a fleet of which one robot stops dead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopAssumptions {
-    /// From the stop until the wheels of a near robot begin to brake, seconds.
+    /// Time from the stop until the wheels of a near robot begin to brake, seconds.
     pub reaction_s: f64,
     /// Path time from the stop until the fleet rests on a HOLD if no robot sees the dead one, seconds.
     pub silence_s: f64,
-    /// Path time until the fleet rests, from the moment at which a robot brakes for something that is not in its plan,
+    /// Path time from the moment at which a robot brakes for something that is not in its plan until the fleet rests,
     /// seconds.
     pub alarm_s: f64,
-    /// Clearance that counts as a contact, metres.
+    /// Gap between rims below which two robots count as in contact, metres.
     pub spare_m: f64,
-    /// A robot may brake for another this near to its path, rim to rim, metres.
+    /// Gap between rims below which a robot may brake for another that is near its path, metres.
     pub wary_m: f64,
-    /// A robot does not brake for another beyond this, rim to rim, metres.
+    /// Gap between rims beyond which a robot does not brake for another, metres.
     pub sight_m: f64,
 }
 
 impl Default for StopAssumptions {
-    /// The reaction time of `base`. A silent robot is asked for a report after 0.56 s and given up for the HOLD after 0.8 s,
-    /// looked at every 0.1 s; a HOLD takes effect 0.15 s after it is sent and its ease of 0.3 s costs half of that. A robot
-    /// that brakes says so at once: 0.02 s on the way, then the same. Robots are up to 3 mm off their paths. Places between
-    /// two moments are taken from a straight line: at most 0.3 mm off it at 1 m/s².
+    /// The reaction time is that of `base`. A silent robot is requested to report after 0.56 s and counts as lost after
+    /// 0.8 s, which is checked every 0.1 s. Then a HOLD is sent. It takes effect 0.15 s later, and its ease of 0.3 s
+    /// costs half of that. A robot that brakes reports it at once: the report takes 0.02 s, then a HOLD follows as
+    /// above. Robots are up to 3 mm off their paths. Places between two moments are interpolated linearly, with an
+    /// error of at most 0.3 mm at 1 m/s².
     fn default() -> Self {
         Self {
             reaction_s: REACTION_S,
@@ -63,30 +64,30 @@ impl Default for StopAssumptions {
     }
 }
 
-/// At which moments of a transition robots may stop dead.
+/// The moments of a transition at which robots may stop dead.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StopSafety {
-    /// Pairs of a robot that drives in this transition and a sampled moment of it.
+    /// Number of pairs of a robot that drives in this transition and a sampled moment.
     pub moments: usize,
-    /// Moments at which a contact may follow, by moment, then by robot.
+    /// Moments at which a dead stop may lead to a contact, sorted by moment, then by robot.
     pub unsafe_moments: Vec<UnsafeMoment>,
-    /// Time between two sampled moments: 50 ms but for drives of more than 500 s.
+    /// Time between two sampled moments: 50 ms, or more for drives of more than 500 s.
     pub pace: Span,
 }
 
 /// A robot that must not stop dead at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnsafeMoment {
-    /// Which robot.
+    /// Index of the robot.
     pub robot: usize,
-    /// When, after the transition's start.
+    /// The moment, after the transition's start.
     pub at: Span,
-    /// Where it is then, stage metres.
+    /// Place of the robot at that moment, stage metres.
     pub place: Vec2,
-    /// The robot that touches it. Where `missing_m` is 0: a robot that can stop for it, but has another behind that
+    /// Index of the robot that would touch it. If `missing_m` is 0, that robot can stop, but another behind that robot
     /// cannot stop in turn.
     pub by: usize,
-    /// Room that `by` lacks, metres.
+    /// Distance that `by` lacks to stop in time, metres.
     pub missing_m: f64,
 }
 
@@ -96,14 +97,14 @@ impl StopSafety {
         1.0 - self.unsafe_moments.len() as f64 / self.moments.max(1) as f64
     }
 
-    /// The moment at which most room is missing.
+    /// Returns the unsafe moment with the greatest `missing_m`; `None` if all moments are safe.
     pub fn worst(&self) -> Option<&UnsafeMoment> {
         self.unsafe_moments
             .iter()
             .reduce(|worst, one| if one.missing_m > worst.missing_m { one } else { worst })
     }
 
-    /// Whether a robot may stop dead at a moment: at the sampled moments before and after it.
+    /// Whether a robot may stop dead at a moment: the sampled moments before and after it are safe.
     pub fn is_safe(&self, robot: usize, at: Span) -> bool {
         let near = |one: &&UnsafeMoment| one.robot == robot && (one.at - at).0.abs() < self.pace.0;
         !self.unsafe_moments.iter().any(|one| near(&one))
@@ -112,13 +113,13 @@ impl StopSafety {
 
 /// Measures a transition's stop-safety under the usual assumptions.
 ///
-/// `paths[robot]`: all of one duration, as [`super::prove`] wants them.
+/// `paths[robot]`: all paths must last equally long, as for [`super::prove`].
 pub fn stop_safety(paths: &[Path], limits: &Limits) -> StopSafety {
     measured(paths, limits, &StopAssumptions::default(), Cancel::NEVER)
 }
 
-/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` says so; it is asked once for
-/// eight moments.
+/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called once
+/// for every eight moments.
 pub fn stop_safety_unless(
     paths: &[Path],
     limits: &Limits,
@@ -152,37 +153,37 @@ pub(crate) fn measured(
         let moments = block.min(count - number * block);
         (0..moments).rev().for_each(|moment| sweep.look(&rows, moment * stride, &near));
     }
-    // The latest moment was looked at first, and of each moment the first robots too.
+    // The sweep went from the last moment to the first, and at each moment from the last robot to the first.
     sweep.found.reverse();
     let pace = STEP * stride as i64;
     let moments = drives.iter().filter(|drives| **drives).count() * count;
     StopSafety { moments, unsafe_moments: sweep.found, pace }
 }
 
-/// A look at all moments, from the last to the first, as everything that follows a death follows it later.
+/// A sweep over all moments, from the last to the first, because a dead stop only affects later moments.
 struct Sweep {
     law: Law,
     /// Steps from one moment to the next.
     stride: usize,
-    /// `[moments ahead][robot]`, of the moments looked at last: a robot that brakes there is touched.
+    /// `[moments ahead][robot]`: whether another robot would touch the robot if it braked to rest at that moment.
     cannot_brake: VecDeque<Vec<bool>>,
     found: Vec<UnsafeMoment>,
 }
 
-/// The effect on a robot of another that stands at a place.
+/// The effect of `robot`, which has stopped dead, on `by`.
 struct Meeting {
     robot: usize,
     by: usize,
     braking: Braking,
-    /// `by` must brake, or may, at a moment at which a third robot touches it then.
+    /// Whether a third robot would touch `by` if `by` braked at one of the moments at which it may or must.
     chained: bool,
 }
 
 impl Sweep {
-    /// Which robots must not stop dead at the first of the rows: those that another robot touches, and those for which
-    /// another must brake that must not stop in turn at one of the moments at which it may come to stand.
+    /// Finds the robots that must not stop dead at one moment. These are robots that another would touch. They are also
+    /// robots for which another may brake at a moment at which that one must not stop.
     ///
-    /// `row`: where the moment stands in the rows.
+    /// `row`: index of the moment in the rows.
     fn look(&mut self, rows: &Rows<'_>, row: usize, near: &Near) {
         let mut meetings = self.meetings(rows, row, near);
         let kept = self.law.ahead.div_ceil(self.stride);
@@ -215,7 +216,7 @@ impl Sweep {
         self.cannot_brake.push_front(cannot_brake);
     }
 
-    /// Robots that may come near the place of another at a moment of a block.
+    /// Finds the robots that may come near the place of another at a moment of a block.
     fn near(&self, rows: &Rows<'_>, block: usize, drives: &[bool]) -> Near {
         let robots = 0..drives.len();
         let boxes: Vec<Bounds> = robots.clone().map(|robot| rows.bounds(robot)).collect();
@@ -236,7 +237,7 @@ impl Sweep {
         Near { corridors, pairs }
     }
 
-    /// Every pair of which one comes near the place of the other, in the order of the pairs.
+    /// Returns every pair of which `by` comes near the place of `robot`, in the order of the pairs.
     fn meetings(&self, rows: &Rows<'_>, row: usize, near: &Near) -> Vec<Meeting> {
         let mut meetings = Vec::new();
         for &(robot, by) in &near.pairs {
@@ -258,21 +259,22 @@ impl Sweep {
 
 /// Robots that may come near others in a block of moments.
 struct Near {
-    /// `[robot]`: around its path from the first moment of the block on.
+    /// `[robot]`: corridor around its path from the first moment of the block on.
     corridors: Vec<Corridor>,
-    /// A robot, and another that may come near its place; the last robot first.
+    /// `(robot, by)`: a robot, and another that may come near its place. Sorted by robot, the last one first.
     pairs: Vec<(usize, usize)>,
 }
 
 /// How a robot brakes for another that stands in its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Braking {
-    /// First and last step ahead in which it may begin to brake; 0 where it cannot stop in time.
+    /// First step ahead in which it may begin to brake; 0 if it cannot stop in time.
     pub first: u8,
+    /// Last step ahead in which it may begin to brake; 0 if it cannot stop in time.
     pub last: u8,
     /// The step in which it would come near if it did not brake.
     pub touched: u8,
-    /// Room that it lacks, metres.
+    /// Distance that it lacks to stop in time, metres.
     pub missing_m: f32,
 }
 
@@ -306,7 +308,8 @@ impl Law {
         Self { contact_m, wary_m, sight_m, step_m, ahead, of }
     }
 
-    /// Braking of a robot that is `at(steps ahead)` if another stops dead at a place; `None`: it does not come near.
+    /// Returns how a robot, which is `at(steps ahead)`, brakes after another stopped dead at `place`; `None` if it does
+    /// not come near.
     pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<Braking> {
         let apart_m = place.distance(at(0));
         let need_m = self.contact_m.min(apart_m) - 1e-6;
@@ -319,7 +322,7 @@ impl Law {
                 return Some(Braking { first: 0, last: 0, touched: touched as u8, missing_m });
             }
         }
-        // It may begin to brake in any step before it comes near; in that one if it stands before.
+        // It may begin to brake in any step up to the one in which it comes near, as long as it still stops in time.
         let in_time = |step: &usize| self.rolling_m(place, at, *step as f64 * STEP.as_secs()) >= wary_m;
         let last = (1..=touched).rev().find(in_time).unwrap_or(1);
         let in_sight = |step: &usize| (at(*step) - place).length_squared() < self.sight_m * self.sight_m;
@@ -327,7 +330,7 @@ impl Law {
         Some(Braking { first: first as u8, last: last as u8, touched: touched as u8, missing_m: 0.0 })
     }
 
-    /// The step in which a robot comes nearer to a place than it must.
+    /// Returns the step in which a robot comes nearer to a place than `need_m`; `None` if it does not.
     fn touched(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, need_m: f64) -> Option<usize> {
         let mut step = 0;
         while step < self.ahead {
@@ -348,12 +351,12 @@ impl Law {
         before.fold(self.rolling_m(place, at, delay_s), f64::min)
     }
 
-    /// The same from the begin of the step in which it begins to brake.
+    /// Least distance of a robot from a place after the begin of the step in which its wheels begin to brake, metres.
     fn rolling_m(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, delay_s: f64) -> f64 {
         let (step, step_s) = (self.step_of(delay_s), STEP.as_secs());
         let (from, to) = (at(step), at(step + 1));
         let speed_mps = from.distance(to) / step_s;
-        // Braking takes the way of half its time.
+        // While it brakes, a robot drives as far as in half that time at its speed before.
         let share = (delay_s + speed_mps / (2.0 * GRIP_MPS2)) / step_s - step as f64;
         point_to_segment(place, from, from.lerp(to, share))
     }

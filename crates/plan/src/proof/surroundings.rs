@@ -11,10 +11,11 @@ use lightbots_show::Obstacle;
 /// Bisections after which an undecided curve is a fault.
 const HALVINGS: u32 = 24;
 
-/// Reports where a path leaves the floor or touches obstacles; each kind once.
+/// Calls `fault` with the begin of the first piece that leaves the floor, and of the first that comes too near to an
+/// obstacle.
 pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(FaultKind, Span)) {
     let (start, end) = (path.start, path.as_ref().end());
-    // A robot that stands outside must only come in.
+    // A robot that starts or ends outside may be as far out as that.
     let radius = input.limits.radius_m;
     let room = |half: f64, a: f64, b: f64| (half - radius).max(a.abs()).max(b.abs()) + SLACK_M;
     let limit = Vec2::new(room(input.half_floor.x, start.x, end.x), room(input.half_floor.y, start.y, end.y));
@@ -69,7 +70,8 @@ fn touches(thing: &Obstacle, curve: &Cubic, need: f64) -> bool {
     }
 }
 
-/// Whether a condition on places holds along a curve: `surely(part)` may only say yes when it does.
+/// Whether a condition on places holds along a curve. `surely(part)` may only be true if the condition holds in the
+/// whole part. An undecided curve counts as `false`.
 fn keeps(
     curve: &Cubic,
     halvings: u32,

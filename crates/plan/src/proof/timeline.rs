@@ -7,9 +7,9 @@ use lightbots_base::Vec2;
 /// One piece of a path and when it is driven.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    /// Begin and end after the transition's start, microseconds; begin < end.
+    /// Begin after the transition's start, microseconds; less than `end_us`.
     pub begin_us: i64,
-    /// See `begin_us`.
+    /// End after the transition's start, microseconds.
     pub end_us: i64,
     /// Control points, stage metres.
     pub curve: Cubic,
@@ -32,7 +32,8 @@ impl Stretch {
     }
 }
 
-/// The stretches of one path, without gap from 0 to `horizon_us`: a path that ends earlier rests at its end.
+/// Adds the stretches of one path to `into`, without gaps from 0 to `horizon_us`. A path that ends earlier rests at its
+/// end.
 pub(super) fn stretches(path: &Path, horizon_us: i64, into: &mut Vec<Stretch>) {
     let (mut start, mut begin_us) = (path.start, 0i64);
     for piece in &path.pieces {
@@ -48,8 +49,8 @@ pub(super) fn stretches(path: &Path, horizon_us: i64, into: &mut Vec<Stretch>) {
     }
 }
 
-/// The moment two robots are closest while both lists last, if they come closer than `enough` metres:
-/// distance, moment, and the place half way between them.
+/// Finds the closest approach of two robots from `from_us` to `to_us`, if it is closer than `enough` metres. Returns
+/// the distance, the moment in microseconds, and the place half way between them.
 pub(super) fn closest(
     a: &[Stretch],
     b: &[Stretch],

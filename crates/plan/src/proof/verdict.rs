@@ -2,26 +2,26 @@
 
 use lightbots_base::{Span, Vec2};
 
-/// The verdict.
+/// The verdict of the proof.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Proof {
-    /// Pairs that come closer than asked, each at its closest; sorted by indices (robots, then standing discs counted
-    /// on).
+    /// Pairs that come closer than allowed, each at its closest moment, sorted by indices. Standing discs have the
+    /// indices after those of the robots.
     pub conflicts: Vec<Closest>,
     /// Illegal motion of single robots, sorted by robot.
     pub faults: Vec<Fault>,
-    /// The closest pair of all; `None` with fewer than two discs.
+    /// The closest approach of all pairs; `None` with fewer than two discs.
     pub closest: Option<Closest>,
 }
 
 /// Illegal motion of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fault {
-    /// Which robot.
+    /// Index of the robot.
     pub robot: usize,
-    /// Its kind.
+    /// Kind of the fault.
     pub kind: FaultKind,
-    /// Begin of the piece, after the start of the transition.
+    /// Begin of the faulty piece, after the start of the transition.
     pub at: Span,
 }
 
@@ -53,15 +53,15 @@ impl Proof {
     }
 }
 
-/// The closest two centres of a transition.
+/// The closest approach of two centres in a transition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// Their distance, metres.
+    /// Distance of the centres, metres.
     pub distance_m: f64,
-    /// When, after the start of the transition.
+    /// Moment of the approach, after the start of the transition.
     pub at: Span,
-    /// Indices into `starts`, or into `standing` counted on from there.
+    /// Indices of the two robots. Standing discs have the indices after those of the robots.
     pub pair: (usize, usize),
-    /// Half way between the two, stage metres.
+    /// Point half way between the two centres, stage metres.
     pub place: Vec2,
 }

@@ -57,7 +57,7 @@ pub(crate) struct Regions {
     part_of: Vec<u32>,
     /// Number of regions.
     pub parts: usize,
-    /// Gaps that are too narrow.
+    /// Gaps that are too narrow to drive through.
     pub gaps: Vec<Gap>,
     shapes: Vec<(Thing, Shape)>,
 }

@@ -1,4 +1,5 @@
-//! Plans a whole show: transition 0 from the places of the robots, then frame after frame.
+//! Plans a whole show: transition 0 leads from the places of the robots to frame 0, each further one from frame to
+//! frame.
 
 mod issues;
 #[cfg(test)]
@@ -16,64 +17,65 @@ use lightbots_show::{Frame, Identity, Issue, Issues, Show, validate};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Options of a plan beside the show.
+/// Options for planning a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowOptions {
     /// Overrides the identity of the show and its frames.
     pub identity: Option<Identity>,
-    /// `robots[start]`: name of the robot there, for pixels that ask for a robot by name. Empty where names are not
-    /// known yet: then each name means some robot, the same in every frame.
+    /// `robots[start]`: name of the robot there, for pixels that ask for a robot by name. Empty if names are not known
+    /// yet. The planner then chooses a robot for each name, which is the same in every frame.
     pub robots: Vec<String>,
-    /// Leaves out the second pass, for previews: stop-safety is then neither raised nor measured. The paths are proven.
+    /// Leaves out the second pass, for previews: stop-safety is neither raised nor measured, and absolute times are not
+    /// checked. The paths are still proven.
     pub as_preview: bool,
 }
 
 /// The plan of a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowPlan {
-    /// `transitions[k]` leads to frame k; empty where the show has errors. With an error among `issues` they are
-    /// drawings, not proven.
+    /// `transitions[k]` leads to frame k. Empty if the show has validation errors. With any other error among `issues`,
+    /// transitions are for drawing only, because not all are proven.
     pub transitions: Vec<Transition>,
-    /// `mapping[k][robot]`: id of the pixel that robot shows in frame k; `None`: it is spare.
+    /// `mapping[k][robot]`: id of the pixel that the robot shows in frame k; `None` if the robot is spare.
     pub mapping: Vec<Vec<Option<u32>>>,
-    /// The robot that each name means.
+    /// Index of the robot to which each name belongs.
     pub names: BTreeMap<String, usize>,
-    /// Issues. With an error among them the plan must not be played.
+    /// Issues of the show. With an error among them, the plan must not be played.
     pub issues: Issues,
-    /// Transitions and air times, seconds.
+    /// Duration of the show, seconds: the sum of all transitions and air times.
     pub duration_s: f64,
-    /// The lower bounds of the transitions, and the air times, seconds.
+    /// Lower bound of `duration_s`, seconds: the sum of the transitions' lower bounds and all air times.
     pub lower_bound_s: f64,
-    /// The closest two centres of the whole show.
+    /// The closest approach of two centres in the whole show.
     pub closest: Option<ShowClosest>,
-    /// `stop_safety[k]`: at which moments of transition k robots may stop dead.
+    /// `stop_safety[k]`: the moments of transition k at which robots may stop dead. Empty for a preview.
     pub stop_safety: Vec<StopSafety>,
     /// `explanations[k]`: the solvers that ran for transition k, and why its plan was chosen.
     pub explanations: Vec<Explanation>,
 }
 
-/// The closest two centres of a show.
+/// The closest approach of two centres in a show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShowClosest {
     /// Index of the transition.
     pub transition: usize,
-    /// The two robots, place and moment.
+    /// The two robots, with distance, place and moment.
     pub closest: Closest,
 }
 
 impl ShowPlan {
-    /// Whether it may be played.
+    /// Whether the plan may be played: none of its issues is an error.
     pub fn ok(&self) -> bool {
         !self.issues.iter().any(Issue::is_error)
     }
 
-    /// The share of all moments at which robots that drive may stop dead, 0 to 1.
+    /// Share of the moments of driving robots at which they may stop dead, 0 to 1.
     pub fn stop_safe_share(&self) -> f64 {
         let sum = |count: fn(&StopSafety) -> usize| self.stop_safety.iter().map(count).sum::<usize>();
         1.0 - sum(|safety| safety.unsafe_moments.len()) as f64 / sum(|safety| safety.moments).max(1) as f64
     }
 
-    /// The transition and moment at which a dead robot leaves another least room to stop.
+    /// Returns the transition and moment at which a robot that stops dead leaves another the least room to stop.
     pub fn least_stop_safe(&self) -> Option<(usize, &UnsafeMoment)> {
         let worst = self.stop_safety.iter().enumerate();
         let worst = worst.filter_map(|(transition, safety)| Some((transition, safety.worst()?)));
@@ -81,14 +83,14 @@ impl ShowPlan {
     }
 }
 
-/// Plans a show for robots at `starts` (stage metres). It never fails: an impossible frame is an issue. A show in
-/// which [`validate`] finds errors is not planned; its errors are the issues.
+/// Plans a show for robots at `starts` (stage metres). Planning never fails: an impossible frame becomes an issue. A
+/// show in which [`validate`] finds errors is not planned; the issues are these errors.
 pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     planned(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
-/// [`show`], cancelled as soon as `is_wanted` says so. It is asked about every tenth of a second from this thread, and
-/// must be cheap.
+/// [`show`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called about every tenth of a second on
+/// this thread, and must be cheap.
 pub fn show_unless(
     show: &Show,
     starts: &[Vec2],
@@ -123,7 +125,7 @@ fn planned(
     whole(show, starts, options, workers, cancel)
 }
 
-/// The plan of a show without errors.
+/// Plans a show that has no validation errors.
 fn whole(
     show: &Show,
     starts: &[Vec2],
@@ -156,7 +158,7 @@ struct Drive {
     shown: Vec<Option<u32>>,
 }
 
-/// Raises the stop-safety of all drives. That moves no end of a path, so each drive is a task of its own.
+/// Raises the stop-safety of all drives. The ends of paths stay the same, so each drive is an independent task.
 fn all_raised(
     drives: Vec<Drive>,
     workers: &dyn Workers,
@@ -176,7 +178,8 @@ fn all_raised(
     done.map(|(drive, safety)| (drive.shown, drive.transition, safety)).collect()
 }
 
-/// The plan of a show without errors but for its drives, whose stop-safety is not raised yet.
+/// Plans the drives of a show that has no validation errors, each from the end of the drive before it. Their
+/// stop-safety is not raised yet. The returned plan does not contain the drives.
 fn chained(
     show: &Show,
     starts: &[Vec2],

@@ -33,7 +33,7 @@ fn of(frames: Vec<Frame>) -> Show {
     }
 }
 
-/// The plan of a show whatever validation says of it.
+/// Plans a show without validating it.
 fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     whole(show, starts, options, &OneThread, Cancel::NEVER)
 }
@@ -110,10 +110,10 @@ fn a_named_robot_shows_its_pixel() {
     let robots = ["left", "middle", "right"].map(String::from).to_vec();
     let plan = show(&both, &STARTS, &ShowOptions { robots, ..ShowOptions::default() });
     assert_eq!((plan.mapping[0][0], plan.mapping[1][0]), (Some(2), Some(0)));
-    // Whom a pixel asks for is the only robot that may show it.
+    // Only the robot that a pixel asks for may show it.
     assert_eq!(codes(&plan), ["unknown-robot"]);
     assert!(!plan.mapping[1].contains(&Some(1)));
-    // Without names a name still means one robot: the one that showed it first.
+    // If names are not known, a name still means one robot: the first that showed a pixel with this name.
     let plan = show(&both, &STARTS, &ShowOptions::default());
     assert!(plan.ok() && plan.issues.is_empty());
     let robot = plan.mapping[0].iter().position(|&id| id == Some(2)).unwrap();
@@ -198,7 +198,7 @@ fn asking(y: f64, names: [Option<&str>; 3]) -> Frame {
 
 #[test]
 fn two_names_are_two_robots_even_where_no_frame_asks_for_both() {
-    // Whoever is nearest to the pixel that asks for bert is anna.
+    // The robot nearest to the pixel that asks for bert is anna.
     let [first, second] = [("anna", 0.5), ("bert", 0.0)].map(|(name, y)| asking(y, [Some(name), None, None]));
     let both = asking(-0.5, [Some("anna"), Some("bert"), None]);
     let plan = show(&of(vec![first, second, both]), &STARTS, &ShowOptions::default());

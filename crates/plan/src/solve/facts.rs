@@ -1,15 +1,17 @@
-//! What decides which groups and rows of the schedule run.
+//! Facts that decide which groups and rows of the schedule run.
 
-/// An acceptable solution takes at most this many times the least, …
+/// Factor on the least duration: an acceptable solution takes less than this many times the least plus
+/// [`ACCEPTABLE_MORE_S`].
 const ACCEPTABLE: f64 = 4.0;
-/// … and this much more, seconds.
+/// Time that an acceptable solution may take in addition, seconds.
 const ACCEPTABLE_MORE_S: f64 = 4.0;
-/// A slow solution takes more than this many times the least, …
+/// Factor on the least duration: a slow solution takes more than this many times the least plus [`SLOW_MORE_S`]. An
+/// order from a lattice may then be faster.
 const SLOW: f64 = 1.8;
-/// … and this much more, seconds. An order from a lattice may then be faster.
+/// Time that a solution that is not slow may take in addition, seconds.
 const SLOW_MORE_S: f64 = 1.5;
 
-/// What the schedule's conditions look at.
+/// Facts on which the schedule's conditions depend.
 pub(super) struct Facts {
     pub is_large: bool,
     pub promises_little: bool,
@@ -28,7 +30,7 @@ pub(super) struct Facts {
     pub tries: usize,
     /// Whether a row of the group made the best solution faster.
     pub is_faster: bool,
-    /// The same of all rows but the last.
+    /// Whether a row of the group before its last one made the best solution faster.
     pub was_faster: bool,
 }
 

@@ -10,8 +10,8 @@ use crate::roads::graph::NONE;
 use crate::roads::lattice::Lattice;
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// Splines of the steps over the lattice, at a speed at which corners are about legal; `None` where the search found
-/// none.
+/// Makes splines from a solution over the lattice, at a speed at which corners are about legal. `None` if there is no
+/// solution.
 pub(crate) fn from_lattice(instance: &Instance, lattice: &Lattice) -> Option<SplineSet> {
     let starts = assign_nodes(instance, lattice, &instance.starts)?;
     let bound: Vec<usize> = (0..instance.robots()).filter(|&robot| instance.ends[robot].is_some()).collect();

@@ -9,24 +9,24 @@ use crate::solve::path_set::{PathSet, crowding, point_along};
 use crate::spline::retime::{moments, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// Bows of guesses, as a share of the length.
+/// Bows that guesses have, as shares of the length of a line; a negative bow is to the left.
 const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
-/// Share of the time in which a dense fleet spreads, and gathers again at the end.
+/// Share of the time in which a dense fleet spreads at the start. It gathers in an equal share at the end.
 const LOOSENED: f64 = 0.3;
-/// Top speed of spreading over its mean.
+/// Ratio of the top speed to the mean speed while the fleet spreads.
 const GENTLE: f64 = 1.5;
 /// Moments at which congestion is measured.
 const SAMPLES: usize = 16;
-/// Weight of excess speed beside congestion.
+/// Weight of excess speed in the badness of a guess, in which congestion has the weight 1.
 const RUSH: f64 = 0.03;
-/// Penalty of each deviation from straight lines together.
+/// Penalty on a guess for each of `early`, `level` and `spread` in its manner.
 const ODD: f64 = 0.005;
-/// Badness that needs no additional time.
+/// Largest badness of a guess that needs no additional time.
 const EASY: f64 = 0.1;
-/// Additional time for each unit of badness, over the least.
+/// Additional time for each unit of badness, as a share of the least duration.
 const STRETCH: f64 = 4.0;
-/// Most additional time of a guess, over the least. Fleets of 1,000 mostly need more, but the deformation finds
-/// better moments for it.
+/// Most additional time of a guess, as a share of the least duration. Fleets of 1,000 robots mostly need more, but the
+/// deformation finds better moments for it.
 const MOST_STRETCH: f64 = 0.4;
 /// Parts of the time between two moments, for retiming.
 const PARTS: usize = 16;
@@ -44,7 +44,7 @@ pub(crate) struct Manner {
     pub level: bool,
     /// Whether a dense fleet spreads on its way.
     pub spread: bool,
-    /// Whether it spreads before any robot drives to its goal, and gathers only when all are there.
+    /// Whether the fleet spreads before any robot drives to its goal, and gathers only after all have arrived.
     pub staged: bool,
 }
 
@@ -67,7 +67,7 @@ pub(crate) struct Guess<'a> {
     progress: ProgressLaw,
     /// Rank of the guess: congestion, excess speed and the penalty of its manner; less is better.
     pub badness: f64,
-    /// The same without the penalty.
+    /// The badness without the penalty of the manner.
     plain_badness: f64,
     /// Congestion at each measured moment.
     congestion: [f64; SAMPLES + 1],
@@ -94,8 +94,8 @@ impl<'a> Guess<'a> {
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
-    /// The guess as splines of about `span_s` seconds each, `stretch` times as long as at full speed. The time goes
-    /// where congestion is.
+    /// Returns the guess as splines with spans of about `span_s` seconds, which last `stretch` times as long as at full
+    /// speed. Moments with congestion get more of this time.
     pub fn splines(&self, stretch: f64, span_s: f64) -> SplineSet {
         let parts = SAMPLES * PARTS;
         let congestion = (0..parts).map(|part| {
@@ -114,7 +114,7 @@ impl<'a> Guess<'a> {
         self.splines_through(drive_s, span_s, evenly)
     }
 
-    /// The same, through the places at some shares of the time, one more than spans.
+    /// Returns the guess as splines through the places at `moments(spans)`: shares of the time, one more than spans.
     fn splines_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> SplineSet {
         let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
@@ -124,7 +124,7 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// Time scale that the congestion should need.
+    /// Returns the time scale that a guess of this badness is expected to need.
     pub fn stretch(&self) -> f64 {
         1.0 + ((self.badness - EASY) * STRETCH).clamp(0.0, MOST_STRETCH)
     }
@@ -139,7 +139,7 @@ impl<'a> Guess<'a> {
         }
     }
 
-    /// Share of the longest path after a share of the time.
+    /// Returns the share of the longest path that is done after a share of the time.
     fn share(&self, moment: f64) -> f64 {
         let within = (moment - LOOSENED) / (1.0 - 2.0 * LOOSENED);
         let moment = if self.manner.staged { within.clamp(0.0, 1.0) } else { moment };
@@ -161,7 +161,7 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// The same, without moving a robot from its path into a wall.
+    /// Returns [`Self::places`], but leaves a robot on its path if it would be in a wall.
     fn free_places(&self, moment: f64) -> Vec<Vec2> {
         let mut places = self.places(moment);
         if !self.path_set.instance.walls.is_empty() {
@@ -176,7 +176,7 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// Share of a robot's path when the longest path is done by `share`.
+    /// Returns the share of a robot's path that is done when the share `share` of the longest path is done.
     fn share_of(&self, robot: usize, share: f64) -> f64 {
         let length = self.path_set.lengths[robot];
         if self.manner.early && length > 0.0 {
@@ -190,7 +190,7 @@ impl<'a> Guess<'a> {
         let (path, length) = (&self.path_set.paths[robot], self.path_set.lengths[robot]);
         let share = self.share_of(robot, share);
         let place = point_along(path, length * share);
-        // A bow that begins and ends straight ahead: 16 s²(1 − s)² is 1 half way.
+        // The bow begins and ends in the direction of the line: 16 s²(1 − s)² is 1 half way.
         let aside = 16.0 * (share * (1.0 - share)) * (share * (1.0 - share)) * self.manner.bow;
         match path[..] {
             [from, to] if aside != 0.0 => {

@@ -1,4 +1,4 @@
-//! First guesses of one problem, ranked by what they promise.
+//! First guesses of one problem, ranked by their badness.
 
 use super::guess::{Guess, Manner};
 use super::path_set::PathSet;
@@ -8,13 +8,14 @@ use crate::instance::Instance;
 use crate::motion::progress::ProgressLaw;
 use crate::optimise::contacts::Clearances;
 
-/// Penalty of a manner that differs from a better one in its bow only, beside [`Guess::badness`].
+/// Penalty in addition to [`Guess::badness`] if the manner of a guess differs from that of a better guess only in its
+/// bow.
 const ALIKE: f64 = 0.06;
 
-/// Paths and first guesses; there are none where a robot has no path.
+/// Paths and first guesses of one problem in which all robots have paths.
 pub(super) struct Guesses<'a> {
     pub path_set: &'a PathSet<'a>,
-    /// The most promising first.
+    /// First guesses, the most promising first.
     pub ranked: Vec<Guess<'a>>,
     /// Duration of the longest path at full speed, seconds.
     pub least_s: f64,
@@ -32,7 +33,7 @@ impl<'a> Guesses<'a> {
         Self { path_set, ranked, least_s }
     }
 
-    /// The guess of a row in minimum time; `None` where another row has it already.
+    /// Returns the guess of a row in minimum time. `None` if another row has this guess already, or none has that rank.
     pub fn pick(&self, pick: Pick) -> Option<&Guess<'a>> {
         let best = self.ranked.first()?;
         match pick {
@@ -43,8 +44,8 @@ impl<'a> Guesses<'a> {
         }
     }
 
-    /// The guesses in another order: where one fails, those that differ from it only in their bow mostly fail too. Of
-    /// several with equal paths there is one.
+    /// Returns the guesses in another order: those that differ from a better one only in their bow come later. If the
+    /// better one fails, they mostly fail too. Of several guesses with equal paths, only one is returned.
     pub fn diverse(&self) -> Vec<&Guess<'a>> {
         let all = &self.ranked;
         let straight = |at: usize| Manner { bow: 0.0, ..all[at].manner };
@@ -58,7 +59,7 @@ impl<'a> Guesses<'a> {
     }
 }
 
-/// A manner and clearances in a few words.
+/// Describes a manner and clearances in a few words.
 pub(super) fn named(manner: Manner, clearances: Clearances) -> String {
     let Manner { bow, early, level, spread, staged } = manner;
     let flags = [(early, "early"), (level, "level"), (spread, "spread"), (staged, "staged")];

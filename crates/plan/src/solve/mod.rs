@@ -30,15 +30,16 @@ use crate::{Meeting, Repaired, TransitionProblem};
 pub(crate) use run::Solution;
 use scale::Scale;
 
-/// Collision-free timed paths for a given assignment: `goal_of[start]` is the goal of that robot, `None` a spare robot
-/// that may step aside.
+/// Finds collision-free timed paths for a given assignment. `goal_of[start]` is the goal of that robot, or `None` for a
+/// spare robot, which may step aside.
 ///
-/// Where nothing was found, the meetings of the row that left fewest; empty where it failed for another reason.
+/// If there are none, returns the meetings of the row of the schedule that left the fewest. They are empty if that row
+/// failed for another reason.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     solve(problem, goal_of, Cancel::NEVER).result
 }
 
-/// [`repair`] with an explanation. The result means nothing where the planner is cancelled.
+/// [`repair`] with an explanation. The result means nothing if the planner is cancelled.
 pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Solution {
     let mut explanation = Explanation::default();
     for scale in Scale::of(&problem.limits) {
@@ -46,7 +47,7 @@ pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], canc
         explanation.append(rows);
         let Ok(found) = result else { continue };
         let found = scale.repaired(problem, goal_of, found);
-        // The speed below which robots may turn freely does not scale with them.
+        // The proof is needed again, because the speed below which robots may turn freely does not scale.
         if prove_unless(&problem.to_prove(&found.paths), cancel).holds() {
             return Solution { result: Ok(found), explanation };
         }
@@ -56,7 +57,7 @@ pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], canc
     Solution { result, explanation }
 }
 
-/// The same for robots of the Elisa-3's size.
+/// [`solve`] without scaling the robots to the Elisa-3.
 fn unscaled(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Solution {
     match Instance::new(problem, goal_of) {
         Some(instance) => run::run(problem, &Instance { cancel, ..instance }),

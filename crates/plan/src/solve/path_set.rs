@@ -5,9 +5,9 @@ use lightbots_base::Vec2;
 use crate::instance::Instance;
 use crate::optimise::cells::{Cells, Disc};
 
-/// Share of the way to an even spread.
+/// Share by which robots are moved towards an even spread.
 const LEVELLED: f64 = 0.6;
-/// Distance of robots in a spread fleet, metres.
+/// Distance between neighbours in a spread fleet, metres.
 const LOOSE_M: f64 = 0.14;
 
 /// The shortest paths of all robots.
@@ -97,7 +97,7 @@ fn room(instance: &Instance, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2
     (middle, Vec2::new(wider(left, right, instance.inner.x), wider(front, back, instance.inner.y)))
 }
 
-/// Sum over pairs closer than `near_m`, each by how close.
+/// Returns the congestion of places: each pair closer than `near_m` adds 1 minus its distance over `near_m`.
 pub(crate) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
     let disc = |(robot, &at): (usize, &Vec2)| Disc { at, radius: 0.0, owner: robot as u32 };
     let discs: Vec<Disc> = places.iter().enumerate().map(disc).collect();
@@ -111,7 +111,8 @@ pub(crate) fn length(path: &[Vec2]) -> f64 {
     path.windows(2).map(|segment| segment[0].distance(segment[1])).sum()
 }
 
-/// The place `length_m` along a line through corners. A path has at least one corner.
+/// Returns the place `length_m` along a line through corners, or the end of a shorter line. A path has at least one
+/// corner.
 pub(crate) fn point_along(path: &[Vec2], mut length_m: f64) -> Vec2 {
     for segment in path.windows(2) {
         let length = segment[0].distance(segment[1]);

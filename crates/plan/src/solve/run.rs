@@ -29,30 +29,31 @@ use crate::{Meeting, Path, Repaired, TransitionProblem};
 
 /// Length of a span that first guesses aim at, seconds: the smallest curve at full speed takes as long.
 const SPAN_S: f64 = 0.25;
-/// The same for large fleets, seconds: fewer spans are less work.
+/// Length of a span in first guesses of large fleets, seconds: fewer spans are less work.
 const LONG_SPAN_S: f64 = 0.33;
 /// Meetings for each robot above which slack does not help.
 const HOPELESS: usize = 3;
-/// Above this number of robots the first acceptable solution is taken.
+/// Most robots for which solutions are compared. With more, the first acceptable solution is taken.
 const MOST_TO_COMPARE: usize = 600;
-/// Above this number of robots the same holds where the best guess needs more than [`LITTLE_PROMISED`] of the least.
+/// Above this number of robots, successive halving runs first if the best guess needs more than [`LITTLE_PROMISED`]
+/// times the least duration.
 const MANY: usize = 350;
 /// Time scale of the best guess above which it promises little.
 const LITTLE_PROMISED: f64 = 1.16;
 /// Guesses that take part in the first round of successive halving.
 const RACERS: usize = 2;
-/// Sweeps of the first round.
+/// Sweeps of each guess in the first round.
 const FIRST_SWEEPS: usize = 7;
-/// A guess with fewer resolved contacts for each robot than this ends the first round: no other guess is tried.
+/// Number of contacts for each robot below which a guess ends the first round: no other guess is tried.
 const PROMISING: usize = 6;
-/// Share of its contacts that counts for the guess that was ranked first.
+/// Factor on the contacts of the guess that was ranked first, when guesses are compared after the first round.
 const HEAD_START: f64 = 0.9;
 /// Rounds in which robots with illegal motion are smoothed and the contacts that follow are resolved.
 const AMENDMENTS: usize = 4;
 /// Sweeps of each of those rounds.
 const AMENDING_SWEEPS: usize = 72;
-/// Penalty on the duration of a solution between walls with less than [`WIDE`] clearance: one robot that brakes there
-/// blocks others.
+/// Factor on the duration of a solution between walls with less than [`WIDE`] clearance, as a penalty: one robot that
+/// brakes there blocks others.
 const CLOSE: f64 = 1.25;
 
 /// A solution that the proof accepts.
@@ -69,9 +70,10 @@ enum Trajectories {
     StopAndGo(Repaired),
 }
 
-/// What a run of the schedule came to.
+/// The result of a run of the schedule.
 pub(crate) struct Solution {
-    /// The chosen paths, or the meetings of the row that left fewest; empty where it failed for another reason.
+    /// The chosen paths, or the meetings of the row that left the fewest. These are empty if that row failed for
+    /// another reason.
     pub result: Result<Repaired, Vec<Meeting>>,
     pub explanation: Explanation,
 }
@@ -106,12 +108,12 @@ struct Run<'a> {
     instance: &'a Instance<'a>,
     visibility: &'a OnceCell<VisibilityGraph>,
     guesses: Option<&'a Guesses<'a>>,
-    /// Work that is left.
+    /// Work that is left, in units of [`Budget`].
     work: usize,
-    /// Pairs of moves that stop-and-go may still look at.
+    /// Number of pairs of moves that stop-and-go may still check.
     looks: usize,
     candidates: Vec<Candidate>,
-    /// Meetings of the row that left fewest.
+    /// Meetings of the row that left the fewest.
     left_over: Vec<Meeting>,
     rows: Vec<ExplainedRow>,
 }
@@ -146,7 +148,8 @@ impl Run<'_> {
         (1..=MOST_WALLS).contains(&self.instance.walls.len())
     }
 
-    /// The fastest solution, which the schedule's conditions look at; the choice is made at the end.
+    /// The fastest solution, on which the schedule's conditions depend. The choice among all solutions is made at the
+    /// end.
     fn fastest(&self) -> Option<&Candidate> {
         self.candidates.iter().min_by(|one, other| one.lasts_s.total_cmp(&other.lasts_s))
     }
@@ -155,7 +158,7 @@ impl Run<'_> {
         self.instance.cancel.is_wanted()
     }
 
-    /// Runs the rows of a group until its target is reached.
+    /// Runs the rows of a group until its target is reached, or reports the group as skipped.
     fn group(&mut self, group: &Group) {
         let facts = self.facts();
         let needs_guesses = !matches!(group.rows[0].solver, Solver::StopAndGo { .. });
@@ -185,7 +188,7 @@ impl Run<'_> {
         }
     }
 
-    /// Runs a row; whether it counts as a try.
+    /// Runs a row. Returns whether it counts as a try.
     fn row(&mut self, row: &SolverRow, tries: usize) -> bool {
         let (wide, is_large) = (WIDE.robots_m, self.is_large());
         let SolverRow { solver, clearances, stretch, sweeps } = *row;
@@ -230,11 +233,12 @@ impl Run<'_> {
         }
     }
 
-    /// A few sweeps for some guesses; the one with the fewest contacts goes on first, then the others.
+    /// Deforms some guesses by a few sweeps each. Then finishes the one with the fewest contacts, and the others until
+    /// a solution is acceptable.
     fn successive_halving(&mut self, guesses: &Guesses<'_>, row: &SolverRow) {
         let (instance, clearances) = (self.instance, row.clearances);
         let diverse = guesses.diverse();
-        // The even and early manner has mostly won.
+        // Guesses that are `level` and `early` mostly win, so a second guess is not needed.
         let is_favourite = diverse.first().is_some_and(|first| first.manner.level && first.manner.early);
         let mut starts = diverse.into_iter().take(MOST_TRIES).map(|guess| {
             let slower = guess.stretch();
@@ -260,7 +264,7 @@ impl Run<'_> {
             .map(|(manner, splines, effort)| (manner, Relaxation::new(instance, splines, effort), effort));
         for (manner, racer, effort) in racers.chain(late) {
             self.finish(format!("successive halving, {}", named(manner, clearances)), racer, effort);
-            // The first guess of a large fleet takes long, also where no work is left to deform it.
+            // Making a guess of a large fleet takes long, even if no work is left to deform it.
             if self.facts().is_acceptable() || self.is_cancelled() {
                 break;
             }
@@ -286,7 +290,7 @@ impl Run<'_> {
         self.finish(name, Relaxation::new(self.instance, splines, effort), effort);
     }
 
-    /// The same with a deformation that may have begun.
+    /// Finishes a deformation that may have begun, and keeps or rejects its result.
     fn finish(&mut self, name: String, mut relaxation: Relaxation, effort: Effort) {
         relaxation.go_on(effort.sweeps, &mut self.work);
         match relaxation.outcome().and_then(|splines| self.amended(splines, effort)) {
@@ -305,8 +309,8 @@ impl Run<'_> {
         }
     }
 
-    /// The splines once the proof holds: robots with illegal motion get a smoother spline, and contacts that follow are
-    /// resolved.
+    /// Returns the splines once the proof holds. Robots with illegal motion get a smoother spline, and contacts that
+    /// follow are resolved. `Err` if the proof does not hold in the end.
     fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, Vec<Meeting>> {
         let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
         for _ in 0..AMENDMENTS {
@@ -358,7 +362,7 @@ impl Run<'_> {
         }
     }
 
-    /// The choice among all solutions, by the order on candidate plans.
+    /// Chooses among all solutions by the order on candidate plans.
     fn outcome(mut self) -> Solution {
         let mut plans: Vec<Repaired> =
             self.candidates.iter().map(|candidate| self.repaired(&candidate.solution)).collect();

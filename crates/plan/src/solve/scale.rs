@@ -7,7 +7,7 @@ use crate::Repaired;
 use crate::margins::{MARGIN_M, ROOMY_M};
 use crate::{Path, TransitionProblem};
 
-/// Scales this near to 1 are left out.
+/// Difference from 1 below which a scale is left out.
 const ALIKE: f64 = 1e-9;
 
 /// Factor from lengths of the problem to lengths of the Elisa-3.
@@ -28,7 +28,7 @@ impl Scale {
         scales.into_iter().map(Self).collect()
     }
 
-    /// The same transition of robots of the Elisa-3's size.
+    /// Returns the transition scaled to robots of the Elisa-3's size.
     pub fn problem(self, problem: &TransitionProblem) -> TransitionProblem {
         let places = |places: &[Vec2]| places.iter().map(|&place| place * self.0).collect();
         let radius_m = Limits::ELISA_3.radius_m;
@@ -64,7 +64,7 @@ impl Scale {
         }
     }
 
-    /// Solved paths, scaled back to the robots of `problem` with the assignment `goal_of[start]`.
+    /// Scales solved paths back to the robots of `problem` with the assignment `goal_of[start]`.
     pub fn repaired(
         self,
         problem: &TransitionProblem,
@@ -77,7 +77,7 @@ impl Scale {
         Repaired { paths, least: found.least }
     }
 
-    /// It begins and ends exactly at the given places.
+    /// Scales a path back. The result begins and ends exactly at the given places.
     fn path(self, start: Vec2, end: Option<Vec2>, path: &Path) -> Path {
         let last = path.as_ref().end();
         let place = |at: Vec2| match end {
@@ -110,7 +110,7 @@ mod tests {
         }
     }
 
-    /// Duration over that of a robot alone.
+    /// Duration as a multiple of that of a robot alone.
     fn ratio(problem: &TransitionProblem) -> f64 {
         let goal_of: Vec<Option<usize>> = (0..problem.starts.len()).map(Some).collect();
         let found = repair(problem, &goal_of).expect("a way");

@@ -1,9 +1,9 @@
 //! The schedule of solvers: which first guesses are deformed, with which clearances, time scale and budget.
 //!
-//! [`super::run`] goes through the groups in order. A group is skipped where its condition does not hold, and left as
-//! soon as its target is reached. To add a solver, add a variant to [`Solver`], a row here, and its first guess in
-//! `Run::row` (`run.rs`). All rows of a group need guesses, or none does. At most [`MOST_TRIES`] rows of a group run: a row
-//! at the end of a longer group may never do.
+//! [`super::run`] goes through the groups in order. It skips a group whose condition does not hold, and leaves a group
+//! as soon as its target is reached. To add a solver, add a variant to [`Solver`], a row here, and its first guess in
+//! `Run::row` (`run.rs`). All rows of a group need guesses, or none does. At most [`MOST_TRIES`] rows of a group run,
+//! so the last rows of a longer group may never run.
 
 use super::facts::Facts;
 use super::guess::Manner;
@@ -11,31 +11,32 @@ use super::guess::Manner;
 use crate::margins::EDGE_M;
 use crate::optimise::contacts::Clearances;
 
-/// What makes the first guess of a row.
+/// The method that makes the first guess of a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Solver {
     /// Shortest paths in minimum time, in one manner.
     MinimumTime(Pick),
     /// Several manners of a large fleet: a few sweeps for each, then the one with the fewest contacts goes on.
     SuccessiveHalving,
-    /// Shortest paths with slack: `times` as long as the least, of which at least `least_s` seconds.
+    /// Shortest paths with slack. The duration is `times` the least duration, or `times` × `least_s` seconds if that is
+    /// longer.
     WithSlack { manner: Manner, times: f64, least_s: f64 },
     /// The order of a solution over a hexagonal lattice of this pitch.
     FromLattice { pitch_m: f64 },
-    /// The same over a lattice with nodes in the gaps between walls.
+    /// The order of a solution over a lattice that also has nodes in the gaps between walls.
     ThroughGaps { pitch_m: f64 },
     /// Stop-and-go trajectories over a roadmap of this pitch, with nodes `off_edge_m` off the floor's edge.
     StopAndGo { pitch_m: f64, off_edge_m: f64 },
 }
 
-/// Which of the ranked manners a row takes.
+/// Which of the ranked guesses a row takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pick {
-    /// The best one.
+    /// The best guess.
     Best,
-    /// Straight and together, unless that is the best one.
+    /// The guess of straight lines driven together, unless it is the best guess.
     Plain,
-    /// The one of this rank.
+    /// The guess of this rank.
     Ranked(usize),
 }
 
@@ -60,16 +61,16 @@ pub(super) struct Group {
     pub rows: &'static [SolverRow],
 }
 
-/// How much work a group may do. Unit: robots × spans × sweeps, and one for each contact that is resolved.
+/// Limit on the work of a group. The unit is one robot on one span in one sweep, or one contact that is resolved.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Budget {
-    /// What is left.
+    /// The work that is left.
     Left,
-    /// What is left, but at most this.
+    /// The work that is left, but at most this.
     AtMost(usize),
-    /// What is left, but at least this.
+    /// The work that is left, but at least this.
     AtLeast(usize),
-    /// This.
+    /// This amount, whatever is left.
     Of(usize),
 }
 
@@ -99,11 +100,12 @@ pub(super) enum When {
 pub(super) enum Until {
     /// A solution is acceptable.
     Acceptable,
-    /// A solution is good; after some tries, or where work is short, acceptable.
+    /// A solution is good. After [`ENOUGH_TRIES`] tries, or with less than [`WORK_TO_SPARE`] work left, it need only be
+    /// acceptable.
     Good,
     /// A row made the best solution faster, or it is acceptable.
     Faster,
-    /// An earlier row made the best solution faster, and it is not slow.
+    /// A row before the last one made the best solution faster, and the best solution is not slow.
     FasterAndNotSlow,
     /// There is a solution.
     Solved,
@@ -158,14 +160,15 @@ const ENOUGH_TRIES: usize = 4;
 const WORK_TO_SPARE: usize = 14_000_000;
 /// Work for all guesses in minimum time: some seconds on one core.
 pub(super) const MOST_WORK: usize = 22_000_000;
-/// Work with slack.
+/// Most work for guesses with slack.
 const SLACK_WORK: usize = 8_000_000;
-/// Work over lattices.
+/// Work for guesses from lattices.
 const LATTICE_WORK: usize = 18_000_000;
-/// A solution this many times as long as the least is good.
+/// Factor on the least duration below which a solution is good.
 const GOOD: f64 = 1.15;
 
-/// Distance of lattice nodes, metres: robots that follow each other around corners stay 0.83 of it apart.
+/// Distance between neighbouring lattice nodes, metres: robots that follow each other around corners stay 0.83 of it
+/// apart.
 pub(super) const PITCH_M: f64 = 0.072;
 /// Pitch of the second attempt, metres: fewer robots fit, but paths have more clearance.
 const LOOSE_PITCH_M: f64 = 0.078;
@@ -196,11 +199,11 @@ const fn in_gap(walls_m: f64, slack_m: f64) -> Clearances {
     Clearances { robots_m: 0.065, walls_m, slack_m, ..TIGHT_OFF_EDGE }
 }
 
-/// Straight lines, all together.
+/// The manner in which all robots drive straight lines together.
 const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
-/// The same, spread out on the way.
+/// [`TOGETHER`] with a fleet that spreads on the way.
 const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
-/// The same, spread out before the drive.
+/// [`LOOSE`] with a fleet that spreads before the drive.
 const STAGED: Manner = Manner { staged: true, ..LOOSE };
 
 /// Largest time scale of a solution in minimum time, over the least.
@@ -231,7 +234,7 @@ const fn stop_and_go(pitch_m: f64, off_edge_m: f64) -> SolverRow {
     }
 }
 
-/// Rows of both groups from a lattice.
+/// Rows of both groups called "from lattice".
 const LATTICES: &[SolverRow] = &[from_lattice(PITCH_M), from_lattice(LOOSE_PITCH_M)];
 
 /// All groups, in the order in which they run.
@@ -326,7 +329,7 @@ pub(super) const SCHEDULE: [Group; 8] = [
     },
 ];
 
-/// Rows of a group that are tried at most.
+/// Most rows of a group that are tried.
 pub(super) const MOST_TRIES: usize = 8;
 
 #[cfg(test)]

@@ -13,11 +13,11 @@ use crate::roads::graph::NONE;
 use crate::roads::roadmap::Roadmap;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Most pairs of moves to look at in all rows: some seconds for a fleet without a solution.
+/// Most pairs of moves that are checked in all rows: some seconds for a fleet without a solution.
 pub(super) const MOST_LOOKS: usize = 120_000_000;
 
-/// Stop-and-go trajectories over a roadmap, given by its pitch and its distance from the floor's edge, metres; `None` where
-/// none were found. Uses up `looks`.
+/// Finds stop-and-go trajectories over a roadmap, which is given by its pitch and its distance from the floor's edge,
+/// metres. `None` if there are none. Subtracts the checks of pairs from `looks`.
 pub(super) fn stop_and_go(
     instance: &Instance,
     visibility: &VisibilityGraph,

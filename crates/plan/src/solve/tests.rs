@@ -1,4 +1,4 @@
-//! Whole repairs, judged by the proof.
+//! Whole repairs, checked by the proof.
 
 use super::*;
 use crate::motion::quarter_turn;
@@ -77,8 +77,8 @@ fn a_dense_crowd_with_fixed_identity_gets_through() {
     }
 }
 
-/// How much nearer to a side of the floor robots come than their ends are, and than they shall where those are farther
-/// away, metres.
+/// Returns by how much robots come closer to the floor's edge than they may, metres. They may come as close as
+/// `wanted_m`, or as their starts and ends.
 fn nearer_to_edge_m(problem: &TransitionProblem, wanted_m: f64) -> f64 {
     let goal_of: Vec<Option<usize>> = (0..problem.starts.len()).map(Some).collect();
     let paths = repair(problem, &goal_of).expect("a way").paths;
@@ -236,7 +236,7 @@ fn neighbours_in_a_tight_crowd_change_places() {
     for (count, pitch) in [(19, 0.06), (19, 0.07), (37, 0.065)] {
         let starts = blob(count, pitch);
         let mut goals = starts.clone();
-        // Who is nearest swaps with the nearest, all over the crowd.
+        // Nearest neighbours swap places, all over the fleet.
         let mut free: Vec<usize> = (0..count).collect();
         while let Some(one) = free.pop() {
             let beside = |other: &usize| starts[one].distance(starts[*other]) < pitch * 1.1;
@@ -263,7 +263,7 @@ fn a_queue_gets_through_a_gap_no_wider_than_it_must_be() {
     }
 }
 
-/// A corridor along the lower edge of a floor 0.3 m deep, so wide, with a bay above it between two walls.
+/// A corridor of this width along the lower edge of a floor 0.3 m deep, with a bay above it between two walls.
 fn bay(width: f64, from: f64, to: f64) -> Vec<Obstacle> {
     let top = width - 0.15;
     vec![
@@ -355,7 +355,7 @@ fn a_wished_for_duration_is_kept() {
     let Repaired { paths, least } = repair(&problem, &goal_of).unwrap();
     assert!((paths[0].as_ref().duration().as_secs() - 20.0).abs() < 1e-3);
     assert!(prove(&problem.to_prove(&paths)).holds());
-    // The least is what the same problem takes without a wish, and may be wished for.
+    // The least duration is that of the same problem without an asked duration, and it may be asked for.
     for wish in [None, Some(least)] {
         problem.duration = wish;
         let quick = repair(&problem, &goal_of).unwrap();

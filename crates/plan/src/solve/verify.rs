@@ -1,4 +1,4 @@
-//! The proof's verdict on splines, and what it takes to make it hold.
+//! Checks splines with the proof, and slows them down a little if that makes the proof hold.
 
 use lightbots_base::Span;
 
@@ -18,7 +18,8 @@ pub(super) struct Rejected {
     pub faulty_spans: Vec<(usize, usize)>,
 }
 
-/// The splines in the least of [`SLOWDOWNS`] in which the proof holds, at full speed and in the asked duration.
+/// Returns the splines with the least of [`SLOWDOWNS`] with which the proof holds, both at full speed and in the asked
+/// duration.
 pub(super) fn verified(
     problem: &TransitionProblem,
     instance: &Instance,
@@ -45,7 +46,7 @@ pub(super) fn verified(
     Err(Rejected { splines, faulty_spans })
 }
 
-/// What the proof says of splines with spans of this length; `None` where it holds.
+/// Returns the failed proof of splines with spans of this length; `None` if the proof holds.
 fn rejection(
     problem: &TransitionProblem,
     instance: &Instance,
@@ -54,7 +55,7 @@ fn rejection(
 ) -> Option<Proof> {
     let paths = splines.paths(quarter_turn(&problem.limits), span);
     let input = problem.to_prove(&paths);
-    // Most rejected splines turn too fast, which shows without looking at pairs.
+    // Most rejected splines turn too fast, which shows without checking pairs.
     let alone = Proof { faults: faults(&input, instance.cancel), ..Proof::default() };
     let proof = if alone.holds() { prove_unless(&input, instance.cancel) } else { alone };
     (!proof.holds()).then_some(proof)
@@ -75,6 +76,6 @@ pub(super) fn span_of(
     let asked_s = problem
         .duration
         .map_or(0.0, |whole| (whole - quarter_turn(&instance.limits)).as_secs() / splines.spans as f64);
-    // A little less, so that a whole number of microseconds stays the same.
+    // Subtracts a little first, so that rounding errors do not lift a whole number of microseconds to the next.
     least.max(Span((asked_s * 1e6 - 1e-3).ceil() as i64))
 }

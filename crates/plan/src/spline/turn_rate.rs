@@ -6,7 +6,7 @@ use lightbots_base::{Limits, Vec2};
 use crate::spline::hull::{crosses, halves, squares};
 use crate::spline::weights::{blend, fold};
 
-/// Below this speed the direction does not matter, m/s. The proof has the same rule.
+/// Speed below which the direction does not matter, m/s. The proof has the same rule with a higher speed.
 const CREEP_MPS: f64 = 0.008;
 /// Sampled moments of a span.
 const MOMENTS: usize = 16;
@@ -192,8 +192,8 @@ impl TurnRate {
         (fastest / self.turn).max(self.slow_turn(spline).map_or(0.0, |(_, time_scale)| time_scale))
     }
 
-    /// Returns the worst turn of a slow robot: the span in which it is fast again, and the turn as a multiple of what
-    /// its slow time allows. `None` if all turns are legal.
+    /// Returns the worst turn of a slow robot: the span in which it is fast again, and the turn over what its slow time
+    /// allows. `None` if all turns are legal.
     fn slow_turn(&self, spline: &[Vec2]) -> Option<(usize, f64)> {
         let slow_m = SLOW * self.creep_m;
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);

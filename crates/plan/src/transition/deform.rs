@@ -105,8 +105,8 @@ fn deformed(
     best
 }
 
-/// Slows all paths of a candidate until they keep the limits of speed and acceleration: a robot at full speed has no
-/// speed left for a displacement. Returns the candidate unchanged if it needs more than [`slowest`].
+/// Slows all paths of a candidate until they keep the limits, because a robot at full speed has no speed left for a
+/// displacement. Returns the candidate unchanged if it needs more than [`slowest`].
 fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
     let too_fast = deformed
         .proof

@@ -44,8 +44,8 @@ pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> 
     Err(infeasible(Vec::new(), message.into()))
 }
 
-/// Checks that the goals can be shown at all: there are enough robots, no goals touch, and all are on the floor, clear
-/// of obstacles and standing robots.
+/// Checks that the goals can be shown at all. There must be enough robots, and no goals that touch. All goals must be
+/// on the floor, clear of obstacles and standing robots.
 pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Infeasible> {
     let (starts, goals) = (&problem.starts, &problem.goals);
     if goals.len() > starts.len() {

@@ -40,7 +40,7 @@ impl<'a> FreeSpace<'a> {
     }
 
     /// Whether the line `a`–`b` keeps the gap to a disc at `p`. If `a` or `b` is closer than the gap, the line only has
-    /// to keep that distance. At `b`, two robots' radii remain in any case.
+    /// to keep that distance. The end `b` must be at least two radii of a robot from `p` in any case.
     pub fn clears_disc(&self, a: Vec2, b: Vec2, p: Vec2) -> bool {
         let needed = self.gap_m.min(a.distance(p)).min(b.distance(p));
         point_to_segment(p, a, b) >= needed - 1e-9 && b.distance(p) >= 2.0 * self.radius_m

@@ -11,19 +11,19 @@ pub(super) struct Corridor {
 }
 
 impl Corridor {
-    /// Around at least one place.
+    /// The corridor around some places. Panics if there are none.
     pub fn around(places: &[Vec2]) -> Self {
         let (from, to) = (places[0], places[places.len() - 1]);
         let bulge_m = places.iter().map(|&place| point_to_segment(place, from, to)).fold(0.0, f64::max);
         Self { from, to, bulge_m }
     }
 
-    /// Least distance that a place may have from the path through the corridor's places, metres.
+    /// Lower bound of the distance of a place from the path through the corridor's places, metres.
     pub fn distance_m(&self, place: Vec2) -> f64 {
         point_to_segment(place, self.from, self.to) - self.bulge_m
     }
 
-    /// Whether a place of the one may be nearer to a place of the other than this.
+    /// Whether a place of one corridor may be nearer than `reach_m` to a place of the other.
     pub fn is_near(&self, other: &Self, reach_m: f64) -> bool {
         let lines_m = segment_to_segment((self.from, self.to), (other.from, other.to));
         lines_m < reach_m + self.bulge_m + other.bulge_m

@@ -7,15 +7,15 @@ use lightbots_base::{Span, Vec2};
 /// Time between two sampled moments.
 pub(crate) const STEP: Span = Span::from_millis(50);
 
-/// The places of all robots at a moment and at some after it, which go back in time together.
+/// The places of all robots at consecutive moments. This window of moments moves back in time.
 pub(super) struct Rows<'a> {
     cursors: Vec<Cursor<'a>>,
     /// Number of moments.
     count: usize,
-    /// `[robot × 2 count + first_row + steps ahead]`, stage metres. Those of a robot follow each other, because the robots
-    /// are looked at one by one; each stands twice, `count` apart, so that none of them is behind the end.
+    /// `[robot × 2 count + first_row + steps ahead]`, stage metres. Each robot has a ring buffer, in which every place
+    /// is stored twice, `count` apart. The window of a robot is therefore always one slice.
     places: Vec<Vec2>,
-    /// Where the first moment stands, below `count`.
+    /// Index of the first moment in each ring buffer, below `count`.
     first_row: usize,
     first: Span,
 }
@@ -23,13 +23,14 @@ pub(super) struct Rows<'a> {
 /// How far back a path has been read.
 struct Cursor<'a> {
     path: &'a Path,
-    /// The piece it is in, and when that begins.
+    /// Index of the current piece.
     piece: usize,
+    /// Moment at which the current piece begins.
     begin: Span,
 }
 
 impl<'a> Rows<'a> {
-    /// Places at a moment at which all paths have ended, or end within a step, and at `ahead` steps after it.
+    /// Places at `first`, a moment at which all paths have ended or end within a step, and at `ahead` steps after it.
     pub fn new(paths: &'a [Path], ahead: usize, first: Span) -> Self {
         let cursor =
             |path: &'a Path| Cursor { path, piece: path.pieces.len(), begin: path.as_ref().duration() };
@@ -45,7 +46,7 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    /// The first row's moment.
+    /// Returns the first moment of the window.
     pub fn first(&self) -> Span {
         self.first
     }
@@ -63,7 +64,7 @@ impl<'a> Rows<'a> {
         bounds
     }
 
-    /// Goes back by `by` steps.
+    /// Moves the window back by `by` steps.
     pub fn go_back(&mut self, by: usize) {
         self.first -= STEP * by as i64;
         let read = by.min(self.count);
@@ -80,7 +81,7 @@ impl<'a> Rows<'a> {
 }
 
 impl Cursor<'_> {
-    /// Where the path is at a moment no later than the one before.
+    /// Returns the place of the path at a moment, which must not be later than that of the last call.
     fn at(&mut self, moment: Span) -> Vec2 {
         let pieces = &self.path.pieces;
         while moment < self.begin && self.piece > 0 {

@@ -10,7 +10,7 @@ fn straight(from: Vec2, velocity: Vec2, seconds: f64) -> Path {
     Path { start: from, pieces: vec![Piece::straight(from, end, Span::from_secs(seconds))] }
 }
 
-/// A row of robots at full speed, rim to rim at such gaps behind the first.
+/// A row of robots at full speed, one behind the other with these gaps between their rims.
 fn queue(gaps_m: &[f64]) -> Vec<Path> {
     let mut x = 0.0;
     let places = std::iter::once(0.0).chain(gaps_m.iter().map(|gap_m| {
@@ -79,7 +79,7 @@ fn a_crossing_just_behind_another_is_unsafe_while_it_is_too_late_to_stop() {
     assert!(found.unsafe_moments.iter().all(|one| (one.robot, one.by) == (0, 1)));
 }
 
-/// The same by brute force for two robots, in steps of a millisecond.
+/// Whether the second robot touches the first after the first stopped dead, by brute force in steps of a millisecond.
 fn touches(paths: &[Path], at: Span) -> bool {
     let [dead, other] = [&paths[0], &paths[1]].map(Path::as_ref);
     let place = dead.at(at).position;
