@@ -190,7 +190,7 @@ mod tests {
                 let drained = |within: &mut Within<'_>| {
                     let mut seen = Vec::new();
                     within.drain(row, reach_squared, &mut seen);
-                    // A few come back.
+                    // A few of the columns are put back.
                     seen.sort_unstable();
                     seen.iter().step_by(3).for_each(|&column| within.put(column));
                     seen

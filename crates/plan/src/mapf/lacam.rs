@@ -18,7 +18,7 @@ struct SearchNode {
     from: usize,
     /// Robots by urgency, the most urgent first.
     ranks: Vec<usize>,
-    /// Priority of each robot: the steps since it was last at its goal, plus a share from 0 to 1 by the cost from its
+    /// Priority of each robot: the steps since it was last at its goal, plus a share from 0 to 1 by its cost at the
     /// start.
     urgency: Vec<f64>,
     /// Constraints not tried yet, breadth first.

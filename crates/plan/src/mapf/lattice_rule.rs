@@ -20,7 +20,7 @@ const TAKEN: f64 = 0.5;
 /// Cost of each metre to the goal, in steps. It decides between nodes that are otherwise equal.
 const METRE: f64 = 1e-3;
 
-/// Where robots are on the lattice, and how far from their goals.
+/// Places of robots on the lattice, and their distances from their goals.
 pub(crate) struct LatticeRule<'a> {
     lattice: &'a Lattice,
     /// `[robot]`: its goal; [`NONE`] if the robot only makes way.

@@ -12,7 +12,7 @@ pub(crate) trait ConflictRule {
     /// Returns the nodes to which a robot may go from a node, without the node itself.
     fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
 
-    /// Returns the cost of a robot's path from a node to its goal: infinite if there is no path, 0 for a robot without
+    /// Returns the cost of a robot's path from a node to its goal. Infinite if there is no path; 0 for a robot without
     /// a goal.
     fn far(&self, robot: usize, node: u32) -> f64;
 

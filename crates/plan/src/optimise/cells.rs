@@ -18,7 +18,7 @@ pub(crate) struct Disc {
 pub(crate) struct Cells {
     sorted: Vec<Disc>,
     cell_of: Vec<u32>,
-    /// Index of each cell's first disc, row after row; one more than cells.
+    /// Index of each cell's first disc, row after row, and one entry for the end.
     begins: Vec<u32>,
 }
 

@@ -7,8 +7,8 @@ use crate::optimise::displacement::Displacement;
 
 /// Number of straight stretches of a span.
 pub(crate) const STRETCHES: usize = 4;
-/// A robot that moved less than this since the last detection counts as still, metres. It is part of
-/// [`SKIN_M`](super::contacts).
+/// A robot that moved less than this since the last detection counts as still, metres. [`SKIN_M`](super::contacts)
+/// includes this distance.
 pub(crate) const MOVED_M: f64 = 0.002;
 /// If fewer than one robot in this many has moved, each moved robot is compared with all others directly.
 const FEW: usize = 40;

@@ -1,4 +1,4 @@
-//! The deformation of first guesses in space and time: pairs that are too close are displaced, then splines are
+//! The deformation of first guesses in space and time. Pairs that are too close are displaced, then splines are
 //! projected onto their limits, until neither is needed.
 
 use lightbots_base::Vec2;
@@ -24,7 +24,7 @@ const PERTURBATION_TURN: f64 = 2.4;
 const PERTURBATION: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
 /// Least number of sweeps between two detections.
 const DETECTION_EVERY: usize = 6;
-/// Largest displacement without a new detection, metres: half of the 12 mm beyond which pairs are not looked at.
+/// Largest displacement without a new detection, metres: half of the 12 mm beyond which pairs are ignored.
 const DETECTION_MOVED_M: f64 = 0.006;
 /// Passes in which congestion is smoothed.
 const SMOOTHING: usize = 3;

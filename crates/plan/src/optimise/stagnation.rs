@@ -1,4 +1,5 @@
-//! When a deformation gets more time, and how much.
+//! When a deformation gets more time, and how much. Sweeps are counted in stages. A stage is in vain if too many
+//! contacts are left at its end.
 
 /// Sweeps of a stage, and the share of its contacts that may be left at its end.
 const STAGE: (usize, f64) = (12, 0.5);

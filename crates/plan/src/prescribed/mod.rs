@@ -28,7 +28,7 @@ use lightbots_show::{PictureMotion, Show};
 use picture::picture;
 use way::PrescribedWay;
 
-/// The drive that a show prescribes from the picture before a frame to the frame.
+/// The drive that a show prescribes from the previous picture to a frame.
 #[derive(Clone, Debug)]
 pub struct Prescribed {
     /// Name of the drive in messages, for example "turn".

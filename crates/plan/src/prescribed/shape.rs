@@ -6,7 +6,7 @@ use lightbots_base::Vec2;
 
 use super::smooth_line::SmoothLine;
 
-/// Step of the numerical derivative, share of the way.
+/// Step of the numerical derivative, as a share of the curve.
 const STEP: f64 = 1e-4;
 /// Number of chords whose lengths add up to the length of a shape.
 const LENGTH_STEPS: u32 = 64;
@@ -74,7 +74,7 @@ impl ShapeCurve {
 }
 
 impl Shape {
-    /// The place at a share of the way, 0 to 1, stage metres.
+    /// The place at a share of the curve, 0 to 1, stage metres.
     pub(crate) fn at(&self, share: f64) -> Vec2 {
         let (begin, end) = self.offsets;
         self.curve.at(share) + begin * (1.0 - eased(share)) + end * eased(share)

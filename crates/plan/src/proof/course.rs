@@ -2,8 +2,8 @@
 
 use lightbots_base::Vec2;
 
-/// Below this speed the direction of a robot hardly matters, m/s: during a quarter turn of 0.35 s it gets at most 3 mm
-/// off its path.
+/// Speed below which the direction of a robot hardly matters, m/s. During a quarter turn of 0.35 s, a robot gets at
+/// most 3 mm off its path.
 pub(super) const CREEP_MPS: f64 = 20e-3;
 
 /// A piece's velocity and acceleration as Bézier control values.

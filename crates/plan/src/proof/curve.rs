@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 /// The control points of a cubic.
 pub(super) type Cubic = [Vec2; 4];
 
-/// Error of distances, metres.
+/// Largest error of distances, metres.
 const TOLERANCE_M: f64 = 1e-7;
 /// Most parts that are divided; curves on a floor need some dozens. All further parts count by their hulls, which are
 /// at least as near.
@@ -26,7 +26,7 @@ pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
 
 /// Branch and bound over parts of a curve.
 struct Search {
-    /// The least distance up to now, metres, or the bound it must be below.
+    /// The least distance found up to here, metres; before the first find, the bound that it must be below.
     best: f64,
     /// Parameter of the point at that distance.
     at: Option<f64>,

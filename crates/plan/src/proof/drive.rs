@@ -14,7 +14,8 @@ const STEP_MPS: f64 = 1e-3;
 const STRAIGHT: f64 = 1e-12;
 /// Largest coordinate of a place, metres; a path with a larger one is malformed, because squares would not be exact.
 const FARTHEST_M: f64 = 1e6;
-/// Bisections after which an undecided stretch is judged by its middle.
+/// Bisections of a stretch whose turning is undecided; then its least speed counts as [`CREEP_MPS`] or more. An
+/// undecided speed gets twice as many, and then counts as too fast.
 const HALVINGS: u32 = 8;
 
 /// Calls `fault` with the first illegal motion of each kind, and the begin of its piece.

@@ -14,7 +14,7 @@ const MOST_STRETCHES: usize = 10_000;
 /// Shorter stretches that are neither slow nor fast give no time for turning, seconds.
 const SHORTEST_S: f64 = 1e-3;
 
-/// Direction of a robot along its path.
+/// The direction of a robot along its path, and the time that it has and needs for turns.
 pub(super) struct Facing<'a> {
     limits: &'a Limits,
     /// Direction at the end of its last fast motion; `None` before the first drive.

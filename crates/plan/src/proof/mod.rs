@@ -1,8 +1,8 @@
 //! The proof: whether timed paths keep all robots apart and within their limits, at every moment of continuous time.
 //!
-//! **Invariant:** the proof shares nothing with the planner but the type of a path, because a mistake of the planner
-//! must not repeat in its proof. The proof reads only the pieces of paths. Distances and speeds are bounded by convex
-//! hulls of Bézier control points. Pieces are divided until the bounds decide; nothing is sampled.
+//! **Invariant:** the proof shares nothing with the planner but the path type, because a mistake of the planner must
+//! not repeat in its proof. The proof reads only the pieces of paths. Distances and speeds are bounded by convex hulls
+//! of Bézier control points. Pieces are divided until the bounds decide; nothing is sampled.
 
 mod course;
 mod curve;

@@ -285,7 +285,7 @@ impl Braking {
     }
 }
 
-/// What counts as a contact, and how robots brake.
+/// Rules: what counts as a contact, and how robots brake.
 pub(crate) struct Law {
     contact_m: f64,
     /// Distance of two centres within which one may brake for the other, metres.

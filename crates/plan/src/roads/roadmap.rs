@@ -44,8 +44,8 @@ pub(crate) struct Roadmap {
 }
 
 impl Roadmap {
-    /// The roadmap of an instance with a lattice of this pitch. All nodes but starts and ends are `off_edge_m` from the
-    /// floor's edge. `None` where it would be too large.
+    /// The roadmap of an instance with a lattice of this pitch. All nodes but starts and ends are at least `off_edge_m`
+    /// from the floor's edge. `None` if it would be too large, or the planner is cancelled.
     pub fn new(
         instance: &Instance,
         visibility: &VisibilityGraph,

@@ -34,8 +34,8 @@ const PARTS: usize = 16;
 /// How robots follow their paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Manner {
-    /// Straight lines bow to the right by this share of their length, to the left if negative, so that robots that
-    /// meet head-on pass each other.
+    /// Sideways bow of straight lines, as a share of their length: to the right, or to the left if negative. Robots
+    /// that meet head-on then pass each other.
     pub bow: f64,
     /// Whether all robots drive equally fast and those with short paths arrive early. Then only a few meet at a time
     /// where paths cross.
@@ -87,8 +87,8 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// Whether another guess has the same paths: its manner differs at most in `early`, and its badness without penalty is
-    /// equal.
+    /// Whether another guess has the same paths: its manner differs at most in `early`, and its badness without penalty
+    /// is equal.
     pub fn is_like(&self, other: &Self) -> bool {
         let timed = |guess: &Self| Manner { early: true, ..guess.manner };
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6

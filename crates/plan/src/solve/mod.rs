@@ -1,13 +1,13 @@
 //! Timed paths where straight lines conflict: close pixels, fixed identity, walls, standing and spare robots.
 //!
-//! [`schedule`] is a table of solvers, and [`run`] goes through it. Most solvers make a first guess, in which robots may
-//! overlap, and deform it until there is no contact: a spline for each robot, all on one clock ([`crate::optimise`]).
-//! First guesses are shortest paths in one manner ([`guess`]), or the order of a solution over a lattice
-//! ([`from_lattice`]). The last resort is stop-and-go over a roadmap ([`stop_and_go`]): it is slow, but complete on its
-//! nodes and needs no deformation.
+//! [`schedule`] is a table of solvers, and [`run`] goes through it. Most solvers make a first guess, in which robots
+//! may overlap, and deform it until there is no contact ([`crate::optimise`]). Paths are splines, one for each robot,
+//! all on one clock. First guesses are shortest paths in one manner ([`guess`]), or the order of a solution over a
+//! lattice ([`from_lattice`]). The last resort is stop-and-go over a roadmap ([`stop_and_go`]): it is slow, but
+//! complete on its nodes and needs no deformation.
 //!
-//! All distances are those of the Elisa-3; robots of other sizes are scaled to it first ([`scale`]). Every loop is bounded,
-//! nothing is random, and the proof decides ([`verify`]).
+//! All distances are those of the Elisa-3; robots of other sizes are scaled to it first ([`scale`]). Every loop is
+//! bounded, nothing is random, and the proof decides ([`verify`]).
 
 mod facts;
 mod from_lattice;

@@ -125,7 +125,7 @@ impl When {
         }
     }
 
-    /// Why a group is skipped.
+    /// Returns the reason for which a group is skipped, for the explanation.
     pub fn why_not(self) -> &'static str {
         match self {
             Self::Large => "the fleet is small enough to compare solutions",
@@ -172,7 +172,7 @@ const GOOD: f64 = 1.15;
 pub(super) const PITCH_M: f64 = 0.072;
 /// Pitch of the second attempt, metres: fewer robots fit, but paths have more clearance.
 const LOOSE_PITCH_M: f64 = 0.078;
-/// Pitch of the last attempt between walls, metres: nodes in gaps may be as near as robots may.
+/// Pitch of the last attempt between walls, metres: nodes in gaps may be as close together as robots may.
 const TIGHT_PITCH_M: f64 = 0.069_5;
 
 /// Clearances of the first guess: for robots that follow curves with poor sensors on slippery floors.
@@ -181,12 +181,12 @@ pub(super) const ROOMY: Clearances =
 /// Clearances of further guesses.
 pub(super) const WIDE: Clearances =
     Clearances { robots_m: 0.062_5, walls_m: 0.007_5, edge_m: EDGE_M, slack_m: 0.002 };
-/// Clearances of lattices and of slack.
+/// Clearances of guesses from lattices and with slack.
 const NARROW: Clearances =
     Clearances { robots_m: 0.059_5, walls_m: 0.006_5, edge_m: EDGE_M, slack_m: 0.001_5 };
 /// Clearances of the last rows: hardly more than is proven.
 const TIGHT: Clearances = Clearances { robots_m: 0.057_5, walls_m: 0.003_3, edge_m: 0.0, slack_m: 0.000_2 };
-/// [`TIGHT`], but off the floor's edge.
+/// [`TIGHT`] with a clearance of [`EDGE_M`] from the floor's edge.
 const TIGHT_OFF_EDGE: Clearances = Clearances { edge_m: EDGE_M, ..TIGHT };
 
 const _: () = assert!(TIGHT.robots_m < NARROW.robots_m);
@@ -194,7 +194,8 @@ const _: () = assert!(NARROW.robots_m < WIDE.robots_m);
 const _: () = assert!(WIDE.robots_m < ROOMY.robots_m);
 const _: () = assert!(WORK_TO_SPARE < MOST_WORK);
 
-/// Clearances in a narrow gap: in front of it robots keep as far apart as elsewhere, and one follows another through it.
+/// Clearances in a narrow gap: in front of it robots keep as far apart as elsewhere, and one follows another through
+/// it.
 const fn in_gap(walls_m: f64, slack_m: f64) -> Clearances {
     Clearances { robots_m: 0.065, walls_m, slack_m, ..TIGHT_OFF_EDGE }
 }
@@ -206,7 +207,7 @@ const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
 /// [`LOOSE`] with a fleet that spreads before the drive.
 const STAGED: Manner = Manner { staged: true, ..LOOSE };
 
-/// Largest time scale of a solution in minimum time, over the least.
+/// Largest time scale of a solution in minimum time, as a multiple of the least duration.
 pub(super) const MOST_STRETCH: f64 = 2.4;
 
 const fn minimum_time(pick: Pick, clearances: Clearances) -> SolverRow {

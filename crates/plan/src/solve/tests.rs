@@ -31,7 +31,7 @@ fn random(count: usize, half: f64, apart: f64, seed: u64) -> TransitionProblem {
     problem(starts, goals, half)
 }
 
-/// Repairs with goal i for start i, asserts that the proof holds and paths are whole, and returns the duration over
+/// Repairs with goal i for start i, and asserts that the proof holds and paths are whole. Returns the duration over
 /// that of the longest straight line.
 fn ratio(problem: &TransitionProblem) -> f64 {
     let goal_of: Vec<Option<usize>> =

@@ -8,7 +8,8 @@ use crate::motion::quarter_turn;
 use crate::proof::{FaultKind, Proof, faults, prove_unless};
 use crate::spline::set::SplineSet;
 
-/// Time scales in which the proof is tried: a turn that is a little too sharp for one robot is driven more slowly by all.
+/// Time scales in which the proof is tried: a turn that is a little too sharp for one robot is driven more slowly by
+/// all.
 const SLOWDOWNS: [f64; 3] = [1.0, 1.02, 1.05];
 
 /// Splines that the proof rejects.

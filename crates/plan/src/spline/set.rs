@@ -1,5 +1,5 @@
-//! The paths of all robots as uniform cubic B-splines in time: smooth without stops, and local, because a control
-//! point moves four spans only (de Boor, A Practical Guide to Splines).
+//! The paths of all robots as uniform cubic B-splines in time (de Boor, A Practical Guide to Splines). The paths are
+//! smooth without stops, and changes are local: a control point moves four spans only.
 //!
 //! A spline of `spans` spans has `spans + 3` control points; points `i..i + 4` rule span `i`. Points 2 to `spans` are
 //! free. The two points at either end follow from them, so that the spline starts and ends at rest at its ends. A
@@ -31,8 +31,8 @@ pub(crate) struct SplineSet {
     points: Vec<Vec2>,
 }
 
-/// The free control points of a spline through these places between its spans. Each place is a sixth of one point, two
-/// thirds of the next and a sixth of the one after (a tridiagonal system, solved by the Thomas algorithm).
+/// Returns the free control points of a spline through these places between its spans. Each place is a sixth of one
+/// point, two thirds of the next and a sixth of the one after. The Thomas algorithm solves this tridiagonal system.
 fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option<Vec2>) -> Vec<Vec2> {
     let last = places.len() - 1;
     let (mut points, mut shares) = (Vec::with_capacity(last + 1), Vec::with_capacity(last + 1));

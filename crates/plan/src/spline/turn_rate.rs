@@ -324,8 +324,8 @@ impl TurnRate {
 
     /// Least displacements of the control points that turn a near stop into a reversal. At a reversal, the velocity has
     /// no component perpendicular to the acceleration, and the perpendicular jerk is small: the path returns along
-    /// itself. Near a stop, the turn rate is half the perpendicular jerk divided by the acceleration. `jerk`: weights of
-    /// the jerk, and the acceleration. `None`: it is a reversal already, or the acceleration is zero.
+    /// itself. Near a stop, the turn rate is half the perpendicular jerk divided by the acceleration. `jerk`: weights
+    /// of the jerk, and the acceleration. `None` if the span is a reversal already, or the acceleration is zero.
     fn reversed(&self, four: &[Vec2], v: ([f64; 4], Vec2), jerk: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (j_weights, a)) = (v, jerk);
         let across = a.normalized()?.left();

@@ -10,7 +10,7 @@ use crate::{Infeasible, Transition, TransitionProblem};
 
 /// Most pairs named in a message.
 const MOST_NAMED: usize = 4;
-/// Distance of pixels, in diameters, at which any robot may show any pixel: straight lines with the least sum of
+/// Distance of pixels, in diameters, at which any robot may show any pixel. Straight lines with the least sum of
 /// squares then keep clear of each other (Turpin et al. 2014).
 const FREE_DIAMETERS: f64 = core::f64::consts::SQRT_2;
 /// Distance of pixels, in diameters, that suffices with fixed identity: measured with shuffled grids that fill the

@@ -42,7 +42,7 @@ pub fn transition_unless(
 
 /// The result of planning a transition: it can be drawn even if it must not be driven.
 pub(crate) struct Attempt {
-    /// The best transition; straight lines with conflicts if `infeasible` is set.
+    /// The best transition. If `infeasible` is set, it is only a drawing, mostly of straight lines with conflicts.
     pub transition: Transition,
     /// Why the transition must not be driven; `None` if it may be.
     pub infeasible: Option<Infeasible>,

@@ -2,8 +2,8 @@
 //! unknown.
 //!
 //! These robots drive straight lines, in an order in which no two can meet at any speed. [`stages`] finds the order.
-//! [`StraightDrive::yields`] lets drives overlap in time: the controller lets each robot drive only as far as the
-//! progress of the drives that it yields to allows.
+//! [`StraightDrive::yields`] lets drives overlap in time. The controller lets a robot drive only as far as the progress
+//! of the drives that it yields to allows.
 
 mod free_space;
 mod order;

@@ -169,8 +169,8 @@ impl<'a, 'b> Order<'a, 'b> {
         waiting.map(|robot| self.places[robot]).chain(self.problem.standing.iter().copied()).collect()
     }
 
-    /// Finds a path around others to a robot's goal, or a path aside for a robot in the way: `(robot, waypoints,
-    /// whether it is only aside)`.
+    /// Finds a path around others to a robot's goal, or a path aside for a robot in the way. Returns `(robot,
+    /// waypoints, whether the path is only aside)`.
     pub fn detour(&self) -> Option<(usize, Vec<Vec2>, bool)> {
         let UnsynchronisedProblem { space, goals, unsynchronised, standing, .. } = self.problem;
         let discs_of = |robot: usize| -> Vec<Vec2> {

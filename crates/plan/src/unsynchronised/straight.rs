@@ -4,7 +4,7 @@ use lightbots_base::Vec2;
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use std::collections::BTreeMap;
 
-/// Number of bisections in the search for the clear part of a drive: 14 leave an error of 1 mm on a floor of 16 m.
+/// Number of bisections in the search for the clear part of a drive. 14 leave an error of 1 mm on a floor of 16 m.
 const HALVINGS: usize = 14;
 /// Tolerance for rounding when distances are compared, metres.
 const ROUNDING_M: f64 = 1e-9;
