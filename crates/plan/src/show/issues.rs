@@ -1,4 +1,4 @@
-//! Issues of frames on the floor.
+//! Issues that planning finds in the frames of a show.
 
 use crate::margins::MARGIN_M;
 use crate::transition::touching;
@@ -6,7 +6,8 @@ use crate::{BindingIssue, Bindings, BoundFrame, Infeasible, Transition};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
-/// Issues that no plan can solve: too few robots, pixels that touch, or that are off the floor or in obstacles.
+/// Adds the issues that no plan can solve: too few robots, pixels that touch, or that are off the floor or in
+/// obstacles.
 pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], issues: &mut Issues) {
     let frame = &show.frames[index];
     let name = name_of(show, index);
@@ -72,10 +73,10 @@ pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64
     Issue::warning("takes-longer", message).in_frame(index)
 }
 
-/// A frame that begins nearer to its absolute time begins in time, seconds.
+/// Largest deviation from its absolute time with which a frame still begins in time, seconds.
 const IN_TIME_S: f64 = 0.05;
 
-/// Issues of frames that do not begin at their absolute times, with what would resolve them.
+/// Adds a warning for each frame that does not begin at its absolute time, with a remedy.
 pub(super) fn of_nails(show: &Show, transitions: &[Transition], issues: &mut Issues) {
     let mut begins_s = 0.0;
     for (index, (frame, transition)) in show.frames.iter().zip(transitions).enumerate() {
@@ -99,7 +100,7 @@ pub(super) fn of_nails(show: &Show, transitions: &[Transition], issues: &mut Iss
     }
 }
 
-/// The issue of more names than robots.
+/// Adds an issue if pixels ask for more names than there are robots, and it is not known which robot has which name.
 pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: &mut Issues) {
     let names = robots_asked_for(show);
     if !bindings.names_known && names > robots {
@@ -108,7 +109,7 @@ pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: 
     }
 }
 
-/// Issues of unexpected bindings.
+/// Adds the issues of unexpected bindings in a frame.
 pub(super) fn of_bound_frame(show: &Show, frame: usize, bound: &BoundFrame<'_>, issues: &mut Issues) {
     for &(id, issue) in &bound.issues {
         let pixel = show.frames[frame].pixels.iter().find(|pixel| pixel.id == id);
