@@ -29,7 +29,7 @@ use crate::Path;
 use crate::cancel::Cancel;
 use lightbots_base::Span;
 
-/// Checks paths. Returns all conflicts and faults, and the closest pair.
+/// Checks paths. Returns all conflicts and faults, and the closest pair. If a path is malformed, pairs are not checked.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
     prove_unless(input, Cancel::NEVER)
 }

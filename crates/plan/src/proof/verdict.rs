@@ -10,7 +10,8 @@ pub struct Proof {
     pub conflicts: Vec<Closest>,
     /// Illegal motion of single robots, sorted by robot.
     pub faults: Vec<Fault>,
-    /// The closest approach of all pairs; `None` with fewer than two discs.
+    /// The closest approach of all pairs of which at least one is a robot. `None` if there is no pair, or a path is
+    /// malformed.
     pub closest: Option<Closest>,
 }
 
