@@ -67,7 +67,7 @@ fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
     match known {
         // The possible places of a silent robot count rather than its last report.
         Some(_) if Mutant::ForgetDeadRobot.is_planted() => false,
-        Some(known) => known.is_excluded() && known.last_seen.possible.is_empty(),
+        Some(known) => known.is_excluded() && !known.is_unplaced(),
         None => robot.contact.age != Age::Gone && !is_ignored,
     }
 }

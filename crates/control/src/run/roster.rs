@@ -73,6 +73,11 @@ impl Participant {
     pub fn is_excluded(&self) -> bool {
         self.membership.excluded
     }
+
+    /// Whether the robot dropped out and its place is only inferred.
+    pub fn is_unplaced(&self) -> bool {
+        self.is_excluded() && !self.last_seen.possible.is_empty()
+    }
 }
 
 impl Roster {

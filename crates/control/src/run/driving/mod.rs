@@ -15,15 +15,11 @@ pub(crate) use drive::Driving;
 
 use crate::event::{EventKind, Trouble};
 use crate::leg::LegKind;
-use crate::run::driving::sightings::narrow;
 use crate::run::lights;
 use crate::run::next::Next;
 use crate::run::path_clock::PathClock;
-use crate::run::pipeline::{DrivenLeg, Pipeline};
-use crate::run::roster::Whereabouts;
+use crate::run::pipeline::Pipeline;
 use crate::run::run_context::RunContext;
-use crate::run::silence;
-use crate::run::stop_times::StopTimes;
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
@@ -192,18 +188,6 @@ impl Driving {
         cx.pipeline.light.see(self.clock);
         cx.pump_lights();
         cx.pump().or_else(|| self.watch(cx)).or_else(|| self.end_leg(cx))
-    }
-
-    /// Where a participant that fell silent may stand, narrowed by what other robots see.
-    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
-        let stop = StopTimes { began: cx.now, stood: cx.now };
-        let robot = cx.robot(participant);
-        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, robot);
-        let seen = self.sightings(cx);
-        narrow(&mut places.possible, &seen);
-        narrow(&mut places.likely, &seen);
-        places
     }
 }
 

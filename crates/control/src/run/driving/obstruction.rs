@@ -1,11 +1,16 @@
 //! An obstacle in a robot's path: all hold, robots nearby are asked for a report, and the obstacle is driven around.
 
 use crate::event::Trouble;
+use crate::robot::KnownRobot;
 use crate::run::driving::drive::{Driving, RobotProgress};
 use crate::run::driving::sightings::{SAME_M, Sighting, narrow, seen_by};
 use crate::run::link_loss;
 use crate::run::next::Next;
+use crate::run::pipeline::DrivenLeg;
+use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
+use crate::run::silence;
+use crate::run::stop_times::StopTimes;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Blocked, Command};
 
@@ -130,21 +135,44 @@ impl Driving {
         cx.roster.active().map(|(one, _)| one).find(|&one| is_late(one) && is_there(one))
     }
 
-    /// Narrows where silent robots may stand, by what other robots have seen since.
+    /// Narrows where silent robots may stand, by what other robots have seen since. A sighting that two silent robots
+    /// explain narrows neither.
     fn locate_silent(&self, cx: &mut RunContext) {
         let seen = self.sightings(cx);
-        for known in &mut cx.roster.participants {
-            if known.is_excluded() && !known.last_seen.possible.is_empty() {
-                narrow(&mut known.last_seen.possible, &seen);
-                known.last_seen.likely.clone_from(&known.last_seen.possible);
-            }
+        let silent = cx.roster.participants.iter_mut().filter(|known| known.is_unplaced());
+        let mut places: Vec<&mut Whereabouts> = silent.map(|known| &mut known.last_seen).collect();
+        let explained = |seen: &Sighting| places.iter().filter(|one| seen.is_near_any(&one.possible)).count();
+        let clear: Vec<Sighting> = seen.iter().copied().filter(|seen| explained(seen) == 1).collect();
+        for one in &mut places {
+            narrow(&mut one.possible, &clear);
+            one.likely.clone_from(&one.possible);
         }
     }
 
-    /// What obstructed robots see in their paths, without robots that reported their places.
-    pub fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
+    /// Where a participant that fell silent may stand, narrowed by what other robots see.
+    pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
+        let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
+        let stop = StopTimes { began: cx.now, stood: cx.now };
+        let robot = cx.robot(participant);
+        let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, robot);
+        let silent = || cx.roster.participants.iter().filter(|known| known.is_unplaced());
+        let is_unexplained =
+            |seen: &Sighting| !silent().any(|known| seen.is_near_any(&known.last_seen.possible));
+        let seen: Vec<Sighting> = self.sightings(cx).into_iter().filter(is_unexplained).collect();
+        narrow(&mut places.possible, &seen);
+        narrow(&mut places.likely, &seen);
+        places
+    }
+
+    /// What obstructed robots see in their paths, without robots whose places are known. These include robots that take
+    /// no part and report their places.
+    fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
-        let known: Vec<Vec2> = cx.roster.active().filter_map(|(one, _)| cx.robot(one).reported.at).collect();
+        let is_unplaced = |robot: &KnownRobot| {
+            robot.participant.is_some_and(|participant| cx.participant(participant as usize).is_unplaced())
+        };
+        let placed = cx.io.fleet.robots().iter().filter(|robot| !is_unplaced(robot));
+        let known: Vec<Vec2> = placed.filter_map(|robot| robot.reported.at).collect();
         let is_obstructed = |one: &usize| self.progress[*one].obstructed_since.is_some();
         let sighting = |one: usize| {
             let robot = cx.robot(one);

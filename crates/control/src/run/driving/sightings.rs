@@ -71,6 +71,11 @@ impl Sighting {
         (self.from + Vec2::unit(seen.angle() + aside) * seen.length()).distance(place)
     }
 
+    /// Whether a robot on the path through these places, or pushed off that path, explains the sighting.
+    pub fn is_near_any(&self, places: &[Vec2]) -> bool {
+        places.iter().copied().chain(between(places)).any(|place| self.off_m(place) < PUSHED_M)
+    }
+
     /// Whether a robot that stands at a place explains the sighting.
     pub fn is_of(&self, at: Vec2) -> bool {
         let (seen, known) = (self.there - self.from, at - self.from);
@@ -83,10 +88,9 @@ impl Sighting {
 /// `places` are samples. A robot that was run into stands beside its path, and a sensor measures range much better
 /// than bearing. If only one robot sees it far from the estimate, places up to the sighting itself are added.
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
-    let mut path: Vec<Vec2> = places.to_vec();
-    path.extend(between(places));
-    let near_path = |seen: &&Sighting| path.iter().any(|place| seen.off_m(*place) < PUSHED_M);
-    let mut left: Vec<Sighting> = sightings.iter().filter(near_path).copied().collect();
+    let path: Vec<Vec2> = places.iter().copied().chain(between(places)).collect();
+    let is_near = |seen: &&Sighting| seen.is_near_any(places);
+    let mut left: Vec<Sighting> = sightings.iter().filter(is_near).copied().collect();
     let mut found = Vec::new();
     // Two groups are two robots, or one robot that is seen from two sides with wrong bearings: both places count.
     while let Some(first) = left.first().copied() {
