@@ -166,7 +166,7 @@ impl Controller {
             run.on_report(context, now, received, topic, report);
             self.conclude(now);
         } else {
-            stopping::stop_late_comer(context, received.index);
+            stopping::stop_late_comer(context, now, received.index);
             if topic == Topic::Arrival && !received.found {
                 context.report_unexpected(now, report);
             }

@@ -87,6 +87,8 @@ impl ToldLight {
 pub(crate) struct LastRun {
     /// Whether the robot may keep a route of that run: it has not reported the contrary since.
     pub may_keep_route: bool,
+    /// When STOP was sent to the robot after that run.
+    pub stop_sent: Option<Instant>,
     /// Id of the pixel that the robot showed when the run ended.
     pub pixel: Option<u32>,
     /// Goal of the robot when the run ended, stage metres.

@@ -16,18 +16,23 @@ const COPIES: (u32, Span) = (6, Span::from_millis(50));
 const LEAST: Span = Span::from_millis(300);
 /// Longest time from STOP until stopping ends, even if a robot may still drive.
 const MOST: Span = Span::from_millis(3_000);
+/// Least time between two STOPs to a robot that answers STOP but does not say whether it keeps a route.
+const STOP_AGAIN: Span = Span::from_millis(1_000);
 /// Time between two checks of the robots.
 const CHECK: Span = Span::from_millis(100);
 /// A TARGET-only robot that has moved this far since it got a target to stop at gets another one, metres.
 const MOVED_M: f64 = 0.01;
 
 /// Sends STOP to a robot that reports and may keep a route of a run that is over. Ends when the robot reports that it
-/// keeps none.
-pub(crate) fn stop_late_comer(context: &mut Context, index: usize) {
+/// keeps none: `Idle`. A `Lost` or `Faulty` robot may keep one, and would turn towards it once it has recovered.
+pub(crate) fn stop_late_comer(context: &mut Context, now: Instant, index: usize) {
     let robot = context.fleet.robot_mut(index);
-    let Some(state) = robot.reported.state.filter(|_| robot.last_run.may_keep_route) else { return };
-    robot.last_run.may_keep_route = keeps_route(state);
-    if robot.last_run.may_keep_route {
+    let last_run = &mut robot.last_run;
+    let Some(state) = robot.reported.state.filter(|_| last_run.may_keep_route) else { return };
+    last_run.may_keep_route = state != RobotState::Idle;
+    let is_due = last_run.stop_sent.is_none_or(|sent| now - sent >= STOP_AGAIN);
+    if last_run.may_keep_route && (is_due || keeps_route(state)) {
+        last_run.stop_sent = Some(now);
         context.send(index, &[Command::Stop]);
     }
 }

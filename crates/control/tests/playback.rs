@@ -378,6 +378,28 @@ fn a_robot_that_is_back_long_after_a_run_is_told_that_it_keeps_no_route() {
     is_stopped_after(20.0, 3.0);
 }
 
+/// A lost robot does not report whether it keeps a route, and answers each STOP with a report.
+#[test]
+fn a_robot_that_is_lost_after_a_run_is_told_now_and_then_that_it_keeps_no_route() {
+    let mut world = World::ready(10, 0, show(3, 10, 3.0));
+    world.play();
+    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+    world.run_for(1.0);
+    world.robots[3].dead = true;
+    world.operate(Operation::Abort).unwrap();
+    world.run_for(20.0);
+    (world.robots[3].dead, world.robots[3].lost) = (false, true);
+    world.run_for(3.0);
+    assert!(world.robots[3].kept.is_none(), "{}", world.story());
+    world.run_for(10.0);
+    assert!((2..=14).contains(&world.robots[3].stops), "{}", world.robots[3].stops);
+    world.robots[3].lost = false;
+    world.run_for(3.0);
+    let stops = world.robots[3].stops;
+    world.run_for(10.0);
+    assert_eq!(world.robots[3].stops, stops, "it said that it is idle");
+}
+
 #[test]
 fn all_robots_drive_home_and_the_show_stays_open() {
     let show = show(3, 9, 0.2);

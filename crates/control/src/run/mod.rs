@@ -147,6 +147,7 @@ impl Run {
             robot.participant = None;
             robot.last_run = LastRun {
                 may_keep_route: !robot.is_original(),
+                stop_sent: None,
                 pixel: step.and_then(|step| step.pixel).filter(|_| self.playback.purpose.is_of_show()),
                 goal: step.map(|step| step.goal),
             };

@@ -30,6 +30,8 @@ pub struct Robot {
     pub clock_us: u32,
     /// It is not sure where it is.
     pub unsure: bool,
+    /// It does not know where it is.
+    pub lost: bool,
     /// Says that something stands in its way.
     pub blocked: Option<Blocked>,
     pub target: Option<Vec2>,
@@ -66,6 +68,7 @@ impl Robot {
             pace: 1.0,
             clock_us: 500,
             unsure: false,
+            lost: false,
             blocked: None,
             target: None,
             kept: None,
@@ -110,6 +113,7 @@ impl Robot {
 
     fn state(&self) -> RobotState {
         match () {
+            _ if self.lost => RobotState::Lost,
             _ if self.running.is_some() && self.hold_since.is_some() => RobotState::Held,
             _ if self.running.is_some() || self.target.is_some() => RobotState::Driving,
             _ if self.kept.is_some() => RobotState::Ready,
@@ -136,7 +140,11 @@ impl Robot {
             blocked: self.blocked,
             ..Details::default()
         };
-        let report = Report { id: self.id, at: Some(self.at), details: (!self.original).then_some(details) };
+        let report = Report {
+            id: self.id,
+            at: (!self.lost).then_some(self.at),
+            details: (!self.original).then_some(details),
+        };
         let mut text = String::new();
         report.encode(&mut text).unwrap();
         self.said.push((topic, text.into_bytes()));
