@@ -3,7 +3,7 @@
 //! | request | body | answer |
 //! |---|---|---|
 //! | `POST /api/session` | [`Credentials`] | 204 and the cookie of a session; 401 for a wrong name or password, 429 with
-//! `Retry-After` during a pause |
+//! `Retry-After` after too many wrong passwords |
 //! | `POST /api/first` | [`FirstOperator`] | 204 and the cookie of a session: makes the first operator |
 //! | `GET /api/session` | | [`Whoami`] |
 //! | `DELETE /api/session` | | 204: ends the session of the cookie; a token stays |
@@ -14,7 +14,7 @@
 //! | `GET /api/tokens` | | list of [`AccountEntry`], by name |
 //! | `POST /api/tokens` | [`AccountEntry`] | [`MadeToken`], the only answer that holds the token; 409 for a name that is
 //! taken |
-//! | `DELETE /api/tokens/{name}` | | 204: the token opens nothing from now on |
+//! | `DELETE /api/tokens/{name}` | | 204: the token is no longer valid |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -69,7 +69,7 @@ pub struct Credentials {
     pub password: String,
 }
 
-/// The first operator, and the one-time token that the start without people printed.
+/// The first operator, with the one-time token that the program printed when it started without people.
 #[derive(Clone, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct FirstOperator {
     /// The one-time token.
@@ -80,10 +80,10 @@ pub struct FirstOperator {
     pub password: String,
 }
 
-/// The person or program that a request is of.
+/// The person or program that sent a request.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct Whoami {
-    /// Name of the person or the token; null on loopback, where sign-in is not asked for.
+    /// Name of the person or the token; null on loopback, where no sign-in is needed.
     pub name: Option<String>,
     /// The role of the person or the token now.
     pub role: AccountRole,
@@ -103,7 +103,7 @@ pub struct AccountEntry {
 pub struct MadeToken {
     /// Name of the token.
     pub name: String,
-    /// What the token may do. It never allows more than its maker may do now.
+    /// What the token may do. It never allows more than the present role of the person that made it.
     pub role: AccountRole,
     /// The token, for `Authorization: Bearer TOKEN`. The server keeps its hash only.
     pub token: String,
@@ -120,7 +120,7 @@ pub struct NewPerson {
     pub password: String,
 }
 
-/// What changes of a person.
+/// A change of the role or password of a person.
 #[derive(Clone, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct PersonChange {
     /// The new role; null: as before.

@@ -14,7 +14,7 @@ use ts_rs::TS;
 pub struct BrokerSettings {
     /// Addresses of the broker in use or used last, without login, separated by commas; or `embedded`.
     pub address: String,
-    /// User name; null: the broker asks for none.
+    /// User name; null: no user name is kept.
     pub user: Option<String>,
     /// Whether the server keeps a password for that user.
     pub has_password: bool,

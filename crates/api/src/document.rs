@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 
 /// A place, stage metres: x to the right, y away from the audience.
 pub type DocumentPlace = [f64; 2];
-/// Settings that belong to a kind of source or layer.
+/// Settings of a source or layer; their names depend on its kind.
 pub type DocumentSettings = BTreeMap<String, serde_json::Value>;
 
 /// A show: what a `.lightbots.json` file holds.
@@ -25,19 +25,19 @@ pub struct ShowDocument {
     pub stage: Option<DocumentStage>,
     /// Whether pixel n is the same robot in every frame.
     pub identity: Option<DocumentIdentity>,
-    /// Places before the first frame; without it, rows along the front edge.
+    /// Places of the robots before the first frame; if absent, rows along the front edge.
     pub starts: Option<Vec<DocumentPlace>>,
     /// File name of the music.
     pub music: Option<String>,
-    /// Robots that wait for others to fail.
+    /// Number of robots beyond those with pixels. Each waits to replace a robot that fails.
     pub spares: Option<u32>,
     /// Files that belong to the show, by their SHA-256.
     pub assets: Option<BTreeMap<String, DocumentAsset>>,
     /// Beats of the music.
     pub beats: Option<DocumentBeats>,
-    /// Named stretches.
+    /// Named stretches of the timeline.
     pub sections: Option<Vec<DocumentSection>>,
-    /// Named moments.
+    /// Named moments of the timeline.
     pub markers: Option<Vec<DocumentMarker>>,
     /// Where the show waits for GO.
     pub cues: Option<Vec<DocumentCue>>,
@@ -125,33 +125,33 @@ pub struct DocumentAsset {
 pub struct DocumentBeats {
     /// Beats per minute.
     pub bpm: Option<f64>,
-    /// The first beat, seconds of the music.
+    /// Time of the first beat, seconds from the start of the music.
     pub offset_s: Option<f64>,
-    /// Every beat, seconds of the music.
+    /// Times of all beats, seconds from the start of the music.
     pub times_s: Option<Vec<f64>>,
-    /// Beats of a bar.
+    /// Number of beats in a bar.
     pub per_bar: Option<u32>,
 }
 
-/// A named stretch.
+/// A named stretch of the timeline.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct DocumentSection {
     /// Name for people.
     pub name: Option<String>,
-    /// Start, seconds.
+    /// Start, seconds from the start of the first frame's air time.
     pub from_s: f64,
-    /// End, seconds.
+    /// End, seconds from the start of the first frame's air time.
     pub to_s: f64,
 }
 
-/// A named moment.
+/// A named moment of the timeline.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct DocumentMarker {
     /// Name for people.
     pub name: Option<String>,
-    /// Moment, seconds.
+    /// The moment, seconds from the start of the first frame's air time.
     pub at_s: f64,
 }
 
@@ -161,11 +161,11 @@ pub struct DocumentMarker {
 pub struct DocumentCue {
     /// Name for people.
     pub name: Option<String>,
-    /// Id of a frame.
+    /// Id of the frame at the end of which the show waits.
     pub frame: Option<String>,
-    /// A moment, seconds.
+    /// Moment at which the show waits, seconds from the start of the first frame's air time.
     pub at_s: Option<f64>,
-    /// Id of the frame from which the show repeats until GO.
+    /// Id of the first of the frames that repeat until GO; `frame` is the last of them.
     pub loop_from: Option<String>,
 }
 
@@ -173,17 +173,17 @@ pub struct DocumentCue {
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct DocumentLayer {
-    /// Word for the effect.
+    /// Name of the effect.
     pub kind: String,
     /// Name for people.
     pub name: Option<String>,
     /// Ids of the first and the last frame in which it shines.
     pub frames: Option<[String; 2]>,
-    /// The part of each frame.
+    /// The part of each frame's time in which it shines.
     pub phase: Option<DocumentPhase>,
-    /// Start, seconds.
+    /// Start, seconds from the start of the first frame's air time.
     pub from_s: Option<f64>,
-    /// End, seconds.
+    /// End, seconds from the start of the first frame's air time.
     pub to_s: Option<f64>,
     /// Settings of the effect.
     pub settings: Option<DocumentSettings>,
@@ -207,13 +207,14 @@ pub enum DocumentPhase {
 pub struct DocumentTrajectory {
     /// Id of the frame; without it, the path is for the whole show.
     pub frame: Option<String>,
-    /// The robot of this pixel drives it.
+    /// Id of the pixel whose robot drives the path.
     pub pixel: u32,
-    /// Its start, seconds.
+    /// Start of the path, seconds from the start of the transition to `frame`, or from the start of the show.
     pub at_s: Option<f64>,
     /// The place where it starts.
     pub start: DocumentPlace,
-    /// `[end_s, x, y]`, or `[end_s, x1, y1, x2, y2, x, y]` with the control points of a cubic Bézier curve.
+    /// `[end_s, x, y]`, or `[end_s, x1, y1, x2, y2, x, y]` with the control points of a cubic Bézier curve. `end_s`
+    /// counts from the start of the path.
     #[schemars(inner(length(min = 3, max = 7)))]
     pub pieces: Vec<Vec<f64>>,
 }
@@ -228,15 +229,15 @@ pub struct DocumentFrame {
     pub name: Option<String>,
     /// How long the picture stays, seconds.
     pub air_time_s: Option<f64>,
-    /// Moment at which the air time must begin, seconds.
+    /// Moment at which the air time must begin, seconds from the start of the first frame's air time.
     pub at_s: Option<f64>,
     /// Wanted duration of the drive to the frame, seconds.
     pub transition_s: Option<f64>,
     /// How robots speed up and slow down.
     pub easing: Option<DocumentEasing>,
-    /// How the picture before drives to the frame.
+    /// How the picture of the frame before moves as one to this frame.
     pub motion: Option<DocumentMotion>,
-    /// Overrides the show's.
+    /// Overrides the show's `identity`.
     pub identity: Option<DocumentIdentity>,
     /// What the pixels were made from.
     pub sources: Option<Vec<DocumentSource>>,
@@ -248,9 +249,9 @@ pub struct DocumentFrame {
 #[derive(JsonSchema)]
 #[schemars(rename_all = "snake_case")]
 pub enum DocumentEasing {
-    /// At the limits.
+    /// At the limits of the robots.
     Swift,
-    /// Over half of the drive each.
+    /// They speed up over the first half of the drive and slow down over the second.
     Gentle,
 }
 
@@ -281,20 +282,20 @@ pub enum DocumentMotionKind {
 pub struct DocumentSource {
     /// The kind of source.
     pub kind: DocumentSourceKind,
-    /// Hash of the file behind it.
+    /// SHA-256 of the file from which the source is made.
     pub asset: Option<String>,
     /// Seed of everything random.
     pub seed: Option<u32>,
-    /// Where its picture lies on the floor.
+    /// Where the picture of the source lies on the floor.
     #[schemars(rename = "box")]
     pub area: Option<DocumentBox>,
     /// Ids of the pixels that were moved by hand.
     pub moved: Option<Vec<u32>>,
-    /// A word that frames share which were made together.
+    /// A word shared by frames that were made together.
     pub series: Option<String>,
-    /// The moment of an animation, seconds.
+    /// Moment of the animation that the frame shows, seconds.
     pub moment_s: Option<f64>,
-    /// Settings of the kind.
+    /// Settings of this kind of source.
     pub settings: Option<DocumentSettings>,
 }
 
@@ -325,19 +326,19 @@ pub struct DocumentBox {
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct DocumentPixel {
-    /// Unique in its frame.
+    /// Id, unique in its frame.
     pub id: u32,
-    /// Where it is.
+    /// Where the pixel is.
     pub place: DocumentPlace,
-    /// `#rrggbb`.
+    /// Colour, `#rrggbb`.
     #[schemars(regex(pattern = "^#[0-9a-fA-F]{6}$"))]
     pub color: String,
-    /// Name of the only robot that may show it.
+    /// Name of the only robot that may show the pixel.
     pub robot: Option<String>,
-    /// Index of the source it was made from.
+    /// Index of the source that the pixel was made from, counted from 0.
     pub source: Option<u32>,
     /// Name of the part of that source.
     pub part: Option<String>,
-    /// A word that pixels share which are edited as one.
+    /// A word shared by pixels that are edited as one.
     pub group: Option<String>,
 }

@@ -43,20 +43,21 @@ pub struct FleetRow {
     pub admitted: bool,
     /// Whether the robot reports that it is simulated. A robot that does not report it counts as real.
     pub simulated: bool,
-    /// What the last preflight found of the robot; null: it was not in it, or one is under way.
+    /// Result of the last preflight for the robot; null: the robot was not tested, or a preflight is under way.
     pub preflight: Option<PreflightResult>,
 }
 
-/// What a preflight found of a robot.
+/// The result of a preflight for one robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct PreflightResult {
     /// What is wrong with the robot; empty: it passed.
     pub faults: Vec<PreflightFault>,
-    /// How far it stood from its planned places at most, millimetres; null: not measured.
+    /// Largest distance between the robot and its planned places, millimetres; null: not measured.
     pub off_mm: Option<f64>,
-    /// How far its heading was off at most, degrees; null: not measured.
+    /// Largest error of its heading, degrees; null: not measured.
     pub off_deg: Option<f64>,
-    /// Whether Stop, heading and blinking were not tested, because the robot knows TARGET and COLOR only.
+    /// Whether Stop, heading and blinking were not tested, because the robot understands only the commands TARGET and
+    /// COLOR.
     pub limited: bool,
 }
 
@@ -97,7 +98,7 @@ pub enum Presence {
     Active,
     /// A report is overdue. The screen draws the robot faded.
     Stale,
-    /// The controller has given up the robot.
+    /// The last report is older than the controller allows. Other robots no longer drive around the robot.
     Gone,
 }
 

@@ -13,7 +13,7 @@ pub struct Incidents {
 /// Something that went wrong, what the program did about it, and what people can do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Incident {
-    /// Number of the incident; it stays while the incident grows.
+    /// Number of the incident. It stays the same when further events are added.
     pub id: u32,
     /// Time of its first event, milliseconds since 1970.
     pub time_ms: u64,
@@ -25,15 +25,15 @@ pub struct Incident {
     pub done: String,
     /// What people can do.
     pub advice: String,
-    /// Names of the first robots that it is about.
+    /// Names of the first robots concerned.
     pub robots: Vec<String>,
-    /// Number of all these robots.
+    /// Number of all robots concerned.
     pub count: usize,
-    /// Its robots want to join: `list` admits them.
+    /// Whether its robots are not admitted yet; the operation `list` admits them.
     pub wants_to_join: bool,
-    /// It holds no longer.
+    /// Whether the incident is over.
     pub over: bool,
-    /// The operator has read it.
+    /// Whether the operator has read the incident.
     pub read: bool,
 }
 
@@ -43,7 +43,7 @@ pub struct Incident {
 pub enum IncidentTone {
     /// Good to know.
     Information,
-    /// Look at it.
+    /// The operator should look at it.
     Look,
     /// The show cannot go on.
     Failed,

@@ -1,11 +1,11 @@
 //! Messages between screen and server on `/ws` and `/api`, and the TypeScript types of these messages.
 //!
-//! The crate holds types, and makes a [`Plan`] of what the planner gives ([`plan_document()`]): no sockets, no controller.
-//! [`ToScreen`] and [`FromScreen`] are the JSON
-//! messages on the WebSocket, [`Robots`] is the binary message there. [`ShowEntry`], [`ShowState`], [`RunEntry`],
-//! [`BrokerSettings`], [`Problem`] and [`Plan`] are bodies of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and
-//! from the module in the browser. After a change run `cargo run -p lightbots-api --example types` and `--example page`: the
-//! tables of requests in the docs of the modules and the docs of types become docs/api.md.
+//! The crate holds types, and turns the result of the planner into a [`Plan`] ([`plan_document()`]). It has no sockets
+//! and no controller. [`ToScreen`] and [`FromScreen`] are the JSON messages on the WebSocket, [`Robots`] is the binary
+//! message there. [`ShowEntry`], [`ShowState`], [`RunEntry`], [`BrokerSettings`], [`Problem`] and [`Plan`] are bodies
+//! of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the browser. After a change run
+//! `cargo run -p lightbots-api --example types` and `--example page`: the tables of requests in the docs of the modules
+//! and the docs of types become docs/api.md.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};

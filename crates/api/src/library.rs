@@ -7,18 +7,18 @@
 //! | `GET /api/shows/{name}/file` | | the file as the library keeps it: the document, or all of a file that is only
 //! partly understood |
 //! | `PUT /api/shows/{name}` | a file of any format | [`ShowEntry`]. `If-Match: ETAG` replaces that version,
-//! `If-None-Match: *` creates only; 412 if another client saved first. A read-only show is saved as a copy, whose entry has
-//! a new name and `copy_of`. A file with unknown fields is kept byte for byte; 403 for a show whose file has such fields;
-//! 422 for a file that is no show |
-//! | `DELETE /api/shows/{name}?renamed_to=NAME` | | 204; honours `If-Match`; 403 for a read-only show. The query may be
-//! left out: it names the show that goes on under a new name and gets the earlier states |
-//! | `GET /api/shows/{name}/states` | | list of [`ShowState`], the newest first; the first is the show as it is |
+//! `If-None-Match: *` only creates; 412 if another client saved first. Instead of replacing an example or the start file, a
+//! copy is saved: its entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte. 403 if the show
+//! to be replaced is a file with unknown fields; 422 for a file that is no show |
+//! | `DELETE /api/shows/{name}?renamed_to=NAME` | | 204; honours `If-Match`; 403 for a read-only show. The query is
+//! optional: NAME is the show under its new name, which gets the earlier states |
+//! | `GET /api/shows/{name}/states` | | list of [`ShowState`], the newest first; the first is the current state |
 //! | `GET /api/shows/{name}/states/{number}` | | the document of an earlier state; saving it with `PUT` restores it, and
 //! makes what it replaces an earlier state |
-//! | `GET /api/assets/{hash}` | | a file that shows name by its SHA-256 |
+//! | `GET /api/assets/{hash}` | | a file to which shows refer by its SHA-256 |
 //! | `PUT /api/assets/{hash}` | the file | 204; 422 if it has another hash |
-//! | `POST /api/check` | a file of any format | its [`Plan`](crate::Plan) with paths. A newer request of the same address
-//! ends an older one with 409 |
+//! | `POST /api/check` | a file of any format | its [`Plan`](crate::Plan) with paths. A newer request from the same address
+//! ends the older one with 409 |
 //! | `POST /api/convert?to=FORMAT` | a file of any format | a file of that format, with the files of the library that it
 //! names; 422 for a file that is no show, and for a show that cannot be planned where the format has timed paths |
 //! | `GET /api/plan` | | the [`Plan`](crate::Plan) of the open show, with paths |
@@ -45,19 +45,19 @@ pub struct ShowEntry {
     pub etag: String,
     /// Where the show comes from.
     pub origin: ShowOrigin,
-    /// Why the show cannot be saved under its name, for people: its file holds more than this version knows. null: it
-    /// can, or it is a read-only show by its origin.
+    /// Why the show cannot be saved under its name, for people: its file holds fields that this version does not know.
+    /// null: it can be saved, or it is read-only because of its origin.
     pub read_only: Option<String>,
     /// Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
     pub copy_of: Option<ShowOrigin>,
-    /// What was found in the file, such as what it holds that shows have not. Only in the answer to a save.
+    /// Issues found in the file, such as contents that a show cannot hold. Only in the answer to a save.
     pub issues: Vec<Issue>,
 }
 
 /// A saved state of a show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ShowState {
-    /// Number for `/api/shows/{name}/states/{number}`; null: the show as it is.
+    /// Number for `/api/shows/{name}/states/{number}`; null: the current state.
     pub number: Option<u32>,
     /// Time of the save, milliseconds since 1970; 0 for a read-only show.
     pub saved_ms: u64,
@@ -67,7 +67,7 @@ pub struct ShowState {
     pub frames: usize,
     /// Number of pixels of the largest frame.
     pub pixels: usize,
-    /// Version of the file, with its quotes. Two states of one version hold the same.
+    /// Version of the file, with its quotes. States with the same version have the same content.
     pub etag: String,
 }
 

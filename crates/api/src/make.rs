@@ -3,20 +3,20 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// A wish for a frame that is made from its source.
+/// A request to make a frame from its source.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeRequest {
-    /// A show in our format of which only the stage and the first frame count. The frame has the source; its pixels that
-    /// were moved by hand keep their places.
+    /// A show in the format `lightbots`, of which only the stage and the first frame are used. The frame holds the
+    /// source; its pixels that were moved by hand keep their places.
     #[ts(type = "unknown")]
     pub show: serde_json::Value,
     /// Number of robots.
     pub robots: usize,
-    /// How much work is done.
+    /// How much work is put into the frame.
     pub quality: MakeQuality,
 }
 
-/// How much work a made frame takes.
+/// How much work is put into a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "lowercase")]
 pub enum MakeQuality {
@@ -29,18 +29,18 @@ pub enum MakeQuality {
 /// A made frame, or why there is none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeAnswer {
-    /// The pixels by their ids; empty with an error.
+    /// The pixels with their ids; empty if there is an error.
     pub pixels: Vec<MadePixel>,
     /// Longer side of the picture, metres.
     pub size_m: f64,
     /// Distance of the closest two pixels, metres; null with fewer than two pixels.
     pub closest_m: Option<f64>,
-    /// How well the lights show the source; null: the source is an arrangement of lights by itself, such as a grid.
+    /// How well the lights show the source; null: the source is itself an arrangement of lights, such as a grid.
     pub readability: Option<MadeReadability>,
-    /// Number of robots that would show the source readably, counted only for a full result that is not readable; null:
-    /// the result is readable, or not even a thousand robots would do.
+    /// Number of robots with which the source would be readable, determined only for a `full` result that is not
+    /// readable. null: not determined, or a thousand robots are not enough.
     pub enough: Option<usize>,
-    /// What is missing from the picture, or different from the wish.
+    /// What is missing from the picture, or differs from the request.
     pub notes: Vec<MakeRemark>,
     /// Why there is no picture; null: there is one.
     pub error: Option<MakeRemark>,
@@ -64,11 +64,11 @@ pub struct MadePixel {
 /// How well lights show what they are made from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MadeReadability {
-    /// Normalised cross-correlation of the blurred lights with the source, 0 to 1: the worst part's.
+    /// Normalised cross-correlation of the blurred lights with the source, 0 to 1. Of several parts, the lowest value.
     pub correlation: f64,
-    /// Share of the lights that have a mirror image, where the source is mirror-symmetric; 1 for others.
+    /// Share of the lights that have a mirror image, 0 to 1, if the source is mirror-symmetric; 1 for other sources.
     pub symmetry: f64,
-    /// Whether guests read the picture without being told what it is.
+    /// Whether `correlation` is high enough for viewers to recognise the picture without being told what it is.
     pub readable: bool,
 }
 
@@ -84,9 +84,9 @@ pub struct MakeRemark {
 /// The frames that an animation becomes, or why there are none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct FilmAnswer {
-    /// In order of time; empty with an error.
+    /// The frames in order of time; empty if there is an error.
     pub frames: Vec<FilmPicture>,
-    /// Factor by which the animation is slowed down, so that robots have time to move; 1: as it is.
+    /// Factor by which the animation is slowed down, so that robots have time to move; 1: it is not slowed down.
     pub slowdown: f64,
     /// What is missing, or different from the animation.
     pub notes: Vec<MakeRemark>,
@@ -105,22 +105,22 @@ pub struct FilmPicture {
     pub made: MakeAnswer,
 }
 
-/// A show whose frames all have one number of robots, or why there is none.
+/// A show whose frames were all fitted to the same number of robots, or why there is none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct FitAnswer {
-    /// The show in our format; null with an error.
+    /// The show in the format `lightbots`; null if there is an error.
     #[ts(type = "unknown")]
     pub show: Option<serde_json::Value>,
-    /// What is different from what might be expected.
+    /// Differences from what might be expected of the fitted show.
     pub notes: Vec<MakeRemark>,
     /// Why there is no show; null: there is one.
     pub error: Option<MakeRemark>,
 }
 
-/// What the settings of sources may name.
+/// Fonts and shapes that the settings of sources may name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeChoices {
-    /// Fonts inside, in the order in which they are offered.
+    /// Built-in fonts, in the order in which they are offered.
     pub fonts: Vec<MakeFont>,
     /// All shapes with their usual settings.
     pub shapes: Vec<MakeShape>,
@@ -133,9 +133,9 @@ pub struct MakeShape {
     pub name: String,
     /// Width over height.
     pub aspect: f64,
-    /// Corners, tips or circles.
+    /// Number of corners, tips or circles.
     pub count: usize,
-    /// Turns of a spiral, periods of a wave.
+    /// Turns of a spiral, or periods of a wave.
     pub turns: f64,
     /// Inner radius as a share of the outer one.
     pub inner: f64,
@@ -143,7 +143,7 @@ pub struct MakeShape {
     pub span: f64,
 }
 
-/// A font inside.
+/// A built-in font.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeFont {
     /// Name in settings.
@@ -157,19 +157,19 @@ pub struct MakeFont {
 pub struct MakeFile {
     /// SHA-256 of its bytes as 64 hexadecimal digits.
     pub hash: String,
-    /// `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a show;
-    /// `music`: it is the music of a show; null: it is of no use here.
+    /// `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a
+    /// show; `music`: it is the music of a show; null: the file cannot be used.
     pub kind: Option<String>,
-    /// Why it is of no use, and what to do; null: it is.
+    /// Why the file cannot be used, and what to do; null: it can be.
     pub error: Option<MakeRemark>,
 }
 
 /// Where the pixels of a picture are after a motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct MovedAnswer {
-    /// The pixels by their ids; empty with an error.
+    /// The pixels with their ids; empty if there is an error.
     pub pixels: Vec<MovedPixel>,
-    /// Why there are none; null: there are.
+    /// Why there are no pixels; null: there are pixels.
     pub error: Option<MakeRemark>,
 }
 
@@ -187,9 +187,10 @@ pub struct MovedPixel {
 pub struct BeatsAnswer {
     /// Tempo, beats a minute.
     pub bpm: f64,
-    /// The first beat, seconds of the music file, if all keep one tempo; null: `times_s` has each beat.
+    /// Time of the first beat, seconds from the start of the music file, if the tempo is constant; null: `times_s` has
+    /// each beat.
     pub offset_s: Option<f64>,
-    /// Each beat, seconds of the music file, increasing; empty if all keep one tempo.
+    /// Times of all beats, seconds from the start of the music file, increasing; empty if the tempo is constant.
     pub times_s: Vec<f64>,
     /// Why no beats were found, and what to do; null: they were.
     pub error: Option<MakeRemark>,

@@ -2,8 +2,8 @@
 //!
 //! | request | body | answer |
 //! |---|---|---|
-//! | `POST /api/operate` | [`Operation`], without a number | 204: the operation was begun; 403 for a role that
-//! is not enough for this operation; 409 and [`RefusedOperation`] if it cannot be carried out now |
+//! | `POST /api/operate` | [`Operation`], without the number of a request | 204: the operation was begun; 403 if the role
+//! does not allow this operation; 409 and [`RefusedOperation`] if it cannot be carried out now |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -14,7 +14,7 @@ use ts_rs::TS;
 pub enum FromScreen {
     /// Carry out an operation.
     Operate(Request),
-    /// The screen has drawn the oldest `state` that it had not acknowledged.
+    /// Acknowledges the oldest `state` that was not yet acknowledged: the screen has drawn it.
     Took,
 }
 
@@ -53,7 +53,7 @@ pub enum Operation {
     Resume,
     /// Show the next frame, then pause.
     Step,
-    /// GO: leave the frame that waits for it, or the frames that repeat until then, at the end of their round.
+    /// GO: leave the frame that waits for GO. Frames that repeat until GO are left at the end of their round.
     Go,
     /// Drive to a frame in place of the next one, and play on from there. Only while `Playback.may_jump`.
     GoTo {
@@ -64,15 +64,15 @@ pub enum Operation {
     Skip,
     /// Put a layer of light over the show that plays, until it is taken off or the show ends; robots follow within 0.3 s.
     LiveLight {
-        /// Its name. A layer of the same name is replaced.
+        /// Name of the layer. A layer of the same name is replaced.
         name: String,
-        /// The layer, as in a show file (docs/light.md); its span does not count. Null: take the layer off.
+        /// The layer, as in a show file (docs/light.md); its span of time is ignored. Null: take the layer off.
         #[ts(type = "Record<string, unknown> | null")]
         layer: Option<serde_json::Value>,
     },
-    /// Switch on or off that the show begins again after the last frame.
+    /// Set whether the show begins again after the last frame.
     Loop {
-        /// Whether it begins again.
+        /// Whether the show begins again.
         on: bool,
     },
     /// Set the speed of drives from the next run on. Refused during a run.
@@ -87,10 +87,11 @@ pub enum Operation {
     Preflight,
     /// End the run. Robots stop at their places.
     Abort,
-    /// Stop every robot, in any phase. Robots on a drive come to rest together first, within 0.5 s on a quick link; sent
-    /// again meanwhile, all wheels stop at once.
+    /// Stop every robot, in any phase. Robots on a drive first come to rest together, within 0.5 s on a fast link. A
+    /// second `stop_all` in that time stops all wheels at once.
     StopAll,
-    /// Let a show go on whose robots were out of reach, without robots that do not report.
+    /// Continue a show whose robots were out of reach, without the robots that do not report. Also lets a playlist
+    /// continue that was held.
     GoOn,
     /// Clear `Playback.failure` and `Playback.stopped_in` on every screen, because the operator has read it.
     DismissFailure,
@@ -111,14 +112,14 @@ pub enum Operation {
         /// Name of the robot.
         robot: String,
     },
-    /// Give a robot a name for people, kept for later starts of the server. Refused if another robot is called so.
+    /// Give a robot a name for people, kept for later starts of the server. Refused if another robot has that name.
     Call {
         /// Name of the robot in messages.
         robot: String,
-        /// At most 40 characters; empty: none any more.
+        /// The name, at most 40 characters; empty: take the name away.
         called: String,
     },
-    /// Switch on or off that only listed robots take part in runs. On: all robots that are there are listed.
+    /// Set whether only listed robots take part in runs. Switching this on lists all present robots.
     OnlyListed {
         /// Whether only listed robots take part.
         on: bool,
@@ -142,8 +143,8 @@ pub enum Operation {
         /// Name of the show in the library.
         name: String,
     },
-    /// Connect to a broker and keep its settings for later starts of the server. Impossible settings are refused with
-    /// their fault. `State.broker` tells whether the broker answers.
+    /// Connect to a broker and keep its settings for later starts of the server. Settings that cannot work are refused
+    /// with the reason. `State.broker` says whether the broker answers.
     Connect {
         /// `mqtt://host:1883` or `mqtts://…`, several separated by commas; or `embedded`.
         address: String,
@@ -161,7 +162,8 @@ pub enum Operation {
         #[serde(default)]
         #[ts(optional = nullable)]
         client_cert: Option<String>,
-        /// Key of the client certificate, stated like it; null: the kept key if the certificate is the kept one.
+        /// Key of the client certificate: PEM text or the path of a file on the server; null: the kept key if the
+        /// certificate is the kept one.
         #[serde(default)]
         #[ts(optional = nullable)]
         client_key: Option<String>,
@@ -190,7 +192,7 @@ pub struct Answer {
     pub ok: bool,
     /// Why it was refused: one line for people with cause and remedy; null if `ok`.
     pub error: Option<String>,
-    /// Another operation that would be carried out; null: none.
+    /// Another operation that the server would carry out instead; null: none.
     pub choice: Option<Choice>,
 }
 
@@ -199,7 +201,7 @@ pub struct Answer {
 pub struct RefusedOperation {
     /// Why it was refused: one line for people with cause and remedy.
     pub error: String,
-    /// Another operation that would be carried out; null: none.
+    /// Another operation that the server would carry out instead; null: none.
     pub choice: Option<Choice>,
 }
 

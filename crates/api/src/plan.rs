@@ -31,36 +31,36 @@ pub struct Plan {
     pub transitions: Vec<Transition>,
 }
 
-/// A wish for a plan by the module in the browser.
+/// A request for a plan, to the module in the browser.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct PlanningRequest {
-    /// A show in our format.
+    /// A show in the format `lightbots`.
     #[ts(type = "unknown")]
     pub show: serde_json::Value,
-    /// `quick` leaves stop-safety as it is and does not measure it; the paths are proven all the same.
+    /// `quick` neither improves stop-safety nor measures it. The paths are proven with either quality.
     pub quality: MakeQuality,
 }
 
 /// A plan by the module in the browser, or why there is none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct PlanAnswer {
-    /// The plan. `stop_safe` counts only for quality `full`. null: there is none.
+    /// The plan. Its `stop_safe` is measured only for quality `full`. null: there is no plan.
     pub plan: Option<Plan>,
     /// Why there is no plan; null: there is one.
     pub error: Option<MakeRemark>,
 }
 
-/// A wish for the light of a planned show by the module in the browser.
+/// A request for the light of a planned show, to the module in the browser.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct LightRequest {
-    /// A show in our format.
+    /// A show in the format `lightbots`.
     #[ts(type = "unknown")]
     pub show: serde_json::Value,
-    /// The drives to its frames, with paths. Robots of a frame without a drive stand on its pixels.
+    /// The drives to the frames of the show, with paths. In a frame without a drive, robots stand on its pixels.
     pub transitions: Vec<Transition>,
 }
 
-/// What the module in the browser read of a show for its light.
+/// The answer to a [`LightRequest`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct LightAnswer {
     /// Number of robots that colours are given for.

@@ -1,4 +1,4 @@
-//! What the planner made, as JSON.
+//! The result of the planner as a [`Plan`], which becomes JSON.
 
 use lightbots_plan::ShowPlan;
 use lightbots_show as show;
@@ -6,7 +6,7 @@ use lightbots_show::Issues;
 
 use crate::{Issue, Path, Plan, Severity, Transition};
 
-/// A plan without its paths, for the WebSocket.
+/// Returns a plan without its pixels and paths, for the WebSocket.
 pub fn plan_summary(plan: &Plan) -> Plan {
     let transitions = plan.transitions.iter().map(|transition| Transition {
         from: transition.from,
@@ -38,8 +38,8 @@ impl From<&show::Issue> for Issue {
     }
 }
 
-/// A plan as the screen and scripts read it. `found` is what reading and validating the show showed;
-/// `plan_ms` is the duration of planning.
+/// Returns a plan as the screen and scripts read it. `found` has the issues from reading and validating the show,
+/// `plan_ms` is the duration of planning, milliseconds.
 pub fn plan_document(plan: &ShowPlan, found: &Issues, plan_ms: f64) -> Plan {
     let issues = merge(found, &plan.issues);
     let transitions = plan.transitions.iter().enumerate();
@@ -57,7 +57,7 @@ pub fn plan_document(plan: &ShowPlan, found: &Issues, plan_ms: f64) -> Plan {
     }
 }
 
-/// A share of moments, rounded down: 1 means all of them.
+/// Rounds a share of moments down to 5 decimals, so that 1 means all of them.
 fn share(share: f64) -> f64 {
     (share * 1e5 + 1e-6).floor() / 1e5
 }
@@ -88,7 +88,8 @@ fn path(path: &lightbots_plan::Path) -> Path {
     }
 }
 
-/// What was found before planning, then what planning adds: it repeats some of it in other words.
+/// Returns the issues found before planning, then those of planning that are new. An issue of planning is left out if
+/// it was found before, or if an error about the same frame and one of its pixels was.
 fn merge(found: &Issues, planned: &Issues) -> Issues {
     let known = |issue: &show::Issue| {
         found.contains(issue)
@@ -102,7 +103,7 @@ fn merge(found: &Issues, planned: &Issues) -> Issues {
     found.iter().chain(planned.iter().filter(|issue| !known(issue))).cloned().collect()
 }
 
-/// A number rounded to `decimals`, so that JSON stays readable.
+/// Rounds a number to `decimals`, so that JSON stays readable. Infinities and NaN are returned unchanged.
 pub fn rounded(value: f64, decimals: i32) -> f64 {
     let factor = 10_f64.powi(decimals);
     let rounded = (value * factor).round() / factor + 0.0;

@@ -11,7 +11,7 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// The playlist as a client wants it.
+/// A new playlist from a client.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct PlaylistChange {
@@ -37,7 +37,7 @@ pub struct PlaylistEntry {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional = nullable)]
     pub at: Option<String>,
-    /// Days on which an entry with `at` is played; none: every day.
+    /// Days on which an entry with `at` is played; empty: every day.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[ts(as = "Option<Vec<PlaylistDay>>", optional)]
     pub weekdays: Vec<PlaylistDay>,
@@ -45,7 +45,7 @@ pub struct PlaylistEntry {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional = nullable)]
     pub pause_min: Option<u32>,
-    /// Robots drive to their starting places at the begin of that pause.
+    /// Whether robots drive to their starting places at the beginning of the pause.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[ts(as = "Option<bool>", optional)]
     pub home: bool,
@@ -73,10 +73,10 @@ pub enum PlaylistDay {
     Sun,
 }
 
-/// The playlist as it is.
+/// The current playlist.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct PlaylistState {
-    /// Increased with each change of switch and entries.
+    /// Number of the playlist's version, increased with each change of `on` or `entries`.
     pub revision: u64,
     /// Whether shows start by themselves.
     pub on: bool,
@@ -84,10 +84,10 @@ pub struct PlaylistState {
     pub entries: Vec<PlaylistEntry>,
     /// What became of each entry today, in their order.
     pub today: Vec<PlaylistToday>,
-    /// The entry that starts next; null: none within a week, or none before the present one is over. Where the playlist is
-    /// off: what would start next if it was switched on now.
+    /// The entry that starts next; null: none within a week, or none until the present entry is over. If the playlist
+    /// is off: the entry that would start next if it were switched on.
     pub next: Option<PlaylistNext>,
-    /// Why no show starts, because a person stopped robots: one sentence; null: nothing holds the playlist. The operation
+    /// Why the playlist starts no show after a person stopped robots, one sentence; null: it is not held. The operation
     /// `go_on` lets it continue.
     pub held: Option<String>,
     /// Why the playlist cannot be read, with file, place and remedy; null: it can. Nothing is played meanwhile.
@@ -99,11 +99,11 @@ pub struct PlaylistState {
 /// What became of an entry today.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct PlaylistToday {
-    /// What became of it.
+    /// What became of the entry.
     pub result: PlaylistResult,
-    /// Local time of day, `HH:MM`, at which it starts, began or ended; null: not known yet.
+    /// Local time of day, `HH:MM`, at which the entry starts, began or ended; null: not known yet.
     pub time: Option<String>,
-    /// Why it failed or was skipped, with a remedy: one line; null: it did not, or was not.
+    /// Why the entry failed or was skipped, with a remedy: one line; null: neither happened.
     pub line: Option<String>,
 }
 
@@ -115,7 +115,7 @@ pub enum PlaylistResult {
     NotToday,
     /// Its time has not come, or the entry before it is not over.
     Waiting,
-    /// Its time was over before the playlist was switched on.
+    /// Its time had passed before the playlist was switched on.
     Past,
     /// It plays.
     Playing,
@@ -136,6 +136,6 @@ pub struct PlaylistNext {
     pub show: String,
     /// Local time of the server, such as `19:00` or `Fri 19:00`.
     pub time: String,
-    /// Time until then, seconds; 0: it is due.
+    /// Time until the entry starts, seconds; 0: it is due.
     pub in_s: u32,
 }

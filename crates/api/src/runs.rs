@@ -20,13 +20,13 @@ pub struct RunEntry {
     pub show: String,
     /// When it began, milliseconds since 1970.
     pub began_ms: u64,
-    /// When it ended, milliseconds since 1970; null: it is on, or its program ended first.
+    /// When it ended, milliseconds since 1970; null: the run is still on, or the program ended before it.
     pub ended_ms: Option<u64>,
-    /// All frames were shown, and no robot was lost for good.
+    /// Whether all frames were shown and no robot was lost for good.
     pub ok: bool,
-    /// How it ended, in one sentence; null: it is on, or its program ended first.
+    /// How the run ended, in one sentence; null: it is still on, or the program ended before it.
     pub outcome: Option<String>,
-    /// Whether its report can be made.
+    /// Whether the report of the run can be made.
     pub has_report: bool,
 }
 

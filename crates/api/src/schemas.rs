@@ -1,4 +1,4 @@
-//! JSON Schemas (draft 2020-12) of files, for programs of others.
+//! JSON Schemas (draft 2020-12) of files, for other programs.
 
 use schemars::{Schema, schema_for};
 
@@ -23,7 +23,7 @@ mod tests {
         jsonschema::validator_for(schemas()[nth].1.as_value()).unwrap()
     }
 
-    /// What a file does not keep to.
+    /// Returns where and how a file violates the schema.
     fn wrong(validator: &jsonschema::Validator, text: &str) -> Vec<String> {
         let value = serde_json::from_str(text).unwrap();
         validator.iter_errors(&value).map(|error| format!("{}: {error}", error.instance_path())).collect()
@@ -39,7 +39,7 @@ mod tests {
     fn the_schemas_in_the_docs_are_those_of_the_types() {
         for (name, schema) in schemas() {
             let kept = fs::read_to_string(Path::new(ROOT).join("docs/schemas").join(name)).unwrap();
-            // As values: the order of fields depends on what else a build asks of `serde_json`.
+            // Compared as values, because the order of fields depends on the features of `serde_json` in a build.
             let kept: serde_json::Value = serde_json::from_str(&kept).unwrap();
             assert!(
                 kept == *schema.as_value(),

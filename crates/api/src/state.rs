@@ -1,32 +1,32 @@
-//! A snapshot of connection and run, 20 times a second.
+//! A snapshot of connection and run, sent 20 times a second.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// A snapshot of the run. The binary message before it, `Robots`, has the places of the robots.
+/// A snapshot of the run. The binary message `Robots`, sent just before, has the places of the robots.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct State {
     /// The show clock, milliseconds.
     pub at_ms: f64,
     /// Rate of the show clock: 1 is real time. Less if the machine is too slow for its simulated robots.
     pub pace: f64,
-    /// `Fleet.revision` of the table that names the robots of the binary message before.
+    /// `Fleet.revision` of the fleet table that names the robots of the preceding binary message.
     pub fleet: u32,
     /// The broker.
     pub broker: Broker,
-    /// The show.
+    /// The run and its progress.
     pub playback: Playback,
-    /// Where the show is on its timeline at `at_ms`; null: none is played, or its first drive has not begun.
+    /// Position of the show on its timeline at `at_ms`; null: no show is played, or its first drive has not begun.
     pub show_time: Option<ShowTime>,
 }
 
-/// Where the music of a show is on the timeline; for a show without music, where the show is.
+/// Position on the timeline: that of the music, or of the show if it has no music.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ShowTime {
     /// Seconds from the start of the first frame's air time; negative during the drive there.
     pub show_s: f64,
-    /// Whether it moves on with the show clock. Music stands while the operator pauses, and while the show waits for GO; a
-    /// show without music also stands while robots are held or waited for.
+    /// Whether the position advances with the show clock. With music, it stands during a pause and while the show waits
+    /// for GO. Without music, it also stands while robots are held or waited for.
     pub runs: bool,
 }
 
@@ -70,7 +70,7 @@ pub struct Playback {
     /// Index of the frame that is shown or driven to, counted from 0; null: none, or robots drive to their
     /// starting places.
     pub frame: Option<usize>,
-    /// Index of the frame after `frame`; null: none, the run ends then.
+    /// Index of the frame after `frame`; null: none, the run ends after `frame`.
     pub next: Option<usize>,
     /// Whether `GoTo` and `Skip` are possible: a show is played, and robots stand or are held.
     pub may_jump: bool,
@@ -82,21 +82,22 @@ pub struct Playback {
     pub left_s: Option<f64>,
     /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
     pub failure: Option<String>,
-    /// Index of the frame in which the last run of the show was stopped; null: it was not, or `dismiss_failure` was asked.
+    /// Index of the frame in which the last run of the show ended before its end; null: it was played to its end, or
+    /// `dismiss_failure` cleared the index.
     pub stopped_in: Option<usize>,
     /// The preflight that is under way, or the last one since the server's start; null: there was none.
     pub preflight: Option<PreflightState>,
-    /// Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
+    /// Name of the cue at which the show waits for `go`; may be empty. Null: the show does not wait for `go`.
     pub cue: Option<String>,
     /// Names of the layers of live light that are on, lowest first.
     pub live_light: Vec<String>,
-    /// The frames that repeat until `go`; null: none do at the moment.
+    /// The frames that repeat until `go`; null: no frames repeat at the moment.
     pub repeats: Option<Repeats>,
-    /// Whether `go_on` lets a show go on whose robots were out of reach: some report again.
+    /// Whether `go_on` can continue a show whose robots were out of reach: some of them report again.
     pub may_go_on: bool,
     /// Speed of drives, percent of the usual one.
     pub speed_percent: u32,
-    /// Whether the robots that are there have never played the open show to its end: a slow first run is offered.
+    /// Whether the present robots have never played the open show to its end. The screen then offers a slow first run.
     pub first_run: bool,
     /// Whether the show begins again after the last frame.
     pub looping: bool,
@@ -113,24 +114,24 @@ pub struct PreflightState {
     pub round: usize,
     /// Number of rounds.
     pub rounds: usize,
-    /// Whether it was carried out to its end.
+    /// Whether the preflight was carried out to its end.
     pub finished: bool,
-    /// Number of robots that passed; 0 while it is under way.
+    /// Number of robots that passed; 0 while the preflight is under way.
     pub passed: usize,
-    /// Number of robots with findings; 0 while it is under way.
+    /// Number of robots with faults; 0 while the preflight is under way.
     pub named: usize,
 }
 
 /// Frames that repeat until `go`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct Repeats {
-    /// Index of the first of them, counted from 0.
+    /// Index of the first repeated frame, counted from 0.
     pub first: usize,
-    /// Index of the last of them, counted from 0.
+    /// Index of the last repeated frame, counted from 0.
     pub last: usize,
-    /// Which time they are played, counted from 1.
+    /// Number of the present round, counted from 1.
     pub round: u32,
-    /// Whether GO was given: the show goes on after the last of them.
+    /// Whether GO was given. The show then goes on with the frame after `last`.
     pub leaves: bool,
 }
 
@@ -152,6 +153,6 @@ pub enum Phase {
     Preview,
     /// Robots stop after an abort.
     Aborting,
-    /// The show stands still, because its robots are out of reach, or were and the operator is to say that it goes on.
+    /// The show stands still, because its robots are out of reach, or because they were and `go_on` has not been sent.
     LinkLost,
 }

@@ -20,7 +20,7 @@ use crate::{
 const HEAD: &str =
     "// Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.\n";
 
-/// The TypeScript of types, each with its documentation.
+/// Returns the TypeScript of the named types, each with its documentation.
 macro_rules! declarations {
     ($($name:ty),* $(,)?) => {{
         let config = Config::new().with_large_int("number");
@@ -35,7 +35,7 @@ pub fn typescript() -> String {
     [HEAD, &messages(), &module(), &robots(), &formats()].concat()
 }
 
-/// What screen and server say to each other.
+/// The types that screen and server exchange, as TypeScript.
 fn messages() -> String {
     declarations!(
         ToScreen,
@@ -103,7 +103,7 @@ fn messages() -> String {
     )
 }
 
-/// What the screen and the module in the browser say to each other.
+/// The types that the screen and the module in the browser exchange, as TypeScript.
 fn module() -> String {
     declarations!(
         MakeRequest,
@@ -125,7 +125,7 @@ fn module() -> String {
     )
 }
 
-/// The columns of the binary message, and what its numbers for states stand for.
+/// The columns of the binary message, and the statuses that its numbers stand for, as TypeScript.
 fn robots() -> String {
     let mut text = String::new();
     text.push_str("\n/** The lists of `Robots` in the order of the binary message. */\n");
@@ -140,7 +140,7 @@ fn robots() -> String {
     text
 }
 
-/// The table of formats: what the screen may show in menus and file dialogs.
+/// The table of formats for menus and file dialogs of the screen, as TypeScript.
 fn formats() -> String {
     let rows: Vec<String> = FORMATS.iter().map(|format| format!("  {},\n", row(format))).collect();
     format!(
