@@ -7,12 +7,12 @@ use lightbots_light::{FloorPicture, LightContext, Linear, LitRobot};
 /// Longest time that a pixel's colour takes to change; longer fades look like a fault of the light.
 pub const FADE_MAX: Span = Span::from_millis(1_000);
 
-/// How long the change of a pixel's colour takes, at the end of a drive.
+/// How long the change of a pixel's colour takes at the end of a drive: at most [`FADE_MAX`] and half of the drive.
 pub fn fade_of(drive: Span) -> Span {
     FADE_MAX.min(Span(drive.0 / 2)).max(Span::ZERO)
 }
 
-/// How far the change of a pixel's colour at the end of a drive is, `elapsed` after the drive began; 0 to 1.
+/// Progress of the change of a pixel's colour at the end of a drive, `elapsed` after the drive began; 0 to 1.
 pub fn changed(drive: Span, elapsed: Span) -> f64 {
     let over = fade_of(drive);
     let since = elapsed - (drive - over);
@@ -30,13 +30,13 @@ pub struct DrivenLight<'a> {
     pub number: (u32, u32),
     /// The frame, counted from 0.
     pub frame: u32,
-    /// The pixel that the robot shows in the frame.
+    /// Id of the pixel that the robot shows in the frame; `None`: it has none.
     pub pixel: Option<u32>,
-    /// Its colour before, in the frame, and in the frame after it.
+    /// Its colour in the frame before, in the frame, and in the frame after.
     pub colours: [Rgb; 3],
-    /// Whether layers shine on it before, and in the frame: on robots with a pixel.
+    /// Whether layers shine on the robot in the frame before, and in the frame. They do if it has a pixel there.
     pub shines: [bool; 2],
-    /// Its path; `None`: it stands.
+    /// Path of the drive; `None`: the robot stands.
     pub path: Option<PathRef<'a>>,
     /// Where it stands in the frame, stage metres.
     pub goal: Vec2,
@@ -51,9 +51,9 @@ pub struct LightMoment {
     pub elapsed: Span,
     /// Show time, seconds.
     pub show_s: f64,
-    /// How long show time stood, seconds.
+    /// How long show time has stood still until this moment, seconds.
     pub lead_s: f64,
-    /// The show clock, seconds: live light counts by it.
+    /// The show clock, seconds: live light runs by it.
     pub clock_s: f64,
 }
 
@@ -90,7 +90,8 @@ impl DrivenLight<'_> {
         self.light(light, pictures, moment, usize::MAX).to_rgb()
     }
 
-    /// The light at a moment, without one of the frame's layers.
+    /// The light at a moment, without the layer with the index `left_out` in the frame. `usize::MAX` leaves no layer
+    /// out.
     pub(crate) fn light(
         &self,
         light: &FrameLight,
@@ -111,7 +112,8 @@ impl DrivenLight<'_> {
         robot.colour.lerp(live, share)
     }
 
-    /// The colours at `ticks` + 1 moments that are a [`TICK`] apart. `moment` gives them by number.
+    /// The colours at `ticks` + 1 moments that are a [`TICK`] apart. `moment` returns the moment for the time since the
+    /// first one.
     pub fn samples(
         &self,
         light: &FrameLight,

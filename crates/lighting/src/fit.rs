@@ -1,37 +1,39 @@
-//! Colours of one robot at moments that are 10 ms apart -> the fewest records that show them.
+//! Turns the colours of one robot, sampled every 10 ms, into a light track with few records.
 //!
-//! A swing filter: from the colour that the last record left, a line goes as far as it stays within the tolerance at every
-//! moment, and ends with whole codes; or the colour is held and then steps, if that goes farther. The colours of a line are
-//! those of the robot, straight in sRGB codes and rounded, so the tolerance holds for what the robot shows.
+//! The method is a swing filter. From the end colour of the record before, a line goes on as long as it is within the
+//! tolerance at every sample, and ends at whole codes. If it reaches farther, the colour is held and then steps
+//! instead. A line is straight in sRGB codes and rounded, as on the robot, so the tolerance holds for what the robot
+//! shows.
 
 use lightbots_base::{LightRecord, LightTrack, Rgb};
 use lightbots_light::lightness;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-/// A rounded line leads through a code if it is within this much of it. A little less than a half: a robot's arithmetic may
-/// differ in its last digits.
+/// Largest distance between a line and a code to which it is rounded, in codes. A little less than a half, because a
+/// robot's arithmetic may differ in its last digits.
 const ROUNDING: f64 = 0.49;
-/// Longest block of records that is looked for again. Chosen: the period of a pulse of five records a second in 10 s.
+/// Longest block of records whose repetitions are searched for. Chosen: a pattern of five records a second may have a
+/// period of 10 s.
 const BLOCK_MAX: usize = 64;
 
-/// `[code]`: its lightness L*. Each fit asks for it thousands of times.
+/// `[code]`: lightness L* of an sRGB code. A table, because each fit needs it thousands of times.
 static LIGHTNESS: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| lightness(code as u8)));
 
-/// Units of L* by which two colours differ that are seen side by side only.
+/// Largest difference in L* at which two colours look different only side by side.
 const SIDE_BY_SIDE: f64 = 2.0;
 
 /// How far a shown colour may be from the wanted one, channel by channel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Tolerance {
-    /// One of 255 steps.
+    /// One sRGB code.
     OneStep,
-    /// Units of L* (CIE 1976) of the channel's light, and at least one step.
+    /// This difference in lightness L* (CIE 1976) of the channel, and at least one code.
     Lightness(f64),
 }
 
 impl Tolerance {
-    /// Differences that are seen side by side only.
+    /// Allows differences that are visible only side by side.
     pub const SIDE_BY_SIDE: Self = Self::Lightness(SIDE_BY_SIDE);
 }
 
@@ -51,7 +53,7 @@ impl LightFit {
     }
 }
 
-/// `[code]`: the least and the greatest code that are near enough to it.
+/// `[code]`: the lowest and the highest code within the tolerance of it.
 struct Bounds([(u8, u8); 256]);
 
 impl Bounds {
@@ -78,8 +80,9 @@ impl Bounds {
     }
 }
 
-/// Fits colours that are a [`TICK`](lightbots_base::TICK) apart; the track lasts from the first to the last. With more
-/// records than `records_max` the tolerance doubles until they are few enough.
+/// Fits a track to colours that are a [`TICK`](lightbots_base::TICK) apart. The track lasts from the first colour to
+/// the last. If it has more than `records_max` records, the tolerance is raised in steps, until there are at most as
+/// many, or one if `records_max` is 0.
 pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFit {
     let start = samples.first().copied().unwrap_or_default();
     let mut tolerance = tolerance;
@@ -95,7 +98,8 @@ pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFi
     }
 }
 
-/// Whether two colours are seen as different, also apart: a channel differs by more than is seen side by side only.
+/// Whether two colours look different even when they are not side by side: a channel differs by more than
+/// `SIDE_BY_SIDE` in L*.
 pub fn is_seen_apart(one: Rgb, other: Rgb) -> bool {
     let pairs = channels(one).into_iter().zip(channels(other));
     let units = |code: u8| LIGHTNESS[usize::from(code)];
@@ -128,7 +132,8 @@ fn line_to(ticks: usize, to: Rgb) -> LightRecord {
     LightRecord::Line { ticks: ticks as u32, to }
 }
 
-/// The first moment after `from` at which a colour may not be held.
+/// Returns the first sample after `from` at which `colour` is out of bounds, so that it cannot be held; the number of
+/// samples if there is none.
 fn held(wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> usize {
     let own = channels(colour);
     let fits = |bounds: &[(u8, u8); 3]| {
@@ -138,7 +143,8 @@ fn held(wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> usize {
     wanted[first..].iter().position(|bounds| !fits(bounds)).map_or(wanted.len(), |count| first + count)
 }
 
-/// The farthest moment that a line from a colour reaches, and its end there.
+/// Returns the farthest sample that a line from `colour` at `from` can reach within the bounds, and its end colour.
+/// `None` if it reaches no sample.
 fn line(samples: &[Rgb], wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> Option<(usize, Rgb)> {
     let start = channels(colour).map(f64::from);
     let mut slopes = [(f64::NEG_INFINITY, f64::INFINITY); 3];
@@ -166,7 +172,7 @@ fn line(samples: &[Rgb], wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> 
     best
 }
 
-/// The records with a repeat in place of each block that comes again at once.
+/// Returns the records with immediate repetitions of a block replaced by a repeat record, if that saves records.
 fn repeated(records: &[LightRecord]) -> Vec<LightRecord> {
     let mut short = Vec::with_capacity(records.len());
     let mut from = 0;
@@ -176,7 +182,7 @@ fn repeated(records: &[LightRecord]) -> Vec<LightRecord> {
             again.skip(1).take_while(|next| **next == records[from..from + block]).count()
         };
         let longest = BLOCK_MAX.min((records.len() - from) / 2);
-        // Of blocks that save the same, the shortest.
+        // Of blocks that save the same number of records, the shortest is taken.
         let best = (1..=longest)
             .map(|block| (block, times(block)))
             .max_by_key(|&(block, times)| (block * times, core::cmp::Reverse(block)));

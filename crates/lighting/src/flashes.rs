@@ -1,10 +1,11 @@
 //! Flashes of a show that can cause seizures: WCAG 2.2, success criterion 2.3.1.
 //!
-//! A general flash is a pair of opposing changes of relative luminance by a tenth of the maximum or more, the darker state
-//! below 0.8. A red flash is one of a saturated red: R/(R + G + B) ≥ 0.8, and (R − G − B)·320 changes by more than 20. More
-//! than three in a second must not cover more than a quarter of any 10° of the viewer's field. Here a field is a square with
-//! a quarter of the floor's depth as its side, and a robot lights a square around it. Three flashes a second are too many
-//! once they have gone on for five seconds (Ofcom's guidance).
+//! A general flash is a pair of opposing changes of relative luminance by a tenth of the maximum or more, the darker
+//! state below 0.8. A red flash is a pair of opposing changes that involve a saturated red: R/(R + G + B) ≥ 0.8, and (R
+//! − G − B)·320 changes by more than 20. More than three flashes in a second must not cover more than a quarter of any
+//! 10° of the viewer's field of view. Here such a field is a square whose side is a quarter of the floor's depth, and
+//! each robot lights a square around itself. Three flashes a second are too many if they go on for more than five
+//! seconds (Ofcom's guidance).
 
 use crate::driven::{DrivenLight, LightMoment};
 use crate::show_light::{FrameLight, ShowLight};
@@ -13,52 +14,53 @@ use lightbots_base::{Span, Vec2};
 use lightbots_light::Linear;
 use std::collections::VecDeque;
 
-/// Samples a second: as many as films have that are judged.
+/// Samples per second, as in the films that are tested for flashes.
 const RATE: u32 = 60;
 /// Samples between two counts of flashes.
 const COUNTED_EVERY: u32 = 15;
-/// Most robots that are looked at; of more, every second or third one and so on.
+/// Largest number of robots that are sampled. Of a larger fleet, every second, third or n-th robot is sampled.
 const ROBOTS_MAX: usize = 400;
-/// Most colours that are computed, so that a long show is looked at in seconds: fewer robots then.
+/// Largest number of colours that are computed, so that checking takes seconds. In a long show, fewer robots are
+/// sampled, but at least 20.
 const COLOURS_MAX: usize = 4_000_000;
-/// Least change of luminance that counts.
+/// Smallest change of relative luminance that counts towards a flash.
 const CHANGE: f64 = 0.1;
-/// The darker state is below this.
+/// Relative luminance below which the darker state of a flash lies.
 const DARK: f64 = 0.8;
-/// Least change of R − G − B that counts: 20/320.
+/// Smallest change of R − G − B that counts towards a red flash: 20/320.
 const RED_CHANGE: f64 = 0.0625;
-/// Share of red from which a colour is saturated.
+/// Share of red in R + G + B from which a colour is a saturated red.
 const RED_SHARE: f64 = 0.8;
-/// Most flashes in a second.
+/// Largest number of flashes in a second that is allowed.
 const FLASHES_MAX: u32 = 3;
-/// How long that many may go on, in counts.
+/// Number of counts in a row, 5 s, that may find `FLASHES_MAX` flashes a second or more.
 const COUNTS_MAX: u32 = 5 * RATE / COUNTED_EVERY;
 /// Share of a field that flashes may cover.
 const COVERED: f64 = 0.25;
 /// Side of a field, as a share of the floor's depth.
 const FIELD: f64 = 0.25;
-/// Largest square that a robot lights, metres: its light on the floor.
+/// Largest side of the square that a robot lights on the floor, metres.
 const CELL_MAX_M: f64 = 0.3;
 
-/// A frame with the drive to it.
+/// A frame with the drive to it, for counting flashes.
 #[derive(Clone, Debug)]
 pub struct LitFrame<'a> {
-    /// How long it stands.
+    /// Air time of the frame.
     pub air: Span,
-    /// The robots, the same in all frames.
+    /// The robots with their light, the same robots in the same order in all frames.
     pub robots: Vec<DrivenLight<'a>>,
 }
 
-/// Too many flashes.
+/// A finding: too many flashes at a moment of a show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlashWarning {
-    /// When, seconds of show time.
+    /// The moment, seconds of show time.
     pub show_s: f64,
-    /// Flashes in the second before.
+    /// Number of flashes in the second before the moment.
     pub flashes: u32,
-    /// They are red.
+    /// Whether they are red flashes.
     pub is_red: bool,
-    /// The layer without which there would be fewer; `None`: several together.
+    /// Number of the layer in the show without which the flashes would be few enough; `None`: no single layer.
     pub layer: Option<usize>,
 }
 
@@ -96,7 +98,7 @@ impl Swings {
 struct Watched {
     general: Swings,
     red: Swings,
-    /// Where it was when flashes were counted last.
+    /// Place of the robot when flashes were last counted, stage metres.
     place: Vec2,
 }
 
@@ -110,8 +112,8 @@ impl Watched {
     }
 }
 
-/// The first moment at which a show flashes too often. `depth_m`: extent of its floor away from the viewer, metres;
-/// `area_m2`: the floor's area.
+/// Returns the first moment at which a show flashes too often; `None` if there is none. `depth_m`: extent of its floor
+/// away from the viewer, metres; `area_m2`: the floor's area.
 pub fn flashes(
     show: &ShowLight,
     frames: &[LitFrame<'_>],
@@ -180,7 +182,8 @@ fn moment(times: FrameTimes, step: u32) -> LightMoment {
     }
 }
 
-/// The most flashes that robots on more than a quarter of a field have had in the last second.
+/// Returns the largest number of flashes in the last second that the robots on more than a quarter of a field reach. 0
+/// if it is less than `FLASHES_MAX`.
 fn covering(watched: &[Watched], flashes: fn(&Watched) -> u32, (field_m, cell_m2): (f64, f64)) -> u32 {
     let needed = (COVERED * field_m * field_m / cell_m2).floor() as usize + 1;
     let mut many = 0;
@@ -199,7 +202,8 @@ fn covering(watched: &[Watched], flashes: fn(&Watched) -> u32, (field_m, cell_m2
     many
 }
 
-/// The layer without which the robot that flashes most would flash less in the last second.
+/// Returns the number of the first layer without which each robot would flash fewer than `FLASHES_MAX` times in the
+/// last second. Checks the first `ROBOTS_MAX` robots.
 fn blamed(
     show: &ShowLight,
     frame: &LitFrame<'_>,

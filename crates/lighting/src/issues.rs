@@ -8,8 +8,9 @@ use lightbots_light::{FloorPicture, LayerFault};
 use lightbots_plan::ShowPlan;
 use lightbots_show::{AssetHash, Issue, Issues, Show, excerpt};
 
-/// Issues of a show with those of its layers: each layer that stays dark, and each setting without meaning. Pictures are
-/// not looked at here, see [`attach_pictures`](crate::attach_pictures); they are missing where the show has no such file.
+/// Returns the issues of a show, and those of its layers: each layer that stays dark, and each setting without meaning.
+/// Pictures are not decoded here, see [`attach_pictures`](crate::attach_pictures). Only a file that the show lacks is
+/// an issue.
 pub fn validate(show: &Show) -> Issues {
     let mut issues = lightbots_show::validate(show);
     issues.extend(faults(show).iter().map(|fault| Issue::warning("bad-layer", text(show, fault))));
@@ -22,7 +23,7 @@ fn faults(show: &Show) -> Vec<LayerFault> {
     ShowLight::with_pictures(show, |hash| is_there(hash).then(dot).flatten()).1
 }
 
-/// Such as `the layer "Sparks": speed_hz is 1000: choose a number from -3 to 3`.
+/// Text of a fault, such as `the layer "Sparks": speed_hz is 1000: choose a number from -3 to 3`.
 fn text(show: &Show, fault: &LayerFault) -> String {
     let name = fault.layer.and_then(|number| show.layers.get(number)).map_or("", |layer| layer.name.as_str());
     match name {
@@ -33,7 +34,7 @@ fn text(show: &Show, fault: &LayerFault) -> String {
     }
 }
 
-/// Says where the light of a planned show flashes too often, if it does.
+/// Returns an issue with the first moment at which the light of a planned show flashes too often, if it does.
 pub fn flashes_of(show: &Show, plan: &ShowPlan) -> Option<Issue> {
     let (light, _) = ShowLight::new(show);
     if light.is_empty() {

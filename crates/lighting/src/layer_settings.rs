@@ -1,10 +1,10 @@
-//! Reads named settings, notes what is wrong with them, and which of them have no meaning.
+//! Reads named settings, and notes as faults which of them are wrong or have no meaning.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_light::LayerFault;
 use lightbots_show::{NamedSettings, Setting, excerpt};
 
-/// The settings of a layer while they are read.
+/// The settings of a layer, or of a part of it, while they are read.
 pub(crate) struct LayerSettings<'a> {
     settings: &'a NamedSettings,
     number: usize,
@@ -18,7 +18,7 @@ impl<'a> LayerSettings<'a> {
         Self { settings, number, read: Vec::new(), faults: Vec::new() }
     }
 
-    /// The same faults, other settings: those of a part of the layer.
+    /// Begins to read the settings of a part of the same layer. The part has its own list of faults.
     pub fn part<'b>(&self, settings: &'b NamedSettings) -> LayerSettings<'b> {
         LayerSettings::new(settings, self.number)
     }
@@ -45,7 +45,7 @@ impl<'a> LayerSettings<'a> {
         }
     }
 
-    /// A whole number of 0 or more.
+    /// Reads a whole number of 0 or more. `default` if it is missing, or wrong, which is a fault.
     pub fn whole(&mut self, name: &'static str, default: u64) -> u64 {
         let number = self.number(name, default as f64);
         // Whole numbers up to 2⁵³ are exact in a file.
@@ -67,7 +67,7 @@ impl<'a> LayerSettings<'a> {
         }
     }
 
-    /// The value of a word.
+    /// Reads one of `words` and returns its value. The default value if it is missing, or unknown, which is a fault.
     pub fn word<T: Copy + Default>(&mut self, name: &'static str, words: &[(&str, T)]) -> T {
         let Some(setting) = self.get(name) else { return T::default() };
         if let Setting::Text(text) = setting
@@ -93,7 +93,7 @@ impl<'a> LayerSettings<'a> {
         points.unwrap_or_default()
     }
 
-    /// A list whose items `read` takes; `None`: there is none, or it is wrong.
+    /// Reads a list, each item by `read`. `None` if it is missing, or wrong, which is a fault.
     pub fn list<T>(
         &mut self,
         name: &'static str,
@@ -111,7 +111,7 @@ impl<'a> LayerSettings<'a> {
         items
     }
 
-    /// Notes each setting that was not asked for: it may be mistyped.
+    /// Adds a fault for each setting that was not read, because it may be mistyped. Returns all faults.
     pub fn end(mut self) -> Vec<LayerFault> {
         let known = |name: &str| self.read.contains(&name);
         let unknown: Vec<String> =
@@ -123,7 +123,7 @@ impl<'a> LayerSettings<'a> {
     }
 }
 
-/// A place of two numbers.
+/// Reads a place, `[x, y]`. `None` if the setting is no list of two numbers.
 pub(crate) fn point(setting: &Setting) -> Option<Vec2> {
     match setting {
         Setting::List(items) => match items.as_slice() {
@@ -134,7 +134,7 @@ pub(crate) fn point(setting: &Setting) -> Option<Vec2> {
     }
 }
 
-/// A colour such as `#ff8800`.
+/// Reads a colour such as `#ff8800`. `None` if the setting is no such text.
 pub(crate) fn colour(setting: &Setting) -> Option<Rgb> {
     match setting {
         Setting::Text(text) => Rgb::from_hex(text),
@@ -142,7 +142,7 @@ pub(crate) fn colour(setting: &Setting) -> Option<Rgb> {
     }
 }
 
-/// The beginning of a value, for a fault.
+/// Describes a value in a fault: a short excerpt of it, or its kind.
 pub(crate) fn shown(setting: &Setting) -> String {
     match setting {
         Setting::Null => "nothing".into(),

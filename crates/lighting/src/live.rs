@@ -4,10 +4,10 @@ use crate::settings::light_layer;
 use lightbots_light::{LayerFault, Layers, LightLayer};
 use lightbots_show::Layer;
 
-/// Layers of live light, lowest first. They count by the show clock and shine until they are taken off.
+/// Layers of live light, lowest first. They run by the show clock and shine until they are taken off.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LiveLayers {
-    /// Name, layer, and from when its effect counts.
+    /// Name, layer, and start of its effect, seconds of the show clock.
     named: Vec<(String, LightLayer, f64)>,
     layers: Layers,
 }
@@ -18,7 +18,7 @@ impl LiveLayers {
         self.named.is_empty()
     }
 
-    /// Names of those that are on.
+    /// Names of the layers that are on, lowest first.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.named.iter().map(|(name, ..)| name.as_str())
     }
@@ -28,11 +28,11 @@ impl LiveLayers {
         &self.layers
     }
 
-    /// Puts a layer over the others, in place of one of the same name. Its effect counts from `clock_s`, seconds of the show
-    /// clock; its span does not count, and pictures are not known to it.
+    /// Puts a layer over the others, in place of one of the same name. Its effect starts at `clock_s`, seconds of the
+    /// show clock. Its span is ignored, and it cannot show pictures.
     ///
     /// # Errors
-    /// What is wrong with it, and settings without meaning; nothing has changed then.
+    /// Faults of the layer, or its settings without meaning. Nothing has changed then.
     pub fn put_on(&mut self, name: String, layer: &Layer, clock_s: f64) -> Result<(), Vec<LayerFault>> {
         let (light, unknown) = light_layer(layer, 0, &mut |_| None)?;
         if !unknown.is_empty() {
@@ -44,7 +44,7 @@ impl LiveLayers {
         Ok(())
     }
 
-    /// Takes a layer off.
+    /// Takes the layer with a name off, if it is on.
     pub fn take_off(&mut self, name: &str) {
         self.named.retain(|(other, ..)| other != name);
         self.collect();
@@ -52,7 +52,7 @@ impl LiveLayers {
 
     fn collect(&mut self) {
         let layers = self.named.iter().map(|(_, layer, _)| layer.clone()).collect();
-        // Each was found valid on its own, and its operator bounds their number.
+        // Each layer was found valid on its own, and the caller bounds their number.
         let layers = Layers::new(layers).unwrap_or_default();
         self.layers = layers.at_times(|number| (f64::NEG_INFINITY, f64::INFINITY, self.named[number].2));
     }

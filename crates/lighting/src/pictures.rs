@@ -9,15 +9,16 @@ use std::sync::Arc;
 /// Most pictures of a show that are decoded: reading each may take seconds. Chosen.
 pub const LAYER_PICTURES_MAX: usize = 64;
 
-/// A decoded picture as effects take it; `None`: it is no whole number of pictures.
+/// Converts a decoded picture for effects. `None` if it is empty, too large, or no whole number of pictures.
 pub fn floor_picture(picture: &LayerPicture) -> Option<FloorPicture> {
     let pixels = picture.codes.chunks_exact(3).map(|code| Rgb::new(code[0], code[1], code[2])).collect();
     FloorPicture::new(picture.width as usize, picture.height as usize, pixels).ok()
 }
 
-/// Gives the files of a show the decoded pictures that its layers project, and says which layers stay dark. `decode` decodes
-/// a file; its error says what is wrong with the file and what to do. All pictures of a show have at most
-/// [`PICTURE_PIXELS_MAX`] pixels, because the controller holds them and writes them down.
+/// Decodes the pictures that layers of a show project, and stores each with its file in the show. Returns an issue for
+/// each file that cannot be shown. `decode` decodes a file; its error says what is wrong with the file and what to do.
+/// All pictures of a show together have at most [`PICTURE_PIXELS_MAX`] pixels, because recordings and journals hold
+/// them.
 pub fn attach_pictures(
     show: &mut Show,
     mut decode: impl FnMut(AssetHash, &Asset) -> Result<Arc<LayerPicture>, String>,
@@ -25,7 +26,7 @@ pub fn attach_pictures(
     let mut issues = Issues::new();
     let mut pixels = 0;
     for (nth, (hash, number)) in users(&show.layers).into_iter().enumerate() {
-        // A file that the show does not have is a finding of the layer's settings.
+        // A file that the show lacks is reported with the settings of the layer.
         let Some(asset) = show.assets.get_mut(&hash) else { continue };
         let decoded = if nth < LAYER_PICTURES_MAX { decode(hash, asset) } else { Err(too_many()) };
         let decoded = decoded.and_then(|picture| {

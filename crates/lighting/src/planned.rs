@@ -10,16 +10,17 @@ use std::collections::BTreeMap;
 /// The drive to a frame, as it was planned.
 #[derive(Clone, Copy, Debug)]
 pub struct PlannedDrive<'a> {
-    /// `[robot]`: id of the pixel that the robot shows afterwards; `None`: it is spare.
+    /// `[robot]`: id of the pixel that the robot shows after the drive; `None`: it has no pixel.
     pub pixels: &'a [Option<u32>],
     /// `[robot]`: its path. Empty: nothing was planned, and each robot stands on its pixel.
     pub paths: &'a [Path],
-    /// How long all of them last.
+    /// Duration of each path.
     pub duration: Span,
 }
 
-/// `[robot]`: its number in effects that go by it, so that plans and runs agree: the rank of its pixel's id in the frame
-/// that robots drive to first. Robots without a pixel come after the others, in their order.
+/// Returns the number of each robot for effects that use it: the rank of its pixel's id in the frame that robots drive
+/// to first. Plans and runs thus agree. Robots without a pixel come after the others, in their order. `pixels` has the
+/// pixel of each robot in that frame.
 pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
     let mut robots: Vec<(Option<u32>, usize)> =
         pixels.into_iter().enumerate().map(|(robot, pixel)| (pixel, robot)).collect();
@@ -31,13 +32,14 @@ pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
     numbers
 }
 
-/// `[frame]`: the drive to it.
+/// Returns the drive to each frame.
 pub(crate) fn drives_of(plan: &ShowPlan) -> Vec<PlannedDrive<'_>> {
     let drives = plan.mapping.iter().zip(&plan.transitions);
     drives.map(|(pixels, way)| PlannedDrive { pixels, paths: &way.paths, duration: way.duration }).collect()
 }
 
-/// `[frame]`: the drive to it and its robots, in the order of their starting places. Robots are dark before the first frame.
+/// Returns each frame with the drive to it and its robots, in the order of their starting places. Robots are dark
+/// before the first frame.
 pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
     let drives = drives_of(plan);
     let frames = drives.len().min(show.frames.len());
@@ -50,7 +52,8 @@ pub fn numbers_of(drives: &[PlannedDrive<'_>]) -> Vec<u32> {
     numbers(drives.first().into_iter().flat_map(|drive| drive.pixels).copied())
 }
 
-/// The drive to one frame and its robots, with their [`numbers_of`]. The frame must have a drive.
+/// Returns a frame with the drive to it and its robots. `numbers` are their [`numbers_of`]. Panics if the frame has no
+/// drive.
 pub fn lit_frame<'a>(
     show: &Show,
     (drives, numbers): (&[PlannedDrive<'a>], &[u32]),

@@ -9,10 +9,10 @@ use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::ShowPlan;
 use lightbots_show::Show;
 
-/// A moment that is too short to be seen, seconds.
+/// A duration that is too short to be seen, seconds.
 const TINY_S: f64 = 1e-6;
 
-/// A show with its drives, on one clock that counts from the start of the drive to the first frame. It does not wait for GO.
+/// A show with its drives. Its time counts from the start of the drive to the first frame and does not wait for GO.
 #[derive(Clone, Debug)]
 pub struct PlannedShow<'a> {
     show: &'a Show,
@@ -20,11 +20,11 @@ pub struct PlannedShow<'a> {
     drives: Vec<PlannedDrive<'a>>,
     /// `[robot]`: its number in effects.
     numbers: Vec<u32>,
-    /// `[frame]`: in show time.
+    /// `[frame]`: when it is driven to, reached and left, in show time.
     times: Vec<FrameTimes>,
 }
 
-/// A robot at a moment.
+/// A robot of a planned show at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenRobot {
     /// Place, stage metres.
@@ -33,21 +33,21 @@ pub struct SeenRobot {
     pub colour: Rgb,
 }
 
-/// Robots at moments. Moments that follow one another in one frame share work.
+/// Computes the robots of a planned show at given moments. Consecutive moments in one frame share work.
 #[derive(Clone, Debug)]
 pub struct PlannedScenes<'a> {
     planned: &'a PlannedShow<'a>,
-    /// The frame of the last moment.
+    /// The frame of the last moment: its number, robots and layers.
     begun: Option<(usize, LitFrame<'a>, FrameLight)>,
 }
 
 impl<'a> PlannedShow<'a> {
-    /// The show by its plan.
+    /// Makes a planned show from a plan.
     pub fn new(show: &'a Show, plan: &'a ShowPlan, light: &'a ShowLight) -> Self {
         Self::of_drives(show, drives_of(plan), light)
     }
 
-    /// The show by its drives: one for each frame, frames without one are left out.
+    /// Makes a planned show from drives, one for each frame in order. Frames without a drive are left out.
     pub fn of_drives(show: &'a Show, mut drives: Vec<PlannedDrive<'a>>, light: &'a ShowLight) -> Self {
         drives.truncate(show.frames.len());
         let mut times: Vec<FrameTimes> = Vec::new();
@@ -89,28 +89,30 @@ impl<'a> PlannedShow<'a> {
         self.times.last().map_or(0.0, |times| times.end_s) + self.first_drive_s()
     }
 
-    /// The frame at a moment, and the moment in it; `None`: there is no frame. The last frame stays.
+    /// Returns the frame at `at_s` and the moment for its light; `None` if there are no frames. After its end, the last
+    /// frame stays.
     fn moment(&self, at_s: f64) -> Option<(usize, LightMoment)> {
         let show_s = at_s - self.first_drive_s();
         let last = self.times.len().checked_sub(1)?;
         let frame = self.times.iter().position(|times| show_s < times.end_s).unwrap_or(last);
         let times = self.times[frame];
-        // A layer ends with its frame: at the very end of the show the moment before is the last that shines.
+        // A layer ends with its frame. So at the very end of the show, the moment just before counts, when layers still
+        // shine.
         let end_s = (times.end_s - TINY_S).max(times.drive_s);
         let show_s = if show_s.is_nan() { times.drive_s } else { show_s.clamp(times.drive_s, end_s) };
         let elapsed = Span::from_secs(show_s - times.drive_s);
         Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0, clock_s: 0.0 }))
     }
 
-    /// Robots at moments.
+    /// Begins to compute robots at moments.
     pub fn scenes(&'a self) -> PlannedScenes<'a> {
         PlannedScenes { planned: self, begun: None }
     }
 }
 
 impl PlannedScenes<'_> {
-    /// Fills `scene` with the robots of the frame at `at_s`, in their order. `at_s` counts from the start of the drive to
-    /// the first frame.
+    /// Replaces the content of `scene` by the robots at `at_s`, in their order. `at_s` counts in seconds from the start
+    /// of the drive to the first frame.
     pub fn at(&mut self, at_s: f64, scene: &mut Vec<SeenRobot>) {
         scene.clear();
         let planned = self.planned;

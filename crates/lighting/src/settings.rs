@@ -1,4 +1,4 @@
-//! A layer of a document -> a light layer. docs/light.md has the settings of each kind.
+//! Turns a layer of a document into a light layer. docs/light.md has the settings of each kind.
 
 use crate::layer_settings::{LayerSettings, colour};
 use crate::masks;
@@ -9,7 +9,7 @@ use lightbots_light::{
 };
 use lightbots_show::{Layer, Setting, excerpt, setting};
 
-/// Words for effects.
+/// Names of the effects: the values of `kind` of a layer.
 pub const LAYER_KINDS: [&str; 19] = [
     "solid",
     "gradient",
@@ -54,7 +54,7 @@ const EASES: [(&str, Ease); 5] = [
     ("out", Ease::Out),
 ];
 const WRAPS: [(&str, Wrap); 3] = [("once", Wrap::Once), ("loop", Wrap::Loop), ("mirror", Wrap::Mirror)];
-/// What an effect runs along, by the word of `along`.
+/// Values of the setting `along`: what an effect runs along.
 const ALONG: [(&str, Along); 5] = [
     ("line", Along::Line),
     ("distance", Along::Distance),
@@ -73,11 +73,11 @@ enum Along {
     Curve,
 }
 
-/// The layer with that number as a light layer, and what has no meaning in it. `picture` gives the number of the picture
-/// with a hash.
+/// Reads a layer of a document, which has this `number` in the show. Returns the light layer, and faults for settings
+/// without meaning. `picture` returns the number of the picture with a hash.
 ///
 /// # Errors
-/// What is wrong; the layer cannot be shown.
+/// Faults of a layer that cannot be shown.
 pub(crate) fn light_layer(
     layer: &Layer,
     number: usize,
@@ -123,7 +123,7 @@ fn look(fields: &mut LayerSettings<'_>) -> Look {
     }
 }
 
-/// Colours at equal distances, or stops with a position and an opacity each.
+/// Reads the palette: colours at equal distances, or stops with a position and an opacity each.
 fn palette(fields: &mut LayerSettings<'_>) -> Palette {
     let remedy = "give colours: [\"#ff0000\", …], or stops: [{\"at\": 0, \"color\": \"#ff0000\"}, …]";
     let is_plain = |items: &[Setting]| items.iter().all(|item| matches!(item, Setting::Text(_)));
@@ -151,7 +151,7 @@ fn stop(item: &Setting) -> Option<PaletteStop> {
     })
 }
 
-/// One opacity, or points of seconds and opacity.
+/// Reads the opacity: one number, or points of seconds and opacity.
 fn opacity(fields: &mut LayerSettings<'_>) -> OpacityCurve {
     match fields.get("opacity") {
         None => OpacityCurve::default(),
@@ -164,7 +164,7 @@ fn opacity(fields: &mut LayerSettings<'_>) -> OpacityCurve {
     }
 }
 
-/// The effect; `None`: there is no such kind, or its picture is missing, which is noted.
+/// Reads the effect. `None` if its kind is unknown, or its picture is missing, which is a fault.
 fn effect(
     kind: &str,
     fields: &mut LayerSettings<'_>,
@@ -203,7 +203,7 @@ fn effect(
     })
 }
 
-/// The number of the picture that the settings name; `None`: it is missing, which is noted.
+/// Returns the number of the picture that the settings name. `None` if it is missing, which is a fault.
 fn picture_number(
     fields: &mut LayerSettings<'_>,
     picture: &mut dyn FnMut(&str) -> Option<usize>,

@@ -7,7 +7,7 @@ use lightbots_light::{FloorPicture, LayerFault, Layers, LightLayer};
 use lightbots_show::{AssetHash, FramePhase, LayerSpan, Show};
 use std::collections::BTreeMap;
 
-/// When a layer shines, with frames by number.
+/// When a layer shines. Frames are given by number, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Span {
     Show,
@@ -22,16 +22,16 @@ pub struct ShowLight {
     pictures: Vec<FloorPicture>,
 }
 
-/// The layers that may shine in a frame, with their moments.
+/// The layers that may shine in a frame, with their times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameLight {
     /// The layers, lowest first.
     pub layers: Layers,
     /// Their numbers in the show, counted from 0.
     pub numbers: Vec<usize>,
-    /// Whether one of them goes on while show time stands.
+    /// Whether the effect of one of them goes on while show time stands.
     pub runs_freely: bool,
-    /// Live light over them, by the show clock.
+    /// Live light over these layers. Its times are those of the show clock.
     pub live: Layers,
 }
 
@@ -43,8 +43,8 @@ impl FrameLight {
 }
 
 impl ShowLight {
-    /// Reads the layers of a show, with the pictures that were decoded into its files. A layer that is wrong or has no
-    /// picture stays dark, and a setting without meaning changes nothing; both are among the faults.
+    /// Reads the layers of a show, with the decoded pictures in its files. A layer that is wrong or lacks its picture
+    /// stays dark, and a setting without meaning changes nothing. Both are among the returned faults.
     pub fn new(show: &Show) -> (Self, Vec<LayerFault>) {
         Self::with_pictures(show, |hash| {
             let asset = show.assets.get(&AssetHash::from_hex(hash)?)?;
@@ -52,7 +52,8 @@ impl ShowLight {
         })
     }
 
-    /// The same with pictures from elsewhere: `picture` gives the one with a hash.
+    /// Reads the layers as [`new`](Self::new) does, with pictures from elsewhere: `picture` returns the picture with a
+    /// hash.
     pub fn with_pictures(
         show: &Show,
         mut picture: impl FnMut(&str) -> Option<FloorPicture>,
@@ -75,7 +76,7 @@ impl ShowLight {
                     light.layers.push((number, span, layer));
                     faults.extend(unknown);
                 }
-                // A span with a frame that does not exist is a finding of the show's own validation.
+                // A span that names a missing frame is reported by the validation of the show.
                 (Ok((_, unknown)), None) => faults.extend(unknown),
                 (Err(found), _) => faults.extend(found),
             }
@@ -89,13 +90,14 @@ impl ShowLight {
         self.layers.is_empty()
     }
 
-    /// The pictures, by the numbers that layers have for them.
+    /// The pictures. Layers refer to them by their index in this list.
     pub fn pictures(&self) -> &[FloorPicture] {
         &self.pictures
     }
 
-    /// The layers that may shine while `frame` is driven to or shown. `times` gives the moments of a frame that has been
-    /// begun: of this one, and of earlier ones of this round.
+    /// Returns the layers that may shine while `frame` is driven to or shown. `times` returns the times of `frame` and
+    /// of earlier frames that have begun in the present round of the show. Without times of `frame`, there are no
+    /// layers.
     pub fn in_frame(&self, frame: usize, times: impl Fn(usize) -> Option<FrameTimes>) -> FrameLight {
         let Some(own) = times(frame) else { return FrameLight::default() };
         let mut moments = Vec::new();
