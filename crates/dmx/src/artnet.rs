@@ -6,14 +6,15 @@ use artnet_protocol::ArtCommand;
 
 use crate::packet::{CHANNELS, DmxPacket, DmxSource};
 
-/// Priority of Art-Net sources among those of sACN: the usual one of ANSI E1.31-2018, table 4-1.
+/// Priority of Art-Net sources, which have none of their own, among sources of sACN: the usual one of ANSI E1.31-2018,
+/// table 4-1.
 const PRIORITY: u8 = 100;
 
-/// Reads the payload of a UDP packet from an address; `None`: it carries no values.
+/// Decodes the payload of a UDP packet that came from `from`. `None` if it is no valid packet with values of channels.
 pub fn decode_artnet(from: IpAddr, bytes: &[u8]) -> Option<DmxPacket> {
     let ArtCommand::Output(output) = ArtCommand::from_buffer(bytes).ok()? else { return None };
     let sent = output.data.as_ref();
-    // The library reads the length and keeps all bytes that came.
+    // The library keeps all bytes after the header, also those beyond the length that the packet states.
     let count = usize::from(*output.length);
     let values = sent.get(..count).filter(|values| (1..=CHANNELS).contains(&values.len()))?;
     Some(DmxPacket {

@@ -8,17 +8,17 @@ use lightbots_wire::Report;
 use crate::patch::{DmxAddress, PatchTable};
 use crate::universe::Universe;
 
-/// Most robots that are remembered: those of the largest fleet. Names beyond are left out.
+/// Largest number of robots that are kept: the size of the largest fleet. Further robots are ignored.
 const ROBOTS_MAX: usize = 20_000;
-/// Time until a robot that does not report its slot is told again. Below, slow networks carry copies; above, a robot that
-/// was switched on stays dark for longer.
+/// Time after which SLOT is sent again to a robot that does not report its slot. A shorter time makes needless copies
+/// on slow networks. With a longer time, a robot that was just switched on waits longer for the light of the desk.
 const AGAIN: Span = Span::from_millis(1_000);
-/// A robot that reports nothing for this long is told nothing: robots report every 2 s (R41).
+/// Time without a report after which SLOT is not sent to a robot. Robots report every 2 s (R41).
 const GONE: Span = Span::from_millis(10_000);
-/// Most robots that are told their slots at once. More would delay other messages.
+/// Largest number of SLOT messages that are sent at once. More would delay other messages.
 const TOLD_AT_ONCE: usize = 50;
-/// Number of messages with which a robot is released: with 5 % of messages lost, one robot of 8,000 receives none of three,
-/// and shows its own light 2.5 s later (R61).
+/// Number of times that RELEASE is sent to a robot. With 5 % of messages lost, one robot of 8,000 receives none of
+/// three, and shows its own light 2.5 s later (R61).
 const RELEASES: u8 = 3;
 
 /// A robot as a lighting desk sees it.
@@ -34,21 +34,21 @@ struct Fixture {
     address: Option<DmxAddress>,
     /// The colour from the desk; `None`: the robot shows its own light.
     colour: Option<Rgb>,
-    /// Number of messages that will release it.
+    /// Number of times that RELEASE is still to be sent to the robot.
     releases: u8,
 }
 
-/// All robots that were heard. A robot's slot is its place in the order in which they came.
+/// All robots that have reported. A robot's slot is its place in the order of first reports, from 0.
 #[derive(Debug, Default)]
 pub(crate) struct Fixtures {
     by_slot: Vec<Fixture>,
     by_name: BTreeMap<RobotId, u16>,
-    /// Robots came since the channels were given out.
+    /// Whether robots were added since channels were last assigned.
     are_new: bool,
 }
 
 impl Fixtures {
-    /// A robot reported.
+    /// Receives the report of a robot, and adds the robot if it is new.
     pub fn receive(&mut self, now: Instant, report: &Report) {
         let details = report.details.as_ref();
         let knows_live = details.is_some_and(|details| details.abilities.live);
@@ -86,7 +86,8 @@ impl Fixtures {
         self.by_slot.len()
     }
 
-    /// Gives channels to all robots, if robots came: the universes that they need.
+    /// Assigns channels to all robots if robots were added, and returns the universes that they need. `None` if none
+    /// were added.
     pub fn patch(&mut self, table: &PatchTable) -> Option<BTreeSet<u16>> {
         if !std::mem::take(&mut self.are_new) {
             return None;
@@ -97,7 +98,7 @@ impl Fixtures {
         Some(self.by_slot.iter().filter_map(|fixture| fixture.address).map(|at| at.universe).collect())
     }
 
-    /// Robots to be told their slots now.
+    /// Returns the robots to which SLOT is to be sent now, with their slots, and notes that it was sent.
     pub fn next_slots(&mut self, now: Instant) -> Vec<(RobotId, u16)> {
         let due = (0u16..).zip(&mut self.by_slot).filter(|(slot, fixture)| {
             let was_told = fixture.told.is_some_and(|told| now - told < AGAIN);
@@ -116,7 +117,7 @@ impl Fixtures {
         self.are_new || (0u16..).zip(&self.by_slot).any(|(slot, fixture)| fixture.needs_slot(slot, now))
     }
 
-    /// Takes the colours of the universes; whether any has changed.
+    /// Updates the colours of all robots from the universes. Returns whether any has changed.
     pub fn take_colours(&mut self, universes: &BTreeMap<u16, Universe>) -> bool {
         let mut has_changed = false;
         for (slot, fixture) in (0u16..).zip(&mut self.by_slot) {
@@ -142,12 +143,12 @@ impl Fixtures {
         self.by_slot.iter().filter_map(|fixture| Some((fixture.id, fixture.colour?)))
     }
 
-    /// Slots of robots that are released.
+    /// Slots to which RELEASE is still to be sent, in order.
     pub fn released(&self) -> impl Iterator<Item = u16> {
         (0u16..).zip(&self.by_slot).filter(|(_, fixture)| fixture.releases > 0).map(|(slot, _)| slot)
     }
 
-    /// A message was sent that releases robots.
+    /// Notes that RELEASE was sent once more to all robots that are being released.
     pub fn note_release(&mut self) {
         for fixture in &mut self.by_slot {
             fixture.releases = fixture.releases.saturating_sub(1);
@@ -156,7 +157,7 @@ impl Fixtures {
 }
 
 impl Fixture {
-    /// Whether it would show colours for a slot.
+    /// Whether the robot shows colours that are sent for this slot.
     fn is_ready(&self, slot: u16) -> bool {
         self.knows_live && self.reported == Some(slot)
     }

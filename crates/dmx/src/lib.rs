@@ -1,8 +1,8 @@
 //! Light from a lighting desk: packets of Art-Net and sACN -> colours of robots -> messages of live light (R59 to R63 of
 //! docs/protocol.md). No sockets, no clock: bytes and `now` are passed in. The crate knows nothing of shows.
 //!
-//! [`decode_artnet`] and [`decode_sacn`] read bytes of strangers. [`PatchTable`] says which channels belong to which robot.
-//! [`DeskReceiver`] merges sources and writes messages.
+//! [`decode_artnet`] and [`decode_sacn`] read untrusted bytes. [`PatchTable`] says which channels belong to which
+//! robot. [`DeskReceiver`] merges sources and writes messages.
 //!
 //! ```
 //! use lightbots_base::RobotId;

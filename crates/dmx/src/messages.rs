@@ -3,15 +3,15 @@
 use lightbots_base::Rgb;
 use lightbots_wire::{Command, LiveColours, LiveRelease, MAX_LIVE_COLOURS, MAX_PAYLOAD, encode};
 
-/// Payloads of one moment.
+/// Payloads of one moment: those that are full, and the text of the last one.
 #[derive(Debug)]
 struct Payloads {
     full: Vec<Vec<u8>>,
     text: String,
 }
 
-/// Writes the colours of one moment, and which slots are released. Both come in order of their slots. Fewer gaps between
-/// slots make the payloads shorter.
+/// Writes payloads with the colours of the moment with this `number`, and with the slots that are released. Colours and
+/// released slots must be in order of slots. Fewer gaps between slots make the payloads shorter.
 pub(crate) fn write_moment(
     number: u32,
     colours: impl Iterator<Item = (u16, Rgb)>,
@@ -28,7 +28,7 @@ pub(crate) fn write_moment(
         if live.colours.is_empty() {
             live.first = slot;
         }
-        // Fits: a full one was written.
+        // The colour fits, because a full list was written above.
         let _ = live.colours.push(colour);
     }
     if !live.colours.is_empty() {
@@ -54,7 +54,7 @@ pub(crate) fn write_moment(
 impl Payloads {
     fn push(&mut self, command: &Command) {
         let before = self.text.len();
-        // A text takes all bytes.
+        // Writing to a `String` cannot fail.
         let _ = encode(command, &mut self.text);
         if self.text.len() > MAX_PAYLOAD {
             let last = self.text.split_off(before);

@@ -5,7 +5,7 @@ use core::net::IpAddr;
 /// Channels of a universe (ANSI E1.11, DMX512-A).
 pub(crate) const CHANNELS: usize = 512;
 
-/// Sender of values.
+/// Identity of a sender of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DmxSource {
     /// A sender of Art-Net, by its address: the packets hold no name.
@@ -17,15 +17,16 @@ pub enum DmxSource {
 /// The values of one universe at one moment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DmxPacket {
-    /// Its sender.
+    /// The sender of the packet.
     pub source: DmxSource,
-    /// The source of highest priority counts: 0 to 200, usually 100. Art-Net knows no priorities: 100.
+    /// Priority of the source, 0 to 200, usually 100. Sources of the highest priority count. Art-Net has no priorities
+    /// and gets 100.
     pub priority: u8,
     /// Number of the universe: 1 to 63999 in sACN, 0 to 32767 in Art-Net.
     pub universe: u16,
-    /// Number of the packet, rising modulo 256; `None`: the source does not count.
+    /// Number of the packet, rising modulo 256; `None`: the source does not number its packets.
     pub sequence: Option<u8>,
-    /// The source says that it sends no more.
+    /// Whether the source ends its stream with this packet.
     pub ends: bool,
     /// Values of the channels from channel 1 on, at most 512; channels beyond are not sent.
     pub values: Vec<u8>,

@@ -7,15 +7,15 @@ use lightbots_base::RobotId;
 
 use crate::packet::CHANNELS;
 
-/// Robots of a universe where they follow each other: three channels each.
+/// Number of robots in a universe without gaps: each has three channels.
 const ROBOTS: u32 = (CHANNELS / 3) as u32;
 /// Highest channel at which a colour begins.
 const CHANNEL_MAX: u16 = (CHANNELS - 2) as u16;
-/// Highest universe, of sACN (ANSI E1.31-2018, 6.2.7). Those of Art-Net end at 32767.
+/// Highest number of a universe, that of sACN (ANSI E1.31-2018, 6.2.7). Art-Net ends at 32767.
 const UNIVERSE_MAX: u16 = 63_999;
-/// Most robots of a table: those of the largest fleet.
+/// Largest number of robots in a table: the size of the largest fleet.
 const ROBOTS_MAX: usize = 20_000;
-/// Most universes of a table. Each takes up to 2 KB of values; the largest fleet without gaps fills 118.
+/// Largest number of universes in a table. Each takes up to 2 KB of values. The largest fleet without gaps fills 118.
 const UNIVERSES_MAX: usize = 512;
 /// The word for robots that no line names.
 const OTHERS: &str = "others";
@@ -32,9 +32,10 @@ pub struct DmxAddress {
 /// Which channels belong to which robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PatchTable {
-    /// By names of robots; digits alone may be a name or a number.
+    /// Channels of the robots that have a line. The key is a robot's name, or its number written as digits.
     listed: BTreeMap<RobotId, DmxAddress>,
-    /// Universe of the robot with number 0, for robots that are not listed.
+    /// Universe of the robot with number 0, from which robots without a line are counted. `None`: they have no
+    /// channels.
     others: Option<u16>,
 }
 
@@ -54,14 +55,14 @@ impl fmt::Display for PatchError {
 }
 
 impl Default for PatchTable {
-    /// Robot n on universe 1 + n/170, from channel 3·(n mod 170) + 1 on.
+    /// No lines: robot n has universe 1 + n/170, rounded down, and the channels from 3·(n mod 170) + 1 on.
     fn default() -> Self {
         Self { listed: BTreeMap::new(), others: Some(1) }
     }
 }
 
 impl PatchTable {
-    /// Reads lines `robot universe channel` and `others universe`. What follows `#` is a comment. A robot is a name or a
+    /// Reads lines `robot universe channel` and `others universe`. Text after `#` is a comment. `robot` is a name or a
     /// number.
     pub fn read(text: &str) -> Result<Self, PatchError> {
         let mut table = Self { listed: BTreeMap::new(), others: None };
@@ -100,14 +101,14 @@ impl PatchTable {
         Ok(table)
     }
 
-    /// The channels of a robot. `number`: its place among all robots in the order of their names, from 0. A line for the
-    /// robot's name counts before one for its number.
+    /// Returns the channels of a robot, if it has any. `number` is its place among all robots in the order of their
+    /// names, from 0. A line for the robot's name has precedence over one for its number.
     pub fn address(&self, robot: RobotId, number: u32) -> Option<DmxAddress> {
         let by_number = || RobotId::new(&number.to_string()).and_then(|number| self.listed.get(&number));
         self.listed.get(&robot).or_else(by_number).copied().or_else(|| self.following(number))
     }
 
-    /// The channels of a robot that no line names.
+    /// Returns the channels of a robot without a line, if `others` gives it any.
     fn following(&self, number: u32) -> Option<DmxAddress> {
         let universe = u32::from(self.others?) + number / ROBOTS;
         let universe = u16::try_from(universe).ok().filter(|&universe| universe <= UNIVERSE_MAX)?;

@@ -1,4 +1,4 @@
-//! Packets of desks and reports of robots in, messages of live light out.
+//! Turns packets of lighting desks and reports of robots into messages of live light.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -12,19 +12,21 @@ use crate::packet::DmxPacket;
 use crate::patch::PatchTable;
 use crate::universe::{Taken, Universe};
 
-/// Shortest time between two moments of live light, and what each robot adds: 20 a second for few robots, 10 from 1,000
-/// robots on. Each robot receives the colours of all, four bytes each: with 1,000 robots 40 KB a second.
+/// Time between two moments of live light without robots. `PERIOD_PER_ROBOT` is added for each robot, up to
+/// `PERIOD_MAX`: 20 moments a second for few robots, 10 from 1,000 robots on. Each robot receives the colours of all,
+/// four bytes each: with 1,000 robots 40 KB a second.
 const PERIOD: Span = Span::from_millis(50);
-/// As `PERIOD`.
+/// Time that each robot adds to `PERIOD`: 50 µs.
 const PERIOD_PER_ROBOT: Span = Span(50);
-/// As `PERIOD`.
+/// Longest time between two moments of live light while colours change, see `PERIOD`.
 const PERIOD_MAX: Span = Span::from_millis(100);
-/// Colours that stay the same are sent again after this: robots go dark after 2.5 s (R61), so five messages may be lost.
+/// Time after which unchanged colours are sent again. A robot shows its own light after 2.5 s without a message (R61),
+/// so four messages in a row may be lost.
 const AGAIN: Span = Span::from_millis(500);
-/// Number of times that colours are sent again at once, for robots that lost them.
+/// Number of further moments in which changed colours are sent again, for robots that did not receive them.
 const REPEATS: u32 = 2;
 
-/// People are told the number of robots once it has not changed for this long, because robots come one by one.
+/// Time for which the number of robots must not change before it is reported to people, because robots come one by one.
 const SETTLED: Span = Span::from_millis(1_000);
 
 /// A message to publish at QoS 0, not retained.
@@ -36,61 +38,61 @@ pub struct LivePublish {
     pub payload: Vec<u8>,
 }
 
-/// What people are told.
+/// Events that are reported to people.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeskNews {
-    /// A desk took over the lights of robots; said once their number has settled.
+    /// A desk took over the lights of robots. Reported when their number has settled.
     Began {
         /// Number of these robots.
         robots: usize,
     },
     /// All robots show their own lights again.
     Ended,
-    /// A desk sends a universe without robots; said once.
+    /// A desk sends a universe without robots. Reported for the first packet of this kind only.
     Unpatched {
-        /// Its number.
+        /// Number of the universe.
         universe: u16,
     },
 }
 
-/// Packets with values, since the start.
+/// Numbers of packets with values since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PacketCounts {
-    /// Those that hold the newest values of a source.
+    /// Packets with the newest values of their source, or with the end of its stream.
     pub newest: u64,
-    /// Those that were overtaken by others.
+    /// Packets that were overtaken by later ones.
     pub old: u64,
-    /// Those for universes without robots, since robots are there.
+    /// Packets for universes without robots, counted while any robot is known.
     pub unpatched: u64,
-    /// Those of more sources than a universe may have.
+    /// Packets of sources beyond the number that a universe may have.
     pub crowded: u64,
 }
 
-/// Receives what lighting desks send. Ways in: [`packet`](Self::packet), [`report`](Self::report), [`wake`](Self::wake),
-/// each with `now`, which never goes back. After each of them wake it at [`wake_at`](Self::wake_at), and then drain
-/// [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
+/// Receives what lighting desks send. Inputs are [`packet`](Self::packet), [`report`](Self::report) and
+/// [`wake`](Self::wake), each with `now`, which never goes back. After each input, call `wake` at the time of
+/// [`wake_at`](Self::wake_at). Then drain [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
 ///
-/// A desk has the light of the robots whose three channels it sends, and the show has that of all others.
+/// A desk controls the light of the robots whose three channels it sends. The show controls the light of all others.
 #[derive(Debug)]
 pub struct DeskReceiver {
     patch: PatchTable,
-    /// The lamps of the robots: messages have corrected colours.
+    /// Settings of the robots' lamps. Colours in messages are corrected by them.
     lamp: LampSettings,
-    /// Universes with robots. Others are not kept.
+    /// The universes that have robots, by number. Packets of other universes are not kept.
     universes: BTreeMap<u16, Universe>,
     fixtures: Fixtures,
-    /// Number of the next moment.
+    /// Number of the next moment of live light.
     number: u32,
     /// When the next moment may be sent.
     moment_at: Instant,
     /// When colours were sent last.
     sent_at: Instant,
-    /// Number of times that the colours are sent again at once.
+    /// Number of further moments in which the colours are sent even if they do not change.
     repeats: u32,
     is_lit: bool,
-    /// Number of robots that show colours of a desk, and since when it is that.
+    /// Number of robots that show colours of a desk, and when it last changed.
     counted: (usize, Instant),
-    /// People were told that a desk took over lights.
+    /// Whether people were told that a desk took over lights, and not yet that this has ended.
     is_told: bool,
     publishes: VecDeque<LivePublish>,
     news: VecDeque<DeskNews>,
@@ -98,7 +100,8 @@ pub struct DeskReceiver {
 }
 
 impl DeskReceiver {
-    /// A receiver that knows no robot yet. `number`: of the first moment of live light, higher than any before.
+    /// Makes a receiver that knows no robot yet. `number` is that of the first moment of live light, higher than any
+    /// sent before.
     pub fn new(patch: PatchTable, number: u32, lamp: LampSettings) -> Self {
         Self {
             patch,
@@ -118,7 +121,7 @@ impl DeskReceiver {
         }
     }
 
-    /// Values of a universe came.
+    /// Receives a packet with values of a universe.
     pub fn packet(&mut self, now: Instant, packet: DmxPacket) {
         self.give_channels();
         let Some(universe) = self.universes.get_mut(&packet.universe) else {
@@ -136,12 +139,12 @@ impl DeskReceiver {
         *count += 1;
     }
 
-    /// A robot reported.
+    /// Receives the report of a robot.
     pub fn report(&mut self, now: Instant, report: &Report) {
         self.fixtures.receive(now, report);
     }
 
-    /// Time passed.
+    /// Queues messages and news that are due at `now`. Does nothing before the next moment is due.
     pub fn wake(&mut self, now: Instant) {
         if now < self.moment_at {
             return;
@@ -176,12 +179,12 @@ impl DeskReceiver {
         self.publishes.pop_front()
     }
 
-    /// What people are told next.
+    /// The next event to report to people.
     pub fn next_news(&mut self) -> Option<DeskNews> {
         self.news.pop_front()
     }
 
-    /// The colours that robots show for a desk.
+    /// The colours that desks give to robots.
     pub fn lights(&self) -> impl Iterator<Item = (RobotId, Rgb)> {
         self.fixtures.lights()
     }
@@ -191,12 +194,12 @@ impl DeskReceiver {
         self.universes.keys().copied()
     }
 
-    /// Number of packets.
+    /// Numbers of packets since the start.
     pub fn counts(&self) -> PacketCounts {
         self.counts
     }
 
-    /// Gives channels to robots that came, and keeps the universes that have some.
+    /// Assigns channels if robots were added. Then keeps exactly the universes that have robots.
     fn give_channels(&mut self) {
         let Some(needed) = self.fixtures.patch(&self.patch) else { return };
         self.universes.retain(|universe, _| needed.contains(universe));
@@ -205,7 +208,7 @@ impl DeskReceiver {
         }
     }
 
-    /// Sends a moment if something has changed or is due again.
+    /// Queues the messages of a moment if colours have changed, are due again, or robots are to be released.
     fn send(&mut self, now: Instant) {
         let is_lit = self.fixtures.colours().next().is_some();
         let is_due = is_lit && (self.repeats > 0 || now - self.sent_at >= AGAIN);

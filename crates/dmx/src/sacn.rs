@@ -1,13 +1,13 @@
 //! sACN: data packets of ANSI E1.31-2018.
 //!
-//! The places of all fields are fixed (table 4-1), so they are read here. The parser of the crate `sacn` 0.11.1 panics on
-//! lengths that do not fit; tests use its writer.
+//! All fields have fixed offsets (table 4-1) and are read here, because the parser of the crate `sacn` 0.11.1 panics on
+//! lengths that do not fit. Tests use the writer of that crate.
 
 use crate::packet::{CHANNELS, DmxPacket, DmxSource};
 
 /// Preamble, postamble and the identifier of ACN packets.
 const ROOT: [u8; 16] = *b"\x00\x10\x00\x00ASC-E1.17\x00\x00\x00";
-/// Fields of data packets that have one value: place and bytes.
+/// Fields of data packets that always have the same value: byte offset and bytes.
 const FIXED: [(usize, &[u8]); 6] = [
     (18, &[0, 0, 0, 4]),  // root layer: VECTOR_ROOT_E131_DATA
     (40, &[0, 0, 0, 2]),  // framing layer: VECTOR_E131_DATA_PACKET
@@ -16,32 +16,33 @@ const FIXED: [(usize, &[u8]); 6] = [
     (119, &[0, 0, 0, 1]), // first property address, address increment
     (125, &[0]),          // start code of DMX512-A: values of channels
 ];
-/// Places of the flags, four bits before each length.
+/// Byte offsets of the flags: the upper four bits of the two bytes that hold a length.
 const FLAGS: [usize; 3] = [16, 38, 115];
-/// Place of the source's identifier.
+/// Byte offset of the source's identifier.
 const CID: usize = 22;
-/// Place of the priority.
+/// Byte offset of the priority.
 const PRIORITY: usize = 108;
 /// Highest priority (6.2.3).
 const PRIORITY_MAX: u8 = 200;
-/// Place of the sequence number.
+/// Byte offset of the sequence number.
 const SEQUENCE: usize = 111;
-/// Place of the options.
+/// Byte offset of the options.
 const OPTIONS: usize = 112;
 /// Option: the values are for a preview, not for lamps (6.2.6).
 const PREVIEW: u8 = 0x80;
 /// Option: the source sends no more (6.2.6).
 const TERMINATED: u8 = 0x40;
-/// Place of the universe.
+/// Byte offset of the universe.
 const UNIVERSE: usize = 113;
 /// Highest number of a universe (6.2.7).
 const UNIVERSE_MAX: u16 = 63_999;
-/// Place of the number of values, the start code included.
+/// Byte offset of the number of values, the start code included.
 const COUNT: usize = 123;
-/// Place of the value of channel 1.
+/// Byte offset of the value of channel 1.
 const VALUES: usize = 126;
 
-/// Reads the payload of a UDP packet; `None`: it carries no values for lamps.
+/// Decodes the payload of a UDP packet. `None` if it is no valid data packet, or has no values for lamps: a preview, or
+/// another start code.
 pub fn decode_sacn(bytes: &[u8]) -> Option<DmxPacket> {
     let header: &[u8; VALUES] = bytes.first_chunk()?;
     let has_flags = FLAGS.iter().all(|&at| header[at] >> 4 == 7);

@@ -1,28 +1,30 @@
-//! One universe: its sources, and which of them counts.
+//! One universe: its sources, and the colours that result from them.
 
 use lightbots_base::{Instant, Rgb, Span};
 
 use crate::packet::{DmxPacket, DmxSource};
 
-/// A source of sACN that sends nothing for this long is lost: network data loss of ANSI E1.31-2018, 6.7.1.
+/// Time without a packet after which a source of sACN is lost: network data loss of ANSI E1.31-2018, 6.7.1.
 const SACN_LOSS: Span = Span::from_millis(2_500);
-/// The same for Art-Net. There, values that do not change may be sent again every 4 s only. Below that, robots would change
-/// between desk and show; above, a desk that is gone keeps them for longer. It is two sendings and a reserve.
+/// Time without a packet after which a source of Art-Net is lost: two repetitions and a reserve, because unchanged
+/// values may be repeated only every 4 s. Below 4 s, robots would switch between the light of desk and show. A longer
+/// time lets a desk that is gone keep robots for longer.
 const ARTNET_LOSS: Span = Span::from_millis(10_000);
-/// Most sources of a universe. More are desks that fight each other, or strangers; a source of higher priority then replaces
-/// one of lower priority.
+/// Largest number of sources in a universe. More sources are conflicting desks or untrusted senders. If all places are
+/// taken, a new source replaces one of the lowest priority, if its own priority is higher.
 const SOURCES_MAX: usize = 4;
-/// A packet is old if its number lies by less than this below the last one, or equals it (ANSI E1.31-2018, 6.7.2).
+/// A packet is old if its sequence number equals the last one, or is below it by less than this (ANSI E1.31-2018,
+/// 6.7.2).
 const OLD_NUMBERS: i8 = 20;
 
-/// What became of a packet.
+/// What happened with a received packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
-    /// It holds the newest values of its source.
+    /// It has the newest values of its source, or ended the stream of its source.
     Newest,
-    /// It was overtaken.
+    /// It was ignored, because a later packet had overtaken it.
     Old,
-    /// There are too many sources.
+    /// It was ignored, because the universe has too many sources.
     Crowded,
 }
 
@@ -42,7 +44,7 @@ pub(crate) struct Universe {
 }
 
 impl Universe {
-    /// Receives a packet.
+    /// Receives a packet of this universe, and keeps its values if they count.
     pub fn receive(&mut self, now: Instant, packet: DmxPacket) -> Taken {
         self.expire(now);
         let place = self.sources.iter().position(|source| source.id == packet.source);
@@ -67,18 +69,18 @@ impl Universe {
         Taken::Newest
     }
 
-    /// Forgets sources that are lost.
+    /// Removes sources that are lost.
     pub fn expire(&mut self, now: Instant) {
         self.sources.retain(|source| now - source.heard < loss(source.id));
     }
 
-    /// Whether a source sends.
+    /// Whether there is a source that sends.
     pub fn is_lit(&self) -> bool {
         !self.sources.is_empty()
     }
 
-    /// The colour on three channels, counted from 1: the highest value of each among the sources of highest priority.
-    /// `None`: none of them sends all three.
+    /// Returns the colour on three channels, of which `channel`, counted from 1, is the first. It has the highest value
+    /// of each channel among the sources of the highest priority. `None` if none of these sends all three channels.
     pub fn colour(&self, channel: u16) -> Option<Rgb> {
         let highest = self.sources.iter().map(|source| source.priority).max()?;
         let from = usize::from(channel).checked_sub(1)?;

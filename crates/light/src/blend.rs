@@ -1,4 +1,4 @@
-//! How a layer joins what is below it.
+//! Blend modes: how the light of a layer is mixed with the light below.
 
 use crate::colour::Linear;
 
@@ -33,7 +33,7 @@ pub enum BlendMode {
 }
 
 impl BlendMode {
-    /// The mixture where the layer covers `opacity` of what is below.
+    /// Returns the mixture, of which the blended light has the share `opacity` and the light below the rest.
     pub fn over(self, below: Linear, layer: Linear, opacity: f64) -> Linear {
         below.lerp(below.zip(layer, |below, layer| self.channel(below, layer)), opacity)
     }
@@ -60,7 +60,7 @@ fn screen(below: f64, layer: f64) -> f64 {
     1.0 - (1.0 - below) * (1.0 - layer)
 }
 
-/// Multiply or screen, as `judge` is dark or bright.
+/// Multiplies if `judge` is at most 0.5, else screens.
 fn hard(other: f64, judge: f64) -> f64 {
     if judge <= 0.5 { other * 2.0 * judge } else { screen(other, 2.0 * judge - 1.0) }
 }

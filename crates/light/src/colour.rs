@@ -3,14 +3,15 @@
 use lightbots_base::{Rgb, srgb_decoded};
 use std::sync::LazyLock;
 
-/// `[code]`: the light of a channel. A power takes fifty times as long, and tracks need millions.
+/// `[code]`: linear light of an sRGB code. A table, because a power takes fifty times as long, and tracks need
+/// millions.
 static LIGHTS: LazyLock<[f64; 256]> =
     LazyLock::new(|| std::array::from_fn(|code| srgb_decoded(code as f64 / 255.0)));
-/// `[code]`: the light half-way between a code and the next.
+/// `[code]`: linear light half-way between an sRGB code and the next, for rounding.
 static HALVES: LazyLock<[f64; 255]> =
     LazyLock::new(|| std::array::from_fn(|code| srgb_decoded((code as f64 + 0.5) / 255.0)));
 
-/// A colour in linear light. 0 is off and 1 the full light of a channel; sums before the last stage may exceed 1.
+/// A colour in linear light. 0 is off and 1 the full light of a channel; sums may exceed 1 before they are clamped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Linear {
     /// Red.
@@ -58,12 +59,12 @@ impl Linear {
         Self::new(change(self.r), change(self.g), change(self.b))
     }
 
-    /// A function of two colours, channel by channel.
+    /// The colour from a function of two colours, channel by channel.
     pub fn zip(self, other: Self, join: impl Fn(f64, f64) -> f64) -> Self {
         Self::new(join(self.r, other.r), join(self.g, other.g), join(self.b, other.b))
     }
 
-    /// The light `share` of the way to `other`; 0..=1.
+    /// The mixture that lies `share` of the way to `other`, 0 to 1.
     pub fn lerp(self, other: Self, share: f64) -> Self {
         self.zip(other, |from, to| from + (to - from) * share)
     }

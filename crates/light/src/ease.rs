@@ -3,7 +3,7 @@
 use crate::colour::within_one;
 use core::f64::consts::PI;
 
-/// How a value between 0 and 1 is bent. Each curve leads from 0 to 1 without turning back.
+/// Easing: how a value between 0 and 1 is bent. Each curve rises from 0 to 1 and never falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ease {
     /// u.
@@ -20,7 +20,7 @@ pub enum Ease {
 }
 
 impl Ease {
-    /// The bent value. Values outside of 0..=1 are clamped.
+    /// Returns the bent value. Values outside of 0..=1 are clamped.
     pub fn at(self, u: f64) -> f64 {
         let u = within_one(u);
         match self {
@@ -65,8 +65,8 @@ pub(crate) fn fraction(number: f64) -> f64 {
 /// of that point holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpacityCurve {
-    /// Seconds since the layer began and opacity, 0 to 1; sorted by time, not empty. Of two points at one moment, the
-    /// first ends what is before and the second begins what is after.
+    /// Seconds since the layer began and opacity, 0 to 1; sorted by time, not empty. Two points at one moment make a
+    /// jump from the first to the second.
     pub points: Vec<(f64, f64)>,
 }
 

@@ -3,8 +3,8 @@
 use crate::colour::Linear;
 use lightbots_base::Rgb;
 
-/// Most pixels of a film, all of its pictures together: 12 MB in memory. 640 x 360 pixels leave 17 pictures, and a floor of
-/// 10,000 robots needs 100 x 100. Chosen.
+/// Largest number of pixels in all pictures of a film together: 12 MB in memory. It allows 17 pictures of 640 x 360
+/// pixels. A floor of 10,000 robots needs 100 x 100. Chosen.
 pub const PICTURE_PIXELS_MAX: usize = 4_000_000;
 
 /// A picture or film, decoded.
@@ -14,7 +14,7 @@ pub struct FloorPicture {
     height: usize,
     /// Pictures one after another, each row by row from the top.
     pixels: Vec<Rgb>,
-    /// Light of each code: decoding for each lookup would cost twelve powers.
+    /// `[code]`: linear light of an sRGB code. A table, because decoding at each lookup would take twelve powers.
     light: Vec<f64>,
 }
 
@@ -51,8 +51,9 @@ impl FloorPicture {
         self.height as f64 / self.width as f64
     }
 
-    /// Light at a place of a picture: `across` from the left and `down` from the top, both 0 to 1. Between the centres of
-    /// pixels, light changes bilinearly; beyond the outermost centres it is theirs.
+    /// Light at a place of a picture: `across` from the left and `down` from the top, both 0 to 1. Between the centres
+    /// of pixels, light changes bilinearly; beyond the outermost centres it is constant. After the last picture, the
+    /// last one is taken.
     pub fn at(&self, frame: usize, across: f64, down: f64) -> Linear {
         let (left, right, x) = between(across, self.width);
         let (top, bottom, y) = between(down, self.height);
@@ -74,7 +75,8 @@ impl FloorPicture {
     }
 }
 
-/// The two pixels around a share of a side, and how far the share is from the first to the second.
+/// Returns the two of `count` pixels around a position along a side, 0 to 1, and its share of the way from the first to
+/// the second.
 fn between(share: f64, count: usize) -> (usize, usize, f64) {
     let last = (count - 1) as f64;
     let along = (share * count as f64 - 0.5).clamp(0.0, last);

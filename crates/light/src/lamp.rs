@@ -1,13 +1,15 @@
-//! The last stage: what a fleet's lamps need of a colour.
+//! The last stage: corrects colours for the lamps of a fleet.
 
 use crate::colour::Linear;
 use lightbots_base::Rgb;
 use serde::{Deserialize, Serialize};
 
-/// How the lamps of a fleet show light. A robot decodes the sRGB colour that it receives, so the stage works on light.
+/// How the lamps of a fleet show light. A robot decodes the sRGB colour that it receives, so the correction works on
+/// linear light.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LampSettings {
-    /// Exponent that a lamp's light has over what an sRGB lamp shows, 0.2 to 5; 1 for a lamp that decodes sRGB.
+    /// Exponent from the light that an sRGB lamp shows to the light that this lamp shows, 0.2 to 5; 1 for a lamp that
+    /// decodes sRGB.
     pub gamma: f64,
     /// White balance: factor of each channel's light, 0 to 1.
     pub gain: [f64; 3],
@@ -15,7 +17,7 @@ pub struct LampSettings {
     pub channel_ma: f64,
     /// Current of a lamp that is dark, milliamperes.
     pub standby_ma: f64,
-    /// Most current of a lamp, milliamperes; infinite: not limited.
+    /// Largest current of a lamp, milliamperes; infinite: no limit.
     pub current_max_ma: f64,
 }
 
@@ -27,8 +29,8 @@ impl Default for LampSettings {
 }
 
 impl LampSettings {
-    /// The light that a lamp is told: gamma, then white balance, then all channels scaled by one factor until the current
-    /// is within its limit, so that the hue stays.
+    /// Returns the light to send to a lamp: first gamma, then white balance, then all channels scaled by one factor
+    /// until the current is within its limit, so that the hue stays.
     pub fn light(&self, wanted: Linear) -> Linear {
         let wanted = wanted.clamped();
         let bent =
@@ -46,12 +48,12 @@ impl LampSettings {
         self.light(wanted).to_rgb()
     }
 
-    /// The colour that is sent for a colour that is meant.
+    /// Returns the colour to send, so that a lamp shows the colour `meant`.
     pub fn sent(&self, meant: Rgb) -> Rgb {
         if self.changes_nothing() { meant } else { self.colour(Linear::from_rgb(meant)) }
     }
 
-    /// Whether every colour is sent as it is meant.
+    /// Whether every colour is sent unchanged.
     pub fn changes_nothing(&self) -> bool {
         let most_ma = self.standby_ma + 3.0 * self.channel_ma;
         self.gamma == 1.0 && self.gain == [1.0; 3] && self.current_max_ma >= most_ma

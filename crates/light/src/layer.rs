@@ -1,4 +1,4 @@
-//! A layer and how it covers what is below.
+//! A layer of light, and how it covers the light below.
 
 use crate::blend::BlendMode;
 use crate::colour::Linear;
@@ -15,7 +15,7 @@ pub struct LightLayer {
     pub from_s: f64,
     /// When it ends, seconds of show time (excluded); infinite: never.
     pub to_s: f64,
-    /// The moment from which its effect's time counts, seconds of show time.
+    /// Moment from which the time of its effect counts, seconds of show time.
     pub origin_s: f64,
     /// Whether its effect goes on while show time stands: [`LightContext::lead_s`] then counts for it.
     pub runs_freely: bool,
@@ -23,9 +23,9 @@ pub struct LightLayer {
     pub effect: LightEffect,
     /// The settings of the effect.
     pub look: Look,
-    /// Masks: the layer shines by the product of what they let through.
+    /// Masks. The layer shines with the product of the shares that they let through.
     pub masks: Vec<LightMask>,
-    /// How the layer joins what is below.
+    /// How the light of the layer is mixed with the light below.
     pub blend: BlendMode,
     /// Opacity over time.
     pub opacity: OpacityCurve,
@@ -47,7 +47,7 @@ impl LightLayer {
         }
     }
 
-    /// The light below with the layer over it.
+    /// Returns the light `below` with the layer over it at the show time `t_s`, seconds.
     pub(crate) fn over(
         &self,
         below: Linear,

@@ -1,4 +1,4 @@
-//! Valid layers and their mixture.
+//! Valid layers, and the colour that they mix for a robot.
 
 use crate::colour::Linear;
 use crate::layer::LightLayer;
@@ -13,14 +13,14 @@ impl Layers {
     /// The layers, if they are valid.
     ///
     /// # Errors
-    /// What is wrong with them, in their order; at most [`FAULTS_MAX`](crate::FAULTS_MAX) faults.
+    /// The faults in the order of the layers, at most [`FAULTS_MAX`](crate::FAULTS_MAX).
     pub fn new(layers: Vec<LightLayer>) -> Result<Self, Vec<LayerFault>> {
         let faults = faults(&layers);
         if faults.is_empty() { Ok(Self(layers)) } else { Err(faults) }
     }
 
-    /// The layers at other times: `times` says for each layer when it begins, when it ends and from when its effect counts
-    /// (`from_s`, `to_s`, `origin_s`). Times that are no numbers make a layer dark.
+    /// Returns a copy with other times: `times` returns `from_s`, `to_s` and `origin_s` of the layer with an index. A
+    /// layer whose `from_s` or `to_s` is NaN stays dark.
     pub fn at_times(&self, times: impl Fn(usize) -> (f64, f64, f64)) -> Self {
         let timed = |(number, layer): (usize, &LightLayer)| {
             let (from_s, to_s, origin_s) = times(number);
@@ -39,7 +39,7 @@ impl Layers {
         self.colour_without(usize::MAX, t_s, robot, context)
     }
 
-    /// The colour that a robot would have without one of the layers.
+    /// Returns the colour that a robot would have without the layer with the index `left_out`.
     pub fn colour_without(
         &self,
         left_out: usize,

@@ -30,6 +30,6 @@ pub struct LitRobot {
 pub struct LightContext<'a> {
     /// Pictures and films, by the number in `LightEffect::Picture`.
     pub pictures: &'a [FloorPicture],
-    /// How long show time stood until now, seconds: layers that run freely are ahead by it.
+    /// How long show time has stood still until now, seconds. Layers that run freely are ahead by this time.
     pub lead_s: f64,
 }

@@ -19,9 +19,9 @@ pub struct Look {
     pub width: f64,
     /// Its colours.
     pub palette: Palette,
-    /// How its value is bent before the palette.
+    /// How its value is bent before the palette is looked up.
     pub ease: Ease,
-    /// How a phase outside of 0..=1 comes back.
+    /// How a phase outside of 0..=1 is brought into that range.
     pub wrap: Wrap,
     /// Seed of everything random.
     pub seed: u64,

@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 /// What a mask lets through.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaskShape {
-    /// Robots that have one of these pixels in their frame; ids, increasing.
+    /// Robots whose pixel in the frame has one of these ids, in increasing order.
     Selection(Vec<u32>),
     /// Robots while they show, or drive to, one of these frames, counted from 0.
     Frames {
@@ -22,7 +22,7 @@ pub enum MaskShape {
         centre: Vec2,
         /// Half of its extents along its own x and y, metres.
         half: Vec2,
-        /// Angle of its x from the stage's, radians counter-clockwise.
+        /// Angle of its x axis from that of the stage, radians counter-clockwise.
         angle: f64,
     },
     /// A circle.
@@ -32,7 +32,8 @@ pub enum MaskShape {
         /// Its radius, metres.
         radius_m: f64,
     },
-    /// A polygon of any form; a place is inside if a ray from it crosses an odd number of edges.
+    /// The corners of a polygon of any form, stage metres. A place is inside if a ray from it crosses an odd number of
+    /// edges.
     Polygon(Vec<Vec2>),
 }
 
@@ -63,7 +64,7 @@ impl LightMask {
         if self.inverted { 1.0 - share } else { share }
     }
 
-    /// 0 outside of an area, rising over `feather_m` inside.
+    /// Returns 0 outside of an area, and a share that rises to 1 over `feather_m` inside.
     fn softened(&self, depth_m: f64) -> f64 {
         if self.feather_m > 0.0 { within_one(depth_m / self.feather_m) } else { truth(depth_m >= 0.0) }
     }
@@ -99,7 +100,7 @@ fn polygon_depth_m(corners: &[Vec2], place: Vec2) -> f64 {
     if inside { nearest_m } else { -nearest_m }
 }
 
-/// The place of a line that is nearest to `place`, and its share of the line, 0 to 1.
+/// Returns the point of the line from `from` to `to` that is nearest to `place`, and its share of the line, 0 to 1.
 pub(crate) fn nearest_on(from: Vec2, to: Vec2, place: Vec2) -> (Vec2, f64) {
     let line = to - from;
     let squared = line.length_squared();

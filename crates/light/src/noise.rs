@@ -13,7 +13,7 @@ fn mixed(state: u64, word: u64) -> u64 {
 }
 
 fn share(hash: u64) -> f64 {
-    // 53 bits are what a number holds exactly.
+    // An `f64` holds whole numbers of 53 bits exactly.
     (hash >> 11) as f64 / (1u64 << 53) as f64
 }
 

@@ -17,8 +17,9 @@ pub struct PaletteStop {
 /// Light and opacity.
 pub(crate) type Shade = (Linear, f64);
 
-/// Stops sorted by position. Between two stops, light and opacity change in straight lines; beyond the ends, the last
-/// stop holds. Of two stops at one position, the first ends what is before and the second begins what is after.
+/// Stops sorted by position. Between two stops, light and opacity change in straight lines; beyond the ends, they are
+/// those of the outermost stop. Two stops at one position make an edge: the first is the end of the part before, the
+/// second the start of the part after.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Palette {
     /// The stops; at least one.

@@ -1,4 +1,4 @@
-//! What is wrong with layers, in words.
+//! Validates layers: finds what is wrong with them, with a remedy for each fault.
 
 use crate::effect::{Coordinate, LightEffect};
 use crate::layer::LightLayer;
@@ -9,31 +9,31 @@ use core::fmt::Display;
 pub const LAYERS_MAX: usize = 1_000;
 /// Most faults that are reported at once; a person mends the first ones and looks again. Chosen.
 pub const FAULTS_MAX: usize = 100;
-/// Most points of an opacity curve: one each 0.36 s of an hour. Chosen.
+/// Most points of an opacity curve: one every 0.36 s in an hour. Chosen.
 pub const CURVE_POINTS_MAX: usize = 10_000;
-/// Most stops of a palette: as many as a robot shows apart along a gradient on a screen. Chosen.
+/// Most stops of a palette. Chosen.
 pub const STOPS_MAX: usize = 64;
 /// Most masks of a layer. Chosen.
 pub const MASKS_MAX: usize = 16;
 /// Most points of a polygon or a curve: each costs time at every moment for every robot. Chosen.
 pub const OUTLINE_POINTS_MAX: usize = 1_000;
-/// Most pixels of a selection, as many as a frame has pixels at most (`lightbots_show::MAX_PIXELS`).
+/// Most pixels of a selection: the largest number of pixels in a frame (`lightbots_show::MAX_PIXELS`).
 pub const SELECTION_MAX: usize = 20_000;
 /// Most octaves of noise: the eighth has cells of a hundredth of the size. Chosen.
 pub const OCTAVES_MAX: u32 = 8;
 /// Fastest flashing of all robots together, hertz: WCAG 2.2, 2.3.1 allows three flashes in any second.
 pub const FLASHING_MAX_HZ: f64 = 3.0;
-/// Fastest cycle of other effects, hertz: tracks have 100 samples a second, which draw a cycle from five points.
+/// Fastest cycle of other effects, hertz: tracks have 100 samples a second, five for each such cycle.
 pub const SPEED_MAX_HZ: f64 = 20.0;
-/// Least and most span of an effect, metres: below the size of a robot (0.07 m) nothing is seen. Chosen.
+/// Smallest and largest size of an effect, metres. Chosen. Details below the size of a robot (0.07 m) are not seen.
 pub const SIZE_RANGE_M: (f64, f64) = (0.01, 1_000.0);
 /// Largest coordinate, metres: beyond any floor. Chosen.
 pub const COORDINATE_MAX_M: f64 = 1_000.0;
 /// Latest moment, seconds: a day. Chosen.
 pub const MOMENT_MAX_S: f64 = 86_400.0;
-/// Least distance of two rows of a sequence, seconds: a track has 100 samples a second.
+/// Shortest time between two rows of a sequence, seconds. A track has 100 samples a second.
 pub const SEQUENCE_STEP_MIN_S: f64 = 0.001;
-/// Least share of a cycle that shines: a hundredth of a second in a second, the duration of one sample of a track.
+/// Smallest share of a cycle that shines. In a cycle of a second it is 10 ms, the time of one sample of a track.
 pub const WIDTH_MIN: f64 = 0.01;
 
 /// Something wrong with a layer.
@@ -60,11 +60,11 @@ impl Display for LayerFault {
     }
 }
 
-/// Faults of all layers, at most [`FAULTS_MAX`].
+/// Returns the faults of all layers, at most [`FAULTS_MAX`].
 pub(crate) fn faults(layers: &[LightLayer]) -> Vec<LayerFault> {
     let mut found = Found::default();
     found.count("number of layers", layers.len(), LAYERS_MAX);
-    // Each of too many layers is not read: the first fault names what to do.
+    // Layers beyond `LAYERS_MAX` are not checked, because the first fault says that there are too many.
     for (number, layer) in layers.iter().take(LAYERS_MAX).enumerate() {
         found.layer = Some(number);
         found.times(layer);
@@ -92,7 +92,7 @@ impl Found {
         self.list.push(fault);
     }
 
-    /// A number has to be within a range. NaN is not.
+    /// Adds a fault if a number is outside of a range. NaN always is.
     fn range(&mut self, field: &'static str, value: f64, (least, most): (f64, f64)) {
         if !(least <= value && value <= most) {
             self.add(field, value, format!("choose a number from {least} to {most}"));
@@ -114,7 +114,7 @@ impl Found {
         }
     }
 
-    /// Values have to be in order. NaN is for `range` to report.
+    /// Adds a fault if values are not in increasing order. NaN is reported by `range`.
     fn order(&mut self, field: &'static str, values: impl Iterator<Item = f64> + Clone) {
         let wrong = values.clone().zip(values.skip(1)).find(|(first, second)| first > second);
         if let Some((first, second)) = wrong {

@@ -3,7 +3,7 @@
 use crate::ease::fraction;
 use crate::look::Look;
 
-/// Rises over the first `width` of a cycle and falls over the rest; without a jump unless `width` is 1.
+/// Rises from 0 to 1 over the first `width` of a cycle and falls over the rest, without a jump unless `width` is 1.
 pub(super) fn pulse(look: &Look, turns: f64) -> f64 {
     let phase = fraction(turns);
     if phase < look.width { phase / look.width } else { (1.0 - phase) / (1.0 - look.width) }

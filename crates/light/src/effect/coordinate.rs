@@ -1,4 +1,4 @@
-//! Where a robot is along an effect.
+//! Coordinates: where along an effect a robot is.
 
 use crate::ease::fraction;
 use crate::lit_robot::LitRobot;
@@ -7,19 +7,19 @@ use crate::mask::nearest_on;
 use core::f64::consts::TAU;
 use lightbots_base::Vec2;
 
-/// What an effect runs along. 1 is one span of the effect.
+/// What an effect runs along: a number for each robot, which rises by 1 over the span of the effect.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Coordinate {
-    /// Along the direction, from the place, over the size.
+    /// Distance from the effect's place along its direction, divided by its size.
     #[default]
     Line,
-    /// The distance from the place, over the size.
+    /// Distance from the effect's place, divided by its size.
     Distance,
-    /// The angle around the place from the direction, counter-clockwise, 0 to 1.
+    /// Angle around the effect's place, counter-clockwise from its direction, as a share of a turn, 0 to 1.
     Angle,
-    /// The number of the robot over the number of robots.
+    /// Number of the robot, divided by the number of robots.
     Order,
-    /// The share of a polyline's length up to its point nearest to the robot; stage metres.
+    /// Share of a polyline's length up to its point nearest to the robot. Corners in stage metres.
     Curve(Vec<Vec2>),
 }
 

@@ -7,18 +7,19 @@ use crate::noise::{octaves, unit};
 use core::f64::consts::TAU;
 use lightbots_base::Vec2;
 
-/// Cells of noise over the height of a flame. Judged by eye on a floor of 16 x 10 robots: fewer look like clouds, more
-/// like sparks.
+/// Number of cells of noise over the height of a flame. Judged by eye on a floor of 16 x 10 robots: fewer look like
+/// clouds, more like sparks.
 const FIRE_CELLS: f64 = 3.0;
-/// Heat of the hottest noise. With `FIRE_FUEL` it lets the tallest flames end just above the size. Judged by eye.
+/// Heat of the hottest noise. With `FIRE_FUEL`, it lets the tallest flames end just above the size of the effect.
+/// Judged by eye.
 const FIRE_HEAT: f64 = 1.1;
-/// Heat at the foot of a flame without any noise. Judged by eye: without it, the foot has dark holes.
+/// Heat at the foot of a flame without any noise. Judged by eye: at 0, the foot has dark holes.
 const FIRE_FUEL: f64 = 0.25;
 /// Octaves of a flame's noise. Judged by eye.
 const FIRE_OCTAVES: u32 = 2;
 
-/// The mean of four sine waves: along the direction, across it, aslant and around the place. Their phases come from the
-/// seed; each repeats after one turn.
+/// The mean of four sine waves, 0 to 1: along the direction, across it, diagonally, and around the place. Their phases
+/// come from the seed. Each wave repeats after one turn.
 pub(super) fn plasma(look: &Look, turns: f64, place: Vec2) -> f64 {
     let from_place = place - look.place;
     let along = Vec2::unit(look.angle);
@@ -31,13 +32,13 @@ pub(super) fn plasma(look: &Look, turns: f64, place: Vec2) -> f64 {
     0.5 + sum / 8.0
 }
 
-/// Noise with cells of one size, which changes altogether in one turn.
+/// Noise whose cells have the size of the effect, and which changes completely in one turn.
 pub(super) fn noise(look: &Look, turns: f64, place: Vec2, count: u32) -> f64 {
     let at = (place - look.place) / look.size_m;
     octaves(look.seed, [at.x, at.y, turns], count)
 }
 
-/// Noise that rises along the direction by one size a turn and cools with the height above the place.
+/// Noise that rises along the direction by the size of the effect per turn, and cools with the height above the place.
 pub(super) fn fire(look: &Look, turns: f64, place: Vec2) -> f64 {
     let up = Vec2::unit(look.angle);
     let from_place = (place - look.place) / look.size_m;

@@ -27,19 +27,19 @@ pub enum LightEffect {
     Pulse,
     /// Light and dark by turns.
     Strobe,
-    /// Robots that glow up and fade at moments of their own; in each cycle this share of them.
+    /// Robots glow up and fade, each at its own moments. In each cycle, the share `density` of the robots does.
     Twinkle {
         /// Share of robots, 0 to 1.
         density: f64,
     },
-    /// Robots that are lit for one cycle.
+    /// In each cycle, a random share of the robots is lit.
     Sparkle {
         /// Share of robots, 0 to 1.
         density: f64,
     },
     /// All hues along a coordinate.
     Rainbow {
-        /// Along what hues change.
+        /// What the hues run along.
         along: Coordinate,
         /// 0 (white) to 1.
         saturation: f64,
@@ -61,22 +61,23 @@ pub enum LightEffect {
     Fire,
     /// A picture or film on the floor, by its number in [`LightContext::pictures`].
     Picture(usize),
-    /// A colour for each robot and moment.
+    /// Given colours for each robot and moment.
     Sequence {
-        /// Number of the colours in [`LightContext::pictures`]: one pixel a robot, by its number, and one row a moment.
+        /// Index of the colours in [`LightContext::pictures`]: one column for each robot, by its number, and one row
+        /// for each moment.
         picture: usize,
-        /// Distance of two rows, seconds.
+        /// Time from one row to the next, seconds.
         step_s: f64,
         /// When the first row is shown, seconds after the layer's origin; may be negative.
         start_s: f64,
     },
-    /// Towards the colour of the next frame.
+    /// A fade to the robot's colour in the next frame.
     NextFrame,
     /// A random value of the palette for each robot.
     ByRobot,
-    /// The palette by the robot's speed.
+    /// The palette along the robot's speed.
     BySpeed {
-        /// The speed of the palette's end, metres per second.
+        /// Speed at which the end of the palette is reached, metres per second.
         top_mps: f64,
     },
 }

@@ -7,11 +7,12 @@ use crate::look::Look;
 use crate::palette::Shade;
 use lightbots_base::Vec2;
 
-/// Share of a row by which a moment may be before it: moments are sums of seconds.
+/// How much of a row before its start a moment already counts as in that row, because moments are inexact sums of
+/// seconds.
 const EARLY_ROWS: f64 = 1e-6;
 
-/// The picture with its centre at the place, `size_m` wide, its right along the direction; a film lasts one turn. Outside
-/// of the picture nothing shines.
+/// Returns the light of a picture with its centre at the effect's place, `size_m` wide, its right side towards the
+/// direction. A film lasts one turn. Outside of the picture nothing shines.
 pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorPicture>) -> Shade {
     let Some(film) = film else { return (Linear::BLACK, 0.0) };
     let right = Vec2::unit(look.angle);
@@ -25,8 +26,8 @@ pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorP
     (film.at(frame, across, down), 1.0)
 }
 
-/// The pixel of a robot in the row of the moment, `rows` after the first. Nothing before the first row, after the
-/// last, and for robots without a column.
+/// Returns the light of a robot in the row of the moment, which is `rows` after the start of the first row. No light
+/// before the first row, after the last, and for robots without a column.
 pub(super) fn sequence(rows: f64, robot: u32, colours: Option<&FloorPicture>) -> Shade {
     let row = libm::floor(rows + EARLY_ROWS);
     if row.is_nan() || row < 0.0 {

@@ -1,4 +1,4 @@
-//! Effects that lay colours along a coordinate.
+//! Effects that spread colours along a coordinate.
 
 use lightbots_base::srgb_decoded;
 
@@ -7,12 +7,12 @@ use crate::ease::fraction;
 use crate::look::Look;
 use crate::palette::Shade;
 
-/// The coordinate, moved by the turns.
+/// The coordinate less the turns, wrapped into 0 to 1.
 pub(super) fn gradient(look: &Look, turns: f64, along: f64) -> f64 {
     look.wrap.at(along - turns)
 }
 
-/// The hue of the coordinate, moved by the turns. Easing bends the circle of hues.
+/// The colour whose hue is the coordinate less the turns. Easing bends the hue, 0 to 1.
 pub(super) fn rainbow(look: &Look, turns: f64, along: f64, saturation: f64) -> Shade {
     let hue = look.ease.at(fraction(along - turns));
     let channel = |start: f64| {

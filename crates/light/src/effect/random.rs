@@ -1,11 +1,11 @@
-//! Effects of hashes of (seed, robot, cycle).
+//! Random effects: their values are hashes of (seed, robot, cycle).
 
 use crate::ease::fraction;
 use crate::look::Look;
 use crate::noise::{cycle, unit};
 use core::f64::consts::PI;
 
-/// Stream of each robot's offset in time; cycles of another stream decide about light.
+/// Changes the seed for the robots' offsets in time, which are then independent of the choice of robots that are lit.
 const OFFSETS: u64 = 0x6f66_6673;
 
 /// In each of its cycles a robot glows up and fades over the first `width`, or stays dark.
@@ -24,7 +24,7 @@ pub(super) fn sparkle(look: &Look, turns: f64, robot: u32, density: f64) -> f64 
     if unit(look.seed, u64::from(robot), cycle(turns)) < density { 1.0 } else { 0.0 }
 }
 
-/// A phase of each robot's own.
+/// A random phase for each robot, moved by the turns.
 pub(super) fn by_robot(look: &Look, turns: f64, robot: u32) -> f64 {
     look.wrap.at(unit(look.seed, u64::from(robot), 0) + turns)
 }

@@ -11,7 +11,7 @@ pub(super) fn wave(turns: f64, along: f64) -> f64 {
     0.5 + 0.5 * libm::cos(TAU * fraction(along - turns))
 }
 
-/// 1 at the head, falling to 0 over a tail of `width`; the head runs with the turns.
+/// 1 at the head, falling to 0 over a tail of `width`. The head moves along the coordinate with the turns.
 pub(super) fn chase(look: &Look, turns: f64, along: f64) -> f64 {
     let ahead = if look.speed_hz < 0.0 { along - turns } else { turns - along };
     within_one(1.0 - fraction(ahead) / look.width)
