@@ -4,8 +4,8 @@
 //! and no controller. [`ToScreen`] and [`FromScreen`] are the JSON messages on the WebSocket, [`Robots`] is the binary
 //! message there. [`ShowEntry`], [`ShowState`], [`RunEntry`], [`BrokerSettings`], [`Problem`] and [`Plan`] are bodies
 //! of HTTP answers. [`MakeRequest`] and [`MakeAnswer`] go to and from the module in the browser. After a change run
-//! `cargo run -p lightbots-api --example types` and `--example page`: the tables of requests in the docs of the modules
-//! and the docs of types become docs/api.md.
+//! `cargo run -p lightbots-api --example types`, `--example page` and `--example schemas`. The page, docs/api.md, is
+//! made of the tables of requests in the docs of modules, and of the docs of types.
 //!
 //! ```
 //! use lightbots_api::{FromScreen, Operation};

@@ -89,7 +89,7 @@ fn path(path: &lightbots_plan::Path) -> Path {
 }
 
 /// Returns the issues found before planning, then those of planning that are new. An issue of planning is left out if
-/// it was found before, or if an error about the same frame and one of its pixels was.
+/// it was found before. It is also left out after an error about the same frame and one of its pixels.
 fn merge(found: &Issues, planned: &Issues) -> Issues {
     let known = |issue: &show::Issue| {
         found.contains(issue)

@@ -1,7 +1,7 @@
 //! sACN: data packets of ANSI E1.31-2018.
 //!
-//! All fields have fixed offsets (table 4-1) and are read here, because the parser of the crate `sacn` 0.11.1 panics on
-//! lengths that do not fit. Tests use the writer of that crate.
+//! All fields have fixed offsets (table 4-1). They are read here, because the parser of the crate `sacn` 0.11.1 panics
+//! on lengths that do not fit. Tests use the writer of that crate.
 
 use crate::packet::{CHANNELS, DmxPacket, DmxSource};
 

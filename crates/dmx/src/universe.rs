@@ -6,9 +6,9 @@ use crate::packet::{DmxPacket, DmxSource};
 
 /// Time without a packet after which a source of sACN is lost: network data loss of ANSI E1.31-2018, 6.7.1.
 const SACN_LOSS: Span = Span::from_millis(2_500);
-/// Time without a packet after which a source of Art-Net is lost: two repetitions and a reserve, because unchanged
-/// values may be repeated only every 4 s. Below 4 s, robots would switch between the light of desk and show. A longer
-/// time lets a desk that is gone keep robots for longer.
+/// Time without a packet after which a source of Art-Net is lost. It is two repetitions and a reserve, because
+/// unchanged values may be repeated only every 4 s. Below 4 s, robots would switch between the light of desk and show.
+/// A longer time lets a desk that is gone keep robots for longer.
 const ARTNET_LOSS: Span = Span::from_millis(10_000);
 /// Largest number of sources in a universe. More sources are conflicting desks or untrusted senders. If all places are
 /// taken, a new source replaces one of the lowest priority, if its own priority is higher.

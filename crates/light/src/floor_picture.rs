@@ -75,8 +75,8 @@ impl FloorPicture {
     }
 }
 
-/// Returns the two of `count` pixels around a position along a side, 0 to 1, and its share of the way from the first to
-/// the second.
+/// Returns the two of `count` pixels around a position along a side, 0 to 1. The third value is its share of the way
+/// between them.
 fn between(share: f64, count: usize) -> (usize, usize, f64) {
     let last = (count - 1) as f64;
     let along = (share * count as f64 - 0.5).clamp(0.0, last);

@@ -29,8 +29,8 @@ impl Default for LampSettings {
 }
 
 impl LampSettings {
-    /// Returns the light to send to a lamp: first gamma, then white balance, then all channels scaled by one factor
-    /// until the current is within its limit, so that the hue stays.
+    /// Returns the light to send to a lamp: `wanted` after gamma, white balance and the limit of current. One factor
+    /// scales all channels until the current is within its limit, so that the hue stays.
     pub fn light(&self, wanted: Linear) -> Linear {
         let wanted = wanted.clamped();
         let bent =

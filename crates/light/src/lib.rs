@@ -1,6 +1,6 @@
 //! Layers of light: (show time, robot, place, context) -> colour.
 //!
-//! The crate knows nothing of shows, messages or screens, reads no clock and no file, and keeps no state between two
+//! The crate knows nothing of shows, messages or screens, and reads no clock and no file. It keeps no state between two
 //! colours: everything random is a hash of (seed, robot or cell, moment). docs/light.md has the formula of each effect.
 //! Reading order: [`Linear`], [`Palette`], [`Look`], [`LightEffect`], [`LightMask`], [`BlendMode`], [`LightLayer`],
 //! [`Layers`], [`LampSettings`].

@@ -7,7 +7,7 @@ use lightbots_light::{FloorPicture, LightContext, Linear, LitRobot};
 /// Longest time that a pixel's colour takes to change; longer fades look like a fault of the light.
 pub const FADE_MAX: Span = Span::from_millis(1_000);
 
-/// How long the change of a pixel's colour takes at the end of a drive: at most 1 s, and at most half of the drive.
+/// Duration of the change of a pixel's colour at the end of a drive: half of the drive, but at most 1 s.
 pub fn fade_of(drive: Span) -> Span {
     FADE_MAX.min(Span(drive.0 / 2)).max(Span::ZERO)
 }

@@ -1,7 +1,7 @@
 //! Turns the colours of one robot, sampled every 10 ms, into a light track with few records.
 //!
-//! The method is a swing filter. From the end colour of the record before, a line goes on as long as it is within the
-//! tolerance at every sample, and ends at whole codes. If it reaches farther, the colour is held and then steps
+//! The method is a swing filter. From the end colour of the record before, a line goes as far as it is within the
+//! tolerance at every sample. It ends at whole codes. If holding the colour reaches farther, it is held and then steps
 //! instead. A line is straight in sRGB codes and rounded, as on the robot, so the tolerance holds for what the robot
 //! shows.
 
@@ -81,8 +81,8 @@ impl Bounds {
 }
 
 /// Fits a track to colours that are a [`TICK`](lightbots_base::TICK) apart. The track lasts from the first colour to
-/// the last. If it has more than `records_max` records, the tolerance is raised in steps, until there are at most as
-/// many, or one if `records_max` is 0.
+/// the last. The tolerance is raised in steps until there are at most `records_max` records, or one if `records_max` is
+/// 0.
 pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFit {
     let start = samples.first().copied().unwrap_or_default();
     let mut tolerance = tolerance;

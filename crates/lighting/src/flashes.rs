@@ -182,8 +182,8 @@ fn moment(times: FrameTimes, step: u32) -> LightMoment {
     }
 }
 
-/// Returns the largest number of flashes in the last second that the robots on more than a quarter of a field reach. 0
-/// if it is less than `FLASHES_MAX`.
+/// Returns the largest number of flashes in the last second that robots on more than a quarter of a field reach.
+/// Returns 0 for a number below `FLASHES_MAX`.
 fn covering(watched: &[Watched], flashes: fn(&Watched) -> u32, (field_m, cell_m2): (f64, f64)) -> u32 {
     let needed = (COVERED * field_m * field_m / cell_m2).floor() as usize + 1;
     let mut many = 0;

@@ -28,7 +28,7 @@ impl LiveLayers {
         &self.layers
     }
 
-    /// Puts a layer over the others, in place of one of the same name. Its effect starts at `clock_s`, seconds of the
+    /// Puts a layer over the others, in place of one with this `name`. Its effect starts at `clock_s`, seconds of the
     /// show clock. Its span is ignored, and it cannot show pictures.
     ///
     /// # Errors
