@@ -7,9 +7,9 @@
 //! | `GET /api/shows/{name}/file` | | the file as the library keeps it: the document, or all of a file that is only
 //! partly understood |
 //! | `PUT /api/shows/{name}` | a file of any format | [`ShowEntry`]. `If-Match: ETAG` replaces that version,
-//! `If-None-Match: *` only creates; 412 if another client saved first. Instead of replacing an example or the start file, a
-//! copy is saved: its entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte. 403 if the show
-//! to be replaced is a file with unknown fields; 422 for a file that is no show |
+//! `If-None-Match: *` only creates; 412 if another client saved first. Instead of replacing an example or the start
+//! file, a copy is saved: its entry has a new name and `copy_of`. A file with unknown fields is kept byte for byte. 403
+//! if the show to be replaced is a file with unknown fields; 422 for a file that is no show |
 //! | `DELETE /api/shows/{name}?renamed_to=NAME` | | 204; honours `If-Match`; 403 for a read-only show. The query is
 //! optional: NAME is the show under its new name, which gets the earlier states |
 //! | `GET /api/shows/{name}/states` | | list of [`ShowState`], the newest first; the first is the current state |
@@ -17,8 +17,8 @@
 //! makes what it replaces an earlier state |
 //! | `GET /api/assets/{hash}` | | a file to which shows refer by its SHA-256 |
 //! | `PUT /api/assets/{hash}` | the file | 204; 422 if it has another hash |
-//! | `POST /api/check` | a file of any format | its [`Plan`](crate::Plan) with paths. A newer request from the same address
-//! ends the older one with 409 |
+//! | `POST /api/check` | a file of any format | its [`Plan`](crate::Plan) with paths. A newer request from the same
+//! address ends the older one with 409 |
 //! | `POST /api/convert?to=FORMAT` | a file of any format | a file of that format, with the files of the library that it
 //! names; 422 for a file that is no show, and for a show that cannot be planned where the format has timed paths |
 //! | `GET /api/plan` | | the [`Plan`](crate::Plan) of the open show, with paths |

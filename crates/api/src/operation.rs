@@ -2,8 +2,8 @@
 //!
 //! | request | body | answer |
 //! |---|---|---|
-//! | `POST /api/operate` | [`Operation`], without the number of a request | 204: the operation was begun; 403 if the role
-//! does not allow this operation; 409 and [`RefusedOperation`] if it cannot be carried out now |
+//! | `POST /api/operate` | [`Operation`], without the number of a request | 204: the operation was begun; 403 if the
+//! role does not allow this operation; 409 and [`RefusedOperation`] if it cannot be carried out now |
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
