@@ -275,7 +275,7 @@ impl fmt::Display for Refusal {
                     write!(f, ", {without_place} do not know where they are")?;
                 }
                 if *unfit > 0 {
-                    write!(f, ", {unfit} are silent or report a fault")?;
+                    write!(f, ", {unfit} are silent, not admitted, share a name or report a fault")?;
                 }
                 write!(f, ": add robots, or play and leave the missing pixels out.")
             }
@@ -284,7 +284,7 @@ impl fmt::Display for Refusal {
                 "Pixels {pixels:?} are bound to robots that are not here: free them, or leave them out."
             ),
             Self::UnknownRobot(id) => write!(f, "No robot {id} is known: refresh the fleet."),
-            Self::TakesPart(id) => write!(f, "Robot {id} takes part in the run: abort first."),
+            Self::TakesPart(id) => write!(f, "Robot {id} cannot be forgotten during a run: abort the run first."),
             Self::NotDismissed => {
                 write!(f, "The last run was stopped: look at the floor, then dismiss the message about it.")
             }

@@ -18,20 +18,20 @@ pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
     plan_unless(show, found, &|| false).unwrap_or_default()
 }
 
-/// As [`plan`], but cancelled as soon as `is_wanted` returns `true`.
+/// As [`plan`], but cancelled as soon as `is_cancelled` returns `true`.
 pub fn plan_unless(
     show: &Show,
     found: &Issues,
-    is_wanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(ShowPlan, api::Plan), Cancelled> {
     let began = Instant::now();
-    let plan = made(show, is_wanted)?;
+    let plan = made(show, is_cancelled)?;
     let document = document(show, found, &plan, began);
     Ok((plan, document))
 }
 
-fn made(show: &Show, is_wanted: &dyn Fn() -> bool) -> Result<ShowPlan, Cancelled> {
-    lightbots_plan::show_with(&Threads, show, &starting_places(show), &ShowOptions::default(), is_wanted)
+fn made(show: &Show, is_cancelled: &dyn Fn() -> bool) -> Result<ShowPlan, Cancelled> {
+    lightbots_plan::show_with(&Threads, show, &starting_places(show), &ShowOptions::default(), is_cancelled)
 }
 
 fn document(show: &Show, found: &Issues, plan: &ShowPlan, began: Instant) -> api::Plan {
@@ -50,14 +50,14 @@ impl LastPlan {
         &self,
         show: &Show,
         found: &Issues,
-        is_wanted: &dyn Fn() -> bool,
+        is_cancelled: &dyn Fn() -> bool,
     ) -> Result<api::Plan, Cancelled> {
         let began = Instant::now();
         let driven = driven(show);
         let known = self.last().as_ref().filter(|(other, _)| *other == driven).map(|(_, plan)| plan.clone());
         let plan = match known {
             Some(plan) => plan,
-            None => Arc::new(made(show, is_wanted)?),
+            None => Arc::new(made(show, is_cancelled)?),
         };
         *self.last() = Some((driven, plan.clone()));
         Ok(document(show, found, &plan, began))

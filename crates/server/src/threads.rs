@@ -24,9 +24,9 @@ impl Workers for Threads {
 
 fn on_threads(threads: usize, count: usize, is_cancelled: &dyn Fn() -> bool, task: WorkerTask<'_>) {
     let (next, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let work = |is_wanted: &dyn Fn() -> bool| {
+    let work = |is_cancelled: &dyn Fn() -> bool| {
         while let Some(index) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&index| index < count) {
-            task(index, is_wanted);
+            task(index, is_cancelled);
         }
     };
     let ask = || {
@@ -65,8 +65,8 @@ mod tests {
     #[test]
     fn a_cancellation_reaches_tasks_on_all_threads() {
         let ended = AtomicUsize::new(0);
-        on_threads(3, 3, &|| true, &|_, is_wanted| {
-            while !is_wanted() {
+        on_threads(3, 3, &|| true, &|_, is_cancelled| {
+            while !is_cancelled() {
                 std::thread::yield_now();
             }
             ended.fetch_add(1, Ordering::Relaxed);

@@ -8,7 +8,7 @@ use super::step::Step;
 use crate::received::Received;
 use crate::session::TimeAnswers;
 
-/// Longest wait for a time question: twice the 5 s of R28, and 2 s for lost messages.
+/// Longest wait for a time question: four times the 3 s of R28.
 const PATIENCE: Span = Span::from_millis(12_000);
 /// Least time between two compared questions: 0.5 s of network delay is then less than the error of another unit (R25).
 const APART: Span = Span::from_millis(3_000);

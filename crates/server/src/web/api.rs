@@ -198,7 +198,7 @@ pub async fn check(
 ) -> Answer<Json<Plan>> {
     let bytes = body(bytes)?;
     let (budget, library) = (shared.planner.budget(), shared.library.clone());
-    let plan = shared.planner.work(ends.remote.ip().to_canonical(), move |is_wanted| {
+    let plan = shared.planner.work(ends.remote.ip().to_canonical(), move |is_cancelled| {
         let mut loaded = match read(&bytes, None) {
             Ok(loaded) => loaded,
             Err(error) => {
@@ -208,7 +208,7 @@ pub async fn check(
         let mut found = loaded.issues;
         found.extend(validate(&loaded.show));
         found.extend(library.attach_pictures(&mut loaded.show));
-        match show_plan::plan_unless(&loaded.show, &found, is_wanted) {
+        match show_plan::plan_unless(&loaded.show, &found, is_cancelled) {
             Ok((_, plan)) => plan,
             Err(Cancelled) => show_plan::cut_off(&found, budget),
         }
@@ -269,9 +269,9 @@ async fn planned_file(
     mut loaded: Loaded,
 ) -> Answer<Written> {
     let library = shared.library.clone();
-    let written = shared.planner.work(ends.remote.ip().to_canonical(), move |is_wanted| {
+    let written = shared.planner.work(ends.remote.ip().to_canonical(), move |is_cancelled| {
         library.attach_pictures(&mut loaded.show);
-        let plan = show_plan::plan_unless(&loaded.show, &loaded.issues, is_wanted);
+        let plan = show_plan::plan_unless(&loaded.show, &loaded.issues, is_cancelled);
         plan.map(|(plan, _)| format.write(&loaded.show, Some(&plan)))
     });
     let refused = |line: &str| refuse(StatusCode::UNPROCESSABLE_ENTITY, line);
