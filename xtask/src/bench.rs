@@ -1,6 +1,6 @@
-//! `cargo xtask bench`: measures, prints tables and writes them to docs/benchmarks.md with machine and date.
+//! `cargo xtask bench`: measures, prints tables and writes them to docs/benchmarks.md with machine, date and commit.
 //!
-//! A part is a program that prints one JSON object per row; its keys, in order, are the columns.
+//! A part runs a program that prints one JSON object per row. The keys of the first row, in order, are the columns.
 
 use crate::shell::{self, Outcome};
 use crate::{demo, tools};
@@ -10,7 +10,7 @@ use std::process::Command;
 
 /// The page with all results.
 const FILE: &str = "docs/benchmarks.md";
-/// The example that times plans natively.
+/// Name of the example that times plans in native code.
 const NATIVE_PLANS: &str = "native_plans";
 
 struct Part {
@@ -20,17 +20,17 @@ struct Part {
     about: &'static str,
 }
 
-/// Program that prints the rows of a part.
+/// The program that prints the rows of a part.
 enum Source {
-    /// An example of a package.
+    /// An example: its package and its name.
     Example(&'static str, &'static str),
-    /// A browser with the built program: a script of `ui/package.json`.
+    /// A script of `ui/package.json`, which starts a browser with the built program.
     Browser(&'static str),
-    /// The WebAssembly module of the browser, in Node.js: a file of `ui/bench`.
+    /// A file of `ui/bench`, which runs the WebAssembly module of the browser in Node.js.
     Module(&'static str),
 }
 
-/// All parts, in the order of the page.
+/// All parts, in their order on the page.
 const PARTS: [Part; 16] = [
     Part {
         name: "plan",
@@ -189,7 +189,7 @@ pub fn run(names: &[String]) -> Outcome {
     if failures.is_empty() { Ok(()) } else { Err(failures.join("; ")) }
 }
 
-/// The printed rows of a part, and its failure, if there was one.
+/// The rows that a part printed, and the failure if its program failed.
 struct Measured {
     rows: Vec<Map<String, Value>>,
     failure: Option<String>,
@@ -210,7 +210,8 @@ fn rows(printed: &str) -> Vec<Map<String, Value>> {
     printed.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
 }
 
-/// The part's section of the page; none if nothing was measured, so that the old section stays.
+/// The part's section of the page. `None` if the program failed without a row, so that the old section stays.
+/// An error if the program succeeded without a row.
 fn section(part: &Part, measured: &Measured) -> Outcome<Option<String>> {
     if measured.rows.is_empty() {
         return match &measured.failure {
@@ -329,7 +330,7 @@ fn date(unix_seconds: u64) -> String {
     format!("{year}-{month:02}-{day:02}")
 }
 
-/// Replaces the section in the file and leaves the others.
+/// Replaces the section of this part in `FILE`, or appends it, and leaves the other sections.
 fn keep(part: &Part, section: &str) -> Outcome {
     let path = shell::root().join(FILE);
     let old = std::fs::read_to_string(&path).unwrap_or_default();

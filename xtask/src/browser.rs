@@ -1,4 +1,4 @@
-//! `cargo xtask browser`: the module that the screen runs as WebAssembly, in `ui/src/generated`.
+//! `cargo xtask browser`: builds the WebAssembly module of the screen, in `ui/src/generated`.
 
 use std::path::Path;
 use std::time::SystemTime;
@@ -7,16 +7,16 @@ use wasm_bindgen_cli_support::Bindgen;
 
 use crate::shell::{self, Outcome};
 
-/// Compiler target of browsers.
+/// Compilation target of the module.
 const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Cargo profile of the module.
 const PROFILE: &str = "browser";
 
-/// Folder of the module and its bindings, from the root of the workspace; not in version control.
+/// Folder of the module and its JavaScript bindings, from the root of the workspace. Not in version control.
 const FOLDER: &str = "ui/src/generated";
 
-/// Builds the module and writes it with its bindings, unless they are up to date.
+/// Builds the module, and writes it with its bindings unless they are newer than the build.
 pub fn build() -> Outcome {
     provide_target()?;
     let package = ["build", "--quiet", "--package", "lightbots-browser"];
@@ -29,7 +29,8 @@ pub fn build() -> Outcome {
     bind(&module, &folder).map_err(|error| format!("no bindings for {}: {error:#}", module.display()))
 }
 
-/// Installs the compiler's part for browsers. Its folder is looked at first, because rustup asks the network.
+/// Installs the standard library for `TARGET` unless its folder exists. rustup is the last resort, because it needs
+/// the network.
 fn provide_target() -> Outcome {
     let mut command = shell::command(".", "rustc", &["--print", "target-libdir", "--target", TARGET]);
     if shell::output(&mut command).is_ok_and(|folder| Path::new(folder.trim()).is_dir()) {
@@ -40,7 +41,7 @@ fn provide_target() -> Outcome {
     })
 }
 
-/// Whether a file exists that was written after another one.
+/// Whether `file` exists and is newer than `than`. A missing `than` counts as older.
 fn is_newer(file: &Path, than: &Path) -> bool {
     let written = |path: &Path| -> Option<SystemTime> { std::fs::metadata(path).ok()?.modified().ok() };
     written(file) > written(than)
@@ -49,6 +50,6 @@ fn is_newer(file: &Path, than: &Path) -> bool {
 fn bind(module: &Path, folder: &Path) -> anyhow::Result<()> {
     let mut bindings = Bindgen::new();
     bindings.input_path(module).out_name("browser").web(true)?.typescript(true);
-    // Names of functions are a fifth of the file and only help a debugger.
+    // Function names are a fifth of the file's size and only help a debugger.
     bindings.remove_name_section(true).remove_producers_section(true).generate(folder)
 }

@@ -2,13 +2,14 @@
 
 use crate::shell::{self, Outcome};
 
-/// Show of the demo.
+/// Show that the demo plays if the arguments name none.
 const SHOW: &str = "shows/countdown.json";
 
-/// Name of npm on this system.
+/// File name of npm on this system.
 pub const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
-/// Builds the screen and the program, and runs `lightbots run` with these arguments.
+/// Builds the screen and the program, and runs `lightbots run` with these arguments, or with `SHOW` added if all of
+/// them are options.
 pub fn run(arguments: &[String]) -> Outcome {
     build_screen()?;
     shell::cargo(&["build", "--release", "--package", "lightbots-server"])?;

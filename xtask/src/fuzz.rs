@@ -1,8 +1,8 @@
-//! `cargo xtask fuzz`: fuzzers that follow the code's branches. They need a nightly compiler and `cargo-fuzz`.
+//! `cargo xtask fuzz`: runs coverage-guided fuzzers. They need a nightly compiler and `cargo-fuzz`.
 
 use crate::shell::{self, Outcome};
 
-/// A fuzzer: its name, and the corpus whose files the usual tests read too.
+/// A fuzzer's name, and the folder of its corpus, whose files the usual tests read too.
 type Fuzzer = (&'static str, &'static str);
 
 const FUZZERS: [Fuzzer; 4] = [
@@ -12,10 +12,10 @@ const FUZZERS: [Fuzzer; 4] = [
     ("svg", "crates/draw/tests/corpus/svg"),
 ];
 
-/// How long each fuzzer runs unless told otherwise, seconds.
+/// How long each fuzzer runs if the command line names no duration, seconds.
 const SECONDS: &str = "600";
 
-/// Runs one fuzzer, or all after each other: `[NAME [SECONDS]]`.
+/// Runs the named fuzzer, or all one after another. The arguments are `[NAME [SECONDS]]`.
 pub fn run(arguments: &[String]) -> Outcome {
     let name = arguments.first().map(String::as_str);
     let seconds = arguments.get(1).map_or(SECONDS, String::as_str);
@@ -26,7 +26,7 @@ pub fn run(arguments: &[String]) -> Outcome {
         return Err(format!("there is no such fuzzer; there are {}", known.join(", ")));
     }
     for (name, kept) in chosen {
-        // What it finds on its way goes into the first folder, which is not kept.
+        // The fuzzer writes new inputs into the first folder, which is not in version control.
         let found = format!("fuzz/corpus/{name}");
         std::fs::create_dir_all(shell::root().join(&found)).map_err(|error| format!("{found}: {error}"))?;
         let limit = format!("-max_total_time={seconds}");
@@ -42,7 +42,7 @@ pub fn run(arguments: &[String]) -> Outcome {
             "-timeout=10",
             "-rss_limit_mb=1024",
         ];
-        // The compiler that built this program must not choose that of the fuzzers.
+        // The toolchain that built this program must not replace the nightly toolchain of the fuzzers.
         let mut command = shell::command(".", "cargo", &arguments);
         command.env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN");
         shell::run(&mut command).map_err(|message| {

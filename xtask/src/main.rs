@@ -68,7 +68,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs the fault campaign; with mutants if one is asked for.
+/// Arguments of cargo that run the fault campaign, with the feature `mutants` if `--mutant` is among them.
 fn campaign(rest: &[String]) -> Vec<&str> {
     let mut program = example("campaign", rest);
     if rest.iter().any(|argument| argument == "--mutant") {
@@ -77,7 +77,7 @@ fn campaign(rest: &[String]) -> Vec<&str> {
     program
 }
 
-/// Runs an example of the simulator with these arguments.
+/// Arguments of cargo that run an example of the simulator with the arguments `rest`.
 fn example<'a>(name: &'a str, rest: &'a [String]) -> Vec<&'a str> {
     let program = ["run", "--quiet", "--release", "--package", "lightbots-sim", "--example", name, "--"];
     program.into_iter().chain(rest.iter().map(String::as_str)).collect()

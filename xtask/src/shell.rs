@@ -1,9 +1,9 @@
-//! Other programs, run from the root of the workspace.
+//! Runs other programs from the root of the workspace.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Result of a task; the error is one line for people.
+/// Result of a task. The error is one line of text for the terminal.
 pub type Outcome<T = ()> = Result<T, String>;
 
 /// The root of the workspace.
@@ -12,7 +12,7 @@ pub fn root() -> PathBuf {
     here.parent().unwrap_or(here).to_path_buf()
 }
 
-/// A command that starts in `folder`, relative to the root.
+/// A command that starts in `folder`, which is relative to the root of the workspace.
 pub fn command(folder: &str, program: &str, arguments: &[&str]) -> Command {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(root().join(folder));
@@ -27,7 +27,7 @@ pub fn run(command: &mut Command) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("`{shown}` failed: {status}")) }
 }
 
-/// Runs a command and prints its output afterwards, for commands that run beside others.
+/// Runs a command and prints its output when it has ended, so that outputs of simultaneous commands do not mix.
 pub fn captured(command: &mut Command) -> Outcome {
     let shown = shown(command);
     let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
@@ -45,7 +45,7 @@ pub fn output(command: &mut Command) -> Outcome<String> {
     }
 }
 
-/// Runs a command and returns its stdout, and the failure if it ended with one.
+/// Runs a command and returns its stdout, with the failure if the command failed. An error if it could not start.
 pub fn printed(command: &mut Command) -> Outcome<(String, Option<String>)> {
     let shown = shown(command);
     let output = command
@@ -66,17 +66,17 @@ pub fn cargo_with(arguments: &[&str], environment: &[(&str, &str)]) -> Outcome {
     run(command(".", &cargo_program(), arguments).envs(environment.iter().copied()))
 }
 
-/// The cargo that started this program.
+/// The cargo that started this program, otherwise the one on the `PATH`.
 pub fn cargo_program() -> String {
     std::env::var("CARGO").unwrap_or_else(|_| "cargo".into())
 }
 
-/// Folder of cargo's build outputs.
+/// Folder of cargo's build outputs: `CARGO_TARGET_DIR`, otherwise `target`.
 pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |dir| root().join(dir))
 }
 
-/// The built program `lightbots` of a profile.
+/// Path of the program `lightbots` that cargo built with this profile.
 pub fn program(profile: &str) -> PathBuf {
     target().join(profile).join(format!("lightbots{}", std::env::consts::EXE_SUFFIX))
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: all tests, part by part. After a failed part the next one runs.
+//! `cargo xtask test`: runs all tests, part by part. A failed part does not stop the next ones.
 
 use crate::shell::{self, Outcome};
 use crate::{demo, tidy, tools};
@@ -10,7 +10,7 @@ use std::time::Instant;
 /// Compiler target of the firmware: a Cortex-M4 with floating point.
 const FIRMWARE_TARGET: &str = "thumbv7em-none-eabihf";
 
-/// Name and function of a part.
+/// Name of a part, and the function that runs it.
 type Part = (&'static str, fn() -> Outcome);
 
 /// All parts, in order.
@@ -63,10 +63,12 @@ fn lint() -> Outcome {
     shell::cargo(&["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"])
 }
 
-/// Integration test with real processes and sockets. It waits most of the time, so the other tests run beside it.
+/// Name of the integration test with real processes and sockets. It mostly waits, so the other tests run at the same
+/// time.
 const REAL_TIME: &str = "program";
 
-/// Tests of the workspace in one build. Examples are only linted, because linking all of them takes minutes.
+/// Builds all tests of the workspace at once and runs them. Examples are only linted, because linking them all takes
+/// minutes.
 fn rust() -> Outcome {
     let mosquitto = tools::MOSQUITTO.provide()?;
     if let Err(message) = tools::RABBITMQ.provide() {
@@ -99,13 +101,13 @@ fn test_programs() -> Outcome<BTreeSet<String>> {
     if names.contains(REAL_TIME) { Ok(names) } else { Err(format!("{} has no tests", crates.display())) }
 }
 
-/// `cargo test` of the whole workspace. All parts use it, because a build of single packages chooses other features for
-/// dependencies and builds these again.
+/// A `cargo test` command for the whole workspace. A build of single packages would choose other features of
+/// dependencies and compile them again.
 fn cargo_test(arguments: &[&str]) -> Command {
     let arguments = [&["test", "--workspace"], arguments].concat();
     let mut command = shell::command(".", &shell::cargo_program(), &arguments);
     if std::env::var_os("CI").is_some() {
-        // A CI machine builds only once.
+        // A CI machine builds only once, so incremental files would only cost time.
         command.env("CARGO_INCREMENTAL", "0");
     }
     command

@@ -1,12 +1,12 @@
-//! Programs that tests need and cargo does not install: found, installed with apt-get, or reported as missing.
+//! Programs that tests need and cargo does not install. A missing one is installed with apt-get or reported.
 
 use crate::shell::{self, Outcome};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// A program of the system.
+/// A program that the system's package manager installs.
 pub struct Tool {
-    /// Names on the path; the first existing one is used.
+    /// Names of the executable. The first one that exists is used.
     pub programs: &'static [&'static str],
     /// Debian package that contains it.
     pub package: &'static str,
@@ -49,11 +49,11 @@ impl Tool {
         apt_get(&["update", "-qq"]);
         let packages = ["install", "-y", "-qq", "--no-install-recommends", self.package];
         if !apt_get(&packages) {
-            // An installation that was interrupted earlier blocks every later one until dpkg has finished it.
+            // If an earlier installation was interrupted, apt-get fails until dpkg has finished that installation.
             run_as_root("dpkg", &["--configure", "-a"]);
             apt_get(&packages);
         }
-        // Stops the broker that Debian starts on the usual port, because tests need that port.
+        // Debian starts a newly installed broker on the usual port. It is stopped, because tests need that port.
         if [MOSQUITTO.package, RABBITMQ.package].contains(&self.package) {
             let _ = as_root("service")
                 .args([self.package, "stop"])
@@ -68,7 +68,7 @@ fn apt_get(arguments: &[&str]) -> bool {
     run_as_root("apt-get", arguments)
 }
 
-/// Runs a program of Debian without questions; says on stderr if it fails.
+/// Runs a Debian program with root rights and without prompts. Returns whether it succeeded; a failure is printed.
 fn run_as_root(program: &str, arguments: &[&str]) -> bool {
     let mut command = as_root(program);
     command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive").stdout(Stdio::null());

@@ -1,11 +1,11 @@
-//! Files of the source tree.
+//! Lists and reads files of the source tree.
 
 use std::path::{Path, PathBuf};
 
-/// Folders with build outputs or history.
+/// Names of folders that are skipped: build outputs, packages and history.
 const SKIPPED: [&str; 5] = ["target", "node_modules", "dist", "generated", ".git"];
 
-/// Files under `folder` with one of these endings, sorted by path; build outputs are left out.
+/// Files under `folder` with one of these extensions, sorted by path. Folders of `SKIPPED` are left out.
 pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut left = vec![folder.to_path_buf()];
@@ -24,12 +24,12 @@ pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// A path below the root as findings print it.
+/// The path relative to `root`, as findings print it.
 pub fn shown<'a>(root: &Path, path: &'a Path) -> std::path::Display<'a> {
     path.strip_prefix(root).unwrap_or(path).display()
 }
 
-/// The files of the browser app with these endings and their texts, without those of tests.
+/// The files under `folder` with one of these extensions, each with its text. Test files (`.test.`) are left out.
 pub fn untested(folder: &Path, endings: &[&str]) -> Vec<(PathBuf, String)> {
     let paths = files(folder, endings).into_iter();
     let paths = paths.filter(|path| !path.to_string_lossy().contains(".test."));

@@ -3,9 +3,9 @@
 use crate::shell::{self, Outcome};
 use std::fmt::Write as _;
 
-/// Distance between robots in a row, metres: as in the original's world.
+/// Distance between the centres of robots in a row, metres, as in the original's world.
 const SPACING_M: f64 = 0.1;
-/// Distance from the wall to the centres of the first row, metres: as in the original's world.
+/// Distance from the wall to the centres of the first row, metres, as in the original's world.
 const EDGE_M: f64 = 0.2;
 
 /// A world to write.
@@ -14,12 +14,12 @@ struct World<'a> {
     proto: &'a str,
     robots: usize,
     floor_m: f64,
-    /// Whether robots lack proximity sensors, whose rays cost time even if they are not read.
+    /// Whether the robots have no proximity sensors, whose rays cost time even if they are not read.
     blind: bool,
 }
 
-/// Writes the worlds of the repository and builds the driver. `--robots N`, `--floor METRES` and `--blind` write one more
-/// world. `paces` plays shows in slow and pausing worlds instead.
+/// Writes the worlds of the repository and builds the driver. `--robots N`, `--floor METRES` and `--blind` add one more
+/// world. `paces` writes nothing and plays shows in slow and pausing worlds.
 pub fn run(arguments: &[String]) -> Outcome {
     if let Some(("paces", shows)) = arguments.split_first().map(|(first, rest)| (first.as_str(), rest)) {
         return paces(shows);
@@ -35,7 +35,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     place_driver()
 }
 
-/// Plays shows of `shows/` with the real driver at several speeds of the world, and prints a table.
+/// Plays shows of `shows/` with the real driver at several speeds of the simulation, and prints a table.
 fn paces(shows: &[String]) -> Outcome {
     let shows = if shows.is_empty() { PACED.join(",") } else { shows.join(",") };
     shell::cargo(&["build", "--package", "lightbots-server"])?;
@@ -43,16 +43,17 @@ fn paces(shows: &[String]) -> Outcome {
     shell::cargo_with(&test, &[("LIGHTBOTS_PACES", &shows)])
 }
 
-/// Shows in which robots pass each other closely.
+/// File names of the shows that `paces` plays by default. In them robots pass each other closely.
 const PACED: [&str; 2] = ["hello.json", "dancers.lightbots.json"];
 
-/// Worlds of the repository.
+/// The worlds in the repository.
 const STANDARD: [World<'_>; 2] = [
     World { file: "lightbots.wbt", proto: "LightBot", robots: 30, floor_m: 3.0, blind: false },
     World { file: "lightbots_elisa3.wbt", proto: "LightBotElisa3", robots: 30, floor_m: 3.0, blind: false },
 ];
 
-/// Number of robots, side of the floor in metres, and `blind` of one more world.
+/// Reads the number of robots, the side of the floor in metres, and `blind` of the additional world. `None` without
+/// arguments. An error names an unknown option, a wrong value, or a floor that is too small.
 fn wanted(arguments: &[String]) -> Outcome<Option<(usize, f64, bool)>> {
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
@@ -88,7 +89,8 @@ fn write(world: &World<'_>) -> Outcome {
     std::fs::write(&path, text(world)).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
-/// Places in rows along the front edge, each filled from the left. Robots face away from the viewer, as in the original.
+/// Centres of the robots in metres, in rows along the front edge, each filled from the left. Fewer than `robots` if the
+/// floor is full.
 fn places(robots: usize, floor_m: f64) -> Vec<(f64, f64)> {
     let in_row = (((floor_m - 2.0 * 0.05) / SPACING_M + 1e-9).floor() as usize + 1).max(1);
     let rows = ((floor_m - 2.0 * EDGE_M) / SPACING_M).max(0.0) as usize + 1;
@@ -158,7 +160,7 @@ fn floor(side_m: f64) -> String {
     text
 }
 
-/// Builds the driver and copies it to the folder in which Webots looks for the controller of the PROTOs.
+/// Builds the driver and copies it to the folder where Webots looks for the controller of the PROTOs.
 fn place_driver() -> Outcome {
     shell::cargo(&["build", "--release", "--package", "lightbots-webots"])?;
     let name = format!("LightBotFirmware{}", std::env::consts::EXE_SUFFIX);

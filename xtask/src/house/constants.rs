@@ -1,4 +1,4 @@
-//! Constants: whether each has a doc of its own, and whether that says where its value comes from.
+//! Constants: whether each has its own doc comment, and whether the doc says where the value comes from.
 
 use super::tree::string;
 use proc_macro2::{TokenStream, TokenTree};
@@ -12,22 +12,22 @@ pub struct Constant {
     pub name: String,
     /// Line of its name.
     pub line: usize,
-    /// Its doc, empty where it has none.
+    /// Its doc comment, empty if there is none.
     pub doc: String,
-    /// Whether its value holds a number other than 0. Texts and empty values have no source.
+    /// Whether its value contains a number other than 0. Strings, characters and booleans never count.
     pub numeric: bool,
-    /// Whether its value is calculated from other constants.
+    /// Whether its value is calculated from other constants: it mentions an upper-case name.
     pub derived: bool,
 }
 
 impl Constant {
-    /// Whether the doc or the value says where the value comes from.
+    /// Whether the doc names a source of the value, or the value is calculated from other constants.
     pub fn has_source(&self) -> bool {
         self.derived || names_source(&self.doc)
     }
 }
 
-/// All constants of a file, those of `impl` blocks included; `const _` is an assertion and is left out.
+/// All constants of a file, including those of `impl` blocks. `const _` is left out, because it is an assertion.
 pub fn constants(syntax: &syn::File) -> Vec<Constant> {
     let mut found = Found(Vec::new());
     found.visit_file(syntax);
@@ -87,7 +87,7 @@ fn doc(attributes: &[Attribute]) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Phrases that name a source: a paper, an equation, a data sheet, a standard, a measurement or a tuning run.
+/// Phrases that name a source: a paper, an equation, a data sheet, a standard, a page, a measurement or a tuning run.
 const SOURCES: [&str; 22] = [
     " et al",
     "equation",
@@ -124,25 +124,26 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|letter: char| !letter.is_alphanumeric() && letter != '_')
 }
 
-/// A name such as `GAP_M` in a doc: upper-case, with an underscore or at least five letters, and no word of the protocol.
+/// Whether a word of a doc is the name of a constant, such as `GAP_M`. It is upper-case, has an underscore or at
+/// least five letters, and is not a word of the protocol.
 fn is_constant_name(word: &str) -> bool {
     is_capital(word)
         && (word.contains('_') || word.len() > 4)
         && !["PROTO", "MQTT", "TARGET", "COLOR", "START", "RESUME", "STATUS", "BLINK"].contains(&word)
 }
 
-/// At least two upper-case letters, digits and underscores: the name of a constant, in code.
+/// Whether a word consists of at least two upper-case letters, digits and underscores, and begins with a letter.
 fn is_capital(word: &str) -> bool {
     let capital = |letter: char| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_';
     word.len() > 1 && word.starts_with(|first: char| first.is_ascii_uppercase()) && word.chars().all(capital)
 }
 
-/// A rule of docs/protocol.md, such as `R49`.
+/// Whether a word names a rule of docs/protocol.md, such as `R49`. Only one or two digits count.
 fn is_rule(word: &str) -> bool {
     word.strip_prefix('R').is_some_and(|number| number.len() < 3 && number.parse::<u8>().is_ok())
 }
 
-/// Whether a word is a year from 1950 to 2049, as of a publication or measurement.
+/// Whether a word is a year from 1950 to 2049, such as that of a publication or measurement.
 fn is_year(word: &str) -> bool {
     word.len() == 4 && word.parse::<u16>().is_ok_and(|year| (1950..2050).contains(&year))
 }

@@ -1,19 +1,19 @@
-//! Doc comments: long sentences, and words that stand where a noun or a symbol belongs.
+//! Doc comments: long sentences, words for persons, and vague measures.
 
-/// A place in a file and the text there.
+/// A line number in a file, and text found there.
 pub struct Place {
     /// Line, from 1.
     pub line: usize,
-    /// The line or sentence.
+    /// The line of the doc comment, or the sentence that begins on it.
     pub text: String,
 }
 
-/// Words of a person, said of robots and values.
+/// Words for persons, which should not stand for robots and values.
 const PERSONS: [&str; 6] = ["who", "whom", "whoever", "nobody", "everybody", "somebody"];
-/// Words that "so" stands before instead of a symbol.
+/// Words that make a vague measure after "so", where the doc should name a symbol.
 const MEASURES: [&str; 7] = ["many", "much", "far", "often", "long", "near", "badly"];
 
-/// Doc lines with a word of a person.
+/// Doc lines that contain a word for a person.
 pub fn persons(text: &str) -> Vec<Place> {
     lines_where(text, |words| words.iter().any(|word| PERSONS.contains(&word.as_str())))
 }
@@ -38,7 +38,7 @@ fn lines_where(text: &str, holds: impl Fn(&[String]) -> bool) -> Vec<Place> {
     found.map(|(line, text)| Place { line, text: text.trim().to_owned() }).collect()
 }
 
-/// What a doc comment's line says, without its slashes.
+/// The text of a doc comment's line without its slashes. `None` for other lines.
 fn doc_text(line: &str) -> Option<&str> {
     let line = line.trim_start();
     let text = line.strip_prefix("///").or_else(|| line.strip_prefix("//!"))?;
@@ -66,7 +66,7 @@ fn word_count(sentence: &str) -> usize {
 #[derive(Default)]
 struct Sentences {
     done: Vec<Place>,
-    /// The sentence that is not finished.
+    /// The sentence that has not ended yet.
     open: Option<Place>,
     in_code: bool,
 }

@@ -13,7 +13,7 @@ pub struct Function {
     pub lines: usize,
 }
 
-/// All functions of a file, methods and nested functions included.
+/// All functions of a file that have a body, including methods and nested functions.
 pub fn functions(syntax: &syn::File) -> Vec<Function> {
     let mut found = Found(Vec::new());
     found.visit_file(syntax);

@@ -8,7 +8,7 @@ pub struct Measure {
     pub about: &'static str,
     /// The count.
     pub count: usize,
-    /// One line per counted thing, `path:line: text`; empty where places would say nothing.
+    /// One line per counted thing, `path:line: text`. Empty if the measure lists no places.
     pub places: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! `cargo xtask house`: figures about the source tree that show how easy it is to read.
+//! `cargo xtask house`: counts that show how easy the source tree is to read.
 
 mod constants;
 mod docs;
@@ -16,9 +16,9 @@ use tree::Source;
 
 /// Most words in a sentence of a doc comment, because a reader should need to read it only once.
 const SENTENCE_WORDS_MAX: usize = 25;
-/// Most lines of a function that fits on one screen.
+/// Most lines of a function that fits on one screen; a chosen limit.
 const SCREEN_LINES: usize = 40;
-/// Most lines of a function; `tidy` reports longer ones.
+/// Most lines of a function. `tidy` reports longer ones as findings.
 pub const FUNCTION_LINES_MAX: usize = 70;
 
 /// Text of `--help`.
@@ -41,7 +41,7 @@ struct Options {
     list: Option<String>,
 }
 
-/// Counts and prints.
+/// Counts, and prints a table, JSON, or the places of one row.
 pub fn run(arguments: &[String]) -> Outcome {
     let options = parse(arguments)?;
     if options.help {
@@ -196,7 +196,7 @@ fn doc_measures(sources: &[Source]) -> Vec<Measure> {
     ]
 }
 
-/// Hooks in the robot core that only serve the simulator's cache.
+/// Counts code in the robot core that serves only the simulator's cache: `fetch` functions and `repr(C)`.
 fn cache_hooks(sources: &[Source]) -> Measure {
     let robot = sources.iter().filter(|source| source.krate() == "crates/robot");
     let lines = robot

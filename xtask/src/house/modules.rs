@@ -1,7 +1,7 @@
-//! Which file of a crate uses which other, and circles among them.
+//! Which file of a crate uses which other file, and circles of files that use each other.
 //!
-//! A file uses another file if a path in its code leads to an item there. It also uses a file that holds a method of the
-//! same type, if it calls that method on `self`. Paths are followed through imports to the item's own file. Neither a
+//! A file uses another file if a path in its code leads to an item there. It also uses a file that holds a method of
+//! its type, if it calls that method on `self`. Paths are followed through imports to the item's own file. Neither a
 //! re-export alone nor the declaration of a module is a use.
 
 use super::modules_scope::{Scope, Scopes, import_paths};
@@ -11,14 +11,15 @@ use quote::ToTokens;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::{ImplItem, Item, ItemMod, Visibility};
 
-/// A name in the code, one or more segments long.
+/// A path in the code, split at `::` into one or more segments.
 type NamePath = Vec<String>;
-/// A file and the names that lead to it.
+/// A used file, and the path that leads to it.
 type Use = (String, String);
-/// For each file, the files it uses and one name that leads there.
+/// For each file, the files that it uses, each with one path that leads there.
 type Edges = BTreeMap<String, BTreeMap<String, String>>;
 
-/// Circles of files in each crate: each is the sorted paths of files that use each other, directly or over others.
+/// Circles of files in each crate. A circle is the sorted paths of files that use each other, directly or through
+/// others.
 pub fn circles(sources: &[Source]) -> Vec<Vec<String>> {
     let mut crates: BTreeMap<&str, Vec<&Source>> = BTreeMap::new();
     for source in sources {
@@ -27,7 +28,7 @@ pub fn circles(sources: &[Source]) -> Vec<Vec<String>> {
     crates.values().flat_map(|files| components(&edges(files))).collect()
 }
 
-/// Each use inside these circles: `file uses file: name`.
+/// Each use of one file by another inside these circles, as `file uses file: path`.
 pub fn circle_edges(sources: &[Source], circles: &[Vec<String>]) -> Vec<String> {
     let mut found = Vec::new();
     for circle in circles {
@@ -41,7 +42,7 @@ pub fn circle_edges(sources: &[Source], circles: &[Vec<String>]) -> Vec<String> 
     found
 }
 
-/// The edges between files of one crate.
+/// The uses between files of one crate.
 fn edges(files: &[&Source]) -> Edges {
     let scopes = Scopes::of(files);
     let methods = inherent_methods(files);
@@ -60,7 +61,7 @@ fn edges(files: &[&Source]) -> Edges {
     edges
 }
 
-/// Files of what private imports bring in. Re-exports count only where the file itself mentions the name.
+/// The files that private imports lead to. A re-export counts only if the file itself mentions the name.
 fn imported(items: &[Item], scope: &Scope, scopes: &Scopes) -> Vec<Use> {
     let mut used = Vec::new();
     for item in items {
@@ -82,7 +83,7 @@ fn used_by(scope: &Scope, path: &NamePath, scopes: &Scopes) -> Option<Use> {
     Some((scopes.item_file(scope, path)?, path.join("::")))
 }
 
-/// Files of the items that paths in the code of this item lead to.
+/// The files that paths in the code of this item lead to.
 fn mentioned(item: &Item, scope: &Scope, scopes: &Scopes) -> Vec<Use> {
     if matches!(item, Item::Use(_)) {
         return Vec::new();
@@ -92,7 +93,8 @@ fn mentioned(item: &Item, scope: &Scope, scopes: &Scopes) -> Vec<Use> {
     paths.iter().filter_map(|path| used_by(scope, path, scopes)).collect()
 }
 
-/// All paths `a::b::c` and single names of these tokens. What stands behind a dot is a field or a method.
+/// Collects all paths `a::b::c` and single names of these tokens. A name behind a dot is left out: it is a field or
+/// method.
 fn collect_paths(tokens: TokenStream, paths: &mut BTreeSet<NamePath>) {
     let (mut path, mut colons, mut after_dot): (NamePath, usize, bool) = (Vec::new(), 0, false);
     for token in tokens {
@@ -129,7 +131,7 @@ fn finish(path: &mut NamePath, paths: &mut BTreeSet<NamePath>) {
     }
 }
 
-/// `(type, method)` → files that hold this method in an inherent `impl` block.
+/// Files that hold a method in an inherent `impl` block, by type and method name.
 type Methods = BTreeMap<(String, String), BTreeSet<String>>;
 
 fn inherent_methods(files: &[&Source]) -> Methods {
@@ -159,7 +161,8 @@ fn implementer(block: &syn::ItemImpl) -> Option<String> {
     kind.path.segments.last().map(|segment| segment.ident.to_string())
 }
 
-/// Files of the methods that an `impl` block calls on `self`, where only one file has a method of that name.
+/// The files of the methods that an `impl` block calls on `self`. A method counts if only one file has one of that
+/// name.
 fn called(item: &Item, methods: &Methods) -> Vec<Use> {
     let Item::Impl(block) = item else { return Vec::new() };
     let Some(kind) = implementer(block) else { return Vec::new() };
@@ -206,7 +209,7 @@ fn components(edges: &Edges) -> Vec<Vec<String>> {
     found.into_iter().collect()
 }
 
-/// All files that `from` uses, directly or over others.
+/// All files that `from` uses, directly or through others.
 fn reach<'a>(edges: &'a Edges, from: &String) -> BTreeSet<&'a String> {
     let mut found = BTreeSet::new();
     let mut left: Vec<&String> = edges[from].keys().collect();

@@ -1,25 +1,25 @@
-//! Names of a crate's modules: which file an item of a path stands in.
+//! Resolves paths in the code of a crate: in which file the item of a path stands.
 
 use super::tree::{Source, path_attribute};
 use std::collections::{BTreeMap, BTreeSet};
 use syn::{Ident, Item, ItemMod, UseTree};
 
-/// Imports followed at most from one path to its item, so that imports in a circle end.
+/// Most steps of one resolution, path segments and imports. A bound is needed because imports can form a circle.
 const DEPTH_MAX: usize = 12;
 
-/// A path and the name it gets by an import; `*` for all names.
+/// A path and the name that an import gives it. The name `*` imports all names.
 type Import = (Vec<String>, String);
 
-/// What is known of one file's module.
+/// The names that the module of one file defines and imports.
 pub struct Scope {
     file: String,
-    /// Path of the module from the crate's root.
+    /// Path of the module from the root of the crate.
     module: Vec<String>,
-    /// Names of the items that stand in the file.
+    /// Names of the items that the file defines.
     items: BTreeSet<String>,
-    /// Imported names and the paths they stand for.
+    /// The path that each imported name stands for.
     imports: BTreeMap<String, Vec<String>>,
-    /// Paths of modules that all names are imported from.
+    /// Paths of modules from which all names are imported.
     globs: Vec<Vec<String>>,
 }
 
@@ -35,7 +35,7 @@ enum Target<'a> {
 }
 
 impl Scopes {
-    /// The modules of these files of one crate.
+    /// Builds the modules of these files, which belong to one crate.
     pub fn of(files: &[&Source]) -> Self {
         let renamed = renamed_files(files);
         let (mut by_module, mut by_file) = (BTreeMap::new(), BTreeMap::new());
@@ -52,8 +52,8 @@ impl Scopes {
         &self.by_module[&self.by_file[path]]
     }
 
-    /// The file of the item that this path leads to from a module. `None` for a module, a name from outside the crate, or
-    /// a variable.
+    /// The file of the item that this path leads to from the module `from`. `None` if the path leads to a module, out
+    /// of the crate, or to a variable.
     pub fn item_file(&self, from: &Scope, path: &[String]) -> Option<String> {
         match self.resolve(from, path, DEPTH_MAX)? {
             Target::Item(scope) => Some(scope.file.clone()),
@@ -92,7 +92,8 @@ impl Scopes {
         })
     }
 
-    /// The target of an import. `use plan::plan` names a child module first, and the import itself only if there is none.
+    /// The target of an import. In `use plan::plan` the first name is a child module; without one, the name would mean
+    /// the import itself, and the target is `None`.
     fn resolve_import<'a>(
         &'a self,
         from: &'a Scope,
@@ -148,7 +149,7 @@ impl Scope {
     }
 }
 
-/// Each path of a `use` tree and the name it gets; `*` for all names.
+/// Each path of a `use` tree and the name it gets. The name `*` imports all names.
 pub fn import_paths(tree: &UseTree) -> Vec<Import> {
     match tree {
         UseTree::Path(path) => prefixed(&path.ident, import_paths(&path.tree)),
@@ -188,7 +189,8 @@ fn item_name(item: &Item) -> Option<String> {
     Some(name.to_string())
 }
 
-/// The module of a file by its place. A `main.rs` beside a `lib.rs` is a crate of its own: no path leads to it.
+/// The module path of a file, from its place in `src`. A `main.rs` beside a `lib.rs` is a separate crate: no path leads
+/// to it.
 fn module_path(path: &str, files: &[&Source]) -> Vec<String> {
     let inside = path.split_once("/src/").map_or(path, |(_, inside)| inside);
     let has_lib = files.iter().any(|file| file.path.ends_with("/src/lib.rs"));
@@ -203,7 +205,7 @@ fn module_path(path: &str, files: &[&Source]) -> Vec<String> {
     parts
 }
 
-/// Modules of files whose place a `#[path]` attribute names.
+/// Module paths of the files that a `#[path]` attribute names, by file.
 fn renamed_files(files: &[&Source]) -> BTreeMap<String, Vec<String>> {
     let mut renamed = BTreeMap::new();
     for file in files {

@@ -1,11 +1,12 @@
-//! Types that are visible outside their file: names with two meanings, and the public fields of the largest struct of
+//! Types that are visible outside their file: names with two meanings. Also the public fields of the largest struct of
 //! each crate.
 
 use super::tree::Source;
 use std::collections::BTreeMap;
 use syn::{Ident, Item, ItemMod, Visibility};
 
-/// Each type name, public or `pub(…)`, that stands in more than one place of `crates/*/src`, with `path:line` of all places.
+/// Type names that are defined in more than one place of the crates, each with `path:line` of all places. Private types
+/// do not count.
 pub fn doubled(sources: &[Source]) -> BTreeMap<String, Vec<String>> {
     let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for source in sources.iter().filter(|source| source.path.starts_with("crates/")) {
@@ -39,7 +40,7 @@ fn public_types(items: &[Item]) -> Vec<&Ident> {
     found
 }
 
-/// The struct of each crate that has most public fields: `(crate, struct, fields)`.
+/// The struct with the most public fields of each crate, as `(crate, struct, fields)`.
 pub fn largest_structs(sources: &[Source]) -> Vec<(String, String, usize)> {
     let mut largest: BTreeMap<&str, (String, usize)> = BTreeMap::new();
     for source in sources {

@@ -1,4 +1,4 @@
-//! The parsed source files of a tree.
+//! Reads and parses the source files of a tree.
 
 use crate::walk::files;
 use std::collections::BTreeSet;
@@ -9,9 +9,9 @@ use syn::{Attribute, Item, ItemMod};
 pub struct Source {
     /// Path below the root of the tree, with `/` between folders.
     pub path: String,
-    /// Whole text, tests included.
+    /// The whole text, including tests.
     pub text: String,
-    /// Syntax without test modules; empty for a file that holds only tests.
+    /// The syntax tree without test modules. Empty for a file that holds only tests.
     pub syntax: syn::File,
 }
 
@@ -22,7 +22,7 @@ impl Source {
     }
 }
 
-/// All source files of the tree in order of their paths, and one message for each file that cannot be parsed.
+/// All source files of the tree in the order of their paths, and one message for each file that cannot be parsed.
 pub fn read(root: &Path) -> (Vec<Source>, Vec<String>) {
     let (mut sources, mut broken, mut tests) = (Vec::new(), Vec::new(), BTreeSet::new());
     for file in source_files(root) {
@@ -59,13 +59,13 @@ fn relative(root: &Path, file: &Path) -> String {
     parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
 }
 
-/// Folder in which the child modules of a file lie.
+/// The folder that holds the child modules of a file.
 pub fn children_folder(path: &str) -> &str {
     let stem = path.strip_suffix(".rs").unwrap_or(path);
     ["/mod", "/lib", "/main"].iter().find_map(|root| stem.strip_suffix(root)).unwrap_or(stem)
 }
 
-/// Beginnings of the paths of all files that `#[cfg(test)] mod name;` names.
+/// Path prefixes of all files that `#[cfg(test)] mod name;` declares in this file.
 fn test_files(path: &str, syntax: &syn::File) -> Vec<String> {
     let modules = syntax.items.iter().filter_map(|item| match item {
         Item::Mod(module) if module.content.is_none() && is_test(&module.attrs) => Some(module),
@@ -87,7 +87,7 @@ fn places(path: &str, module: &ItemMod) -> Vec<String> {
     }
 }
 
-/// Value of `#[path = "…"]`.
+/// The value of `#[path = "..."]`, if there is such an attribute.
 pub fn path_attribute(attributes: &[Attribute]) -> Option<String> {
     attributes.iter().filter(|attribute| attribute.path().is_ident("path")).find_map(|attribute| {
         let syn::Meta::NameValue(pair) = &attribute.meta else { return None };
@@ -95,7 +95,7 @@ pub fn path_attribute(attributes: &[Attribute]) -> Option<String> {
     })
 }
 
-/// Value of a string literal.
+/// The value of an expression that is a string literal, otherwise `None`.
 pub fn string(value: &syn::Expr) -> Option<String> {
     match value {
         syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) => Some(text.value()),
@@ -103,7 +103,7 @@ pub fn string(value: &syn::Expr) -> Option<String> {
     }
 }
 
-/// Whether an item is compiled for tests only.
+/// Whether an item has the attribute `#[test]` or `#[cfg(test)]`.
 pub fn is_test(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         let tokens = || attribute.meta.require_list().map(|list| list.tokens.to_string());

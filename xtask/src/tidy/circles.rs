@@ -1,9 +1,9 @@
-//! No file of a crate uses itself over others, so that each can be read after those it uses.
+//! Checks that the files of a crate form no circle of uses, so that each can be read after those it uses.
 
 use crate::house::modules::circles;
 use crate::house::tree::Source;
 
-/// Every crate with files in circles.
+/// One line for each crate with circles of files.
 pub fn findings(sources: &[Source]) -> Vec<String> {
     let mut crates: Vec<&str> = sources.iter().map(Source::krate).collect();
     crates.dedup();

@@ -1,9 +1,9 @@
-//! Allowed dependencies between crates.
+//! Checks the dependencies between crates of the workspace.
 
 use super::{files, shown};
 use std::path::Path;
 
-/// Crates of this workspace that each crate may use. Tests may use more.
+/// The crates of this workspace that each crate may use. Its tests may use more.
 const EDGES: [(&str, &[&str]); 23] = [
     ("base", &[]),
     ("wire", &["base"]),
@@ -36,7 +36,7 @@ const EDGES: [(&str, &[&str]); 23] = [
     ),
 ];
 
-/// All forbidden dependencies.
+/// All dependencies that `EDGES` does not allow.
 pub fn findings(root: &Path) -> Vec<String> {
     let manifests = files(&root.join("crates"), &["toml"]);
     manifests

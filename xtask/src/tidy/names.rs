@@ -1,9 +1,9 @@
-//! A type name has one meaning in the whole repository.
+//! Checks that a type name has one meaning in the whole repository.
 
 use crate::house::names::doubled;
 use crate::house::tree::Source;
 
-/// Names that may stand in more than one place, and in how many at most.
+/// Names that may be defined in more than one place, and in how many places at most.
 const EXCEPTIONS: [(&str, usize); 10] = [
     ("Abilities", 2),
     ("Choice", 2),
@@ -17,7 +17,7 @@ const EXCEPTIONS: [(&str, usize); 10] = [
     ("Transition", 2),
 ];
 
-/// Every type name with two meanings.
+/// Every type name that is defined in more places than it may be.
 pub fn findings(sources: &[Source]) -> Vec<String> {
     let wrong = doubled(sources).into_iter().filter(|(name, places)| places.len() > meanings_max(name));
     wrong

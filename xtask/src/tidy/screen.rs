@@ -1,10 +1,10 @@
-//! Imports between the files of the browser app: between folders they point one way, and files form no circle.
+//! Checks imports between files of the browser app: between folders they point one way, and files form no circle.
 
 use super::{shown, untested};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-/// The folders of `ui/src` that the files of each folder may import; every folder may import itself. Files directly in
+/// The folders of `ui/src` that the files of each folder may import. Every folder may import itself. Files directly in
 /// `ui/src` put the app together and may import every folder. Tests may import more.
 const EDGES: [(&str, &[&str]); 16] = [
     ("base", &[]),
@@ -28,10 +28,10 @@ const EDGES: [(&str, &[&str]); 16] = [
     ("start", &["base", "api", "model", "make", "stage", "session", "parts"]),
 ];
 
-/// The imports of each file, both relative to `ui/src`.
+/// The files that each file imports. All paths are relative to `ui/src`.
 type Imports = BTreeMap<PathBuf, BTreeSet<PathBuf>>;
 
-/// Every import against the direction of the folders, and every circle of files.
+/// Every import that `EDGES` does not allow, and every circle of files.
 pub fn findings(root: &Path) -> Vec<String> {
     let source = root.join("ui/src");
     let sources: BTreeMap<PathBuf, String> = untested(&source, &["ts", "tsx"])
@@ -65,7 +65,7 @@ fn imports_of(sources: &BTreeMap<PathBuf, String>) -> Imports {
         .collect()
 }
 
-/// The relative paths that a text imports: in quotes after `from`, `import` or `import(`, beginning with a dot.
+/// The relative paths that a text imports: in single quotes after `from`, `import` or `import(`, beginning with a dot.
 fn relative_imports(text: &str) -> impl Iterator<Item = &str> {
     ["from '.", "import '.", "import('."].into_iter().flat_map(move |start| {
         text.match_indices(start).filter_map(move |(at, _)| {
@@ -75,7 +75,7 @@ fn relative_imports(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The imported path without `.` and `..`, relative to what the importing path is relative to.
+/// The path of an imported file without `.` and `..`. Its base folder is that of the path `importer`.
 pub fn resolved(importer: &Path, import: &str) -> PathBuf {
     let mut path = importer.parent().unwrap_or(Path::new("")).to_path_buf();
     for component in Path::new(import).components() {
@@ -90,7 +90,7 @@ pub fn resolved(importer: &Path, import: &str) -> PathBuf {
     path
 }
 
-/// The first folder of a path; none for a file directly in `ui/src`.
+/// The first folder of a path. `None` for a file directly in `ui/src`.
 fn folder(path: &Path) -> Option<&str> {
     let folder = path.parent()?.iter().next()?;
     folder.to_str()
@@ -117,7 +117,7 @@ fn circles(imports: &Imports) -> Vec<String> {
         .keys()
         .filter_map(|file| {
             let chain = way_back(imports, file)?;
-            // The first file of a circle, in order of names, stands for the circle.
+            // A circle is reported once, for the first of its files in order of names.
             (chain.iter().min() == Some(file)).then(|| {
                 let names: Vec<_> =
                     chain.iter().chain([file]).map(|file| file.display().to_string()).collect();

@@ -1,16 +1,16 @@
-//! Files and functions stay small enough to be read.
+//! Checks that files and functions are short enough to be read.
 
 use super::{files, shown};
 use crate::house::FUNCTION_LINES_MAX;
 use crate::house::functions::{Function, functions};
 use std::path::Path;
 
-/// Lines of a Rust or TypeScript file, at most.
+/// Most lines of a Rust or TypeScript file.
 const SOURCE_LINES_MAX: usize = 600;
-/// Lines of a file with UI components, at most.
+/// Most lines of a file with UI components (`.tsx`).
 const COMPONENT_LINES_MAX: usize = 150;
 
-/// Every file and Rust function that is too long. Generated files are not read by people.
+/// Every file and Rust function that is too long. Generated files are exempt.
 pub fn findings(root: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for path in files(root, &["rs", "ts", "tsx"]) {

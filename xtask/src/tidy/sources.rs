@@ -1,4 +1,4 @@
-//! Cores use no clocks, sockets, files, threads or random sources.
+//! Checks that cores use no clocks, sockets, files, threads or random sources.
 
 use super::{files, shown};
 use std::path::Path;
@@ -6,9 +6,9 @@ use std::path::Path;
 /// Crates without IO.
 const CORES: [&str; 11] =
     ["base", "wire", "show", "draw", "light", "make", "plan", "exchange", "robot", "control", "sim"];
-/// Crates for microcontrollers.
+/// Crates that must be `no_std`, because they run on microcontrollers.
 const NO_STD: [&str; 3] = ["base", "wire", "robot"];
-/// Names that must not appear in a core.
+/// Text that must not appear in a core.
 const ABSENT: [&str; 8] = [
     "std::time::",
     "std::net",
@@ -20,7 +20,7 @@ const ABSENT: [&str; 8] = [
     "RandomState",
 ];
 
-/// All lines of cores that use something forbidden.
+/// All lines of cores that contain text of `ABSENT`, and crates of `NO_STD` without `no_std`.
 pub fn findings(root: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for core in CORES {

@@ -1,15 +1,16 @@
-//! Styles of the browser app: colours stand in one place, and components use exactly the classes beside them.
+//! Checks styles of the browser app: colours are defined in one place, and components use exactly the classes beside
+//! them.
 
 use super::{shown, untested};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Files of `ui/src` that write colours: the tokens, and the same colours for canvases.
+/// Files of `ui/src` that may contain colours: the design tokens, and the same colours for canvases.
 const WITH_COLOURS: [&str; 2] = ["style/tokens.css", "stage/palette.ts"];
 
 const MODULE: &str = ".module.css";
 
-/// Every colour outside the tokens, and every class that is only used or only defined.
+/// Every colour outside `WITH_COLOURS`, every class that is used but not defined, and every class without a use.
 pub fn findings(root: &Path) -> Vec<String> {
     let source = root.join("ui/src");
     let texts = untested(&source, &["css", "ts", "tsx"]);
@@ -39,13 +40,13 @@ fn colours_in(place: &str, text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Whether `start` is followed by at least three hexadecimal digits.
+/// Whether at least three hexadecimal digits follow `start` somewhere in the line.
 fn has_hex(line: &str, start: &str) -> bool {
     line.match_indices(start)
         .any(|(at, _)| line[at + start.len()..].chars().take_while(char::is_ascii_hexdigit).count() >= 3)
 }
 
-/// The classes in the selectors of a style sheet, but for those in `:global(…)`.
+/// The classes in the selectors of a style sheet, except those in `:global(...)`.
 fn classes(text: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for selector in text.split('{').filter_map(|part| part.rsplit(['}', ';', '/']).next()) {
@@ -59,7 +60,7 @@ fn classes(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// The letters and digits that a text begins with.
+/// The ASCII letters and digits that a text begins with.
 fn identifier(text: &str) -> String {
     text.chars().take_while(char::is_ascii_alphanumeric).collect()
 }
@@ -93,7 +94,7 @@ fn wrong_classes(
     wrong
 }
 
-/// The name and the file of each style sheet that a component imports.
+/// The variable and the path of each style sheet that a component imports.
 fn imported_modules(path: &Path, text: &str) -> Vec<(String, PathBuf)> {
     text.lines()
         .filter_map(|line| {
@@ -104,7 +105,7 @@ fn imported_modules(path: &Path, text: &str) -> Vec<(String, PathBuf)> {
         .collect()
 }
 
-/// The classes that a component takes from a style sheet of this name.
+/// The classes that a component uses of the style sheet that it imports under this name.
 fn uses(text: &str, name: &str) -> BTreeSet<String> {
     let start = format!("{name}.");
     let lines = text.lines().filter(|line| !line.starts_with("import "));

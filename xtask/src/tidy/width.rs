@@ -1,12 +1,12 @@
-//! Lines fit into a window. rustfmt breaks code, but neither comments nor texts.
+//! Checks the length of lines. rustfmt breaks code, but neither comments nor texts.
 
 use super::{files, shown};
 use std::path::Path;
 
-/// Characters of a line, at most. Lines with a text in quotes may be longer, as may tables and links of pages.
+/// Most characters of a line. Code lines with a text in quotes may be longer.
 const LINE_CHARACTERS_MAX: usize = 125;
 
-/// Every line of Rust and TypeScript that is too wide.
+/// Every line of Rust and TypeScript that is too long.
 pub fn findings(root: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for path in files(root, &["rs", "ts", "tsx"]) {
