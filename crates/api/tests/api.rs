@@ -1,4 +1,4 @@
-//! The TypeScript file is current, and JSON messages fit its types.
+//! Checks that the TypeScript file is current, and that JSON messages fit its types.
 
 use lightbots_api::{Answer, FromScreen, Missing, Operation, Request, RobotStatus, ToScreen, typescript};
 

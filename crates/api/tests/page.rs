@@ -1,4 +1,4 @@
-//! `docs/api.md` is current.
+//! Checks that `docs/api.md` is current.
 
 #[path = "../examples/page/generate.rs"]
 mod generate;

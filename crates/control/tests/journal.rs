@@ -1,4 +1,4 @@
-//! Journals of runs: what they say at each moment, and what is left of them after any damage.
+//! Journals of runs: what can be read from them at each moment, and from a journal with any damage.
 
 mod fleet;
 
@@ -6,7 +6,8 @@ use fleet::{World, show};
 use lightbots_base::Span;
 use lightbots_control::{EventKind, JournalError, Operation, RunOutcome, UnfinishedRun};
 
-/// A run of three robots with a pause and a dropout, and what its journal said after each piece.
+/// A run of three robots with a pause and a dropout, and the unfinished run that was read after each piece of the
+/// journal.
 fn written_run() -> (World, Vec<Option<UnfinishedRun>>) {
     let mut world = World::ready(3, 0, show(3, 3, 0.4));
     world.controller.keep_journal();
@@ -88,7 +89,7 @@ fn a_journal_stays_small_while_a_show_loops() {
     let mut frames_before = 0;
     world.run_for(20.0);
     let first = world.journal.len();
-    // A piece that was lost: the journal begins again, with the same run.
+    // After a lost piece the journal begins again, with the same run.
     world.controller.begin_journal_again();
     world.run_for(3.0);
     assert!(world.journal.len() < first, "{} bytes after {first}", world.journal.len());

@@ -1,4 +1,4 @@
-//! The operator goes to another frame than the next one, or skips one.
+//! The operator goes to a frame other than the next one, or skips a frame.
 
 mod fleet;
 
@@ -12,7 +12,7 @@ use lightbots_wire::LightAnchor;
 
 const CONTACT_M: f64 = 0.054;
 
-/// A show each of whose frames waits for GO.
+/// A show in which every frame waits for GO.
 fn waiting(frames: usize, robots: usize) -> Show {
     let mut show = show(frames, robots, 0.3);
     for (number, frame) in show.frames.iter_mut().enumerate() {
@@ -26,13 +26,13 @@ fn waiting(frames: usize, robots: usize) -> Show {
     show
 }
 
-/// The frame that stands or is driven to, and the one after it.
+/// The frame that robots have reached or drive to, and the frame after it.
 fn now_and_next(world: &World) -> (usize, Option<usize>) {
     let run = world.controller.snapshot(world.now).run.expect("a show is played");
     (run.frame, run.next)
 }
 
-/// A walk over a complete graph of `frames` that passes each of its edges, and each loop, once.
+/// A walk over the complete graph of `frames`, self-loops included, that uses each directed edge once.
 fn each_to_each(frames: usize) -> Vec<usize> {
     let mut left: Vec<Vec<usize>> = (0..frames).map(|_| (0..frames).collect()).collect();
     let (mut path, mut walk) = (vec![0], Vec::new());
@@ -86,7 +86,7 @@ fn robots_that_are_held_on_their_way_go_to_each_frame() {
             world.run_until(30.0, reached(number - 1));
             world.run_until(30.0, started);
             world.loss = loss;
-            // A pause in the last 0.3 s of a drive comes too late: it ends.
+            // A pause in the last 0.3 s of a drive has no effect: the drive ends first.
             world.run_for(0.3 + 0.15 * to as f64);
             world.operate(Operation::Pause).unwrap();
             world.run_for(if to % 2 == 0 { 0.0 } else { 3.0 });
@@ -255,7 +255,7 @@ fn robots_that_know_target_only_go_to_other_frames() {
     }
 }
 
-/// Pulses over the second to the last frame: their moment is that of the second frame.
+/// A show with pulses from the second frame to the last one. Their time counts from the second frame.
 fn pulses(robots: usize) -> Show {
     let span = LayerSpan::Frames { first: "f1".into(), last: "f4".into(), phase: Default::default() };
     let settings = vec![("speed_hz".to_owned(), Setting::Number(0.11))];
@@ -265,7 +265,7 @@ fn pulses(robots: usize) -> Show {
 
 #[test]
 fn layers_go_on_at_the_show_time_of_the_frame() {
-    // Colours as the frame stood for half a second.
+    // Colours 0.8 s after the frame was reached.
     let shown = |world: &mut World, frame: usize| {
         let at = world.run_until(60.0, reached(frame)).at;
         world.run_for(1.0);

@@ -1,4 +1,4 @@
-//! Light of shows with layers: what is sent to robots, and how often.
+//! Light of shows with layers: which messages robots get, and how often.
 
 mod fleet;
 
@@ -8,7 +8,7 @@ use lightbots_control::{EventKind, Operation};
 use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, Show};
 use lightbots_wire::{LightAnchor, LightStretch};
 
-/// A rainbow runs over the whole show; its second frame waits for GO.
+/// A show with a rainbow over its whole length. The second frame waits for GO.
 fn rainbow(robots: usize) -> Show {
     let settings = vec![("speed_hz".to_owned(), Setting::Number(0.5))];
     let layer = Layer { name: String::new(), kind: "rainbow".into(), span: LayerSpan::Show, settings };
@@ -19,7 +19,7 @@ fn rainbow(robots: usize) -> Show {
     show
 }
 
-/// The stretches of the first robot since it had `count`.
+/// The stretches that the first robot received after its first `count`.
 fn since(world: &World, count: usize) -> &[LightStretch] {
     &world.robots[0].stretches[count..]
 }
@@ -83,13 +83,13 @@ fn live(name: &str, colour: Option<&str>) -> Operation {
     Operation::LiveLight { name: name.into(), layer: colour.map(solid) }
 }
 
-/// The colour in which a stretch ends.
+/// The colour at the end of a stretch.
 fn last(stretch: &LightStretch) -> Rgb {
     let track = stretch.track();
     lightbots_base::LightCursor::default().at(track, track.duration())
 }
 
-/// The live lights that are on, as a screen shows them.
+/// The live lights that are on, as the snapshot for screens lists them.
 fn on(world: &World) -> Vec<String> {
     world.controller.snapshot(world.now).run.map(|run| run.live_light).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The light of a plan, which the editor shows, is that of its run.
+//! The light that the editor computes from a plan equals the light of that plan's run.
 
 mod fleet;
 
@@ -9,10 +9,10 @@ use lightbots_plan::ShowOptions;
 use lightbots_show::{FramePhase, Layer, LayerSpan, Setting, Show};
 
 const ROBOTS: usize = 9;
-/// How far the two may be apart in time.
+/// Largest difference in time between the two lights, milliseconds.
 const IN_TIME_MS: i64 = 25;
 
-/// Six layers that move, in drives, in pictures and over the whole show. Some go by the number of a robot.
+/// A show with six moving layers: in drives, in pictures and over the whole show. Some use the robot's number.
 fn lit() -> Show {
     let mut show = show(4, ROBOTS, 3.0);
     for (number, frame) in show.frames.iter_mut().enumerate() {
@@ -35,7 +35,7 @@ fn lit() -> Show {
     show
 }
 
-/// A planned show, asked as the editor asks.
+/// A planned show, from which colours are computed as in the editor.
 struct Planned<'a> {
     light: ShowLight,
     frames: Vec<LitFrame<'a>>,
@@ -43,7 +43,7 @@ struct Planned<'a> {
 }
 
 impl Planned<'_> {
-    /// The colour of a robot some time after the drive to a frame began.
+    /// The colour of a robot `elapsed` after the drive to a frame began.
     fn colour(&self, robot: usize, frame: usize, elapsed: Span) -> Rgb {
         let times = self.times[frame];
         let elapsed = elapsed.clamp(Span::ZERO, Span::from_secs(times.end_s - times.drive_s - 1e-6));

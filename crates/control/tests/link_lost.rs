@@ -1,4 +1,4 @@
-//! Many robots that fall silent at once: the link is lost and not the robots.
+//! Many robots fall silent at once, because the link is lost and not the robots.
 
 mod fleet;
 
@@ -11,7 +11,7 @@ fn lost(kind: &EventKind) -> bool {
     matches!(kind, EventKind::LinkLost { .. })
 }
 
-/// The broker keeps messages for that long.
+/// The broker holds all messages back for this time.
 fn freeze(world: &mut World, seconds: f64) {
     world.frozen = true;
     world.run_for(seconds);
@@ -123,7 +123,7 @@ fn the_operator_can_end_a_run_whose_robots_are_out_of_reach() {
     );
 }
 
-/// Robots that know TARGET only do not report of their own accord, and drive on to their targets (R44).
+/// Robots that understand only TARGET and COLOR do not report unasked, and drive on to their targets (R44).
 #[test]
 fn robots_that_know_target_only_are_not_dropped_for_a_frozen_broker() {
     let mut world = World::ready(6, 6, show(2, 6, 0.3));

@@ -28,7 +28,7 @@ fn repeats(world: &World) -> Option<RepeatView> {
     world.controller.snapshot(world.now).run.and_then(|run| run.repeats)
 }
 
-/// Runs until that frame was reached in that round.
+/// Runs until this frame was reached in this round of the loop.
 fn run_to(world: &mut World, frame: usize, round: u32) {
     while repeats(world).is_none_or(|repeats| repeats.round < round) || world.stood().last() != Some(&frame) {
         world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
@@ -204,7 +204,7 @@ fn jumps_and_skips_lead_out_of_a_loop_and_through_it() {
     let mut world = World::ready(9, 0, repeating((1, 3), 5, 9, 0.5));
     world.play();
     run_to(&mut world, 2, 2);
-    // A jump within the loop stays in its round, and takes back a GO.
+    // A jump within the loop keeps the round, and cancels a GO.
     world.operate(Operation::Go).unwrap();
     world.operate(Operation::GoTo(1)).unwrap();
     assert_eq!(repeats(&world).map(|repeats| (repeats.round, repeats.leaves)), Some((2, false)));
@@ -216,7 +216,7 @@ fn jumps_and_skips_lead_out_of_a_loop_and_through_it() {
     assert_eq!(repeats(&world), None);
     assert_eq!(world.run_to_end(60.0).0, RunOutcome::Finished, "{}", world.story());
     assert_eq!(world.stood(), [0, 1, 2, 3, 1, 2, 1, 2, 3, 2, 4]);
-    // GO after the first frame of the next round was skipped.
+    // GO counts even if the first frame of the next round was skipped before.
     let mut world = World::ready(9, 0, repeating((1, 2), 4, 9, 2.0));
     world.play();
     world.run_until(60.0, reached(2));
@@ -271,7 +271,7 @@ fn robots_that_know_target_only_repeat_frames() {
 
 #[test]
 fn layers_begin_again_with_the_round_and_go_on_after_it() {
-    // Colours as the frame stood for 0.8 s.
+    // Colours 0.8 s after the frame was reached.
     let shown = |world: &mut World, frame: usize| {
         let at = world.run_until(60.0, reached(frame)).at;
         world.run_for(0.9);

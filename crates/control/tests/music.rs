@@ -1,4 +1,4 @@
-//! Music goes on while robots are late, and so do the layers that run freely.
+//! Music runs on while robots are late, and so do layers that run freely.
 
 mod fleet;
 
@@ -7,7 +7,7 @@ use lightbots_base::Rgb;
 use lightbots_control::{EventKind, Operation};
 use lightbots_show::{Layer, LayerSpan, Setting, Show};
 
-/// Four frames with music, and a light that grows and fades and runs freely.
+/// A show of four frames with music, and with a layer of light that pulses and runs freely.
 fn with_music() -> Show {
     let text = |colour: &str| Setting::Text(colour.into());
     let settings = vec![
@@ -21,7 +21,7 @@ fn with_music() -> Show {
     show
 }
 
-/// A moment of a run: seconds since the first picture, where the music is, whether it runs, and a robot's light.
+/// A sample of a run: seconds since the first picture, the music's position, whether it runs, and a robot's light.
 struct Moment {
     at_s: f64,
     music_s: f64,
@@ -40,7 +40,7 @@ fn moment(world: &World, began_s: f64) -> Option<Moment> {
     })
 }
 
-/// The moments of a run from its first picture on; `act` is called at each.
+/// Samples of a run from its first picture on. `act` is called before each.
 fn played(act: impl Fn(&mut World, f64)) -> (World, Vec<Moment>) {
     let mut world = World::ready(9, 0, with_music());
     world.play();
@@ -56,7 +56,7 @@ fn played(act: impl Fn(&mut World, f64)) -> (World, Vec<Moment>) {
     (world, moments)
 }
 
-/// One robot is not sure of its place for a while, so that all are held.
+/// An action for `played`: robot 2 is unsure of its place from `from_s` to `to_s`, so that all robots are held.
 fn held(from_s: f64, to_s: f64) -> impl Fn(&mut World, f64) {
     move |world, at_s| world.robots[2].unsure = (from_s..to_s).contains(&at_s)
 }

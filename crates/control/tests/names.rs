@@ -1,4 +1,4 @@
-//! Which names take part, and what becomes of a name that two robots share.
+//! Which robot names take part in a show, and what happens to a name that two robots share.
 
 mod fleet;
 
@@ -11,8 +11,8 @@ use std::sync::Arc;
 /// The far corner of the floor, where no pixel is.
 const CORNER: Vec2 = Vec2 { x: 1.3, y: -1.3 };
 
-/// A show of four frames, one robot of which dies, and a robot that reports for the first time after that. What the
-/// show then is, and how many robots joined it.
+/// Plays a show of four frames. One robot dies, and after that another robot reports for the first time. Returns the
+/// outcome of the run and how many robots joined it.
 fn with_a_late_robot(config: Config) -> (World, (RunOutcome, usize, usize), usize) {
     let mut world = World::with(config, 8, 0);
     world.operate(Operation::Open(Arc::new(show(4, 8, 0.3)))).unwrap();
@@ -52,7 +52,7 @@ fn forged_names_take_no_place_where_names_are_listed() {
     let config = Config { admitted: Some(names.collect()), ..Config::default() };
     let mut world = World::with(config, 8, 0);
     world.operate(Operation::Open(Arc::new(show(2, 9, 0.1)))).unwrap();
-    // A thousand names on the floor's far edge, as a controller hears them.
+    // A thousand forged names report from the far edge of the floor.
     for number in 0..1_000 {
         world.inject("T/LightBot/UUID", format!("forged-{number} 1.4 -1.4").as_bytes());
     }
@@ -64,7 +64,7 @@ fn forged_names_take_no_place_where_names_are_listed() {
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
-/// One robot more reports under the name of the third robot, from the corner.
+/// Another robot reports under the name of robot 3, from `CORNER`.
 fn pose(world: &mut World, seconds: f64) {
     let name = world.robots[3].id;
     for _ in 0..(seconds / 0.25) as usize {
@@ -94,7 +94,7 @@ fn two_robots_of_one_name_that_are_near_each_other_are_told_apart_by_their_clock
     let (name, near) = (world.robots[3].id, world.robots[3].at + Vec2::new(0.0, 0.15));
     world.play();
     world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
-    // The first one's clock is far ahead of that of the second one, which has just been switched on.
+    // The clock of the first robot is far ahead of that of the second, which has just been switched on.
     for half_s in 0..10u64 {
         for clock_us in [900_000_000, 0] {
             let asked = clock_us + half_s * 500_000;

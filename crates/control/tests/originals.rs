@@ -1,4 +1,4 @@
-//! Robots that speak only the original's protocol, alone and among ours.
+//! Robots that speak only the original's protocol, alone and together with ours.
 
 mod fleet;
 
@@ -37,8 +37,8 @@ fn lost_targets_are_said_again() {
     assert_eq!(world.run_to_end(300.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
-/// An original robot in the first of two pictures whose target in the second, so far from there, gets lost. It stays deaf
-/// for now.
+/// An original robot whose target in the second of two frames gets lost. `way` leads from its pixel in the first frame
+/// to that target, which is returned. The robot still receives no messages.
 fn lost_target(way: Vec2) -> (World, Vec2) {
     let mut show = show(2, 1, 0.5);
     let goal = show.frames[0].pixels[0].at + way;
@@ -54,7 +54,7 @@ fn lost_target(way: Vec2) -> (World, Vec2) {
 
 #[test]
 fn who_is_near_its_goal_is_not_there_before_it_says_so() {
-    // The target of a robot 18 mm from its goal was lost: it was taken to be there, and others passed too close.
+    // The controller must not take this robot, 18 mm from its goal, for arrived, or other robots pass too close to it.
     let (mut world, goal) = lost_target(Vec2::new(0.018, 0.0));
     let at = world.robots[0].at;
     world.inject("T/LightBot/UUID", format!("robot-0 {} {}", at.x, at.y).as_bytes());
@@ -65,7 +65,8 @@ fn who_is_near_its_goal_is_not_there_before_it_says_so() {
 
 #[test]
 fn who_says_it_arrived_far_from_its_goal_is_told_again() {
-    // An arrival may belong to the target before: then the robot stands 25 mm away, where others pass.
+    // The reported arrival may belong to the target before. Then the robot stands 25 mm from its goal, where others
+    // pass.
     let (mut world, goal) = lost_target(Vec2::new(0.06, 0.0));
     let said = goal - Vec2::new(0.018, 0.018);
     world.inject("T/LightBot/Arrival", format!("robot-0 {} {}", said.x, said.y).as_bytes());
@@ -87,8 +88,8 @@ fn who_is_lifted_while_all_stand_is_planned_from_where_it_was_put_down() {
 
 #[test]
 fn who_was_not_heard_when_it_was_switched_on_is_found_soon() {
-    // Asked for each two seconds, one of thirty could stay unknown until the show began where links lose every fifth
-    // message, and was driven into.
+    // A request every two seconds would be too rare: where every fifth message is lost, a robot could stay unknown
+    // until the show begins.
     let mut world = World::new(6, 6);
     world.robots[5].dead = true;
     world.run_for(3.0);
@@ -155,7 +156,7 @@ fn arrivals_are_spread_from_the_first_to_the_last_whatever_stages_it_takes() {
 fn pins_hold_for_originals_and_ours_alike() {
     let show = show(2, 8, 0.1);
     let mut world = World::ready(8, 4, show.clone());
-    // The last four are originals.
+    // Robots 4 to 7 are originals.
     for (pixel, robot) in [(0, 7), (3, 1), (6, 4)] {
         let robot = Some(world.robots[robot].id);
         world.operate(Operation::Pin { pixel, robot }).unwrap();

@@ -1,4 +1,4 @@
-//! Whole runs of a perfect fleet.
+//! Whole runs of a fleet of perfect robots.
 
 mod fleet;
 
@@ -288,7 +288,7 @@ fn with_fixed_identity_a_pixel_is_always_the_same_robot() {
     let mut world = World::ready(6, 0, show.clone());
     let starts: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
     let checked = lightbots_plan::show(&show, &starts, &Default::default());
-    // In the second run from wherever the first has left them.
+    // The second run starts from where the first one left the robots.
     for _ in 0..2 {
         world.play();
         for frame in 0..3 {
@@ -351,8 +351,8 @@ fn a_show_that_validation_rejects_is_not_begun() {
     }
 }
 
-/// A run is aborted while a robot that keeps a route hears nothing, for a second or longer. It is told by name, so that it
-/// keeps none within a time after it is back, seconds.
+/// Checks that a run's abort reaches a robot that keeps a route and receives nothing for `unheard_s`. It must keep no
+/// route `within_s` after it receives messages again.
 fn is_stopped_after(unheard_s: f64, within_s: f64) {
     let mut world = World::ready(10, 0, show(3, 10, 3.0));
     world.play();
@@ -372,7 +372,7 @@ fn abort_reaches_a_robot_that_stands_and_hears_nothing_for_a_second() {
     is_stopped_after(1.0, 0.5);
 }
 
-/// Nothing is being stopped any more.
+/// By then the controller no longer stops any robot.
 #[test]
 fn a_robot_that_is_back_long_after_a_run_is_told_that_it_keeps_no_route() {
     is_stopped_after(20.0, 3.0);

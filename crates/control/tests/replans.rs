@@ -1,5 +1,5 @@
-//! Plans that are made while robots stand on the floor and wait: how long they may take, and what follows if they
-//! take longer.
+//! Plans that are made while robots stand on the floor and wait: how long they may take, and what happens if they take
+//! longer.
 
 mod fleet;
 
@@ -8,7 +8,7 @@ use lightbots_base::{PathRef, Span};
 use lightbots_control::{EventKind, RunOutcome};
 use lightbots_wire::Route;
 
-/// A run of two frames in which a robot dies on the way to the second; `slow_plans` of the plans after that take too long.
+/// A run of two frames in which a robot dies on the way to the second. The next `slow_plans` plans take too long.
 fn run_with_a_death(robots: usize, slow_plans: usize) -> (World, RunOutcome, usize) {
     let mut world = World::ready(robots, 0, show(2, robots, 0.3));
     world.play();
@@ -29,7 +29,8 @@ fn a_replan_may_take_a_second_and_the_first_plan_as_long_as_it_needs() {
     assert!(replans.contains(&Some(Span::from_millis(1_000))), "{:?}", world.budgets);
 }
 
-/// The next plan keeps clear of fewer guessed places, or leads to the next frame; in the end the run stops with a reason.
+/// After a plan that took too long, the next one keeps clear of fewer guessed places, or leads to the next frame. At
+/// last the run stops with a reason.
 #[test]
 fn a_replan_that_takes_too_long_is_followed_by_another_or_by_a_named_end() {
     let (world, outcome, _) = run_with_a_death(8, 1);
@@ -47,7 +48,7 @@ fn a_replan_that_takes_too_long_is_followed_by_another_or_by_a_named_end() {
     assert!((1..=4).contains(&replans), "{replans} replans: {}", world.story());
 }
 
-/// Puts a robot that dropped out on a route, and lets it say so.
+/// Moves a robot that dropped out onto another robot's route, and lets it report that place.
 fn put_on(world: &mut World, robot: usize, route: &Route) {
     let path = PathRef::new(route.start, &route.pieces);
     world.robots[robot].at = path.at(path.duration() * 7 / 10).position;
@@ -83,7 +84,7 @@ fn a_robot_that_is_put_on_a_path_before_its_start_is_driven_around() {
     world.run_until(20.0, reached(1));
     world.run_for(0.5);
     let (route, _) = world.robots[2].kept.clone().unwrap();
-    // Robots without sensors drove into the one that got stuck.
+    // Distances count from here, because robots without sensors drove into the stuck robot.
     world.closest_m = f64::INFINITY;
     put_on(&mut world, 1, &route);
     assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 1), "{}", world.story());

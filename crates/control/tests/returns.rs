@@ -1,4 +1,4 @@
-//! The controller is killed in a run, and another one goes on with it from the journal.
+//! The controller is killed in a run, and another controller continues the run from the journal.
 
 mod fleet;
 
@@ -9,7 +9,7 @@ use lightbots_show::{Identity, Show};
 
 const CONTACT_M: f64 = 0.054;
 
-/// A run that is killed after a time, and whose controller is away for some.
+/// A run whose controller is killed after `after_s`, and is then absent for `away_s`.
 fn killed(show: Show, after_s: f64, away_s: f64) -> World {
     let count = show.frames[0].pixels.len();
     let mut world = World::ready(count, 0, show);
@@ -147,7 +147,7 @@ fn a_drive_that_did_not_begin_has_brought_none_to_its_goal() {
     while !world.robots.iter().all(|robot| robot.kept.is_some()) {
         world.step();
     }
-    // It never confirms START, which is given up when it drops out.
+    // Robot 2 never confirms START. The drive is called off when that robot drops out.
     world.deaf = vec![2];
     world.run_until(60.0, |kind| matches!(kind, EventKind::Dropout { .. }));
     assert_eq!(world.count(started), 0, "{}", world.story());
@@ -165,7 +165,7 @@ fn a_drive_that_was_broken_off_has_brought_none_to_its_goal() {
     world.run_for(0.8);
     world.robots[2].dead = true;
     world.run_until(20.0, |kind| matches!(kind, EventKind::Dropout { .. }));
-    // STOP discards the routes that were kept; then come those of the new plan.
+    // Waits until STOP has discarded the kept routes, and then until robots keep routes of the new plan.
     for keeps in [false, true] {
         let is_any_kept =
             |world: &World| world.robots.iter().any(|robot| !robot.dead && robot.kept.is_some());
@@ -180,7 +180,7 @@ fn a_drive_that_was_broken_off_has_brought_none_to_its_goal() {
     are_where_they_stand(&world);
 }
 
-/// The controller, which is just back, expects all robots where they stand.
+/// Asserts that the new controller has all live robots within 1 mm of where they stand.
 fn are_where_they_stand(world: &World) {
     for row in world.controller.snapshot(world.now).robots {
         let robot = world.robots.iter().find(|robot| robot.id == row.id).unwrap();
@@ -224,7 +224,7 @@ fn a_preview_and_a_loop_are_taken_up_as_they_were() {
     assert!(world.controller.snapshot(world.now).looping);
 }
 
-/// Some robots may have stopped by themselves by then. In a hold the others would drive on into them.
+/// Some robots may have stopped by themselves by then. If the others only held, they would drive into those robots.
 #[test]
 fn robots_that_still_drive_stop_at_once_where_others_may_have_stopped() {
     let mut world = World::ready(9, 0, show(3, 9, 0.6));

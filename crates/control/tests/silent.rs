@@ -1,4 +1,4 @@
-//! A robot that fell silent, and where it may stand.
+//! A robot that stops sending messages, and the places where it may stand.
 
 mod fleet;
 
@@ -8,11 +8,11 @@ use lightbots_control::{EventKind, RunOutcome};
 use lightbots_show::{Identity, Obstacle, Show};
 
 const CONTACT_M: f64 = 0.054;
-/// How far in front of the walls one robot drives past the bay, metres.
+/// Distance from the walls at which one robot drives past the bay, metres.
 const LANE_M: f64 = 0.04;
 
-/// A bay between walls, 0.12 m wide and open at its upper end, with robot 0 in it. Robot 3 drives past its mouth from left
-/// to right; then robot 0 drives out and along where robot 3 came from. Robots 1 and 2 stand far away.
+/// A show with a bay between walls, 0.12 m wide and open at its upper end. Robot 0 is in the bay, and robot 3 drives
+/// past its mouth from left to right. Then robot 0 drives out and along robot 3's lane. Robots 1 and 2 stand far away.
 fn past_a_bay() -> Show {
     let wall = |x0, y0, x1, y1| Obstacle::Rect { min: Vec2::new(x0, y0), max: Vec2::new(x1, y1) };
     let mut show = show(3, 4, 0.3);
@@ -30,7 +30,8 @@ fn past_a_bay() -> Show {
     show
 }
 
-/// The robot that passes the bay dies short of it; its number.
+/// Plays the show until the robot that is to pass the bay dies short of it. Returns the world and the number of that
+/// robot.
 fn one_dies_past_a_bay() -> (World, usize) {
     let mut world = World::ready(4, 0, past_a_bay());
     world.play();
@@ -43,8 +44,9 @@ fn one_dies_past_a_bay() -> (World, usize) {
     (world, passing)
 }
 
-/// It may still drive until it knows that its link broke, and then stands in front of the bay: a robot in the bay could not
-/// get out. That it died where it was heard last is likelier, and driven around even then.
+/// The silent robot may have driven on until it noticed the lost link, and may stand in front of the bay. Then a robot
+/// in the bay could not get out. It more likely stands where it last reported, and at least that place is driven
+/// around.
 #[test]
 fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are_driven_around() {
     let (mut world, _) = one_dies_past_a_bay();
@@ -57,7 +59,7 @@ fn where_there_is_no_way_around_all_places_of_a_silent_robot_the_likely_ones_are
     assert_eq!(world.lit(&past_a_bay().frames[2]), 3, "{}", world.story());
 }
 
-/// A robot that says that it does not know where it is stands somewhere all the same.
+/// A robot that reports an unknown place still stands somewhere on the floor.
 #[test]
 fn a_robot_that_does_not_know_its_place_is_driven_around() {
     let (mut world, passing) = one_dies_past_a_bay();

@@ -1,4 +1,4 @@
-//! Lossy links, robots and controllers that go and come, and junk.
+//! Lossy links, robots and controllers that disappear and come back, and invalid messages.
 
 mod fleet;
 
@@ -11,9 +11,9 @@ use std::sync::Arc;
 
 const CONTACT_M: f64 = 0.054;
 
-/// Eight robots in the first of two frames, in the second of which those beyond `movers` stay where they are. The START
-/// of the drive there is put off because the first robot that has to move does not receive it, while the clocks of the
-/// The clocks of `early` robots are ahead, so that they begin before they learn that.
+/// Eight robots in the first of two frames. In the second frame those of the pixels from `movers` on stay in place. The
+/// START of the drive there is postponed, because the first robot that has to move does not receive it. The clocks of
+/// `early` robots are ahead, so that these begin before they learn of that.
 fn put_off_while_some_are_early(movers: usize, early: std::ops::Range<usize>) -> World {
     let mut show = show(1, 8, 3.0);
     let mut second = show.frames[0].clone();
@@ -56,7 +56,7 @@ fn a_robot_that_drove_its_route_alone_is_planned_for_anew() {
     assert_eq!(world.run_to_end(20.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
-/// As in a simulation on a busy machine: all are late together, and on their routes.
+/// The simulation of a busy machine runs slowly, so that all robots are late together, and on their routes.
 #[test]
 fn robots_of_a_slow_world_are_waited_for() {
     let mut world = World::ready(8, 0, show(3, 8, 0.3));
@@ -90,7 +90,7 @@ fn a_broker_that_passes_nothing_on_costs_no_robot() {
     assert_eq!(ended, (RunOutcome::Finished, 3, 0), "{}", world.story());
 }
 
-/// A cluster of brokers that lost a node may drop subscriptions of those who came from there.
+/// A cluster of brokers that lost a node may drop the subscriptions of that node's clients.
 #[test]
 fn robots_that_hear_late_after_the_broker_came_back_are_waited_for() {
     let mut world = World::under_way(8);
@@ -197,7 +197,7 @@ fn a_robot_that_never_drives_again_does_not_come_back() {
     assert_eq!(world.robots[3].kept, None);
 }
 
-/// Who stands still sees those coming who drive on, and is blocked by them, too.
+/// A robot that stands sees the approaching robots, and is blocked by them too.
 #[test]
 fn of_two_that_see_each_other_the_one_that_was_late_before_is_left_out() {
     let mut world = World::under_way(8);
@@ -310,7 +310,7 @@ fn a_broker_lost_while_a_picture_stands_does_not_cut_its_air_time_short() {
 #[test]
 fn reports_of_robots_that_take_no_part_do_not_end_a_run() {
     let mut world = World::under_way(8);
-    // All is planned anew while they say to stand where others do.
+    // The controller plans anew while strangers report places next to those of robots.
     world.robots[5].dead = true;
     for _ in 0..20 {
         for place in 0..48 {

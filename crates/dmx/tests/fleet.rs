@@ -1,4 +1,4 @@
-//! A desk, the receiver and simulated robots in virtual time, with messages that are lost.
+//! A lighting desk, the receiver and simulated robots in virtual time, over a network that loses messages.
 
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_dmx::{DeskNews, DeskReceiver, DmxPacket, DmxSource, PatchTable};
@@ -14,10 +14,10 @@ struct Floor {
     fleet: Fleet,
     receiver: DeskReceiver,
     now: Instant,
-    /// Of 100 messages to a robot, how many are lost.
+    /// Share of messages to a robot that are lost, percent.
     loss_percent: u64,
     dice: u64,
-    /// Broadcasts, with the moments at which they were sent.
+    /// Times at which broadcasts were sent, with their lengths in bytes.
     broadcasts: Vec<(Instant, usize)>,
     news: Vec<DeskNews>,
     sequence: u8,
@@ -47,7 +47,7 @@ impl Floor {
         }
     }
 
-    /// Robot names in their order: that of their numbers.
+    /// Robot names in the order of the robots' numbers.
     fn by_number(&self) -> Vec<RobotId> {
         let mut ids = self.fleet.ids();
         ids.sort();
@@ -78,7 +78,7 @@ impl Floor {
         }
     }
 
-    /// Each robot loses messages on its own.
+    /// Delivers all messages. Each robot loses its own share of them.
     fn deliver(&mut self) {
         while let Some(message) = self.receiver.next_publish() {
             if message.topic == Topic::Broadcast {
@@ -98,7 +98,7 @@ impl Floor {
         }
     }
 
-    /// A desk sends a universe.
+    /// Sends one universe with these colours, as a desk does.
     fn send(&mut self, universe: u16, colours: &[Rgb]) {
         self.sequence = self.sequence.wrapping_add(1);
         let values = colours.iter().flat_map(|colour| [colour.r, colour.g, colour.b]).collect();
@@ -143,7 +143,7 @@ fn every_robot_shows_its_channels_with_five_percent_of_messages_lost() {
     floor.run(6_000);
     let mut wrong = Vec::new();
     for moment in 0..100 {
-        // The colours stay for 0.3 s: three messages and one or two more of the moments before.
+        // The colours stay for 0.3 s: time for three messages with them, and for one or two with the colours before.
         for _ in 0..13 {
             floor.send(1, &(0..170).map(|robot| colour(moment, robot)).collect::<Vec<_>>());
             floor.send(2, &(170..robots).map(|robot| colour(moment, robot)).collect::<Vec<_>>());
@@ -152,7 +152,8 @@ fn every_robot_shows_its_channels_with_five_percent_of_messages_lost() {
         let lights = floor.lights();
         wrong.push((0..robots).filter(|&robot| lights[robot] != colour(moment, robot)).count());
     }
-    // Three messages carry each colour. With 5 % lost, one robot of 8,000 receives none of them: two or three in 20,000.
+    // Three messages carry each colour. With 5 % lost, one robot in 8,000 receives none of them: two or three in
+    // 20,000.
     let sum: usize = wrong.iter().sum();
     assert!(sum <= 8, "{sum} of 20000 lights are wrong: {wrong:?}");
     assert_eq!(floor.news, [DeskNews::Began { robots }]);

@@ -1,4 +1,5 @@
-//! The page `docs/api.md`: the introduction, and tables of requests, messages and types from the source of this crate.
+//! Generates the page `docs/api.md`: an introduction, and tables of requests, messages and types from this crate's
+//! source.
 
 mod markdown;
 mod roles;
@@ -13,16 +14,16 @@ use markdown::Links;
 use roles::Roles;
 use source::{RequestTable, Shape, TypeDoc, VariantDoc};
 
-/// Types of the WebSocket, which have sections of their own.
+/// Types of the WebSocket, which have their own sections.
 const WEBSOCKET: [&str; 4] = ["ToScreen", "FromScreen", "Operation", "Robots"];
-/// Requests that are not for programs: the page of the screen, and any other address, which is answered with 404.
+/// Requests that are no part of the API: the screen's page, its WebSocket, and unknown addresses, which get a 404.
 const NOT_OF_THE_API: [&str; 3] = ["GET /", "GET /ws", "GET /api/{*rest}"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The file of the page.
+/// Path of the page.
 pub fn file() -> PathBuf {
     root().join("docs/api.md")
 }
@@ -81,13 +82,14 @@ pub fn page() -> String {
     text
 }
 
-/// A request without marks and query: `GET /api/shows`.
+/// A request without backticks and query, such as `GET /api/shows`.
 fn bare(request: &str) -> &str {
     let text = request.trim_matches('`');
     text.split_once('?').map_or(text, |(path, _)| path)
 }
 
-/// Each route of the table in SECURITY.md, which a test compares with the server, has exactly one row, and the reverse.
+/// Checks that each route of the table in SECURITY.md has exactly one row in the docs, and each row a route. A test
+/// compares that table with the server.
 fn check(tables: &[RequestTable], roles: &Roles) {
     let rows: Vec<&str> =
         tables.iter().flat_map(|table| table.rows.iter().map(|row| bare(&row[0]))).collect();
@@ -120,14 +122,14 @@ fn operation_table(links: &Links<'_>, roles: &Roles, docs: &str, operations: &[V
     text
 }
 
-/// The types that a program meets: those of requests and of the WebSocket, and all types in them.
+/// Names of the types that a client meets: those of requests and of the WebSocket, and all types in them.
 fn reachable(tables: &[RequestTable], types: &[TypeDoc]) -> BTreeSet<String> {
     let texts: String = tables.iter().flat_map(|table| table.rows.concat()).collect();
     let mut open: Vec<&TypeDoc> = types
         .iter()
         .filter(|one| {
             let is_named = texts.contains(&format!("[`{}`]", one.name));
-            // The body of every refusal.
+            // `Problem` is the body of every refusal.
             is_named || WEBSOCKET.contains(&&*one.name) || one.name == "Problem"
         })
         .collect();

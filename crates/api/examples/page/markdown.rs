@@ -1,4 +1,4 @@
-//! Types as Markdown.
+//! Writes types as Markdown.
 
 use std::collections::BTreeSet;
 
@@ -6,11 +6,11 @@ use syn::Type;
 
 use super::source::{FieldDoc, Shape, TypeDoc, VariantDoc, part};
 
-/// The types that have a section on the page.
+/// Names of the types that have a section on the page.
 pub struct Links<'a>(pub &'a BTreeSet<String>);
 
 impl Links<'_> {
-    /// Docs with their links to types as links on the page, and without those to anything else.
+    /// The docs with links to types as links on the page. Types without a section become plain code.
     pub fn set(&self, docs: &str) -> String {
         let mut text = String::new();
         let mut rest = docs;
@@ -18,7 +18,7 @@ impl Links<'_> {
             let Some((name, after)) = after.split_once("`]") else { break };
             text.push_str(before);
             text.push_str(&self.to(name));
-            // The place in the source, such as `(crate::Plan)`.
+            // Drops the link's target in the source, such as `(crate::Plan)`.
             let place = after.strip_prefix('(').and_then(|after| after.split_once(')'));
             rest = place.map_or(after, |(_, after)| after);
         }
@@ -33,7 +33,7 @@ impl Links<'_> {
         }
     }
 
-    /// A type in words of JSON.
+    /// Describes a type in the words of JSON.
     fn value(&self, value: &Type) -> String {
         if let Some(inner) = part(value, "Option") {
             return format!("{} or null", self.value(inner));
@@ -73,7 +73,7 @@ impl Links<'_> {
     }
 }
 
-/// A field in a line of text.
+/// A field's name, value and meaning in one line of text.
 pub fn in_line(links: &Links<'_>, field: &FieldDoc) -> String {
     format!("`{}` ({}): {}", field.name, worth(links, field), links.set(&field.docs))
 }
@@ -105,7 +105,7 @@ pub fn section(links: &Links<'_>, one: &TypeDoc) -> String {
     text
 }
 
-/// A table of messages that are told apart by a tag.
+/// The table of messages that a tag distinguishes.
 pub fn messages(links: &Links<'_>, docs: &str, (tag, variants): (String, &[VariantDoc])) -> String {
     let mut text = format!("{}\n\n", links.set(docs));
     text.push_str(&format!("| `{tag}` | meaning | further fields |\n|---|---|---|\n"));
@@ -133,7 +133,7 @@ pub fn binary(links: &Links<'_>, robots: &TypeDoc) -> String {
     text
 }
 
-/// The names of the types in a type.
+/// The names of all types that occur in a shape.
 pub fn used(shape: &Shape) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     match shape {

@@ -1,62 +1,63 @@
-//! The docs of this crate, read from its source: requests from the tables in the docs of modules, and types.
+//! Reads the docs of this crate from its source: requests from the tables in the docs of modules, and types.
 
 use std::path::Path;
 
 use syn::{Attribute, Expr, Fields, GenericArgument, Item, Lit, Meta, PathArguments, Type};
 
-/// Head of a table of requests in the docs of a module.
+/// Head row of a table of requests in the docs of a module.
 const HEAD: &str = "| request | body | answer |";
 
 /// A table of requests.
 pub struct RequestTable {
-    /// What the requests are about.
+    /// The subject of the requests.
     pub title: String,
-    /// Request, body and answer of each.
+    /// Request, body and answer of each row.
     pub rows: Vec<[String; 3]>,
 }
 
-/// A type of messages.
+/// A type of the messages.
 pub struct TypeDoc {
     pub name: String,
     pub docs: String,
     pub shape: Shape,
 }
 
-/// What values of a type look like in JSON.
+/// The form of a type's values in JSON.
 pub enum Shape {
     /// An object.
     Object(Vec<FieldDoc>),
     /// One of several texts, each with its docs.
     Texts(Vec<(String, String)>),
-    /// One of several objects, told apart by the field `tag`.
+    /// One of several objects, distinguished by the field `tag`.
     Tagged { tag: String, variants: Vec<VariantDoc> },
 }
 
-/// A field of an object.
+/// A field of a JSON object.
 pub struct FieldDoc {
     pub name: String,
     pub docs: String,
     pub value: Type,
-    /// It may be left out although it cannot be null.
+    /// Whether the field may be left out although it cannot be null.
     pub is_optional: bool,
-    /// The array that JavaScript reads it into, if it is a list of the binary message.
+    /// The JavaScript array type for this list, if the field is a list of the binary message.
     pub array: Option<String>,
 }
 
-/// One of several objects.
+/// One of several objects that a tag distinguishes.
 pub struct VariantDoc {
-    /// What the tag says.
+    /// The value of the tag.
     pub name: String,
     pub docs: String,
     pub fields: Vec<FieldDoc>,
-    /// The type whose fields stand beside the tag.
+    /// The type whose fields are added beside the tag.
     pub content: Option<Type>,
 }
 
-/// The types of a file that is no message: docs/show-format.md describes it.
+/// The source file with types of show files instead of messages. It is left out, because docs/show-format.md describes
+/// it.
 const FILE_TYPES: &str = "document.rs";
 
-/// All tables and types of the source files in a folder, by file name.
+/// Reads all tables and types of the source files in a folder, in the order of the file names.
 pub fn read(folder: &Path) -> (Vec<RequestTable>, Vec<TypeDoc>) {
     let files = std::fs::read_dir(folder).expect("the crate has sources");
     let mut files: Vec<_> = files.map(|file| file.expect("the folder can be read").path()).collect();
@@ -72,7 +73,7 @@ pub fn read(folder: &Path) -> (Vec<RequestTable>, Vec<TypeDoc>) {
     (tables, types)
 }
 
-/// The table in the docs of a module. A row may go on in the next lines.
+/// The table in the docs of a module. A row may continue on the next lines.
 fn table(docs: &[String]) -> Option<RequestTable> {
     let start = docs.iter().position(|line| line == HEAD)?;
     let title = docs.first()?.trim_end_matches('.').trim_end_matches(" over HTTP").to_owned();
@@ -139,7 +140,7 @@ fn fields(fields: &Fields) -> Vec<FieldDoc> {
         .collect()
 }
 
-/// The lines of docs without the blank that each begins with.
+/// The lines of docs without their leading blank.
 fn lines(attributes: &[Attribute]) -> Vec<String> {
     let texts = attributes.iter().filter_map(|attribute| match &attribute.meta {
         Meta::NameValue(pair) if pair.path.is_ident("doc") => text(&pair.value),
@@ -182,7 +183,7 @@ fn find(attributes: &[Attribute], name: &str, key: &str) -> Option<Option<String
     found
 }
 
-/// A variant's name in JSON.
+/// A variant's name in JSON, by the rule of `rename_all`.
 fn rename(variant: &str, rule: &str) -> String {
     let separated = |(index, letter): (usize, char)| {
         let blank = if index > 0 && letter.is_uppercase() && rule == "snake_case" { "_" } else { "" };
@@ -195,7 +196,7 @@ fn rename(variant: &str, rule: &str) -> String {
     variant.char_indices().map(separated).collect()
 }
 
-/// What stands in the angle brackets of a type of this name.
+/// The type argument of `value` if its type has this name, such as `T` in `Option<T>`.
 pub fn part<'a>(value: &'a Type, name: &str) -> Option<&'a Type> {
     let Type::Path(path) = value else { return None };
     let last = path.path.segments.last().filter(|segment| segment.ident == name)?;

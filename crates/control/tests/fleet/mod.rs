@@ -1,4 +1,4 @@
-//! A fleet of perfect robots, links that lose and delay, and a controller, in virtual time.
+//! A fleet of perfect robots, links that lose and delay messages, and a controller, in virtual time.
 #![allow(dead_code)] // Each test file uses a part of it.
 
 pub mod robot;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Virtual time between two steps of the robots.
 const STEP: Span = Span::from_millis(10);
 
-/// A seeded source of numbers.
+/// A seeded generator of random numbers.
 pub struct Dice(pub u64);
 
 impl Dice {
@@ -30,12 +30,12 @@ impl Dice {
     }
 }
 
-/// The frame stands.
+/// Matches the event that robots have reached this frame.
 pub fn reached(frame: usize) -> impl Fn(&EventKind) -> bool {
     move |kind| matches!(kind, EventKind::FrameReached { frame: one, .. } if *one == frame)
 }
 
-/// Robots leave for a frame.
+/// Matches the event that robots leave for a frame.
 pub fn started(kind: &EventKind) -> bool {
     matches!(kind, EventKind::TransitionStarted { .. })
 }
@@ -53,37 +53,37 @@ pub struct World {
     pub robots: Vec<Robot>,
     pub events: Vec<Event>,
     pub linked: bool,
-    /// The controller was killed.
+    /// Whether the controller was killed and not yet replaced.
     pub is_killed: bool,
-    /// The broker passes on nothing that the controller says.
+    /// Whether the broker drops all messages of the controller.
     pub mute: bool,
-    /// The broker keeps all messages, and passes them on later.
+    /// Whether the broker holds all messages back until this is false again.
     pub frozen: bool,
-    /// These robots it passes nothing on to.
+    /// Numbers of the robots that receive nothing.
     pub deaf: Vec<usize>,
     /// Share of messages lost, percent.
     pub loss: u64,
-    /// Delay of messages, milliseconds: least, and how much more at most.
+    /// Delay of messages, milliseconds: the least, and the largest addition to it.
     pub delay_ms: (u64, u64),
     pub closest_m: f64,
-    /// How long each plan might take, in the order they were asked for; `None`: as long as it needs.
+    /// How long each plan might take, in the order of the requests. `None` for a plan without a limit.
     pub budgets: Vec<Option<Span>>,
-    /// How many of the next plans with a budget take longer than it, and are given up.
+    /// How many of the next plans with a limit exceed it and are cancelled.
     pub slow_plans: usize,
     dice: Dice,
     letters: Vec<Letter>,
-    /// The journal's file, and its length after each piece.
+    /// Contents of the journal's file. `journal_ends` holds its length after each piece.
     pub journal: Vec<u8>,
     pub journal_ends: Vec<usize>,
 }
 
 impl World {
-    /// Robots in a row along the front edge; the last `originals` of them know only TARGET and COLOR.
+    /// Robots in rows along the front edge. The last `originals` of them understand only TARGET and COLOR.
     pub fn new(count: usize, originals: usize) -> Self {
         Self::with(Config::default(), count, originals)
     }
 
-    /// The same with a controller of other bounds.
+    /// The same world as [`Self::new`], with this configuration of the controller.
     pub fn with(config: Config, count: usize, originals: usize) -> Self {
         let place = |i: usize| Vec2::new((i % 29) as f64 * 0.1 - 1.4, 1.3 - (i / 29) as f64 * 0.1);
         let robots = (0..count).map(|i| Robot::new(i, place(i), i + originals >= count)).collect();
@@ -112,7 +112,7 @@ impl World {
         world
     }
 
-    /// The same with a show open and all robots known.
+    /// The same world as [`Self::new`], with an open show and all robots known.
     pub fn ready(count: usize, originals: usize, show: Show) -> Self {
         let mut world = Self::new(count, originals);
         world.operate(Operation::Open(Arc::new(show))).unwrap();
@@ -120,7 +120,7 @@ impl World {
         world
     }
 
-    /// Robots a second after they left for the first of three frames.
+    /// A world one second after its robots left for the first of three frames.
     pub fn under_way(count: usize) -> Self {
         let mut world = Self::ready(count, 0, show(3, count, 0.3));
         world.play();
@@ -140,7 +140,7 @@ impl World {
         self.drain();
     }
 
-    /// Another controller takes the place of this one.
+    /// Replaces the controller by a new one without a journal.
     pub fn replace_controller(&mut self) {
         let config = Config { seq_base: 100_000, ..Config::default() };
         self.controller = Controller::new(config);
@@ -148,12 +148,12 @@ impl World {
         self.drain();
     }
 
-    /// The controller is killed. Messages that it has sent are still under way.
+    /// Kills the controller. Messages that it has sent are still delivered.
     pub fn kill_controller(&mut self) {
         self.is_killed = true;
     }
 
-    /// Another controller finds the journal of the one that was killed. Whether there was a run in it.
+    /// Starts another controller with the journal of the killed one. Returns whether the journal held a run.
     pub fn return_controller(&mut self, on_return: OnReturn) -> bool {
         self.is_killed = false;
         let config = Config { seq_base: 100_000, ..Config::default() };
@@ -178,7 +178,7 @@ impl World {
         self.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse }).unwrap();
     }
 
-    /// A message as if it came from the broker.
+    /// Gives the controller a message as if the broker had delivered it.
     pub fn inject(&mut self, topic: &str, payload: &[u8]) {
         self.controller.message(self.now, topic, payload);
         self.drain();
@@ -219,7 +219,7 @@ impl World {
         self.letters.push(Letter { due, topic, payload, to_controller });
     }
 
-    /// Messages to robots that are under way, in the order in which they left.
+    /// The undelivered messages to robots, in the order in which they were sent.
     pub fn to_robots(&self) -> Vec<String> {
         let to_robots = self.letters.iter().filter(|letter| !letter.to_controller);
         to_robots.map(|letter| String::from_utf8_lossy(&letter.payload).into_owned()).collect()
@@ -281,7 +281,7 @@ impl World {
         }
     }
 
-    /// Steps until an event is said; fails after `seconds`.
+    /// Steps until an event matches `what`, and returns that event. Panics after `seconds`.
     pub fn run_until(&mut self, seconds: f64, what: impl Fn(&EventKind) -> bool) -> Event {
         let seen = self.events.len();
         let until = self.now + Span::from_secs(seconds);
@@ -294,7 +294,7 @@ impl World {
         panic!("nothing like that within {seconds} s:\n{}", self.story());
     }
 
-    /// Steps until the run is over, and says how it ended.
+    /// Steps until the run is over, and returns its outcome, the frames played and the dropouts.
     pub fn run_to_end(&mut self, seconds: f64) -> (RunOutcome, usize, usize) {
         match self.run_until(seconds, |kind| matches!(kind, EventKind::RunEnded { .. })).kind {
             EventKind::RunEnded { outcome, frames_played, dropouts } => (outcome, frames_played, dropouts),
@@ -307,7 +307,7 @@ impl World {
         self.events.iter().map(line).collect()
     }
 
-    /// The frames that stood, in order.
+    /// The frames that robots have reached, in order.
     pub fn stood(&self) -> Vec<usize> {
         let frame = |kind: &EventKind| match kind {
             EventKind::FrameReached { frame, .. } => Some(*frame),
@@ -320,7 +320,7 @@ impl World {
         self.events.iter().filter(|event| what(&event.kind)).count()
     }
 
-    /// How many pixels of a frame have a robot of their colour on them.
+    /// The number of pixels of a frame that have a robot of their colour on them.
     pub fn lit(&self, frame: &Frame) -> usize {
         let shown = |pixel: &&Pixel| {
             self.robots.iter().any(|robot| robot.at.distance(pixel.at) < 0.021 && robot.light == pixel.color)
@@ -329,7 +329,7 @@ impl World {
     }
 }
 
-/// A picture of robots in rows, turned and shifted by its number, each with a colour of its own.
+/// A frame of robots in rows, turned and shifted by its number. Each pixel has its own colour.
 pub fn frame(number: usize, count: usize, air_time_s: f64) -> Frame {
     let columns = (count as f64).sqrt().ceil() as usize;
     let turn = Vec2::unit(number as f64 * 0.7);

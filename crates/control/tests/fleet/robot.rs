@@ -1,4 +1,4 @@
-//! A tiny perfect robot: where it should be is where it is.
+//! A small simulated robot without errors: it is always exactly where it should be.
 
 use lightbots_base::{Instant, PathRef, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
@@ -6,7 +6,7 @@ use lightbots_wire::{
     commands,
 };
 
-/// What a robot says.
+/// A message that a robot sends: its topic and payload.
 pub type Said = (Topic, Vec<u8>);
 
 /// Speed towards a TARGET, m/s.
@@ -18,21 +18,21 @@ pub struct Robot {
     heading: f64,
     pub light: Rgb,
     pub original: bool,
-    /// Says nothing and does nothing.
+    /// Whether the robot neither sends nor does anything.
     pub dead: bool,
-    /// Stands still whatever it is told, and says so.
+    /// Whether the robot stands still whatever it is sent, and reports that.
     pub stuck: bool,
-    /// How far its idea of the show clock is ahead.
+    /// How far its estimate of the show clock is ahead.
     pub ahead: Span,
-    /// How fast its route goes on, as a share of the show clock.
+    /// Progress along its route as a share of the show clock's.
     pub pace: f64,
-    /// How far its clock may be off, microseconds.
+    /// Bound of its clock error that it reports, microseconds.
     pub clock_us: u32,
-    /// It is not sure where it is.
+    /// Whether it is unsure of its place.
     pub unsure: bool,
-    /// It does not know where it is.
+    /// Whether it has lost its place: it reports `lost` and no place.
     pub lost: bool,
-    /// Says that something stands in its way.
+    /// The obstacle that it reports in its path, if any.
     pub blocked: Option<Blocked>,
     pub target: Option<Vec2>,
     pub kept: Option<(Route, Option<Instant>)>,
@@ -50,7 +50,7 @@ pub struct Robot {
     said: Vec<Said>,
     pub stops: u32,
     pub starts_heard: u32,
-    /// The stretches of light that it was sent.
+    /// All stretches of light that it received.
     pub stretches: Vec<LightStretch>,
 }
 
@@ -90,7 +90,7 @@ impl Robot {
         }
     }
 
-    /// As after switching it off and on where it stands.
+    /// Resets the robot, as if it were switched off and on at its place.
     pub fn restart(&mut self) {
         let number: usize = self.id.as_str()[6..].parse().unwrap();
         *self = Self::new(number, self.at, self.original);
@@ -255,7 +255,7 @@ impl Robot {
         }
     }
 
-    /// Before its route begins it turns towards it at once.
+    /// Turns the robot at once towards the end of its route while it waits for the route to begin.
     fn turn(&mut self) {
         let waits = self.running.is_none() && !self.stuck;
         if let Some(((route, _), true)) = self.kept.as_ref().map(|kept| (kept, waits)) {
@@ -264,7 +264,7 @@ impl Robot {
         }
     }
 
-    /// Path time by R38: in a hold its rate falls evenly to zero, and rises evenly after it.
+    /// Path time by R38: in a hold its rate falls linearly to zero, and afterwards rises linearly.
     fn path_time(&self, show: Instant, began: Instant) -> Span {
         let eased = |elapsed: Span| {
             let eased = elapsed.clamp(Span::ZERO, Route::EASE).as_secs();
