@@ -1,7 +1,7 @@
 //! The fault campaign: `cargo xtask simulate [--seeds N] [--from K] [--robots R] [--tell] [--mutant NAME|all]`.
 //!
-//! Each seed that violates an invariant prints its story and the command that plays it again; exit code 1 then. A mutant
-//! (feature `mutants`) is a mistake made on purpose; exit code 1 means that no seed found it.
+//! Each seed that violates an invariant prints its story and the command that repeats it; the exit code is then 1. A
+//! mutant (feature `mutants`) is a deliberate mistake. If no seed finds it, the exit code is 1 too.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "arguments/mod.rs"]
@@ -18,18 +18,18 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// What is asked for.
+/// The options of the command line.
 struct Options {
-    /// `None`: 100, or 500 for a mutant.
+    /// Number of seeds. `None` means 100, or 500 for a mutant.
     seeds: Option<u64>,
     from: u64,
     robots: Option<usize>,
-    /// Tell the stories of seeds that are fine, too.
+    /// Whether stories of fine seeds are printed too.
     tells: bool,
     mutant: Option<String>,
 }
 
-/// Whether all seeds are fine, or all mutants were found.
+/// Returns whether all seeds are fine, or all chosen mutants were found.
 fn run(args: &[String]) -> Result<bool, String> {
     let options = options(args)?;
     match &options.mutant {
@@ -77,7 +77,7 @@ fn options(args: &[String]) -> Result<Options, String> {
 
 #[cfg(not(feature = "mutants"))]
 mod mutants {
-    /// There are none.
+    /// Returns an error, because this build has no mutants.
     pub fn run(_: &super::Options, _: &str) -> Result<bool, String> {
         Err("mutants need `--features mutants`: use `cargo xtask simulate --mutant`".into())
     }
@@ -88,10 +88,10 @@ mod mutants {
     use super::{Campaign, Instant, Options};
     use lightbots_control::Mutant;
 
-    /// Seeds that a mutant survives at most.
+    /// Default number of seeds that are tried to find a mutant.
     const SEEDS_PER_MUTANT: u64 = 500;
 
-    /// Whether all mutants of that name are found.
+    /// Returns whether all mutants of this name are found.
     pub fn run(options: &Options, name: &str) -> Result<bool, String> {
         let chosen: Vec<_> =
             Mutant::ALL.iter().filter(|(known, _)| name == "all" || name == *known).collect();

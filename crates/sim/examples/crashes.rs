@@ -1,7 +1,8 @@
-//! Shows whose controller is killed at random moments, and which another controller goes on with:
-//! `cargo run --release -p lightbots-sim --example crashes [KILLS] [SHOW…]`.
+//! Shows whose controller is killed at random moments and continued by another controller: `cargo run --release -p
+//! lightbots-sim --example crashes [KILLS] [SHOW…]`.
 //!
-//! One line for each show: how many of the runs were found and finished, dropouts, contacts, how long robots took to stand.
+//! Prints one line for each show: how many of the runs were found and finished, dropouts, contacts, and how long robots
+//! took to stand.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "arguments/mod.rs"]
@@ -12,16 +13,17 @@ use std::process::ExitCode;
 use lightbots_show::Show;
 use lightbots_sim::{Dice, Purpose, RehearsalReport};
 
-/// Shares of the runs whose controller is back while robots drive, after they stand, and after so long that it asks.
+/// Upper bounds of a random share, which chooses the range of `AWAY_S`.
 const SHARES: [f64; 2] = [0.4, 0.95];
-/// How long it is away then, seconds: from and to.
+/// Ranges of the time without a controller, seconds: robots still drive, robots stand, and so late that the controller
+/// asks before it continues.
 const AWAY_S: [(f64, f64); 3] = [(0.1, 2.0), (2.0, 12.0), (31.0, 60.0)];
 
 fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every run was finished without a contact.
+/// Returns whether every run was finished without a contact.
 fn run(args: &[String]) -> Result<bool, String> {
     let kills = arguments::number(args, 0, 100, "usage: crashes [KILLS] [SHOW…]")?;
     let mut is_fine = true;
@@ -33,7 +35,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(is_fine)
 }
 
-/// What all runs came to.
+/// Sums over all runs.
 #[derive(Default)]
 struct Sum {
     runs: u64,

@@ -1,8 +1,9 @@
 //! Shows in which a share of the robots dies: `cargo run --release -p lightbots-sim --example losses [SEEDS] [SHOW…]`.
 //!
-//! Each seed draws the robots, and the moments at which they lose their power (at random while the show plays, or all in
-//! the same moment). One line for each share: of all seeds, how many shows were finished, the share of the last frame's
-//! pixels that were shown, how much longer the shows took than without a loss, and how often robots touched.
+//! Each seed draws the robots, and when they lose power: at random times while the show plays, or all at once. Prints
+//! one line for each share, with sums over all seeds. It has the number of finished shows and the share of the last
+//! frame's pixels that were shown. It also has how much longer the shows took than without a loss, and how often robots
+//! touched.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "arguments/mod.rs"]
@@ -14,16 +15,16 @@ use lightbots_base::{Span, random};
 use lightbots_show::Show;
 use lightbots_sim::{Breakdown, Conditions, RehearsalOptions, RehearsalReport, rehearse};
 
-/// Shares of the robots that die, per cent.
+/// Shares of the robots that die, percent.
 const SHARES: [usize; 5] = [0, 5, 10, 20, 30];
-/// The moment in which all die, a part of the time that the show takes without a loss.
+/// When all die at once, as a share of the show's duration without a loss.
 const AT_ONCE: f64 = 0.4;
 
 fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every show was finished without a contact.
+/// Returns whether every show was finished without a contact.
 fn run(args: &[String]) -> Result<bool, String> {
     let seeds = arguments::number(args, 0, 5, "usage: losses [SEEDS] [SHOW…]")?;
     let mut is_fine = true;
@@ -53,7 +54,7 @@ fn play(show: &Show, killed: Vec<Breakdown>, seed: u64) -> RehearsalReport {
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// The robots that die: `count` different ones, drawn by the seed.
+/// Draws `count` different robots that die, by the seed.
 fn drawn(count: usize, robots: usize, seed: u64) -> Vec<usize> {
     let mut state = seed;
     let mut left: Vec<usize> = (0..robots).collect();
@@ -62,7 +63,7 @@ fn drawn(count: usize, robots: usize, seed: u64) -> Vec<usize> {
         .collect()
 }
 
-/// What all runs of a share came to.
+/// Sums over all runs with one share.
 #[derive(Default)]
 struct Sum {
     runs: u64,

@@ -1,8 +1,8 @@
 //! A show of 30 robots whose broker freezes or is gone:
 //! `cargo run --release -p lightbots-sim --example outages [SEEDS] [SHOW…]`.
 //!
-//! One line for each kind of outage and its length: of all seeds and moments, how many shows were finished, robots dropped
-//! out, robots touched, and how often the operator had to press.
+//! Prints one line for each kind of outage and its length, with sums over all seeds and moments. They count finished
+//! shows, robots that dropped out or touched, and how often the operator had to press.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "arguments/mod.rs"]
@@ -15,7 +15,7 @@ use lightbots_sim::RehearsalReport;
 
 /// When outages begin, seconds after the first departure.
 const MOMENTS_S: [f64; 6] = [0.7, 2.3, 3.9, 6.1, 9.5, 13.2];
-/// How long they last, seconds.
+/// Lengths of the outages, seconds.
 const LENGTHS_S: [f64; 9] = [0.5, 1.0, 1.3, 1.7, 2.5, 4.0, 10.0, 20.0, 40.0];
 
 fn main() -> ExitCode {
@@ -36,7 +36,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(true)
 }
 
-/// What all runs of a kind came to.
+/// Sums over all runs with one kind and length of outage.
 #[derive(Default)]
 struct Sum {
     runs: usize,

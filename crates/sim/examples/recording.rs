@@ -1,7 +1,8 @@
-//! What a recording costs: `cargo run --release -p lightbots-sim --example recording SHOW [FAULTS [SEED [MINUTES]]]`.
+//! Measures the cost of a recording: `cargo run --release -p lightbots-sim --example recording SHOW [FAULTS [SEED
+//! [MINUTES]]]`.
 //!
-//! Rehearses the show over and over for about MINUTES of virtual time, without and with a log in turn, replays the log, and
-//! prints the medians of the durations and the size of the log.
+//! Repeats the show for about MINUTES of virtual time. Rehearses it without and with a log in turn and replays the log.
+//! Prints the medians of the durations and the size of the log.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "arguments/mod.rs"]
@@ -14,14 +15,14 @@ use lightbots_control::{LogEnd, replay};
 use lightbots_show::Show;
 use lightbots_sim::{Progress, RehearsalOptions, rehearse, rehearse_recorded};
 
-/// How often each way is timed.
+/// Number of timed runs of each kind.
 const ROUNDS: usize = 9;
 
 fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether the replay is the same to the bit.
+/// Returns whether the replay equals the rehearsal bit by bit.
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = "usage: recording SHOW [FAULTS [SEED [MINUTES]]]";
     let path = args.first().ok_or(usage)?;
@@ -66,7 +67,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(report.difference.is_none() && report.end == LogEnd::Complete)
 }
 
-/// The frames of the show this many times.
+/// The show with its frames repeated `times` times.
 fn repeated(show: &Show, times: usize) -> Show {
     let frames = std::iter::repeat_n(&show.frames, times.max(1)).flatten().cloned().collect();
     Show { frames, ..show.clone() }

@@ -1,6 +1,6 @@
 //! Many rehearsals of one show: `cargo run --release -p lightbots-sim --example rehearsals SHOW [FAULTS [SEED [SEEDS]]]`.
 //!
-//! One line for each seed, with what went wrong; FAULTS may be `ideal`, or empty for standard conditions.
+//! Prints one line for each seed, with its issues. FAULTS may be `ideal`, or empty for standard conditions.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "arguments/mod.rs"]
@@ -16,7 +16,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every rehearsal was fine.
+/// Returns whether every rehearsal was fine.
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = "usage: rehearsals SHOW [FAULTS [SEED [SEEDS]]]";
     let path = args.first().ok_or(usage)?;
@@ -33,7 +33,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(failed == 0)
 }
 
-/// Rehearses once and prints the result in one line, and one for each issue.
+/// Rehearses once, and prints the result in one line and each issue in another. Returns whether the result was fine.
 fn line(show: &Show, options: &RehearsalOptions) -> bool {
     let begin = Instant::now();
     let report = rehearse(show, options, &mut |_| {});

@@ -1,7 +1,7 @@
-//! How fast rehearsals are: `cargo run --release -p lightbots-sim --example speed [--json] [ROBOTS…]`.
+//! Measures the speed of rehearsals: `cargo run --release -p lightbots-sim --example speed [--json] [ROBOTS…]`.
 //!
-//! For each fleet size a show of four random frames at the original's density (30 robots on 9 m²), with standard
-//! conditions; the median of several runs. Planning is timed apart.
+//! For each fleet size it rehearses a show of four random frames at the original's density (30 robots on 9 m²). It
+//! prints the median of several runs under standard conditions. Planning is timed separately.
 #![allow(clippy::print_stdout)]
 
 use std::time::Instant;
@@ -13,7 +13,7 @@ use lightbots_sim::{Dice, Progress, Purpose, RehearsalOptions, RehearsalReport, 
 const FRAMES: u64 = 4;
 const SPACING_M: f64 = 0.0774;
 
-/// What a rehearsal of one size took.
+/// Result and times of the rehearsals of one size.
 struct Measured {
     report: RehearsalReport,
     plan_s: f64,
@@ -47,7 +47,7 @@ fn measure(show: &Show) -> Measured {
     Measured { report, plan_s, play_s }
 }
 
-/// One line a size; the columns' names are the keys.
+/// Prints one line per size. The keys of the JSON are the names of the columns.
 fn print(robots: usize, measured: &Measured, json: bool) {
     let Measured { report, plan_s, play_s } = measured;
     let steps = report.duration_s / 0.016 * robots as f64;
@@ -67,7 +67,7 @@ fn print(robots: usize, measured: &Measured, json: bool) {
     }
 }
 
-/// Frames of random places, far enough apart.
+/// A show of random frames, whose pixels are `SPACING_M` apart or more.
 fn random_show(robots: usize) -> Show {
     let side_m = (robots as f64 * 0.3).sqrt();
     let stage = Stage { width_m: side_m, depth_m: side_m, ..Stage::default() };

@@ -1,9 +1,9 @@
 //! Deaths and other faults in dense fleets that cross, with fixed identity:
 //! `cargo run --release -p lightbots-sim --example crowds SCENE ROBOTS [FAULTS [SEED [SEEDS]]]`.
 //!
-//! One line for each seed: contacts, those of them after the first replan began, replans, the processor time of the
-//! slowest plan during the run, the run's duration as a multiple of the planned one. A summary at the end. FAULTS may be
-//! `ideal`, or empty for standard conditions.
+//! Prints one line for each seed, and a summary at the end. A line has all contacts, those after the first replan
+//! began, and the number of replans. It also has the processor time of the slowest plan during the run, and the run's
+//! duration as a multiple of the planned one. FAULTS may be `ideal`, or empty for standard conditions.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every rehearsal was fine.
+/// Returns whether every rehearsal was fine.
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = format!("usage: crowds {} ROBOTS [FAULTS [SEED [SEEDS]]]", scenes::NAMES.join("|"));
     let number = |index: usize, usual: u64| arguments::number(args, index, usual, &usage);
@@ -43,7 +43,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(sum.fine == sum.runs)
 }
 
-/// What one rehearsal showed.
+/// The results of one rehearsal.
 struct Line {
     report: RehearsalReport,
     /// Processor time of the slowest plan during the run, milliseconds.
@@ -51,7 +51,7 @@ struct Line {
 }
 
 impl Line {
-    /// How many times its planned time the run took.
+    /// The run's duration as a multiple of the planned one.
     fn stretch(&self) -> f64 {
         self.report.duration_s / self.report.planned_s.max(1e-3)
     }
@@ -61,7 +61,7 @@ impl Line {
     }
 }
 
-/// Rehearses once and prints how it went.
+/// Rehearses once, prints the results and returns them.
 fn line(show: &Show, options: &RehearsalOptions) -> Line {
     let mut began: Option<cpu::Watch> = None;
     let mut plans_ms = Vec::new();
@@ -70,7 +70,7 @@ fn line(show: &Show, options: &RehearsalOptions) -> Line {
         Progress::Playing { .. } => plans_ms.extend(began.take().map(|watch| watch.ms())),
         Progress::Departing { .. } | Progress::Stepped { .. } | Progress::Logged(_) => {}
     });
-    // The first is the check of the whole show, the second the plan the run begins with.
+    // The first plan is the check of the whole show, and the second the plan with which the run begins.
     let replans_ms: Vec<f64> = plans_ms.iter().skip(2).map(|ms| ms.round()).collect();
     let line = Line { plan_ms: replans_ms.iter().copied().fold(0.0, f64::max), report };
     let report = &line.report;

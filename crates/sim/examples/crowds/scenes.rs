@@ -1,4 +1,4 @@
-//! Shows in which dense fleets cross: two pictures with fixed identity, driven there and back.
+//! Shows in which dense fleets cross: two frames with fixed identity, driven there and back.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_plan::TransitionProblem;
@@ -14,14 +14,14 @@ const AISLE_M: f64 = 0.3;
 const RING_M: f64 = 0.08;
 /// Floor around the outermost places, metres.
 const RIM_M: f64 = 0.2;
-/// How long each picture stands, seconds.
+/// Air time of each picture, seconds.
 const AIR_S: f64 = 0.5;
 
 /// Names of all scenes: two halves that swap places, a ring that crosses to the other side, and scenes of the planner's
 /// bench (docs/benchmarks.md).
 pub const NAMES: [&str; 6] = ["swap", "ring", "D", "halves", "mirrored", "grid"];
 
-/// The show of a scene with a number of robots, and where they start; `None`: there is no such scene.
+/// The show of a scene with this number of robots, with their starts. `None` if there is no such scene.
 pub fn show(name: &str, robots: usize) -> Option<Show> {
     let places = match name {
         "swap" => swap(robots),
@@ -36,7 +36,7 @@ pub fn show(name: &str, robots: usize) -> Option<Show> {
     Some(there_and_back(&format!("{name} {robots}"), places))
 }
 
-/// Starts, goals and half the floor.
+/// Starts, goals and half of the floor's size, metres.
 type Places = (Vec<Vec2>, Vec<Vec2>, Vec2);
 
 fn there_and_back(name: &str, (starts, goals, half_floor): Places) -> Show {
@@ -63,7 +63,7 @@ fn there_and_back(name: &str, (starts, goals, half_floor): Places) -> Show {
     }
 }
 
-/// Two blocks beside each other; each robot goes to the same place in the other block.
+/// Two blocks beside each other. Each robot drives to the same place in the other block.
 fn swap(robots: usize) -> Places {
     let half = robots / 2;
     let columns = (half as f64).sqrt().ceil() as usize;
@@ -81,7 +81,7 @@ fn swap(robots: usize) -> Places {
     (starts, goals, half_floor)
 }
 
-/// A ring; each robot goes to the place across from its own.
+/// A ring. Each robot drives to the opposite place.
 fn ring(robots: usize) -> Places {
     let angle = std::f64::consts::TAU / robots as f64;
     let radius_m = RING_M / 2.0 / (angle / 2.0).sin();

@@ -1,8 +1,9 @@
-//! Is the planner's label true that a robot may stop dead at a moment? Robots are killed at moments of both kinds:
+//! Tests the planner's label that a robot may stop dead at a moment. Robots are killed at moments with the label and
+//! without:
 //! `cargo run --release -p lightbots-sim --example deaths SCENE ROBOTS [SAFE [UNSAFE [FAULTS [SEED]]]]`.
 //!
-//! The scenes are those of the example `crowds`. SAFE and UNSAFE moments are drawn at random among all moments of the
-//! drive; each is a rehearsal of its own. The last lines rate labels under other assumptions.
+//! The scenes are those of the example `crowds`. SAFE and UNSAFE are numbers of moments, drawn at random among all
+//! moments of the drive. Each is a separate rehearsal. The last lines rate labels under other assumptions.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -23,14 +24,14 @@ use lightbots_plan::proof::stop_safe::{StopAssumptions, StopSafety, stop_safety_
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, Progress, RehearsalOptions, RehearsalReport, rehearse};
 
-/// Seeds of the noise; each is rehearsed once without a death, to know the drive.
+/// Number of seeds of the noise. Each is rehearsed once without a death, to know the drive.
 const NOISES: u64 = 10;
 
 fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether no safe moment led to a contact, and at least three in ten unsafe ones did.
+/// Returns whether no safe moment led to a contact, and at least three in ten unsafe ones did.
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = format!("usage: deaths {} ROBOTS [SAFE [UNSAFE [FAULTS [SEED]]]]", scenes::NAMES.join("|"));
     let number = |index: usize, usual: u64| arguments::number(args, index, usual, &usage);
@@ -75,7 +76,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(safe_bad == 0 && unsafe_bad * 10 >= 3 * unsafe_)
 }
 
-/// The planner's assumptions first.
+/// Assumptions to compare, the planner's first.
 fn assumed() -> Vec<StopAssumptions> {
     let usual = StopAssumptions::default();
     vec![
@@ -91,33 +92,33 @@ fn assumed() -> Vec<StopAssumptions> {
     ]
 }
 
-/// Shows in which robots are killed: the same show with several seeds of the noise.
+/// The show in which robots are killed, and its drive with each seed of the noise.
 struct Trial<'a> {
     show: &'a Show,
     conditions: Conditions,
-    /// One for each seed of the noise: the plan begins where robots report to be, and differs from seed to seed.
+    /// The drive with each seed. Plans differ, because each begins at the places that robots report.
     drives: Vec<Drive>,
 }
 
 /// A drive as it was planned and driven with one seed.
 struct Drive {
     seed: u64,
-    /// When it begins, seconds after the first departure.
+    /// Its beginning, seconds after the first departure.
     begins_s: f64,
     duration: Span,
-    /// Robots that drive.
+    /// Indices of the paths on which robots move.
     drivers: Vec<usize>,
-    /// `[assumption]`.
+    /// `[assumption]`: the label of all moments of the paths.
     labels: Vec<StopSafety>,
-    /// `[path]`: which robot's it is.
+    /// `[path]`: the robot that drives it.
     robots: Vec<usize>,
 }
 
-/// What came of a death.
+/// Labels and contacts of one death.
 struct Death {
-    /// `[assumption]`.
+    /// `[assumption]`: whether the moment was labelled safe.
     safe: Vec<bool>,
-    /// Contacts before robots were planned anew.
+    /// Contacts before the first replan.
     touched: u64,
 }
 
@@ -155,12 +156,12 @@ impl<'a> Trial<'a> {
         rehearse(self.show, &RehearsalOptions { seed, conditions, robots: None }, progress)
     }
 
-    /// The mean share of stop-safe moments.
+    /// The mean share of stop-safe moments over all drives, under one of the assumptions.
     fn share(&self, assumed: usize) -> f64 {
         self.drives.iter().map(|drive| drive.labels[assumed].share()).sum::<f64>() / self.drives.len() as f64
     }
 
-    /// Deaths at random moments of both kinds, the same number of each, or fewer where a kind is rare.
+    /// Rehearses deaths at random moments, `safe` and `unsafe_` of each kind, or fewer if a kind is rare.
     fn deaths(&self, safe: usize, unsafe_: usize, seed: u64) -> Vec<Death> {
         let mut dice = dice::Dice::new(seed, 7);
         let (mut left, mut deaths) = ([unsafe_, safe], Vec::new());

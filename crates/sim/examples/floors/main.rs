@@ -1,8 +1,9 @@
-//! Random floors with things on them and gaps between, planned, proven and rehearsed with noise and slip:
-//! `cargo run --release -p lightbots-sim --example floors [COUNT [FIRST [FAULTS [DIR]]]]`, 500 unless told otherwise.
+//! Random floors with obstacles and gaps, planned, proven and rehearsed with noise and slip:
+//! `cargo run --release -p lightbots-sim --example floors [COUNT [FIRST [FAULTS [DIR]]]]`, COUNT is 500 by default.
 //!
-//! A line for each floor where a robot touches or gets lost, and for each that is refused, with the planner's reason;
-//! where DIR is named their shows are kept there. All numbers at the end; exit code 1 if anything was touched.
+//! Prints a line for each floor where a robot touches or gets lost, and for each that the planner refuses, with its
+//! reason. Their shows are saved in DIR if it is named. Totals follow at the end. The exit code is 1 if robots touched
+//! or a rehearsal failed.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -22,7 +23,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// How floors went.
+/// Number of floors per outcome, and contacts.
 #[derive(Default)]
 struct Tally {
     fine: u64,
@@ -33,7 +34,7 @@ struct Tally {
     other: u64,
 }
 
-/// Whether nothing was touched and all robots arrived.
+/// Rehearses the floors. Returns whether no robots touched and no rehearsal failed.
 fn run(args: &[String]) -> Result<bool, String> {
     let number = |index: usize, usual: u64| arguments::number(args, index, usual, USAGE);
     let (count, first) = (number(0, 500)?, number(1, 0)?);
@@ -58,7 +59,7 @@ fn run(args: &[String]) -> Result<bool, String> {
 }
 
 impl Tally {
-    /// Counts a floor and says what was wrong; whether all was well.
+    /// Counts a floor and prints what was wrong. Returns whether all was well.
     fn count(&mut self, number: u64, report: &RehearsalReport) -> bool {
         self.walls += report.wall_contacts;
         let refused = report.messages.sent == 0;

@@ -1,20 +1,20 @@
-//! Random floors with things on them: walls with a gap, and discs and rectangles in the way.
+//! Random floors with obstacles: walls with a gap, discs and rectangles.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 use lightbots_sim::{Dice, Purpose};
 
-/// Floors are this wide and deep, metres.
+/// Range of the floor's width and depth, metres.
 const SIDES_M: (f64, f64) = (1.0, 2.6);
-/// Gaps are this wide, metres: from narrower than must be to wide enough for two.
+/// Range of the gaps' width, metres: from too narrow for a robot to wide enough for two.
 const GAPS_M: (f64, f64) = (0.058, 0.15);
-/// Pixels and starts are this far from things and from the floor's edge at least, metres.
+/// Least distance of pixels and starts from obstacles and the floor's edge, metres.
 const OFF_M: f64 = 0.031;
-/// So many of three floors are parted by a wall with a gap.
+/// Number of floors, of three, that a wall with a gap divides.
 const WALLED: u64 = 2;
 
-/// A show of one drive over a floor with one to six things: 5 to `most` robots, interchangeable or, for odd numbers, each
-/// bound to its pixel. The same number gives the same floor.
+/// A show of one drive over a floor with one to six obstacles. Its 5 to `most` robots are interchangeable or, for odd
+/// numbers, each bound to its pixel. The same number gives the same floor.
 pub fn floor(number: u64, most: u64) -> Show {
     let mut dice = Dice::new(number, Purpose::Scene);
     let (width_m, depth_m) = (dice.between(SIDES_M.0, SIDES_M.1), dice.between(SIDES_M.0, SIDES_M.1));
@@ -27,7 +27,7 @@ pub fn floor(number: u64, most: u64) -> Show {
     let count = starts.len().min(goals.len());
     let (starts, goals) = (&starts[..count], &goals[..count]);
     let fixed = number % 2 == 1;
-    // Identity binds robots from the first frame on: the starts are a frame of their own then.
+    // Fixed identity binds robots from the first frame on, so the starts are a separate frame.
     let frames =
         if fixed { vec![frame("Start", starts), frame("Goal", goals)] } else { vec![frame("Goal", goals)] };
     Show {
@@ -61,7 +61,7 @@ fn things(dice: &mut Dice, stage: &Stage) -> Vec<Obstacle> {
     things
 }
 
-/// A wall right across the floor, with a gap.
+/// A wall across the whole floor, with a gap.
 fn wall(dice: &mut Dice, stage: &Stage) -> [Obstacle; 2] {
     let half = Vec2::new(stage.width_m / 2.0, stage.depth_m / 2.0);
     let (thick_m, gap_m) = (dice.between(0.01, 0.2), dice.between(GAPS_M.0, GAPS_M.1));
@@ -77,7 +77,7 @@ fn wall(dice: &mut Dice, stage: &Stage) -> [Obstacle; 2] {
     [part(-half.x, gap_at - gap_m / 2.0), part(gap_at + gap_m / 2.0, half.x)]
 }
 
-/// A disc beside a thing that leaves a gap to its corner or rim.
+/// A disc beside the last obstacle, with a gap to its corner or rim. Without an obstacle it is at `otherwise`.
 fn beside(dice: &mut Dice, things: &[Obstacle], otherwise: Vec2) -> Obstacle {
     let radius_m = dice.between(0.02, 0.15);
     let away = Vec2::unit(dice.between(0.0, core::f64::consts::TAU));
@@ -108,7 +108,7 @@ fn anywhere(dice: &mut Dice, stage: &Stage, off_m: f64) -> Vec2 {
     Vec2::new(dice.between(-half.x, half.x), dice.between(-half.y, half.y))
 }
 
-/// Up to `count` places, thrown until one fits; fewer where the floor is full.
+/// Up to `count` random places at least `apart_m` apart. Fewer if the floor is full.
 fn places(dice: &mut Dice, stage: &Stage, count: usize, apart_m: f64) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     for _ in 0..count * 200 {

@@ -9,20 +9,20 @@ use super::shapes::{Shape, bounds};
 
 /// Numbers of robots.
 pub const COUNTS: [usize; 4] = [30, 100, 200, 400];
-/// The least spacing, and how many spacings there are, half a millimetre apart.
+/// The least spacing, metres. Each of the `SPACINGS` spacings is half a millimetre wider than the one before.
 const SPACING_MIN_M: f64 = 0.06;
 const SPACINGS: usize = 121;
 const SPACING_STEP_M: f64 = 0.0005;
 /// How many cases there are.
 pub const CASES: usize = Shape::ALL.len() * COUNTS.len() * SPACINGS * 2;
-/// The least width and depth of the floor, metres; larger formations get a larger floor.
+/// Least width and depth of the floor, metres. Larger formations get a larger floor.
 const FLOOR_MIN_M: f64 = 8.0;
-/// Free space between a formation and the floor's edges at least, metres.
+/// Least free space between a formation and the floor's edges, metres.
 const MARGIN_M: f64 = 0.5;
-/// From the last starting row to the nearest robot of a formation near it, metres.
+/// Distance from the last starting row to the nearest robot of a near formation, metres.
 const NEAR_M: f64 = 0.3;
 
-/// Where a formation is.
+/// The place of a formation on the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Right in front of the starting rows.
@@ -31,7 +31,7 @@ pub enum Place {
     Far,
 }
 
-/// One formation that robots drive to from the usual rows at the front edge.
+/// One formation, to which robots drive from the usual rows at the front edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Its number, less than [`CASES`].
@@ -43,13 +43,13 @@ pub struct Case {
 }
 
 impl Case {
-    /// The case of a number less than [`CASES`]. The place changes first, then the spacing, the number of robots and the
-    /// shape.
+    /// The case with this number, which is less than [`CASES`]. As numbers grow, the place changes first, then the
+    /// spacing, the number of robots and the shape.
     pub fn new(index: usize) -> Self {
         let (rest, place) = (index / 2, if index.is_multiple_of(2) { Place::Near } else { Place::Far });
         let (rest, spacing) = (rest / SPACINGS, rest % SPACINGS);
         let (shape, count) = (rest / COUNTS.len(), rest % COUNTS.len());
-        // Through whole tenths of millimetres, so that spacings are the numbers that people write.
+        // Rounded to tenths of millimetres, so that spacings are round decimal numbers.
         let tenths_mm = (SPACING_MIN_M * 1e4).round() + spacing as f64 * (SPACING_STEP_M * 1e4).round();
         let spacing_m = tenths_mm / 1e4;
         Self { index, shape: Shape::ALL[shape], count: COUNTS[count], spacing_m, place }
@@ -60,7 +60,7 @@ impl Case {
         let places = self.shape.places(self.count, self.spacing_m);
         let (low, high) = bounds(&places);
         let size = high - low;
-        // Room for the rows in front of a formation near them.
+        // Depth of the starting rows in front of a near formation.
         let rows_m = 1.0;
         let width_m = (size.x + 2.0 * MARGIN_M).ceil().max(FLOOR_MIN_M);
         let depth_m = (size.y + NEAR_M + rows_m + MARGIN_M).ceil().max(FLOOR_MIN_M);

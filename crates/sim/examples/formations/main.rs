@@ -1,7 +1,8 @@
-//! Drives from the usual starting rows to grids, hexagons, discs, rings and rows of many spacings, rehearsed without and
-//! with noise and slip: `cargo run --release -p lightbots-sim --example formations [OPTION VALUE]…`; see `--help`.
+//! Drives from the usual starting rows to grids, hexagons, discs, rings and rows of many spacings, rehearsed without
+//! and with noise and slip: `cargo run --release -p lightbots-sim --example formations [OPTION VALUE]…`; see `--help`.
 //!
-//! A line for each rehearsal that fails, and a summary for each kind of conditions at the end; exit code 1 if any failed.
+//! Prints a line for each rehearsal that fails, and a summary for each kind of conditions. The exit code is 1 if any
+//! failed.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -27,7 +28,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every case passed.
+/// Returns whether every case passed.
 fn run(args: &[String]) -> Result<bool, String> {
     if args.iter().any(|argument| matches!(argument.as_str(), "--help" | "-h" | "help")) {
         println!("{USAGE}");
@@ -55,8 +56,8 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(fine)
 }
 
-/// Rehearses the cases on several threads and passes on the reports of each, one for each kind of conditions, in the order
-/// of the cases.
+/// Rehearses the cases on several threads. Calls `done` in the order of the cases, with one report for each kind of
+/// conditions.
 fn rehearse_all(slice: &Slice, cases: &[Case], done: &mut dyn FnMut(&Case, Vec<RehearsalReport>)) {
     let next = AtomicUsize::new(0);
     let (sender, receiver) = mpsc::channel();
@@ -66,7 +67,7 @@ fn rehearse_all(slice: &Slice, cases: &[Case], done: &mut dyn FnMut(&Case, Vec<R
             scope.spawn(move || {
                 while let Some((nth, case)) = next_of(cases, next) {
                     let rehearsed = |run: &slice::Run| verdict::rehearsed(case, &run.conditions, slice.seed);
-                    // The receiver lives until all threads have ended.
+                    // Sending cannot fail: the receiver lives until all threads have ended.
                     let _ = sender.send((nth, slice.runs.iter().map(rehearsed).collect::<Vec<_>>()));
                 }
             });
@@ -83,7 +84,7 @@ fn rehearse_all(slice: &Slice, cases: &[Case], done: &mut dyn FnMut(&Case, Vec<R
     });
 }
 
-/// The next case that no thread has taken.
+/// Takes the next case that no thread has taken. `None` after the last one.
 fn next_of<'a>(cases: &'a [Case], next: &AtomicUsize) -> Option<(usize, &'a Case)> {
     let nth = next.fetch_add(1, Ordering::Relaxed);
     Some((nth, cases.get(nth)?))

@@ -1,4 +1,4 @@
-//! Formations: places of robots around the origin, each at least a spacing from its nearest neighbour.
+//! Formations: places of robots around the origin, whose nearest two are one spacing apart.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use lightbots_base::Vec2;
 pub enum Shape {
     /// Square lattice, about as wide as deep.
     Grid,
-    /// Triangular lattice, six neighbours each, cut to a disc.
+    /// Triangular lattice with six neighbours per robot, cut to a disc.
     Hexagon,
     /// Sunflower: Vogel's spiral, in which distances to neighbours vary.
     Disc,
@@ -20,7 +20,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// All, in the order in which cases are counted.
+    /// All shapes, in the order in which cases are numbered.
     pub const ALL: [Self; 5] = [Self::Grid, Self::Hexagon, Self::Disc, Self::Ring, Self::Rows];
 
     /// Its name on the command line.
@@ -34,8 +34,8 @@ impl Shape {
         }
     }
 
-    /// The places of `count` robots, metres, the middle of their bounding box at the origin; the nearest two are
-    /// `spacing_m` apart.
+    /// The places of `count` robots, metres, with the middle of their bounding box at the origin. The nearest two
+    /// places are `spacing_m` apart.
     pub fn places(self, count: usize, spacing_m: f64) -> Vec<Vec2> {
         let places = match self {
             Self::Grid => lattice(count, ((count as f64).sqrt().ceil()) as usize, 1.0),
@@ -49,17 +49,18 @@ impl Shape {
     }
 }
 
-/// Columns one apart, rows `row_step` apart; the last row may be shorter.
+/// A lattice with a column spacing of 1 and a row spacing of `row_step`. The last row may be shorter.
 fn lattice(count: usize, columns: usize, row_step: f64) -> Vec<Vec2> {
     (0..count).map(|nth| Vec2::new((nth % columns) as f64, (nth / columns) as f64 * row_step)).collect()
 }
 
-/// The places of a triangular lattice that are nearest to one of them.
+/// The `count` places of a triangular lattice that are nearest to one of its places.
 fn hexagon(count: usize) -> Vec<Vec2> {
     let half = (count as f64).sqrt() as i32 + 2;
     let mut spots: Vec<(i32, i32)> =
         (-half..=half).flat_map(|row| (-half..=half).map(move |column| (row, column))).collect();
-    // The squared distance in whole numbers: places that are equally far keep one order on every machine.
+    // The key is the squared distance in whole numbers, so that equally distant places have the same order on every
+    // machine.
     spots.sort_by_key(|&(row, column)| (row * row + row * column + column * column, row, column));
     let row_step = 3.0_f64.sqrt() / 2.0;
     let place = |&(row, column): &(i32, i32)| {
@@ -68,7 +69,7 @@ fn hexagon(count: usize) -> Vec<Vec2> {
     spots[..count].iter().map(place).collect()
 }
 
-/// Vogel's spiral, scaled so that the nearest two are one apart.
+/// Vogel's spiral, scaled so that the nearest two places are 1 apart.
 fn sunflower(count: usize) -> Vec<Vec2> {
     let golden_angle = PI * (3.0 - 5.0_f64.sqrt());
     let place = |nth: usize| Vec2::unit(golden_angle * nth as f64) * (nth as f64 + 0.5).sqrt();
@@ -77,13 +78,13 @@ fn sunflower(count: usize) -> Vec<Vec2> {
     places.into_iter().map(|place| place / nearest).collect()
 }
 
-/// A circle whose neighbours are one apart.
+/// A circle whose neighbours are 1 apart.
 fn ring(count: usize) -> Vec<Vec2> {
     let radius = 0.5 / libm::sin(PI / count as f64);
     (0..count).map(|nth| Vec2::unit(2.0 * PI * nth as f64 / count as f64) * radius).collect()
 }
 
-/// The least distance of two places.
+/// The least distance between two places.
 pub fn nearest(places: &[Vec2]) -> f64 {
     let pairs = places.iter().enumerate().flat_map(|(nth, a)| places[..nth].iter().map(|b| a.distance(*b)));
     pairs.fold(f64::INFINITY, f64::min)
@@ -94,7 +95,7 @@ fn centred(places: &[Vec2], scale: f64) -> Vec<Vec2> {
     places.iter().map(|place| (*place - (low + high) / 2.0) * scale).collect()
 }
 
-/// The corners of the bounding box.
+/// The lower and upper corner of the bounding box.
 pub fn bounds(places: &[Vec2]) -> (Vec2, Vec2) {
     let most = Vec2::new(f64::INFINITY, f64::INFINITY);
     places.iter().fold((most, -most), |(low, high), place| {

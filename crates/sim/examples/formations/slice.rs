@@ -1,4 +1,4 @@
-//! Which cases are rehearsed, and how: the arguments of the program.
+//! Arguments of the program: which cases are rehearsed, and how.
 
 use std::ops::RangeInclusive;
 use std::str::FromStr;
@@ -26,7 +26,7 @@ Robots drive from the usual rows at the front edge to one formation; rehearsed w
   --jobs N            as many at once; all cores unless told otherwise
   --show all          all cases, not only those that fail";
 
-/// The arguments.
+/// The chosen cases, and how they are rehearsed.
 pub struct Slice {
     cases: RangeInclusive<usize>,
     shape: Option<Shape>,
@@ -35,15 +35,15 @@ pub struct Slice {
     place: Option<Place>,
     every: usize,
     offset: usize,
-    /// The conditions of each rehearsal of a case, their names, and what is required.
+    /// The rehearsals of each case.
     pub runs: Vec<Run>,
     pub seed: u64,
     pub jobs: usize,
-    /// Every case is printed.
+    /// Whether every case is printed, not only those that fail.
     pub shows_all: bool,
 }
 
-/// One kind of rehearsal.
+/// A kind of rehearsal: its name, its conditions and what it must achieve.
 pub struct Run {
     pub name: &'static str,
     pub conditions: Conditions,
@@ -73,7 +73,7 @@ impl Default for Slice {
 }
 
 impl Slice {
-    /// Reads pairs of options and values.
+    /// Reads the arguments, which are pairs of option and value.
     pub fn read(args: &[String]) -> Result<Self, String> {
         let mut slice = Self::default();
         for option in (0..args.len()).step_by(2) {
@@ -82,7 +82,7 @@ impl Slice {
         Ok(slice)
     }
 
-    /// Takes the option at a place, whose value comes after it.
+    /// Applies the option at this index, whose value comes after it.
     fn take(&mut self, args: &[String], option: usize) -> Result<(), String> {
         let (name, at) = (args[option].as_str(), option + 1);
         let value = args.get(at).ok_or_else(|| format!("{name} needs a value\n{USAGE}"))?.as_str();
@@ -127,7 +127,7 @@ impl Slice {
     }
 
     fn has(&self, case: &Case) -> bool {
-        // Spacings are tenths of millimetres.
+        // The margin is less than the tenth of a millimetre between spacings.
         let (least_m, most_m) = (self.spacing_m.start() - 1e-6, self.spacing_m.end() + 1e-6);
         case.index >= self.offset
             && (case.index - self.offset).is_multiple_of(self.every)
@@ -138,7 +138,7 @@ impl Slice {
     }
 }
 
-/// `A..B`, both included, or one number.
+/// Reads `A..B`, both included, or one number.
 fn range<T: FromStr + Copy>(text: &str) -> Option<RangeInclusive<T>> {
     let (first, last) = text.split_once("..").unwrap_or((text, text));
     Some(first.parse().ok()?..=last.parse().ok()?)

@@ -1,4 +1,4 @@
-//! Figures of all rehearsals under the same conditions.
+//! Totals of all rehearsals under the same conditions.
 
 use lightbots_sim::RehearsalReport;
 
@@ -38,7 +38,7 @@ impl Tally {
         self.failed == 0
     }
 
-    /// All of it in one line.
+    /// All totals in one line.
     pub fn line(&self) -> String {
         format!(
             "{} of {} pass; {} contacts in {} cases; {} brakes ({} false) in {} cases; worst tracking {:.1} mm (case {}); \

@@ -7,12 +7,12 @@ use super::case::Case;
 /// The largest tracking error of a rehearsal without noise, metres.
 pub const IDEAL_TRACKING_MAX_M: f64 = 0.003;
 
-/// What is required of a rehearsal.
+/// What a rehearsal must achieve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Required {
-    /// Played to the end, no contact.
+    /// It is played to the end without a contact.
     Untouched,
-    /// No brake and no large tracking error either.
+    /// It is [`Self::Untouched`], without a brake and without a large tracking error.
     Exact,
 }
 
@@ -25,7 +25,7 @@ pub fn rehearsed(case: &Case, conditions: &Conditions, seed: u64) -> RehearsalRe
     )
 }
 
-/// Whether a rehearsal shows what is required.
+/// Whether a rehearsal meets the requirement.
 pub fn passes(report: &RehearsalReport, required: Required) -> bool {
     let exact = report.brakes.all == 0 && report.tracking_error_m.max <= IDEAL_TRACKING_MAX_M;
     report.ok && report.contacts == 0 && (required == Required::Untouched || exact)

@@ -1,8 +1,8 @@
-//! Hashes of many rehearsals: `cargo run --release -p lightbots-sim --example hashes [SHOW…]`.
+//! Prints hashes of many rehearsals: `cargo run --release -p lightbots-sim --example hashes [SHOW…]`.
 //!
 //! A change that only moves or renames code leaves every line as it was: compare the output before and after. Each line
-//! names a show, the conditions and the `state_hash`. The shows are the files given (all of `shows/` unless told
-//! otherwise), the crossing scenes and 200 random pairs.
+//! names a show, the conditions and the `state_hash`. The shows are the given files (by default all of `shows/`), the
+//! crossing scenes and 200 random pairs.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -23,16 +23,16 @@ use std::process::ExitCode;
 use lightbots_show::Show;
 use lightbots_sim::{RehearsalOptions, rehearse};
 
-/// Conditions of each show: without faults, and with those that use recovery, silence and the search for robots that
-/// know TARGET only.
+/// Faults with which each show is rehearsed: none, and sets that exercise recovery, silence and the search for
+/// TARGET-only robots.
 const FAULTS: [&str; 5] = ["", "ideal", "loss=5%,kill=random", "stuck=random,gps=4mm", "original=10"];
-/// Number of random pairs; every tenth of them also with a kill.
+/// Number of random pairs. Every tenth of them is also rehearsed with a kill.
 const PAIRS: u64 = 200;
-/// Most robots of a random pair. Small, because 200 of them must take two minutes.
+/// Most robots of a random pair. It is small so that all pairs take two minutes.
 const PAIR_ROBOTS: u64 = 60;
 /// Crossing scenes and their numbers of robots.
 const CROSSINGS: [(&str, usize); 4] = [("D", 30), ("swap", 60), ("ring", 40), ("halves", 100)];
-/// Most robots of a show that is rehearsed with faults: larger ones take too long.
+/// Most robots of a show that is rehearsed with faults. Larger shows take too long.
 const MOST_WITH_FAULTS: usize = 150;
 
 fn main() -> ExitCode {

@@ -1,4 +1,4 @@
-//! The controller core and a fleet in one room, where messages arrive at once: the picture that stands on the floor.
+//! The controller core and a fleet whose messages arrive at once. It records the picture on the floor in each frame.
 
 use std::sync::Arc;
 
@@ -7,31 +7,31 @@ use lightbots_control::{Config, Controller, EventKind, MissingPolicy, Operation,
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, Fleet, FleetConfig, STEP};
 
-/// How long robots get to find the controller and its clock.
+/// Time for robots to find the controller and its clock.
 const GATHERING: Span = Span::from_millis(3_000);
-/// Time from a frame standing to the check of its picture. Lights have changed by then.
+/// Time from the arrival in a frame to the check of its picture. Lights have changed by then.
 const LOOK: Span = Span::from_millis(400);
-/// No scene takes longer.
+/// Longest duration of a scene, after which the run is cut.
 const LIMIT: Span = Span::from_millis(400_000);
 
-/// What stood on the floor in a frame.
+/// The robots on the floor when a frame is shown.
 pub struct Picture {
     pub frame: usize,
-    /// `[robot]`: true place in stage metres, light, and pixel by the controller.
+    /// `[robot]`: true place in stage metres, light, and the pixel that the controller assigned.
     pub robots: Vec<(Vec2, Rgb, Option<u32>)>,
 }
 
-/// How a show went.
+/// Pictures and outcome of a run.
 pub struct Played {
     pub pictures: Vec<Picture>,
-    /// From the first departure to the end of the last air time.
+    /// Time from the first departure to the end of the last air time.
     pub duration: Span,
     pub outcome: Option<RunOutcome>,
     pub contacts: u64,
     pub dropouts: usize,
 }
 
-/// The room.
+/// The controller and its fleet.
 pub struct Hall {
     fleet: Fleet,
     controller: Controller,
@@ -53,7 +53,7 @@ impl Hall {
         self.fleet.ids()
     }
 
-    /// Plays to the end.
+    /// Plays the show to its end.
     pub fn play(mut self, show: &Show) -> Played {
         self.controller.connected(self.now);
         self.controller
@@ -114,7 +114,7 @@ impl Hall {
         self.talk();
     }
 
-    /// Passes messages and plans on until none is left.
+    /// Delivers messages and plans until none is left.
     fn talk(&mut self) {
         loop {
             let mut quiet = true;

@@ -1,7 +1,8 @@
 //! Random shows of mixed identities, pins and numbers of robots, checked, played and rehearsed:
-//! `cargo run --release -p lightbots-sim --example identities [COUNT [FIRST [ideal | FAULTS]]]`, 200 unless told otherwise.
+//! `cargo run --release -p lightbots-sim --example identities [COUNT [FIRST [ideal | FAULTS]]]`, COUNT is 200 by
+//! default.
 //!
-//! Lines for each show whose picture is not the frame, or whose run is not what was planned; exit code 1 then.
+//! Prints lines for each show whose picture is not the frame, or whose run is not as planned. The exit code is then 1.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -18,7 +19,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every show was fine.
+/// Returns whether every show was fine.
 fn run(args: &[String]) -> Result<bool, String> {
     let number = |index: usize, usual: u64| arguments::number(args, index, usual, USAGE);
     let (count, first) = (number(0, 200)?, number(1, 0)?);

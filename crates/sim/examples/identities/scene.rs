@@ -1,26 +1,26 @@
-//! Random shows of mixed identities: pixels that any robot may show, pixels that keep theirs, and pixels that ask for one
-//! by name, a different one in every frame.
+//! Random shows of mixed identities. Any robot may show some pixels, and others keep their robot. Others request a
+//! robot by name, a different one in every frame.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Identity, Pixel, Show, Stage, robots_needed};
 use lightbots_sim::{Dice, Purpose};
 
-/// The least distance between two places, metres.
+/// Least distance between two places, metres.
 const APART_M: f64 = 0.1;
 
-/// A show, and how many robots play it.
+/// A show, and the starts of the robots that play it.
 pub struct Scene {
     pub show: Show,
-    /// Where robots stand before: more of them than pixels, as many, or fewer. Robot `n` bears the name `robot-n`.
+    /// Places of the robots at the start: more than pixels, as many, or fewer. Robot `n` has the name `robot-n`.
     pub starts: Vec<Vec2>,
 }
 
-/// The name by which pixels ask for a robot.
+/// The name by which pixels request this robot.
 pub fn name(robot: usize) -> String {
     format!("robot-{robot}")
 }
 
-/// The same number gives the same scene.
+/// Draws a random scene. The same number gives the same scene.
 pub fn scene(number: u64) -> Scene {
     let mut dice = Dice::new(number, Purpose::Scene);
     let pixels = 2 + dice.below(9) as usize;
@@ -35,7 +35,7 @@ pub fn scene(number: u64) -> Scene {
     let ids = ids(&mut dice, pixels);
     let frames = (0..2 + dice.below(4)).map(|nth| {
         let own = (is_mixed && dice.chance(0.6)).then(|| any_or_fixed(&mut dice));
-        // Where identity is fixed every frame has the same ids.
+        // With fixed identity every frame has the same ids.
         let strange = nth > 0 && own.unwrap_or(identity) == Identity::Any && dice.chance(0.2);
         let ids = if strange { self::ids(&mut dice, pixels) } else { ids.clone() };
         frame(&mut dice, &ids, own, (pinned, robots))
@@ -43,7 +43,7 @@ pub fn scene(number: u64) -> Scene {
     let frames = frames.collect();
     let starts = places(&mut dice, robots);
     let mut show = Show { identity, frames, starts: Some(starts.clone()), ..Show::default() };
-    // A fleet that lacks robots plays a show that has starts for all.
+    // A show must not state starts if the fleet lacks robots for it.
     if starts.len() < robots_needed(&show) {
         show.starts = None;
     }
@@ -54,7 +54,7 @@ fn any_or_fixed(dice: &mut Dice) -> Identity {
     if dice.chance(0.5) { Identity::Fixed } else { Identity::Any }
 }
 
-/// `count` different ids, sorted.
+/// Draws `count` different ids, sorted.
 fn ids(dice: &mut Dice, count: usize) -> Vec<u32> {
     let mut all: Vec<u32> = (0..count as u32 * 2).collect();
     while all.len() > count {

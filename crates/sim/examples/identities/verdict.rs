@@ -1,4 +1,4 @@
-//! Comparison of the picture that was played with the show and with the plan.
+//! Compares the picture on the floor with the show and with the plan.
 
 use std::collections::BTreeMap;
 
@@ -11,14 +11,14 @@ use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
 use super::hall::{Hall, Picture, Played};
 use super::scene::{Scene, name};
 
-/// Robots are this near to their pixels, metres.
+/// Largest distance of a robot from its pixel, metres.
 const NEAR_M: f64 = 0.012;
-/// Time by which a run exceeds its plan, per frame: robots arrive a moment after their paths end.
+/// How much longer than its plan a run may be, seconds per frame: robots arrive a moment after their paths end.
 const LATE_S: f64 = 0.25;
-/// Share by which a drive may be shorter when it is planned from places with noise.
+/// Share by which a run may be shorter than its plan, because drives are planned from noisy places.
 const SHORTER: f64 = 0.02;
 
-/// Everything that is wrong with how a scene is played.
+/// All deviations of a played scene from its show and its plan.
 pub fn faults(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     let mut faults = live(number, scene, conditions);
     let most = most_pixels(&scene.show);
@@ -28,7 +28,7 @@ pub fn faults(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String
     faults
 }
 
-/// `rehearse` against `check`, where names mean any robots.
+/// Compares a rehearsal with the plan of the show as it is. Names stand for any robots there.
 fn rehearsed(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     let mut faults = Vec::new();
     let plan = lightbots_plan::show(&scene.show, &scene.starts, &ShowOptions::default());
@@ -50,7 +50,7 @@ fn durations(what: &str, played_s: f64, plan: &ShowPlan, show: &Show) -> Option<
     (!is_as_planned).then(|| format!("{what}: {played_s:.2} s, planned {:.2} s", plan.duration_s))
 }
 
-/// A live run against `check`, where every name is a robot's.
+/// Compares a live run with the plan of the same show. Every name is that of a robot.
 fn live(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     let hall = Hall::new(&scene.show, scene.starts.clone(), number, conditions.clone());
     let names: Vec<String> = hall.ids().iter().map(ToString::to_string).collect();
@@ -62,7 +62,7 @@ fn live(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     let options = ShowOptions { robots: names.clone(), ..ShowOptions::default() };
     let plan = lightbots_plan::show(&show, &scene.starts, &options);
     let played = hall.play(&show);
-    // Among ways that are nearly as long, noise decides.
+    // With noise, the planner may choose otherwise between paths of almost the same length.
     let is_exact = *conditions == Conditions::ideal();
     let mut faults = Vec::new();
     if played.outcome != Some(RunOutcome::Finished) || played.contacts + played.dropouts as u64 > 0 {
@@ -86,7 +86,7 @@ fn live(number: u64, scene: &Scene, conditions: &Conditions) -> Vec<String> {
     faults
 }
 
-/// The picture is the frame, shown by the robots of the plan, where the plan is known to be the same.
+/// Checks that the robots' lights show the frame and, if `planned` is known, that they are the planned robots.
 fn pictured(frame: &Frame, picture: &Picture, planned: Option<&[Option<u32>]>) -> Vec<String> {
     let mut faults = Vec::new();
     let shown: Vec<Option<u32>> = picture.robots.iter().map(|(_, _, pixel)| *pixel).collect();
@@ -111,8 +111,8 @@ fn pictured(frame: &Frame, picture: &Picture, planned: Option<&[Option<u32>]>) -
     faults
 }
 
-/// Pins hold, and where identity is fixed a pixel keeps its robot unless a pin takes it; `before`: the robot that
-/// showed each pixel last, and when.
+/// Checks that pins hold, and that with fixed identity a pixel keeps its robot unless a pin takes that robot. `before`
+/// has the robot that showed each pixel last, and in which frame.
 fn kept(
     show: &Show,
     index: usize,
@@ -134,7 +134,7 @@ fn kept(
         }
         let fixed = frame.identity.unwrap_or(show.identity) == Identity::Fixed;
         let Some(&(robot, since)) = before.get(&pixel.id).filter(|_| fixed) else { continue };
-        // It showed another pixel of this frame later.
+        // Another free pixel of this frame was shown by the same robot later, and keeps it.
         let later = frame
             .pixels
             .iter()

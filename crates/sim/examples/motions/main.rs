@@ -1,7 +1,7 @@
 //! Pictures that move as one: `cargo run --release -p lightbots-sim --example motions [ROBOTS…]`.
 //!
-//! One line for each motion and number of robots: the time to plan the show, how long the motion takes at least, how many
-//! moments are stop-safe, and what a rehearsal under standard conditions shows.
+//! Prints one line for each motion and number of robots. It has the time to plan the show, the least duration of the
+//! motion, the share of stop-safe moments, and the results of a rehearsal under standard conditions.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -19,7 +19,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every rehearsal was fine.
+/// Returns whether every rehearsal was fine.
 fn run(args: &[String]) -> Result<bool, String> {
     let usage = "usage: motions [ROBOTS...]";
     let given: Result<Vec<usize>, String> =

@@ -1,14 +1,15 @@
-//! Shows in which a picture moves as one, and comes from and goes to an ordinary drive.
+//! Shows of three frames, with a picture that moves as one between the first two and an ordinary drive back.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, PictureMotion, Pixel, Show, Stage};
 
-/// Distance of neighbours in a picture, metres.
+/// Distance between neighbours in a picture, metres.
 const PITCH_M: f64 = 0.1;
-/// Distance of the rows of a line that winds, metres: robots turn at its ends.
+/// Distance between rows of the winding line, metres. Robots turn at the ends of rows.
 const ROW_M: f64 = 0.16;
 
-/// A grid, or for robots in line a row that winds; the picture after the motion; and the first one again.
+/// A show of three frames: a picture, the same after the motion, and the first one again. The picture is a grid, or a
+/// winding row for the motion in which robots follow each other.
 pub fn show(motion: &PictureMotion, count: usize) -> Show {
     let places = match motion {
         PictureMotion::Follow { .. } => winding(count),

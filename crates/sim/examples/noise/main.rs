@@ -1,8 +1,8 @@
-//! How far robots are from where they believe to be and from where they should be, by what their sensors and wheels
-//! suffer: `cargo run --release -p lightbots-sim --example noise [--json]`.
+//! Measures how far robots are from their estimates and from their routes, for several sensor and wheel errors:
+//! `cargo run --release -p lightbots-sim --example noise [--json]`.
 //!
-//! A row for each kind of trouble, over three seeds of a show of the repository, and one for each kind of place that is
-//! narrow, under standard conditions; distances in millimetres.
+//! Prints a row for each kind of trouble, over three seeds of a show of the repository. One row for each kind of narrow
+//! place follows, under standard conditions. Distances are in millimetres.
 #![allow(clippy::print_stdout)]
 
 mod places;
@@ -10,12 +10,12 @@ mod places;
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, Spread, rehearse};
 
-/// Thirty robots, pictures of words: close side by side, and long ways between.
+/// Thirty robots in pictures of words: close side by side, with long drives between.
 const SHOW: &[u8] = include_bytes!("../../../../shows/hello.json");
 const SEEDS: u64 = 3;
-/// Gaps that eight robots drive through, millimetres; 60.2 are the least for a plan.
+/// Widths of gaps that eight robots drive through, millimetres. The planner needs at least 60.2.
 const GAPS_MM: [f64; 4] = [60.5, 61.0, 65.0, 70.0];
-/// What robots suffer on top of, or instead of, the standard conditions; nothing in the first row.
+/// Faults that are added to the standard conditions or replace some of them. The first row has none.
 const TROUBLES: [&str; 20] = [
     "",
     "gps=0mm",
@@ -62,7 +62,7 @@ fn print(name: &str, show: &Show, conditions: &Conditions) {
     println!("{}", row(name, &(1..=SEEDS).map(rehearsed).collect::<Vec<_>>()));
 }
 
-/// The worst of all seeds in each column; the columns' names are the keys.
+/// A row with the worst value of all seeds in each column. The keys of the JSON are the names of the columns.
 fn row(trouble: &str, reports: &[RehearsalReport]) -> String {
     let worst = |value: &dyn Fn(&RehearsalReport) -> f64| reports.iter().map(value).fold(0.0, f64::max);
     let three = |name: &str, of: &dyn Fn(&RehearsalReport) -> Spread| {

@@ -3,12 +3,12 @@
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 
-/// Eight robots from the front edge through a gap in a wall, to a ring around the middle.
+/// A show of eight robots that drive from the front edge through a gap in a wall to a ring around the middle.
 pub fn gap(wide_m: f64) -> Show {
     queue(8, 0.5, wide_m)
 }
 
-/// [`gap`] with a number of robots and the radius of their ring, metres.
+/// The show of [`gap`] with this number of robots and this radius of the ring, metres.
 pub fn queue(robots: u32, radius_m: f64, wide_m: f64) -> Show {
     let half_m = wide_m / 2.0;
     let walls = vec![rect((-1.5, 0.85), (-half_m, 0.95)), rect((half_m, 0.85), (1.5, 0.95))];
@@ -17,7 +17,7 @@ pub fn queue(robots: u32, radius_m: f64, wide_m: f64) -> Show {
     Show { stage, frames: vec![frame(&(0..robots).map(ring).collect::<Vec<_>>())], ..Show::default() }
 }
 
-/// Two robots change places in a corridor along the floor's edge: one steps aside into a bay.
+/// A show of two robots that change places in a corridor along the floor's edge. One of them steps aside into a bay.
 pub fn bay() -> Show {
     let (width, wide, deep, at) = (0.0754, 0.0701, 0.1027, -0.1568);
     let half = Vec2::new(0.6, width / 2.0 + deep);
@@ -35,7 +35,8 @@ pub fn bay() -> Show {
     }
 }
 
-/// Two rows of robots at a distance from two edges of a small floor that move along them.
+/// A show of two rows of robots on a small floor, which drive along two of its edges with `off_m` between rim and edge,
+/// metres.
 pub fn along_edge(off_m: f64) -> Show {
     let stage = Stage { width_m: 0.8, depth_m: 0.8, ..Stage::default() };
     let far_m = 0.4 - stage.limits.radius_m - off_m;

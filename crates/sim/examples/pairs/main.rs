@@ -1,8 +1,8 @@
 //! Random pairs of frames, planned, proven and rehearsed with noise and slip:
-//! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST [FAULTS]]]`, 10,000 unless told otherwise.
+//! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST [FAULTS]]]`, COUNT is 10,000 by default.
 //!
-//! A line for each pair that is not solved, not proven or not free of contact, with the command that repeats it, and all
-//! their numbers at the end; exit code 1 then.
+//! Prints a line for each pair that is not solved, not proven or not free of contact, with the command that repeats it.
+//! Their numbers follow at the end. The exit code is then 1.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -23,7 +23,7 @@ fn main() -> ExitCode {
     arguments::main(run)
 }
 
-/// Whether every pair was fine.
+/// Returns whether every pair was fine.
 fn run(args: &[String]) -> Result<bool, String> {
     if args.iter().any(|argument| matches!(argument.as_str(), "--help" | "-h" | "help")) {
         println!("{USAGE}");

@@ -1,11 +1,11 @@
-//! Random pairs of frames: where robots stand, and where they shall go.
+//! Random pairs of frames: the starts and the goals of robots.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Dice, Purpose};
 
-/// A show of one drive: 2 to `most` robots on the usual floor, 60 to 200 mm apart before and after, interchangeable
-/// or, for odd numbers, each bound to its pixel. The same number gives the same pair.
+/// A show of one drive: 2 to `most` robots on the usual floor, with starts and goals 60 to 200 mm apart. They are
+/// interchangeable or, for odd numbers, each bound to its pixel. The same number gives the same pair.
 pub fn pair(number: u64, most: u64) -> Show {
     let mut dice = Dice::new(number, Purpose::Scene);
     let stage = Stage::default();
@@ -29,7 +29,7 @@ pub fn pair(number: u64, most: u64) -> Show {
         pixels: pixels.collect(),
         ..Frame::default()
     };
-    // Identity binds robots from the first frame on: the starts are a frame of their own then, where all stay.
+    // Fixed identity binds robots from the first frame on, so the starts are a separate frame in which all stay.
     let frames = if fixed { vec![standing(&starts[..count]), frame] } else { vec![frame] };
     Show {
         name: format!("pair {number}"),
@@ -58,7 +58,7 @@ fn standing(starts: &[Vec2]) -> Frame {
     }
 }
 
-/// Up to `count` places, thrown until one fits; fewer where the floor is full.
+/// Up to `count` random places at least `apart_m` apart. Fewer if the floor is full.
 fn places(dice: &mut Dice, stage: &Stage, count: usize, apart_m: f64) -> Vec<Vec2> {
     let half = Vec2::new(stage.width_m / 2.0 - 0.03, stage.depth_m / 2.0 - 0.03);
     let mut places: Vec<Vec2> = Vec::new();

@@ -1,8 +1,9 @@
-//! Files of the benchmark's scenes: `cargo run --release -p lightbots-sim --example scene_files FOLDER [ROBOTS…]`.
+//! Writes the scenes of the benchmark as files: `cargo run --release -p lightbots-sim --example scene_files FOLDER
+//! [ROBOTS…]`.
 //!
-//! Each scene of docs/benchmarks.md becomes a show whose last drive it is, with 30, 100 and 1,000 robots unless told
-//! otherwise. `scenes.csv` beside them lists them: file, scene, robots and the seed of the rehearsals. Another program that
-//! reads the files then solves the same problems: starts, pixels, which robot shows which pixel, and what is in the way.
+//! Each scene of docs/benchmarks.md becomes the last drive of a show, by default with 30, 100 and 1,000 robots. The
+//! file `scenes.csv` lists file, scene, robots and the seed of the rehearsals. Another program that reads the files
+//! then solves the same problems: starts, pixels, which robot shows which pixel, and the obstacles.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]
@@ -22,9 +23,9 @@ use lightbots_show::{Frame, Identity, Obstacle, Pixel, Show, Stage};
 use lightbots_sim::RehearsalOptions;
 
 const USAGE: &str = "usage: scene_files FOLDER [ROBOTS…]";
-/// Numbers of robots unless told otherwise.
+/// Default numbers of robots.
 const ROBOTS: [usize; 3] = [30, 100, 1_000];
-/// How long the picture stands, seconds.
+/// Air time of each picture, seconds.
 const AIR_S: f64 = 1.0;
 
 fn main() -> ExitCode {
@@ -42,7 +43,7 @@ fn run(args: &[String]) -> Result<bool, String> {
     };
     let folder = Path::new(folder);
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    // The rehearsals of the benchmark take this one.
+    // The seed of the benchmark's rehearsals.
     let seed = RehearsalOptions::default().seed;
     let mut list = "file,scene,robots,rehearsal_seed\n".to_owned();
     for scene in bench::ALL {
@@ -59,8 +60,8 @@ fn run(args: &[String]) -> Result<bool, String> {
     Ok(true)
 }
 
-/// The problem as a show. Robots that stand are discs in the way. With bound pixels, a first picture at the starts says by
-/// its ids which robot is which.
+/// The problem as a show. Standing robots become disc obstacles. With bound pixels, the ids of a first picture at the
+/// starts say which robot is which.
 fn show(name: String, problem: &TransitionProblem) -> Show {
     let TransitionProblem { starts, goals, pinned, standing, half_floor, limits, .. } = problem;
     let of_robots: Vec<(usize, Vec2)> =

@@ -1,4 +1,4 @@
-//! A robot stops dead at a random moment: no robot touches it, and the show goes on without it.
+//! A robot stops dead at a random moment. No robot touches it, and the show goes on without it.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
@@ -6,7 +6,8 @@ use lightbots_sim::{BrakeCounts, Conditions, Faults, RehearsalOptions, Rehearsal
 
 const ROBOTS: u32 = 16;
 
-/// A line of 100 mm, a block of 85 mm and a diagonal of 93 mm, so that robots follow each other closely.
+/// A show in which robots follow each other closely: a line of 100 mm spacing, a block of 85 mm and a diagonal of 93
+/// mm.
 fn dense_show() -> Show {
     let side = |index: u32| (f64::from(index % 4), f64::from(index / 4));
     let centred = |steps: f64, of: f64| steps - 0.5 * (of - 1.0);
@@ -46,7 +47,7 @@ fn play(faults: &str, seed: u64) -> RehearsalReport {
     rehearse(&dense_show(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// In how many of thirty runs robots touched after one of them failed like this. The show goes on in all of them.
+/// Number of runs, of thirty, in which robots touched after this fault. Asserts that the show goes on in all of them.
 fn touched(fault: &str) -> usize {
     let touches = |seed| {
         let report = play(fault, seed);
@@ -89,8 +90,8 @@ fn nobody_brakes_where_nothing_is_wrong() {
     }
 }
 
-/// Pairs that drive 1.6 m together and come within 64 mm of each other half way, one then straight behind the other. The
-/// one ahead of pair n is robot 2n, the other 2n + 1.
+/// A show of pairs that drive 1.6 m together. They come within 64 mm of each other half way, then one follows straight
+/// behind the other. Of pair n, robot 2n is ahead of robot 2n + 1.
 fn pairs_in_line() -> Show {
     let place = |x: f64, aside: f64, id: u32| {
         let back = f64::from(id % 2);
@@ -104,7 +105,7 @@ fn pairs_in_line() -> Show {
     show
 }
 
-/// Left on straight lines, 10 mm behind, nine in ten touched.
+/// Without a plan that keeps them apart, on straight lines 10 mm behind, nine in ten touched.
 #[test]
 fn who_follows_close_behind_stops_in_time_when_the_one_ahead_dies() {
     for fault in ["kill=0@3.2s", "stuck=4@3.4s", "kill=6@3.6s", "stuck=2@3.3s"] {
@@ -114,7 +115,7 @@ fn who_follows_close_behind_stops_in_time_when_the_one_ahead_dies() {
             let report = rehearse(&pairs_in_line(), &options, &mut |_| {});
             let issues = &report.issues;
             assert_eq!((report.contacts, report.dropouts), (0, 1), "{fault}, seed {seed}: {issues:?}");
-            // The one behind the dead robot brakes with a cause.
+            // The robot behind the dead one brakes for a real obstacle.
             let BrakeCounts { all, unfounded } = report.brakes;
             assert!(all > 0 && unfounded == 0, "{fault}, seed {seed}: {all} brakes, {unfounded} false");
         }

@@ -1,81 +1,82 @@
-//! Seeds of the fault campaign (docs/campaign.md): some for every change, and each that ever failed.
+//! Seeds of the fault campaign (docs/campaign.md): a fixed set for every change, and each seed that ever failed.
 
 use lightbots_sim::Campaign;
 
-/// Robots of each fixed seed.
+/// Number of robots for each fixed seed.
 const ROBOTS: usize = 30;
 
-/// Seeds with slow links that failed once, with as many robots as they say. Robots set off with clocks that were up to 0.1 s
-/// apart, or stopped dead in silence before others that had heard something later.
+/// Seeds with slow links that once failed, with the numbers of robots that they draw. Robots departed with clocks up to
+/// 0.1 s apart, or stopped dead in silence before others that had received something later.
 const SLOW: [u64; 5] = [233, 703, 710, 1_091, 1_337];
 
-/// Seeds that failed once, with the number of robots they had then.
+/// Seeds that once failed, with the number of robots then (`None`: as many as the seed draws). The comments name the
+/// mistake.
 const FAILED: [(u64, Option<usize>); 37] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
-    // A show that was paused when its controller was killed was resumed by no one.
+    // A show that was paused when its controller was killed stayed paused.
     (71, Some(30)),
-    // Robots met one that had just been put down in their way.
+    // Robots drove into one that had just been put into their path.
     (129, Some(30)),
     (296, Some(30)),
-    // A robot that did not know its place was not driven around.
+    // Robots did not drive around one that did not know its place.
     (158, Some(30)),
     (220, Some(30)),
     (260, Some(30)),
-    // Robots in a hold drove on into one that had stopped by itself.
+    // Robots that slowed down for a hold drove into one that had stopped by itself.
     (278, Some(30)),
-    // A robot that heard no copy of STOP turned towards a route that it kept.
+    // A robot that received no copy of STOP turned towards a route that it kept.
     (510, None),
     (759, None),
-    // A plan that had failed ahead let a show begin anew after its last frame.
+    // A plan made ahead had failed, and the show began again after its last frame.
     (206, Some(30)),
-    // A controller that was started again while the broker was gone spoke into the void.
+    // A controller that was restarted while the broker was gone sent messages that never arrived.
     (866, None),
     // A robot kept a route whose run had failed.
     (1_072, None),
-    // One of two robots of one name was on its way when the show was over.
+    // One of two robots with the same name was still driving when the show was over.
     (1_107, Some(30)),
-    // Two robots of one name stood so near each other that their places could be of one robot.
+    // Two robots with the same name stood near enough that their places could be of one robot.
     (1_262, None),
     (1_394, None),
     (1_445, None),
     (1_448, None),
-    // A robot whose link was back kept a route, and said that it was cut.
+    // A robot whose link was back kept a route, and reported that its drive was cut.
     (214, None),
     // STOP was lost with the broker.
     (1_910, None),
-    // A robot was cut off when its run ended, and kept its route.
+    // A robot was cut off when its run ended, and kept its route afterwards.
     (931, Some(30)),
-    // A robot that knows TARGET only was lifted, driven through others, and never counted as standing.
+    // A TARGET-only robot was lifted and driven through others, and never counted as standing.
     (978, Some(30)),
-    // A controller that was started again with an old journal stayed paused.
+    // A controller that was restarted with an old journal stayed paused.
     (3_699, Some(30)),
-    // A computer that slept made the round trip half a minute long.
+    // A computer that slept made the measured round trip half a minute long.
     (3_405, Some(30)),
-    // HOLD was stated 1.2 s ahead, because robots had not confirmed a START.
+    // HOLD was sent for a moment 1.2 s ahead, because robots had not confirmed a START.
     (3_440, Some(30)),
-    // A robot followed what a person's foot seemed to do.
+    // A robot followed the apparent movement of a person's foot.
     (3_604, Some(30)),
-    // A robot that was silent after an interruption was looked for ahead of where all had stopped.
+    // A robot that was silent after an interruption was expected ahead of the place where all had stopped.
     (411, None),
     (948, None),
-    // A robot that died while START was on its way was looked for where it had stood, though it had left.
+    // A robot that died while START was on its way was expected where it had stood, although it had left.
     (392, None),
-    // A robot that died after all had stopped was looked for along its path, though it had said where it stood.
+    // A robot that died after all had stopped was expected along its path, although it had reported where it stood.
     (855, None),
-    // A robot that had died after an outage was looked for where its path would have been by the crash that came next.
+    // A robot that died after an outage was expected where its path would have led by the next crash of the controller.
     (353, None),
-    // After an outage robots turned towards the route that they kept, by old messages before STOP.
+    // After an outage old messages arrived before STOP, and robots turned towards the routes that they kept.
     (3_417, None),
-    // A route came only with the old messages after an outage, and robots turned towards it.
+    // A route arrived only with the old messages after an outage, and robots turned towards it.
     (3_913, None),
-    // After a drive was broken off the journal had robots at the goals of that drive.
+    // After a drive was aborted, the journal placed robots at the goals of that drive.
     (3_343, None),
-    // A robot that had lied when all was planned stood on a path.
+    // A robot that had reported a false place during planning stood on a path.
     (2_908, None),
-    // What a robot saw 0.1 m beside one that had died was taken for that one, which was then driven through.
+    // A robot saw something 0.1 m beside a dead robot. It was taken for the dead robot, which was then driven through.
     (765, None),
-    // A robot that knows TARGET only was a stranger that was believed to keep to the plan.
+    // A TARGET-only robot was a stranger, and was expected to keep to the plan.
     (1_065, None),
 ];
 

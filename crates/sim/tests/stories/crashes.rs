@@ -1,10 +1,10 @@
-//! The controller is killed in a show of 30 robots, and another one goes on with it from the journal.
+//! The controller is killed in a show of 30 robots, and another controller continues it from the journal.
 
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
-/// How long there is no controller, seconds: robots still drive when it is back, or stand by themselves.
+/// Time without a controller, seconds. Robots still drive when it is back, or have stopped by themselves.
 const AWAY_S: [f64; 5] = [0.2, 0.8, 1.7, 2.5, 6.0];
-/// Longest time until all robots stand without a controller, seconds: R43 of docs/protocol.md, and a step of stopping.
+/// Longest time until all robots stand without a controller, seconds: R43 of docs/protocol.md, and the time to stop.
 const STAND_S: f64 = 2.2;
 
 fn play(faults: &str, seed: u64) -> RehearsalReport {
@@ -25,7 +25,7 @@ fn count(report: &RehearsalReport, code: &str) -> usize {
 #[test]
 fn a_show_whose_controller_is_killed_at_any_moment_is_finished() {
     for number in 0..20_u32 {
-        // Moments that are spread evenly over the show.
+        // The moments are spread evenly over the show.
         let at_s = 0.1 + (0.618 * f64::from(number)).fract() * 17.0;
         let faults = format!("crash={at_s:.3}s+{}s", AWAY_S[number as usize % AWAY_S.len()]);
         let report = play(&faults, number.into());

@@ -1,4 +1,4 @@
-//! Shows as the original saves them, where pixel 7 is the same robot in every frame and straight lines would collide.
+//! Shows as the original saves them: pixel 7 is the same robot in every frame, and straight lines would collide.
 
 use lightbots_base::random::congruential;
 use lightbots_base::{Rgb, Vec2};
@@ -6,7 +6,7 @@ use lightbots_exchange::{ORIGINAL, read};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show};
 use lightbots_sim::{Conditions, RehearsalOptions, rehearse};
 
-/// A show of two pictures in the original's format, and the ways between them that cross.
+/// A show of two frames that was written and read in the original's format, with paths between them that cross.
 fn show(name: &str, from: &[Vec2], to: &[Vec2]) -> Show {
     let frame = |name: &str, places: &[Vec2]| Frame {
         name: name.into(),
@@ -58,7 +58,7 @@ fn shows() -> Vec<Show> {
     let passed: Vec<Vec2> = column(0.6).chain(column(-0.6)).collect();
     let grid: Vec<Vec2> =
         (0..36).map(|i| Vec2::new(f64::from(i % 6), f64::from(i / 6)) * 0.16 - Vec2::new(0.4, 0.4)).collect();
-    // 7 and 36 have no common divisor: every place is taken once.
+    // 7 and 36 have no common divisor, so each place is used once.
     let shuffled: Vec<Vec2> = (0..36).map(|i| grid[(i * 7 + 5) % 36]).collect();
     let scattered = |seed: u64| {
         let mut state = seed;

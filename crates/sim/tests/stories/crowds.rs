@@ -1,11 +1,11 @@
-//! Dancers with places of their own: crowds whose paths must bend around each other, driven with standard faults.
+//! Shows with fixed identity in crowds, whose paths must bend around each other, rehearsed with standard faults.
 
 use lightbots_base::random::congruential;
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
-/// Robots of a random crowd, and how close their pixels may be.
+/// Number of robots of a random crowd. Their pixels are `APART_M` apart or more, metres.
 const ROBOTS: u32 = 30;
 const APART_M: f64 = 0.08;
 
@@ -61,7 +61,7 @@ fn crowd(number: u64) -> Show {
 
 #[test]
 fn random_crowds_change_places_without_touching() {
-    // One in three failed: where a path stopped to turn back, robots turned around instead of reversing.
+    // One in three runs once failed: where a path stopped and went back, robots turned around instead of reversing.
     for number in 1..=12 {
         let report = assert_fine(&crowd(number), "", number);
         assert_eq!((report.robots, report.frames_played), (30, 2));
@@ -70,15 +70,15 @@ fn random_crowds_change_places_without_touching() {
 
 #[test]
 fn crowds_have_room_for_poor_sensors_and_slippery_floors() {
-    // These touched, of forty, while ways only left 60 mm between centres.
+    // Robots of these seeds, of forty, touched when paths kept only 60 mm between centres.
     for number in [26, 31, 32] {
         assert_fine(&crowd(number), "slip=6%,gps=4mm,loss=5%", number);
     }
 }
 
-/// Sixty robots on a ring, 65 mm apart, each to the place across from it: all drive close behind one another. A robot that
-/// braked for what its sensors made of noise was late getting its speed back, the one behind it had to brake for that, and
-/// so on around the ring until two touched: one seed in three.
+/// A show of sixty robots on a ring, 65 mm apart, each of which drives to the opposite place close behind another. Once
+/// a robot braked for sensor noise and was slow to speed up, so the one behind it braked too. That went on around the
+/// ring until two robots touched: one seed in three.
 #[test]
 fn a_tight_ring_turns_by_half() {
     let ring = |name: &str, sign: f64| Frame {

@@ -1,4 +1,4 @@
-//! Five frames that differ in everything: for stories whose robots go between any two of them.
+//! A show of five very different frames, for tests whose robots drive between any two of them.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Pixel, Show, Stage};
@@ -35,7 +35,7 @@ fn place(frame: usize, id: u32, count: u32) -> Vec2 {
     }
 }
 
-/// Rehearses a show; `faults` as on the command line, may be empty.
+/// Rehearses a show. `faults` has the form of the command line, and may be empty.
 pub fn play(show: &Show, faults: &str, seed: u64, conditions: Conditions) -> RehearsalReport {
     let faults = if faults.is_empty() { Faults::default() } else { Faults::parse(faults).unwrap() };
     let options = RehearsalOptions { seed, conditions: faults.added_to(conditions), robots: None };

@@ -1,11 +1,11 @@
-//! A fleet in real time, with a conductor of a few lines in the controller's place.
+//! A fleet in real time, with a controller of a few lines.
 
 use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 use lightbots_show::Stage;
 use lightbots_sim::{Conditions, Fleet, FleetConfig, FleetMessage, STEP};
 use lightbots_wire::{Command, Report, Route, TimeAnswer, TimeQuestion, Topic, encode};
 
-/// A fleet whose messages arrive at once, and everything it said.
+/// A fleet whose messages arrive at once, and everything that it sent.
 struct Hall {
     fleet: Fleet,
     now: Instant,
@@ -46,7 +46,7 @@ impl Hall {
     }
 }
 
-/// A metre and a half along x from `start`, after the time to turn in.
+/// A route of 1.5 m along x from `start`, and its duration with the time to turn towards it.
 fn ride(seq: u32, start: Vec2) -> (Route, Span) {
     let mid = |x: f64| start + Vec2::new(x, 0.0);
     let cruise = Vec2::new(0.25, 0.0);

@@ -1,4 +1,4 @@
-//! Drives from the usual starting rows to formations: a part of the cases that `cargo xtask formations` rehearses.
+//! Drives from the usual starting rows to formations: some of the cases that `cargo xtask formations` rehearses.
 
 #[path = "../../examples/formations/case.rs"]
 mod case;
@@ -13,22 +13,22 @@ use case::{CASES, COUNTS, Case, Place};
 use shapes::{Shape, nearest};
 use verdict::Required;
 
-/// How many cases are spread over all of them.
+/// Number of cases that the tests take from the whole sweep.
 const SPREAD: usize = 100;
-/// From one of these to the next. It has no divisor in common with the number of cases, and is near the golden section of
-/// it: parts of the sequence are spread evenly as well.
+/// Difference between the numbers of two successive cases. It shares no divisor with the number of cases and is near
+/// its golden section. So each part of the sequence is spread evenly too.
 const STRIDE: usize = 2991;
 
 fn spread() -> impl Iterator<Item = Case> {
     (0..SPREAD).map(|nth| Case::new(nth * STRIDE % CASES))
 }
 
-/// All cases about 0.080 m, where the planned clearance passes 8 mm and brakes once began.
+/// All cases with spacings near 0.080 m, where the planned clearance exceeds 8 mm and robots once braked.
 fn about_eighty_millimetres() -> impl Iterator<Item = Case> {
     (0..CASES).map(Case::new).filter(|case| (0.0794..0.0806).contains(&case.spacing_m))
 }
 
-/// Rehearses the cases and lists those that fail.
+/// Rehearses the cases and fails with a list of those that do not pass.
 #[track_caller]
 fn assert_pass(cases: impl Iterator<Item = Case>, conditions: &Conditions, required: Required) {
     let (mut count, mut failed) = (0, Vec::new());

@@ -1,5 +1,5 @@
-//! Gaps between things on the floor hardly wider than a robot, and the floor's edge: what is planned there is driven
-//! without touching anything, and a robot that touches the edge all the same is reported.
+//! Gaps between obstacles hardly wider than a robot, and the floor's edge. Robots drive there as planned without
+//! touching anything. A robot that touches the edge anyway is reported.
 
 #[path = "../../examples/noise/places.rs"]
 mod places;
@@ -19,7 +19,7 @@ fn assert_untouched(report: &RehearsalReport) {
     assert_eq!(report.wall_pressed_m, 0.0);
 }
 
-/// Who left a stop before it had turned was 7 mm off its line, and grazed the corners of the gap.
+/// A robot that left a waypoint before it had turned was once 7 mm off its line, and grazed the corners of the gap.
 #[test]
 fn eight_robots_pass_a_gap_half_a_millimetre_wider_than_it_must_be() {
     let report = play(&places::gap(0.0605), 1);
@@ -27,7 +27,7 @@ fn eight_robots_pass_a_gap_half_a_millimetre_wider_than_it_must_be() {
     assert!(report.tracking_error_m.p99 < 0.003, "{:?}", report.tracking_error_m);
 }
 
-/// Robots that wait in front of a gap must leave room for those that pass by.
+/// Robots that wait in front of a gap must leave room for those that pass.
 #[test]
 fn twenty_queue_at_a_gap_without_touching_each_other() {
     for (wide_m, seed) in [(0.063, 23), (0.08, 12)] {
@@ -35,7 +35,8 @@ fn twenty_queue_at_a_gap_without_touching_each_other() {
     }
 }
 
-/// Both touched there: one the corner of the bay, the other the floor's edge along which it was planned.
+/// Both robots once touched something: one the corner of the bay, the other the floor's edge along which it was
+/// planned.
 #[test]
 fn two_change_places_by_a_bay_without_touching_its_corners_or_the_edge() {
     for seed in 1..=6 {

@@ -1,5 +1,5 @@
-//! Robots that may show any pixel, that keep theirs, and that are asked for by name, in random shows: the picture on the
-//! floor is the frame, and what is played is what was checked.
+//! Random shows with pixels that any robot may show, that keep their robot, or that request a robot by name. The lights
+//! on the floor show the frame, and the run is the plan that was checked.
 
 #[path = "../../examples/identities/hall.rs"]
 mod hall;

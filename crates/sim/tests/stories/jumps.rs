@@ -1,11 +1,11 @@
-//! The operator sends robots to other frames than the next one: no robot touches another, whatever the link loses.
+//! The operator sends robots to frames other than the next one. No robots touch, even if messages are lost.
 
 use crate::five_frames::{FRAMES, play, show};
 use lightbots_base::Span;
 use lightbots_show::{Layer, LayerSpan, Setting, Show};
 use lightbots_sim::{Conditions, Mishap, RehearsalReport};
 
-/// A walk that goes from each frame to each other, and to itself, once.
+/// A walk that goes from each frame to every frame, itself included, once.
 fn each_to_each() -> Vec<usize> {
     let mut left: Vec<Vec<usize>> = vec![(0..FRAMES).collect(); FRAMES];
     let (mut path, mut walk) = (vec![0], Vec::new());
@@ -19,7 +19,7 @@ fn each_to_each() -> Vec<usize> {
     walk.split_off(1)
 }
 
-/// Nothing touched or was lost, and the show ended after `frames` frames.
+/// Asserts that no robots touched or dropped out, and that the show ended after `frames` frames.
 fn assert_fine(report: &RehearsalReport, frames: usize, what: &str) {
     let (seed, issues) = (report.seed, &report.issues);
     assert_eq!((report.contacts, report.dropouts), (0, 0), "{what}, seed {seed}: {issues:?}");
@@ -37,7 +37,7 @@ fn robots_go_from_each_frame_to_each_other() {
     {
         let conditions = Conditions { visits: visits.clone(), ..Conditions::default() };
         let report = play(&show(12, 1.0), faults, seed, conditions);
-        // The first frame, those of the walk, which ends at the first frame, and the four after it.
+        // The frames played: the first one, those of the walk, which ends at the first frame, and the four after it.
         assert_fine(&report, 1 + FRAMES * FRAMES + 4, faults);
         assert!(report.position_error_m.max < 0.02, "{faults}, seed {seed}: {:?}", report.position_error_m);
     }
@@ -49,7 +49,7 @@ fn robots_that_are_held_on_their_way_go_to_each_frame() {
     for (number, at_ms) in (300..9_000).step_by(725).enumerate() {
         let to = number % FRAMES;
         let at = Span::from_millis(at_ms);
-        // Robots still slow down, or stand.
+        // After 0.1 s robots still slow down, after 0.9 s they stand.
         let after = Span::from_millis(if number % 2 == 0 { 100 } else { 900 });
         let mishaps = vec![(at, Mishap::Pause), (at + after, Mishap::GoTo(to))];
         let conditions = Conditions { mishaps, ..Conditions::default() };

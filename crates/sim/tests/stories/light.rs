@@ -1,4 +1,4 @@
-//! Layers of light: robots show what the layers say, on time, whatever happens to the drive.
+//! Layers of light: robots show the colours of the layers in time, even if the drive is disturbed.
 
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_lighting::Tolerance;
@@ -10,7 +10,7 @@ fn layer(kind: &str, span: LayerSpan, settings: Vec<(&str, Setting)>) -> Layer {
     Layer { name: String::new(), kind: kind.into(), span, settings }
 }
 
-/// A rainbow over the whole show, a chase in drives and a twinkle in pictures.
+/// Three layers: a rainbow over the whole show, a chase in drives and a twinkle in pictures.
 fn layers() -> Vec<Layer> {
     let frames = |phase| LayerSpan::Frames { first: "0".into(), last: "2".into(), phase };
     let rising =
@@ -26,7 +26,7 @@ fn layers() -> Vec<Layer> {
     ]
 }
 
-/// A row, a ring and a row again, of `count` robots.
+/// A show of `count` robots: a row, a ring and a row again.
 fn show(count: u32, air_time_s: f64) -> Show {
     let frame = |number: usize| Frame {
         id: Some(number.to_string()),
@@ -62,7 +62,7 @@ fn play_in(show: &Show, faults: &str, seed: u64, conditions: Conditions) -> Rehe
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// At most one in `one_in` of the compared lights is wrong.
+/// Asserts that at most one in `one_in` of the compared lights is wrong.
 fn assert_lit(report: &RehearsalReport, one_in: u64) {
     let (lights, seed) = (report.lights, report.seed);
     assert!(report.contacts == 0 && report.frames_played >= 3, "seed {seed}: {:?}", report.issues);
@@ -102,7 +102,7 @@ fn light_goes_on_with_the_others_when_a_robot_dies() {
     }
 }
 
-/// Live light is pressed and released while robots drive, stand, and are held.
+/// The operator presses and releases live light while robots drive, stand, and are held.
 #[test]
 fn live_light_is_shown_within_0_3_s_while_robots_drive_stand_and_are_held() {
     let at = |ms: i64, mishap| (Span::from_millis(ms), mishap);
@@ -128,7 +128,7 @@ fn live_light_is_shown_within_0_3_s_while_robots_drive_stand_and_are_held() {
     }
 }
 
-/// Effects that move, and their cycles a second.
+/// Effects that move, with their speeds in cycles per second.
 const MOVING: [(&str, f64); 12] = [
     ("gradient", 0.1),
     ("fade", 0.25),
@@ -144,7 +144,7 @@ const MOVING: [(&str, f64); 12] = [
     ("by-robot", 0.2),
 ];
 
-/// A slow rainbow that stands with show time, and over it an effect that may run freely.
+/// Two layers: a slow rainbow that stops with show time, and over it an effect that may run freely.
 fn over_a_rainbow(kind: &str, speed_hz: f64, runs_freely: bool) -> Vec<Layer> {
     let settings = vec![
         ("speed_hz", Setting::Number(speed_hz)),
@@ -158,13 +158,13 @@ fn over_a_rainbow(kind: &str, speed_hz: f64, runs_freely: bool) -> Vec<Layer> {
     ]
 }
 
-/// The operator pauses in the drive to the second frame, for longer than a stretch of light lasts.
+/// The operator pauses in the drive to the second frame, for longer than a stretch of light.
 fn paused_on_the_way() -> Conditions {
     let [from, to] = [9_500, 23_500].map(Span::from_millis);
     Conditions { mishaps: vec![(from, Mishap::Pause), (to, Mishap::Resume)], ..Conditions::default() }
 }
 
-/// Robots were held in the drive to the second frame.
+/// Asserts that robots were held in the drive to the second frame, and in no other.
 fn assert_held(report: &RehearsalReport, what: &str) {
     let drives: Vec<f64> = report.per_frame.iter().map(|frame| frame.drive_s).collect();
     assert!(drives[1] > 14.0 && drives[0] < 14.0 && drives[2] < 14.0, "{what}: drives of {drives:?} s");
@@ -178,7 +178,7 @@ fn effects_stand_in_a_pause_or_run_freely_through_it() {
             let show = Show { layers, ..show(8, 4.0) };
             let report = play_in(&show, "loss=5%", 1 + number as u64, paused_on_the_way());
             assert_held(&report, kind);
-            // Where a hold's stretch is lost, a robot stands until it is sent again.
+            // If the stretch for a hold is lost, the robot's light stops until that stretch is sent again.
             assert_lit(&report, if runs_freely { 300 } else { 500 });
         }
     }
@@ -209,7 +209,7 @@ fn robots_keep_to_one_step_of_each_channel_where_that_is_wanted() {
     }
 }
 
-/// A press reaches a thousand robots in time, too.
+/// A press also reaches a thousand robots in time.
 #[test]
 fn live_light_reaches_a_thousand_robots() {
     let place = |frame: usize, id: u32| {

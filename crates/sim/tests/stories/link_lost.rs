@@ -1,9 +1,10 @@
-//! The broker freezes or is gone during a show of 30 robots: the show is played to its end by all of them.
+//! The broker freezes or is gone during a show of 30 robots. All of them play the show to its end.
 
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
-/// When outages begin, seconds after the first departure: on a drive, at its end, and while a frame stands.
+/// When outages begin, seconds after the first departure: in a drive, at its end, and after robots have reached the
+/// frame.
 const MOMENTS_S: [f64; 3] = [0.7, 3.9, 6.1];
 
 fn hello() -> Show {
@@ -46,7 +47,7 @@ fn three_of_thirty_robots_that_die_together_are_lost_robots() {
     }
 }
 
-/// A third of the robots are at an access point that is without power for a while.
+/// A third of the robots use one access point, which has no power for 6 s.
 #[test]
 fn a_third_of_the_robots_cut_off_together_is_a_lost_link() {
     let cut: Vec<String> = (0..10).map(|robot| format!("cut={robot}@2s+6s")).collect();

@@ -1,11 +1,11 @@
-//! Frames repeat until GO: no robot touches another on any way back, whatever the link loses.
+//! Frames repeat until GO. No robots touch on any way back, even if messages are lost.
 
 use crate::five_frames::{self, play};
 use lightbots_base::Span;
 use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, Show};
 use lightbots_sim::{Conditions, Mishap, RehearsalReport};
 
-/// Five frames of `count` robots; those from `first` to `last`, counted from 0, repeat until GO.
+/// A show of five frames for `count` robots. Those from `first` to `last`, counted from 0, repeat until GO.
 fn show((first, last): (usize, usize), count: u32) -> Show {
     let at = CuePlace::Frame(last.to_string());
     let cue = Cue { name: "Encore".into(), at, loop_from: Some(first.to_string()) };
@@ -16,7 +16,7 @@ fn rounds(loop_rounds: u32) -> Conditions {
     Conditions { loop_rounds, ..Conditions::default() }
 }
 
-/// Nothing touched or was lost, and the show ended after these frames.
+/// Asserts that no robots touched or dropped out, and that exactly these frames were played.
 fn assert_played(report: &RehearsalReport, frames: &[usize], what: &str) {
     let (seed, issues) = (report.seed, &report.issues);
     let what = format!("{what}, seed {seed}: {issues:?}");

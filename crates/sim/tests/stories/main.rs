@@ -1,5 +1,5 @@
-//! Whole systems in virtual time, one file a subject. One program for all of them: each program of tests is linked with
-//! everything below it, which takes longer than most of these tests.
+//! Whole systems in virtual time, one file per subject. All files are one test program, because linking a program with
+//! everything below it takes longer than most of these tests.
 
 mod breakdowns;
 mod campaign;

@@ -1,4 +1,4 @@
-//! Pictures that move as one: no contacts, and robots keep to their ways.
+//! Pictures that move as one: no contacts, and robots stay on their paths.
 
 #[path = "../../examples/motions/shows.rs"]
 mod shows;
@@ -7,7 +7,7 @@ use crate::five_frames::play;
 use lightbots_show::PictureMotion;
 use lightbots_sim::{Conditions, RehearsalReport};
 
-/// Largest tracking error up to 100 robots, metres, as in the table of numbers.
+/// Largest tracking error for up to 100 robots, metres, as in the table of numbers.
 const TRACKING_M: f64 = 0.006;
 
 fn assert_fine(report: &RehearsalReport, what: &str) {

@@ -1,4 +1,4 @@
-//! Music does not wait for late robots: their pictures catch up, and a show without music waits.
+//! Music does not wait for late robots: their frames catch up. A show without music waits.
 
 use crate::five_frames::{FRAMES, play, show};
 use lightbots_show::Show;
@@ -17,20 +17,21 @@ fn played(show: &Show, faults: &str) -> RehearsalReport {
     report
 }
 
-/// When each frame that was played stood, seconds after the first one did.
+/// Each frame that was played, and when robots reached it, seconds after the first frame.
 fn moments(report: &RehearsalReport) -> Vec<(usize, f64)> {
     let first_s = report.per_frame[0].at_s;
     report.per_frame.iter().map(|frame| (frame.frame, frame.at_s - first_s)).collect()
 }
 
-/// By how much each frame stood later than the same one of the other run, seconds.
+/// How much later each frame was reached than the same frame of the other run, seconds.
 fn later_s(report: &RehearsalReport, than: &RehearsalReport) -> Vec<f64> {
     let others = moments(than);
     let other = |frame: usize| others.iter().find(|(other, _)| *other == frame).map_or(f64::NAN, |at| at.1);
     moments(report).into_iter().map(|(frame, at_s)| at_s - other(frame)).collect()
 }
 
-/// That number of robots lose their places for 2 s on the drive to the third frame, one after the other.
+/// Faults in which `robots` robots lose their places for 2 s each, one after the other, on the drive to the third
+/// frame.
 fn blind(report: &RehearsalReport, robots: u32) -> String {
     let begins_s = report.per_frame[2].at_s - 2.0;
     let one = |robot: u32| format!("blind={robot}@{:.1}s+2s", begins_s + 2.2 * f64::from(robot));
@@ -85,7 +86,8 @@ fn robots_keep_to_the_music_without_faults_and_with_lost_messages() {
 #[test]
 fn music_goes_on_whenever_a_robot_is_cut_off() {
     let fine = played(&with_music(), "");
-    // Before a START, which is postponed; in a drive, which all begin anew or go on without the robot; in a picture.
+    // Some outages begin before a START, which is postponed. Others begin in a drive, which begins anew or goes on
+    // without the robot, or while a picture is shown.
     let from_s = fine.per_frame[2].at_s - 3.0;
     let mut whole = 0;
     for half_s in 0..16 {
@@ -94,7 +96,8 @@ fn music_goes_on_whenever_a_robot_is_cut_off() {
         assert_eq!(report.contacts, 0, "{at_s:.1} s: {:?}", report.issues);
         let late = later_s(&report, &fine);
         let end_s = report.duration_s - fine.duration_s;
-        // A picture stands for half a second at least. Where a frame was left out, the last one stands until the music ends.
+        // A picture is shown for half a second at least. If a frame was left out, the last one stays until the music
+        // ends.
         let most_s = |before_s: f64| (before_s - (AIR_S - 0.5)).max(0.0) + 0.15;
         let catches_up = late.len() < FRAMES || (-0.15..most_s(late[3])).contains(&late[4]);
         assert!(

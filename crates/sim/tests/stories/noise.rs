@@ -1,17 +1,18 @@
-//! Stories of poor sensors and slippery floors: what noise, delay and drop-outs of fixes did to shows, and must not.
+//! Poor sensors and slippery floors: noise, delay and missing fixes once broke these shows, and must not.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
-/// Poor sensors on a slippery floor, fixes that are old; …
+/// Faults: poor sensors on a slippery floor, and old fixes.
 const HEAVY: &str = "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms";
-/// … and that stay away now and then.
+/// The faults of `HEAVY`, and fixes that are missing for a second now and then.
 const WORST: &str = "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s";
-/// A hundred robots: with fixes that drop out, some are unsure of their places all the time.
+/// A show of a hundred robots. If fixes drop out, at any time some of them are unsure of their places.
 const FIREWORKS: &[u8] = include_bytes!("../../../../shows/fireworks.lightbots.json");
 
-/// Pairs that start and end this far apart and turn about each other on the way, down to three quarters of it.
+/// A show of pairs that start and end `apart_m` apart. They turn about each other on the way, down to three quarters of
+/// that distance.
 fn turning_pairs(apart_m: f64) -> Show {
     let pixels = |y: f64, towards: f64| {
         let apart = Vec2::unit(towards.to_radians()) * (apart_m / 2.0);
@@ -54,7 +55,7 @@ fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
 
 #[test]
 fn neighbours_whose_sensors_are_poor_give_way_to_each_other() {
-    // Side by side, two robots were off by 4 mm each and touched, although both saw the other come near.
+    // Two robots side by side once had errors of 4 mm each and touched, although both saw the other approach.
     for seed in 1..=4 {
         play(&turning_pairs(0.084), HEAVY, seed);
     }
@@ -62,8 +63,8 @@ fn neighbours_whose_sensors_are_poor_give_way_to_each_other() {
 
 #[test]
 fn who_gets_no_fixes_for_a_second_waits_for_them_and_goes_on() {
-    // Robots that were unsure of their places by centimetres drove on, and touched others with seed 7. With 6, 9 and 35
-    // they took their slip for what it was before all robots stood, and their places for certain.
+    // Robots whose places were uncertain by centimetres once drove on, and touched others with seed 7. With seeds 6, 9
+    // and 35 they kept the slip estimate from before all robots stood, and took their places for certain.
     for seed in [5, 6, 7, 8, 9, 35] {
         play(&turning_pairs(0.1), WORST, seed);
     }
@@ -71,8 +72,8 @@ fn who_gets_no_fixes_for_a_second_waits_for_them_and_goes_on() {
 
 #[test]
 fn one_hold_after_another_is_kept_when_it_is_needed() {
-    // Holds were stated up to 2 s ahead, each after the resume of the one before, until robots forgot the first of them:
-    // all hundred were thrown a quarter of a metre back on their routes.
+    // Holds were once sent up to 2 s ahead, each for a time after the resume of the one before. Robots forgot the first
+    // of them and were set back a quarter of a metre on their routes.
     let show = lightbots_exchange::read(FIREWORKS, None).unwrap().show;
     let report = play(&show, "fix-dropout=1s", 3);
     assert!(report.tracking_error_m.max < 0.03, "{:?}", report.tracking_error_m);

@@ -1,5 +1,5 @@
-//! Robots that speak only TARGET and COLOR play whole shows: side by side where no two can meet, one after the other where
-//! not.
+//! Robots that understand only TARGET and COLOR play whole shows. They drive simultaneously where no two can meet, and
+//! one after the other elsewhere.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Pixel, Show};
@@ -7,8 +7,8 @@ use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehea
 
 const ROBOTS: u32 = 30;
 
-/// As dense as the original's shows, whose closest pixels are 84 mm apart: a row, two lines, a block at the other side of
-/// the floor, and a ring.
+/// A show as dense as the original's, whose closest pixels are 84 mm apart. Its frames are a row, two lines, a block at
+/// the other side of the floor, and a ring.
 fn show() -> Show {
     let row = |i: u32| Vec2::new(-1.3 + 0.0917 * f64::from(i), 1.29);
     let lines = |i: u32| Vec2::new(-1.3 + 0.15 * f64::from(i / 2), 1.2 - 0.09 * f64::from(i % 2));

@@ -1,5 +1,5 @@
-//! A robot that is cut off or lost for some seconds: no robot is touched, it takes part again when it is back, and the
-//! show is played to its end.
+//! A robot is cut off or loses its place for some seconds. No robots touch, the robot takes part again afterwards, and
+//! the show is played to its end.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
@@ -8,7 +8,7 @@ use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehea
 const ROBOTS: u32 = 8;
 const FRAMES: usize = 5;
 
-/// A row that goes to and fro by half a metre, with two seconds of air.
+/// A show whose row of robots moves to and fro by half a metre, with two seconds of air time.
 fn show() -> Show {
     let frame = |number: usize| Frame {
         name: format!("{number}"),
@@ -35,7 +35,7 @@ fn show() -> Show {
     }
 }
 
-/// One behind the other, 18 mm between rims, they go to and fro by a metre.
+/// A show of robots one behind the other, 18 mm between rims, which move to and fro by a metre.
 fn column() -> Show {
     let mut show = show();
     show.identity = Identity::Fixed;
@@ -48,7 +48,7 @@ fn column() -> Show {
     show
 }
 
-/// Plays with this robot in trouble. All robots must play the last frame.
+/// Plays the show with one robot in trouble. All robots must play the last frame.
 fn play(faults: &str, seed: u64) -> RehearsalReport {
     play_show(&show(), faults, seed)
 }
@@ -85,7 +85,8 @@ fn cut_off_or_lost_on_the_way_it_drops_out_and_comes_back() {
 
 #[test]
 fn who_is_cut_off_and_drives_on_runs_into_nobody() {
-    // Those ahead held after a second of silence, while the one behind them drove on until it knew that it was cut off.
+    // The robots ahead once held after a second of silence, while the one behind them drove on until it noticed the
+    // lost link.
     let leaves_s = play_show(&column(), "", 1).per_frame[0].at_s + 2.0;
     for seed in 1..=5 {
         for after_s in [0.4, 0.8, 1.2] {
@@ -99,9 +100,9 @@ fn who_is_cut_off_and_drives_on_runs_into_nobody() {
 fn cut_off_or_lost_beyond_the_air_time_it_is_waited_for_by_name_and_comes_back() {
     let at_s = play("", 1).per_frame[1].at_s + 0.3;
     let cut = play(&format!("cut=3@{at_s:.2}s+4s"), 1);
-    // It may have died: no robot departs before this one has acknowledged the moment.
+    // The robot may have died: no robot departs before it has acknowledged START.
     assert!(has(&cut, "waiting") && cut.dropouts == 0, "{:#?}", cut.issues);
-    // After 4 s the others go on, and it comes back later.
+    // After 4 s the others depart without it, and it rejoins later.
     let long = play(&format!("cut=3@{at_s:.2}s+7s"), 1);
     assert!(has(&long, "dropout") && has(&long, "rejoined"), "{:#?}", long.issues);
     let blind = play(&format!("blind=3@{at_s:.2}s+7s"), 1);

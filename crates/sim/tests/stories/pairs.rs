@@ -1,4 +1,4 @@
-//! A few of the random pairs of frames that `cargo xtask pairs` rehearses by the thousand.
+//! Rehearses a few of the random pairs of frames that `cargo xtask pairs` rehearses by the thousand.
 
 #[path = "../../examples/pairs/scene.rs"]
 mod scene;
@@ -22,8 +22,8 @@ fn random_pairs_of_frames_are_solved_proven_and_driven_without_contact() {
     assert_eq!(fixed, 30);
 }
 
-/// A pair of the thousands, of up to 200 robots. Where identity is fixed they change places first, so that those whose
-/// places are sorted by x are in that order: another drive through a crowd.
+/// Rehearses a random pair of up to 200 robots. With fixed identity a frame is put before it, in which robots are
+/// sorted by x, so that they drive through a crowd twice.
 fn run(number: u64, faults: &str) -> RehearsalReport {
     let mut show = scene::pair(number, 200);
     if show.identity == Identity::Fixed {
@@ -41,8 +41,8 @@ fn rehearsed(show: &Show, seed: u64, faults: &str) -> RehearsalReport {
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// In crowds as tight as planning makes them, a robot braked for a neighbour that only crossed, fell behind by as much as
-/// others had for room, and they drove into it, or it was given up.
+/// A robot in a very dense crowd once braked for a neighbour that only crossed. It fell behind by more than others had
+/// left room for, and they drove into it, or it dropped out.
 #[test]
 fn nobody_brakes_for_one_that_crosses() {
     for number in [2763, 3331, 4523, 5045, 5355, 7953, 8737, 8855] {
@@ -52,16 +52,16 @@ fn nobody_brakes_for_one_that_crosses() {
     }
 }
 
-/// Coming slowly, it took one that had died for farther away the nearer it was, and sped up.
+/// A slow robot once estimated the distance of a dead robot as growing while it came nearer, and sped up.
 #[test]
 fn nobody_creeps_into_one_that_died() {
     let report = run(103, "kill=random");
     assert_eq!((report.contacts, report.dropouts), (0, 1), "{:?}", report.issues);
 }
 
-/// Having braked for one that died beside its way, it took it for one that drives on, as what is passed so hardly comes
-/// nearer, or as it passed out of sight of one of two sensors; or crept past it until nothing seemed to hinder it, and
-/// drove off into it.
+/// Three mistakes of a robot that had braked for a dead one beside its path. It took the dead robot for a moving one,
+/// because the distance hardly changed. Or it did that because one of two sensors lost sight of the dead robot. Or it
+/// crept on until nothing seemed to block it, and drove into the dead robot.
 #[test]
 fn who_brakes_for_one_that_died_beside_its_way_does_not_go_on() {
     for number in [39, 561, 367] {
@@ -70,8 +70,8 @@ fn who_brakes_for_one_that_died_beside_its_way_does_not_go_on() {
     }
 }
 
-/// A robot that brakes for noise falls behind, and another that is held stands in its way. It needs a plan of its own
-/// and must not be given up.
+/// A robot that brakes for noise falls behind, and another one that is held blocks its path. The late robot needs a new
+/// plan and must not drop out.
 #[test]
 fn a_blocked_robot_that_fell_behind_is_planned_anew_and_not_given_up() {
     let report = run(73, "slip=10%,gps=5mm,heading=2deg,fix-delay=100ms,fix-dropout=1s");

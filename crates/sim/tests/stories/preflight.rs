@@ -1,4 +1,4 @@
-//! A preflight of a simulated fleet: a healthy one passes, and each robot with a defect is named, without a contact.
+//! A preflight of a simulated fleet. Healthy robots pass, each robot with a defect is named, and no robots touch.
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_control::{
@@ -9,10 +9,10 @@ use lightbots_sim::{Conditions, Fleet, FleetConfig, STEP};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Messages arrive this much later.
+/// Delay of every message.
 const DELAY: Span = Span::from_millis(15);
 
-/// A message under way: to the robot, or from any robot to the controller.
+/// An undelivered message: to a robot, or from a robot to the controller.
 struct Letter {
     due: Instant,
     robot: Option<usize>,
@@ -31,9 +31,9 @@ struct Hall {
     /// Share of messages lost, percent.
     loss: u64,
     dice: u64,
-    /// These robots do not receive HOLD and STOP.
+    /// Numbers of the robots that do not receive HOLD and STOP.
     headstrong: Vec<usize>,
-    /// `[robot]`: it flashed white at some time.
+    /// `[robot]`: whether it has flashed white.
     blinked: Vec<bool>,
 }
 
@@ -127,7 +127,7 @@ impl Hall {
         self.drain();
     }
 
-    /// Runs the preflight to its end, and checks what holds in all of them.
+    /// Runs the preflight to its end, and checks what holds for every preflight.
     fn finish(&mut self) -> Arc<PreflightReport> {
         let begun = self.now;
         while self.controller.has_run() {
@@ -147,7 +147,7 @@ impl Hall {
         &report.of(self.ids[robot]).unwrap_or_else(|| panic!("robot {robot} is not named")).findings
     }
 
-    /// All robots but these passed.
+    /// Asserts that all robots passed except those of `but`.
     fn assert_others_pass(&self, report: &PreflightReport, but: &[usize]) {
         for robot in (0..self.ids.len()).filter(|robot| !but.contains(robot)) {
             assert_eq!(self.findings(report, robot), [], "robot {robot}: {report:#?}\n{}", self.story());
@@ -200,7 +200,7 @@ fn a_robot_whose_marker_is_turned_is_named() {
             _ => None,
         });
         let off = off.unwrap_or_else(|| panic!("{found:?}"));
-        // The places do not settle wholly in the time that robots stand, so less than the whole angle is seen.
+        // The estimates do not settle completely while robots stand, so the measured angle is less than the whole one.
         assert!(off > 3.0 && off < degrees.abs() + 1.0, "{off} for {degrees}");
         hall.assert_others_pass(&report, &[4]);
     }

@@ -1,4 +1,4 @@
-//! The disc world's contacts beside a physics engine's: the same robots drive in both.
+//! Compares the contacts of the simulated world with those of a physics engine: the same robots drive in both.
 
 use lightbots_base::{Pose, Vec2};
 use lightbots_show::Stage;
@@ -8,12 +8,12 @@ use rapier2d::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBo
 
 const RADIUS_M: f64 = 0.027;
 const CONTACT_M: f64 = 2.0 * RADIUS_M;
-/// Gap with which the engine lets grazing discs slide past each other, metres.
+/// Gap between rims at which grazing discs slide past each other in the engine, metres.
 const HAIR_M: f64 = 0.001;
 const WHEELS_RADPS: f64 = 60.0;
 const SPEED_MPS: f64 = 0.27;
 
-/// Discs that are driven at full speed along their headings, in both worlds.
+/// The same discs in both worlds, driven at full speed along their headings.
 struct Pair {
     ours: World,
     theirs: PhysicsWorld,
@@ -45,7 +45,8 @@ impl Pair {
             discs.push((handle, Vec2::unit(start.heading) * SPEED_MPS));
             ours.command(robot, [WHEELS_RADPS; 2]);
         }
-        // Ours take five steps until they drive evenly: theirs start when ours are steady, where ours then are.
+        // Our robots take five steps to reach a steady speed. The engine's discs start after that, at the places of
+        // ours.
         for _ in 0..8 {
             ours.step();
         }
@@ -85,7 +86,7 @@ impl Pair {
         closest
     }
 
-    /// How far apart a robot is in the two worlds, metres.
+    /// Distance between a robot's places in the two worlds, metres.
     fn apart(&self, robot: usize) -> f64 {
         self.ours.pose(robot).at.distance(self.theirs(robot))
     }
@@ -114,7 +115,7 @@ fn at_a_wall_both_worlds_stand_a_radius_from_it() {
     pair.run(200);
     assert!((pair.ours.pose(0).at.x - 1.473).abs() < 1e-9);
     assert!(pair.apart(0) < 0.001);
-    // Against the wall at an angle, both slide along it as fast as the rest of their speed.
+    // Both robots slide along the wall with the part of their speed that is parallel to it.
     assert!(pair.apart(1) < 0.01, "{:?}", (pair.ours.pose(1).at, pair.theirs(1)));
 }
 
@@ -151,8 +152,8 @@ fn three_driven_into_one_another_hold_each_other_up_alike() {
         })
         .collect();
     let mut pair = Pair::new(&starts);
-    // They meet after 83 steps. Much later the one world has slipped to this side and the other to that: nothing holds
-    // three round discs in balance.
+    // The robots meet after 83 steps. Much later the two worlds differ, because three round discs do not stay in
+    // balance.
     pair.run(90);
     for robot in 0..3 {
         assert!(pair.ours.pose(robot).at.length() < 0.035);

@@ -1,13 +1,13 @@
-//! A robot dies in a dense fleet that crosses: what follows harms hardly any other robot, and ends.
+//! A robot dies in a dense fleet that crosses. The replans that follow harm hardly any other robot, and the run ends.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
-/// One robot dies.
+/// The fault: one random robot dies at a random time.
 const DEATH: &str = "kill=random";
 
-/// Two halves of 200 robots that swap places, there and back; the scene `swap` of the example `crowds`.
+/// A show in which two blocks of 100 robots swap places, there and back: the scene `swap` of the example `crowds`.
 fn swap() -> Show {
     let block = |side: f64| {
         let off = |place: u32| (f64::from(place) - 4.5) * 0.1;
@@ -43,7 +43,7 @@ fn play(faults: &str, seed: u64) -> RehearsalReport {
     rehearse(&swap(), &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// Each run ends in time without another dropout; contacts after replans, of all runs.
+/// Contacts after replans in the runs of these seeds. Asserts that each run ends in time without another dropout.
 fn contacts_after_replans(seeds: core::ops::RangeInclusive<u64>) -> u64 {
     let mut contacts = 0;
     for seed in seeds {
@@ -58,8 +58,8 @@ fn contacts_after_replans(seeds: core::ops::RangeInclusive<u64>) -> u64 {
     contacts
 }
 
-/// Robots that stood rim to rim behind the dead one were planned rim to rim all the way; drives around where its path
-/// was touched it where it had been pushed to.
+/// Two mistakes once caused such contacts. Robots that stood rim to rim behind the dead one kept rim to rim all the
+/// way. Others drove around the dead robot's path, although it had been pushed off it.
 #[test]
 fn a_replan_hardly_ever_causes_a_second_contact() {
     let contacts = contacts_after_replans(1..=6);

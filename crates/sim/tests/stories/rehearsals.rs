@@ -1,4 +1,4 @@
-//! Whole shows in virtual time: both cores, the world and the network together.
+//! Whole shows in virtual time, with both cores, the simulated world and the network.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Cue, CuePlace, Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
@@ -113,7 +113,7 @@ fn lost_late_doubled_and_overtaken_messages_cost_time_and_nothing_else() {
 
 #[test]
 fn a_show_on_a_slow_link_waits_for_precise_clocks_and_no_robot_brakes() {
-    // Robots set off with clocks that were 0.1 s apart, and braked for others where nothing was wrong.
+    // Robots once departed with clocks 0.1 s apart, and braked for others without need.
     for seed in 1..=3 {
         let report = play(&show(28), "delay=5..250ms", seed);
         assert_fine(&report);
@@ -124,7 +124,7 @@ fn a_show_on_a_slow_link_waits_for_precise_clocks_and_no_robot_brakes() {
 
 #[test]
 fn an_ideal_world_is_met_to_the_millimetre() {
-    // Seed 1 failed: with no delay at all, a route came at the very moment its predecessor began, and replaced it.
+    // Without any delay, a route once arrived at the very moment its predecessor began, and replaced it (seed 1).
     let options = RehearsalOptions { conditions: Conditions::ideal(), ..RehearsalOptions::default() };
     let report = rehearse(&show(12), &options, &mut |_| {});
     assert_fine(&report);
@@ -133,7 +133,7 @@ fn an_ideal_world_is_met_to_the_millimetre() {
 
 #[test]
 fn who_crawls_while_another_drives_far_keeps_to_its_way() {
-    // A thousand robots on 17 m failed: below 20 mm/s a robot did not steer, and drifted off over a long minute.
+    // Below 20 mm/s a robot once did not steer, and drifted off its path in a minute, in a show of a thousand robots.
     let frame = |x: [f64; 2]| Frame {
         pixels: (0..2)
             .map(|id| Pixel {
@@ -275,6 +275,6 @@ fn a_frame_with_fixed_identity_among_others_keeps_who_showed_its_pixels() {
     let ring = show.frames[1].clone();
     let pixels = ring.pixels.iter().map(mirrored).collect();
     show.frames[2] = Frame { identity: Some(Identity::Fixed), pixels, ..ring };
-    // All robots cross the ring. If any robot could show any pixel, none would move.
+    // All robots cross the ring. With pixels that any robot may show, none would move.
     assert_fine(&play(&show, "", 1));
 }

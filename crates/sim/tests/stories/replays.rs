@@ -1,4 +1,4 @@
-//! Recorded rehearsals are replayed to the bit, and no bytes make a replay panic.
+//! Recorded rehearsals are replayed bit by bit, and no input makes a replay panic.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_control::{LogEnd, LogError, ReplayReport, replay};
@@ -11,7 +11,7 @@ fn example() -> Show {
     lightbots_exchange::read(include_bytes!("../../../../shows/hello.json"), None).unwrap().show
 }
 
-/// The example over and over, for about this many frames.
+/// The example show, repeated for this number of frames.
 fn long(frames: usize) -> Show {
     let example = example();
     let again = example.frames.iter().cycle().take(frames);
@@ -95,7 +95,7 @@ fn no_bytes_make_the_reader_panic() {
             let byte = next(changed[block].len());
             changed[block][byte] = next(256) as u8;
         }
-        // Any outcome but a panic is right.
+        // Any outcome except a panic is right.
         let _ = replay(&joined(&log, &changed), &mut |_| {});
     }
 }
@@ -111,7 +111,7 @@ fn blocks(log: &[u8]) -> Vec<Vec<u8>> {
     blocks
 }
 
-/// A log of these blocks, with right checksums.
+/// A log of these blocks with correct checksums. Its header is that of `log`.
 fn joined(log: &[u8], blocks: &[Vec<u8>]) -> Vec<u8> {
     let mut joined = log[..10].to_vec();
     for block in blocks {
@@ -123,13 +123,13 @@ fn joined(log: &[u8], blocks: &[Vec<u8>]) -> Vec<u8> {
     joined
 }
 
-/// CRC-32 as in ISO 3309, bit by bit.
+/// CRC-32 as in ISO 3309, calculated bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
-/// Twelve robots that drive from a row to another one, over a film of three pictures.
+/// A show of twelve robots that drive from one row to another, over a film of three pictures.
 fn over_a_film() -> Show {
     let pixel = |id: u32, y: f64| Pixel {
         id,
@@ -170,6 +170,6 @@ fn a_film_on_the_floor_is_shown_and_a_recorded_run_with_it_repeats() {
     assert!(lights.wrong * 500 <= lights.compared, "{lights:?}");
     let again = replayed(&log);
     assert_eq!((again.difference, again.robots), (None, 12));
-    // The log holds the pixels: another film is another run.
+    // The log holds the film's pixels, because a run with another film is another run.
     assert!(log.windows(8).any(|codes| codes == [0, 31, 62, 93, 124, 155, 186, 217]));
 }

@@ -1,4 +1,4 @@
-//! Spare robots wait where they start, and one takes over the pixel of a robot that fails.
+//! Spare robots wait at their starts, and one of them takes over the pixel of a robot that fails.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
@@ -6,7 +6,7 @@ use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehea
 
 const PIXELS: u32 = 12;
 
-/// A row, a ring and a row again.
+/// A show with spare robots: a row, a ring and a row again.
 fn show(spares: u32, identity: Identity) -> Show {
     let place = |number: usize, id: u32| {
         let share = f64::from(id) / f64::from(PIXELS);
@@ -36,12 +36,12 @@ fn play(show: &Show, faults: &str, seed: u64) -> RehearsalReport {
     rehearse(show, &RehearsalOptions { seed, conditions, robots: None }, &mut |_| {})
 }
 
-/// Pixels with a robot in the last frame.
+/// Number of pixels of the last frame that a robot shows.
 fn shown_last(report: &RehearsalReport) -> usize {
     report.per_frame.last().map_or(0, |frame| frame.pixels_shown)
 }
 
-/// When robots stand in the frame, in a run where nothing breaks, seconds.
+/// A time at which robots stand in the frame if nothing fails, seconds.
 fn stands_s(show: &Show, seed: u64, frame: usize) -> f64 {
     play(show, "loss=0%", seed).per_frame[frame].at_s + 1.0
 }
