@@ -1,15 +1,15 @@
-//! Brokers that read slowly, because they write meanwhile or because there is much to read.
+//! Brokers that read slowly, because they write at the same time or have much to read.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 
-/// More than the sockets between two programs hold.
+/// Number of messages: with `PAYLOAD` bytes each, more than the buffers of two sockets hold.
 const MESSAGES: usize = 6000;
 const PAYLOAD: usize = 2048;
 
-/// Accepts a client, writes many messages, and only then reads.
+/// A broker that accepts a client, writes many messages, and only then reads.
 fn serve(listener: &TcpListener) {
     let (mut stream, _) = listener.accept().unwrap();
     let mut bytes = [0; 512];
@@ -23,7 +23,7 @@ fn serve(listener: &TcpListener) {
     }
     hear(&mut stream, MESSAGES * message.len());
     stream.write_all(&[0x30, 3, 0, 1, b'e']).unwrap();
-    // Until the client leaves.
+    // Waits until the client closes the connection.
     let _ = stream.read(&mut bytes);
 }
 
@@ -73,7 +73,7 @@ async fn a_flood_in_both_directions_breaks_no_connection() {
     broker.join().unwrap();
 }
 
-/// Messages before a disconnect: more than a socket takes at once.
+/// Number of messages before a disconnect: more than a socket's buffer holds.
 const LAST_WORDS: usize = 6000;
 
 #[tokio::test]

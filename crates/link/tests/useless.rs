@@ -9,7 +9,7 @@ use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 fn serve(listener: &TcpListener, granted: [u8; 2]) {
     while let Ok((mut stream, _)) = listener.accept() {
         let mut bytes = [0; 512];
-        // CONNECT, then SUBSCRIBE, each in one piece because nothing else is under way.
+        // CONNECT arrives first, then SUBSCRIBE. Each is one read, because the client sends nothing else meanwhile.
         if matches!(stream.read(&mut bytes), Ok(1..)) && stream.write_all(&[0x20, 2, 0, 0]).is_ok() {
             let _ = stream.read(&mut bytes);
             let _ = stream.write_all(&[0x90, 4, bytes[2], bytes[3], granted[0], granted[1]]);
@@ -18,7 +18,7 @@ fn serve(listener: &TcpListener, granted: [u8; 2]) {
     }
 }
 
-/// A link with two filters to brokers with these answers, and the brokers' addresses.
+/// Opens a link with two filters to brokers that answer with these codes. Returns the link and the brokers' addresses.
 fn open(granted: [u8; 2], brokers: usize) -> (Link, Vec<String>) {
     let listeners: Vec<_> = (0..brokers).map(|_| TcpListener::bind("127.0.0.1:0").unwrap()).collect();
     let ports: Vec<u16> = listeners.iter().map(|listener| listener.local_addr().unwrap().port()).collect();
@@ -59,7 +59,7 @@ fn let_in(listener: &TcpListener) -> TcpStream {
     stream
 }
 
-/// Whether the next packet is a subscription.
+/// Answers the next packet if it is a subscription. Returns whether it was.
 fn answer_subscription(stream: &mut TcpStream) -> bool {
     let mut bytes = [0; 512];
     let subscribes = matches!(stream.read(&mut bytes), Ok(1..)) && bytes[0] == 0x82;

@@ -1,8 +1,8 @@
-//! Measures how far apart the lights of a fleet change: robot cores with clocks of their own, each on its own connection
-//! to the embedded broker, told to change at one moment.
+//! Measures the difference between the times at which a fleet's lights change. Each robot core has its own clock and
+//! its own connection to the embedded broker, and all receive one moment for the change.
 //!
-//! `cargo xtask bench light` runs it with `--json`. A core steps each 16 ms at its own phase, and is asked for its light
-//! each millisecond, as a board does.
+//! `cargo xtask bench light` runs it with `--json`. A core steps every 16 ms at its own phase, and its light is sampled
+//! every millisecond, as on a board.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
@@ -19,28 +19,28 @@ use common::{Outcome, embedded};
 
 const SIZES: [usize; 3] = [30, 100, 1_000];
 const CHANGES: usize = 20;
-/// A light is told so long before its moment.
+/// How long before its moment a light is sent.
 const AHEAD: Span = Span::from_millis(500);
-/// How often cores are asked for their light.
+/// Time between two samples of the lights.
 const ASK: Duration = Duration::from_millis(1);
-/// Clocks are watched for so long before the first change.
+/// Time for clocks to settle before the first change.
 const SETTLE: Duration = Duration::from_secs(20);
 const STEP_US: u64 = 16_000;
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Something for a robot, with the moment it came in.
+/// A link event for a robot: the robot's index, when the event arrived, and the event.
 type Heard = (usize, Moment, LinkEvent);
 
 struct Body {
     robot: Robot,
     id: RobotId,
     sender: Sender,
-    /// Its own clock: offset, and how many parts per million it is fast.
+    /// Offset of its own clock, microseconds. `fast_ppm` is how much faster that clock runs, parts per million.
     offset_us: u64,
     fast_ppm: f64,
     next_step_us: u64,
     light: Rgb,
-    /// When the light last changed, and when a step last saw another one, microseconds since the start.
+    /// When the light last changed, microseconds since the start. `seen_us` is when a step last found another light.
     changed_us: u64,
     seen_light: Rgb,
     seen_us: u64,
@@ -62,7 +62,7 @@ struct Spreads {
 
 #[tokio::main]
 async fn main() -> Outcome {
-    // Every connection is a file.
+    // Every connection needs a file descriptor.
     let _ = rlimit::increase_nofile_limit(65_536);
     for robots in SIZES {
         let broker = embedded()?;
@@ -82,7 +82,7 @@ async fn main() -> Outcome {
 async fn measure(broker: &BrokerUrl, robots: usize) -> Outcome<Spreads> {
     let began = Moment::now();
     let mut fleet = Fleet::start(broker, robots, began);
-    // The program's own controller keeps the show clock; this connection only says when to change.
+    // The program's own controller keeps the show clock. This connection only sends the changes.
     let client_id = controller_client_id();
     let mut link =
         Link::open(LinkConfig { broker: broker.clone(), client_id, filters: vec![], queue: 4 * robots });
@@ -129,13 +129,13 @@ impl Fleet {
         self.began.elapsed().as_micros() as u64
     }
 
-    /// The show clock, as the first robot knows it.
+    /// The show clock as the first robot estimates it.
     fn show_time(&self) -> Option<Instant> {
         let body = self.bodies.first()?;
         body.robot.show_time(body.own(self.now_us()))
     }
 
-    /// Until every clock has been synchronised for a while.
+    /// Waits until every clock has been synchronised for a while.
     async fn settle(&mut self) -> Outcome {
         let late = Moment::now() + PATIENCE;
         loop {
@@ -155,14 +155,14 @@ impl Fleet {
         Ok(())
     }
 
-    /// Takes in what came, then lets every robot step where that is due, look at its light, and speak.
+    /// Handles received events. Then each robot steps if that is due, its light is sampled, and its messages are sent.
     async fn turn(&mut self) {
         while let Ok((index, at, event)) = self.heard.try_recv() {
             let at_us = at.duration_since(self.began).as_micros() as u64;
             self.bodies[index].hear(at_us, event);
         }
         for body in &mut self.bodies {
-            // Each is looked at on its own: a fleet is many boards and not one.
+            // Each robot reads the time separately, because a real fleet is many boards.
             body.turn(self.began.elapsed().as_micros() as u64, &mut self.message);
         }
         tokio::time::sleep(ASK).await;
@@ -202,7 +202,7 @@ impl Body {
         }
     }
 
-    /// Its own clock.
+    /// The time of its own clock.
     fn own(&self, now_us: u64) -> Instant {
         Instant((self.offset_us + now_us).wrapping_add_signed((now_us as f64 * self.fast_ppm * 1e-6) as i64))
     }

@@ -1,9 +1,10 @@
-//! A show of five minutes with three moving layers over the embedded broker: messages, bytes, wrong lights, processor time.
+//! Plays a show of five minutes with three moving layers over the embedded broker, and measures messages, bytes, wrong
+//! lights and processor time.
 //!
-//! `cargo xtask bench light-show` runs it with `--json`; other arguments are numbers of robots. Broker and controller
-//! (`lightbots broker`, `lightbots play`) are processes of their own. The robots are simulated in this one, each on its own
-//! connection. Their lights are sampled, and compared afterwards with what the controller wanted, by a replay of its
-//! recording.
+//! `cargo xtask bench light-show` runs it with `--json`; other arguments are numbers of robots. Broker (`lightbots
+//! broker`) and controller (`lightbots play`) are separate processes. The robots are simulated in this process, each on
+//! its own connection. Their lights are sampled and later compared with the colours of the controller, which a replay
+//! of its recording gives.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
@@ -24,23 +25,23 @@ use tokio::sync::mpsc;
 
 use common::{Outcome, embedded, program};
 
-/// Fleets that are measured where no number is given.
+/// Numbers of robots if the command line has none.
 const SIZES: [usize; 1] = [1_000];
-/// Frames of the show, and how long each stands: with the drives, five minutes.
+/// Number of frames of the show. Each is shown for `AIR_S` seconds; with the drives that makes five minutes.
 const FRAMES: usize = 26;
 const AIR_S: f64 = 10.0;
-/// Distance of robots in their grid.
+/// Distance between neighbours in the grid, metres.
 const SPACING_M: f64 = 0.1;
 /// Time between two samples of all lights.
 const SAMPLE: Duration = Duration::from_millis(160);
-/// Time between two questions for the show clock.
+/// Time between two requests for the show clock.
 const ASK: Duration = Duration::from_millis(500);
-/// Messages taken in before robots get their next step.
+/// Most messages that are handled before the robots' next step.
 const BATCH: usize = 4_096;
-/// Clock ticks a second in `/proc/PID/stat`, on every Linux system.
+/// Clock ticks per second in `/proc/PID/stat`, on every Linux system.
 const TICKS: f64 = 100.0;
 
-/// Messages of one direction.
+/// Number and bytes of the messages in one direction.
 #[derive(Clone, Copy, Default)]
 struct Flow {
     messages: u64,
@@ -54,24 +55,26 @@ impl Flow {
     }
 }
 
-/// What was counted and sampled while the show played.
+/// Counts and samples while the show plays.
 #[derive(Default)]
 struct Seen {
-    /// Messages to robots, those with a stretch of light among them, and messages of robots.
+    /// Messages to robots. `stretches` are those with a stretch of light among them, and `reports` are messages of
+    /// robots.
     commands: Flow,
     stretches: Flow,
     reports: Flow,
-    /// Stretches in each second since the first.
+    /// `[second]`: number of stretches, counted from the first one.
     in_second: Vec<u64>,
-    /// The own clock, microseconds, and `[robot]`: its light.
+    /// Samples: this process's clock, microseconds, and `[robot]`: its light.
     samples: Vec<(u64, Vec<Rgb>)>,
-    /// Show clock less own clock, microseconds, of the answer that took least time, and that time.
+    /// From the fastest answer about the show clock: its round trip, and the show clock minus this process's clock,
+    /// microseconds.
     offset: Option<(u64, i64)>,
     /// Steps that the simulation left out because the machine was too slow.
     left_out: u64,
 }
 
-/// The robots, and their connections.
+/// The simulated robots and their connections.
 struct Robots {
     began: Moment,
     fleet: Fleet,
@@ -82,7 +85,7 @@ struct Robots {
 
 #[tokio::main]
 async fn main() -> Outcome {
-    // Every connection is a file.
+    // Every connection needs a file descriptor.
     let _ = rlimit::increase_nofile_limit(65_536);
     let asked: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     for robots in if asked.is_empty() { SIZES.to_vec() } else { asked } {
@@ -133,7 +136,7 @@ async fn measure(count: usize) -> Outcome<Value> {
     }))
 }
 
-/// Two crowds in turn, one a turned copy of the other, so that all robots drive.
+/// A show of two alternating crowds, one a turned copy of the other, so that all robots drive.
 fn show(count: usize) -> Show {
     let across = (count as f64).sqrt().ceil() as usize;
     let side_m = across as f64 * SPACING_M * 1.5 + 1.0;
@@ -154,7 +157,7 @@ fn show(count: usize) -> Show {
     Show { name: "Light".into(), stage, starts: Some(starts), frames, layers: layers(), ..Show::default() }
 }
 
-/// A rainbow, and over it a chase and a twinkle.
+/// Three layers: a rainbow, and over it a chase and a twinkle.
 fn layers() -> Vec<Layer> {
     let layer = |kind: &str, settings: Vec<(&str, Setting)>| {
         let settings = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
@@ -171,7 +174,7 @@ fn layers() -> Vec<Layer> {
     ]
 }
 
-/// The controller, which plays the show once all robots are ready.
+/// Starts the controller, which plays the show once all robots are ready.
 fn play(broker: &BrokerUrl, show: &Path, log: &Path, robots: usize) -> Outcome<Child> {
     let mut command = Command::new(program()?);
     command.arg("play").arg(show).args(["--json", "--broker", &broker.to_string()]);
@@ -210,7 +213,7 @@ impl Robots {
         self.began.elapsed().as_micros() as u64
     }
 
-    /// Drives the robots until the controller ends. The processor time that it took, seconds.
+    /// Runs the robots until the controller ends. Returns its processor time, seconds.
     async fn run(&mut self, play: &mut Child, broker: &BrokerUrl, seen: &mut Seen) -> Outcome<f64> {
         let asker = RobotId::new("clock").ok_or("a name")?;
         let filters = vec![Topic::Robot(asker).write().to_string()];
@@ -278,7 +281,7 @@ impl Robots {
         }
     }
 
-    /// An answer of the show clock: it was right in the middle of the time that the question took.
+    /// Takes an answer about the show clock into account. It holds for the middle of the round trip.
     fn learn_clock(&self, event: Option<LinkEvent>, seen: &mut Seen) {
         let Some(LinkEvent::Message { payload, .. }) = event else { return };
         let now = self.now_us();
@@ -293,7 +296,7 @@ impl Robots {
     }
 }
 
-/// Compares the samples with the layers, as the controller had them when it was recorded.
+/// Compares the samples with the layers, as the controller played them in the recording.
 fn compare(log: &[u8], ids: &[RobotId], seen: &Seen) -> Outcome<LightCounts> {
     let (took, offset) = seen.offset.ok_or("the controller did not say the show clock")?;
     eprintln!("show clock known to {:.2} ms", took as f64 / 2e3);
@@ -316,10 +319,10 @@ fn compare(log: &[u8], ids: &[RobotId], seen: &Seen) -> Outcome<LightCounts> {
     Ok(watch.counts())
 }
 
-/// Processor time that a process has taken, seconds; 0 if it is gone.
+/// Processor time that a process has used, seconds. 0 if it has ended.
 fn processor_s(process: u32) -> f64 {
     let line = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
-    // The name in brackets may have spaces. User and system time are the 14th and 15th field.
+    // The name in brackets may contain spaces. User and system time are fields 14 and 15.
     let fields = line.rsplit_once(')').map_or("", |(_, rest)| rest).split_whitespace();
     let ticks: Vec<f64> = fields.skip(11).take(2).filter_map(|field| field.parse().ok()).collect();
     ticks.iter().sum::<f64>() / TICKS

@@ -1,4 +1,4 @@
-//! Measures a frame's round: a route to every robot through a broker, and every robot's answer back, on loopback TCP.
+//! Measures a round: a route to every robot through a broker, and every robot's answer back, on loopback TCP.
 //!
 //! `cargo xtask bench round` runs it with `--json`. The embedded broker is `lightbots broker`; Mosquitto
 //! (the program named in `LIGHTBOTS_MOSQUITTO`, or the one on the path) is measured in the same run.
@@ -17,13 +17,14 @@ use lightbots_wire::{Details, Report, RobotState, Route, Topic, encode};
 
 use common::{Broker, Outcome, embedded, mosquitto};
 
-/// Robots, and how many of them share a connection: one each, and at the largest as the program does it.
+/// Numbers of robots, each with the number that share a connection: one, and for the largest fleet as the program does
+/// it.
 const SIZES: [(usize, usize); 4] = [(30, 1), (100, 1), (1_000, 1), (10_000, 50)];
 const ROUNDS: usize = 7;
-/// After so long, whoever has not answered counts as lost.
+/// Time after which a missing answer counts as lost.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// What one broker made of one size.
+/// Results for one broker and one number of robots.
 struct Measured {
     median_ms: f64,
     lost: usize,
@@ -31,7 +32,7 @@ struct Measured {
 
 #[tokio::main]
 async fn main() -> Outcome {
-    // Every connection is a file.
+    // Every connection needs a file descriptor.
     let _ = rlimit::increase_nofile_limit(65_536);
     for (robots, together) in SIZES {
         let embedded = measure(embedded()?, robots, together).await?;
@@ -76,7 +77,7 @@ async fn measure(broker: Broker, robots: usize, together: usize) -> Outcome<Meas
     Ok(Measured { median_ms: times_ms[ROUNDS / 2], lost })
 }
 
-/// Asks until every robot has answered once: from then on all are subscribed.
+/// Sends `payloads` until every robot has answered once, because then all robots are subscribed.
 async fn gather(controller: &mut Link, payloads: &[(String, Vec<u8>)]) -> Outcome {
     for _ in 0..120 {
         for (topic, payload) in payloads {
@@ -97,7 +98,7 @@ async fn round(controller: &mut Link, payloads: &[(String, Vec<u8>)]) -> usize {
     answers(controller, payloads.len(), PATIENCE).await
 }
 
-/// How many different robots answered within `patience`; returns as soon as `wanted` have.
+/// Number of different robots that answered within `patience`. Returns as soon as `wanted` robots have answered.
 async fn answers(controller: &mut Link, wanted: usize, patience: Duration) -> usize {
     let mut heard = BTreeSet::new();
     let end = tokio::time::Instant::now() + patience;
@@ -113,7 +114,7 @@ async fn answers(controller: &mut Link, wanted: usize, patience: Duration) -> us
     heard.len()
 }
 
-/// Robots that answer every command with a full report, on one connection.
+/// Starts robots on one connection, which answer every command with a full report.
 fn robots_on(broker: &BrokerUrl, group: &[RobotId]) -> tokio::task::JoinHandle<()> {
     let mut link = Link::open(LinkConfig {
         broker: broker.clone(),
@@ -151,7 +152,7 @@ fn answer(id: RobotId) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// A route as a transition has it: rest, speed up, cruise, slow down.
+/// The topic and the command of a route as in a transition: rest, speed up, cruise, slow down.
 fn command(number: usize, id: &RobotId) -> (String, Vec<u8>) {
     let place = |share: f64| Vec2::new(number as f64 * 0.001 - 1.4, -1.0 + share);
     let mut route = Route {

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use lightbots_show::Show;
 use lightbots_sim::{Dice, Purpose, RehearsalReport};
 
-/// Upper bounds of a random share, which chooses the range of `AWAY_S`.
+/// Thresholds of two random numbers from 0 to 1. How many of the numbers exceed theirs chooses the range of `AWAY_S`.
 const SHARES: [f64; 2] = [0.4, 0.95];
 /// Ranges of the time without a controller, seconds: robots still drive, robots stand, and so late that the controller
 /// asks before it continues.

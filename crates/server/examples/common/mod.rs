@@ -1,5 +1,5 @@
-//! Brokers to measure with: processes on free ports of loopback.
-// Not every example uses all of it.
+//! Brokers for measurements: processes on free ports of loopback.
+// Each example uses only a part of this module.
 #![allow(dead_code)]
 
 use std::error::Error;
@@ -10,13 +10,13 @@ use std::time::Duration;
 
 use lightbots_link::BrokerUrl;
 
-/// Any error ends the measurement.
+/// Result of a step. Any error ends the measurement.
 pub type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
-/// A broker that ends with the value.
+/// A running broker. Dropping it ends the process.
 pub struct Broker {
     child: Child,
-    /// Where it is.
+    /// Address of the broker.
     pub url: BrokerUrl,
     folder: PathBuf,
 }
@@ -30,13 +30,13 @@ impl Drop for Broker {
 }
 
 impl Broker {
-    /// Its process.
+    /// Process id of the broker.
     pub fn process(&self) -> u32 {
         self.child.id()
     }
 }
 
-/// The program `lightbots`, built beside this one.
+/// Path of the program `lightbots`, which cargo built beside this example. An error if it is missing.
 pub fn program() -> Outcome<PathBuf> {
     let here = std::env::current_exe()?;
     let program = here.parent().and_then(Path::parent).ok_or("no folder")?.join("lightbots");
@@ -46,7 +46,7 @@ pub fn program() -> Outcome<PathBuf> {
     Ok(program)
 }
 
-/// The embedded broker: `lightbots broker`, as `run` starts it.
+/// Starts the embedded broker: `lightbots broker`, as `run` starts it.
 pub fn embedded() -> Outcome<Broker> {
     let program = program()?;
     start("embedded", |port, _| {
@@ -56,7 +56,7 @@ pub fn embedded() -> Outcome<Broker> {
     })
 }
 
-/// Mosquitto without its limits.
+/// Starts Mosquitto without its limits.
 pub fn mosquitto() -> Outcome<Broker> {
     let program = std::env::var("LIGHTBOTS_MOSQUITTO").unwrap_or_else(|_| "mosquitto".into());
     start("mosquitto", |port, folder| {

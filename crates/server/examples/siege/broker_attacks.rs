@@ -1,4 +1,4 @@
-//! What hostile clients do to the broker.
+//! Attacks of hostile clients on the broker.
 
 use std::io::{Read, Result, Write};
 use std::net::TcpStream;
@@ -13,7 +13,7 @@ const LONG: Duration = Duration::from_secs(1);
 /// How long an attacker waits for an answer.
 const ANSWER: Duration = Duration::from_millis(500);
 
-/// Begins all of them.
+/// Starts all attacks.
 pub fn begin(target: &Arc<Target>) {
     let mut dice = 0x9e37_79b9_7f4a_7c15;
     target.repeat(SHORT, move |target| mutated(target, &mut dice));
@@ -28,12 +28,12 @@ pub fn begin(target: &Arc<Target>) {
     target.repeat(LONG, move |target| refill(&mut uploads, 200, || endless_packet(target)));
 }
 
-/// Keeps `count` connections open, new ones for those that the broker has closed.
+/// Keeps `count` connections open, and replaces those that the broker has closed.
 fn refill(open: &mut Vec<TcpStream>, count: usize, connect: impl Fn() -> Result<TcpStream>) -> Result<()> {
     open.retain(|stream| {
         let _ = stream.set_nonblocking(true);
         let mut byte = [0];
-        // Nothing to read is what an open connection has; slow readers leave theirs where it is.
+        // An open connection has nothing to read, or the unread data of a slow reader.
         stream
             .peek(&mut byte)
             .map_or_else(|error| error.kind() == std::io::ErrorKind::WouldBlock, |read| read > 0)
@@ -44,7 +44,7 @@ fn refill(open: &mut Vec<TcpStream>, count: usize, connect: impl Fn() -> Result<
     Ok(())
 }
 
-/// A login, a subscription and a message with some bytes changed.
+/// Sends a login, a subscription and a message with some bytes changed.
 fn mutated(target: &Target, dice: &mut u64) -> Result<()> {
     let mut bytes = connect("mutant");
     bytes.extend(subscribe("a/b"));
@@ -59,7 +59,7 @@ fn mutated(target: &Target, dice: &mut u64) -> Result<()> {
     Ok(())
 }
 
-/// A subscription, a message and a will of ten thousand levels.
+/// Sends a subscription, a message and a will whose topics have ten thousand levels.
 fn deep(target: &Target) -> Result<()> {
     let deep = "/".repeat(10_000);
     let mut stream = logged_in(target, "deep")?;
@@ -72,7 +72,7 @@ fn deep(target: &Target) -> Result<()> {
     with_will.write_all(&packet(0x10, &will))
 }
 
-/// A client that hears everything and reads nothing.
+/// A client that subscribes to everything and reads nothing.
 fn slow_reader(target: &Target) -> Result<TcpStream> {
     let name = format!("slow-{:?}", std::time::Instant::now());
     let mut stream = logged_in(target, &name)?;
@@ -80,7 +80,7 @@ fn slow_reader(target: &Target) -> Result<TcpStream> {
     Ok(stream)
 }
 
-/// Messages of 60 kB, some 10 MB a second.
+/// Publishes a message of 60 kB. The repetitions make about 10 MB a second.
 fn flood(target: &Target, publisher: &mut Option<TcpStream>) -> Result<()> {
     if publisher.is_none() {
         *publisher = Some(logged_in(target, "flood")?);
@@ -93,14 +93,14 @@ fn flood(target: &Target, publisher: &mut Option<TcpStream>) -> Result<()> {
     sent
 }
 
-/// A connection that says half of its login.
+/// A connection that has sent only half of its login.
 fn half_open(target: &Target) -> Result<TcpStream> {
     let mut stream = connection(target)?;
     stream.write_all(&connect("half")[..9])?;
     Ok(stream)
 }
 
-/// A message that never ends.
+/// A client that has sent a message without its last byte.
 fn endless_packet(target: &Target) -> Result<TcpStream> {
     let mut stream = logged_in(target, &format!("upload-{:?}", std::time::Instant::now()))?;
     let message = publish("upload", &[b'x'; 65_000]);
@@ -122,7 +122,7 @@ fn logged_in(target: &Target, client_id: &str) -> Result<TcpStream> {
     Ok(stream)
 }
 
-/// A number below `sides`, by xorshift.
+/// A random number below `sides`, by xorshift.
 fn roll(dice: &mut u64, sides: usize) -> usize {
     *dice ^= *dice << 13;
     *dice ^= *dice >> 7;

@@ -1,8 +1,8 @@
-//! Measures a show under attack: `lightbots run` plays a show of thirty robots again and again while clients of its
-//! broker and of its web server send what no program of ours sends.
+//! Measures a show under attack. `lightbots run` plays a show of thirty robots repeatedly while hostile clients attack
+//! its broker and its web server.
 //!
-//! `cargo xtask bench siege` runs it for ten minutes; `siege SECONDS` for another time. A row says how long the show took
-//! beside a run without attacks, and the most memory that program and broker had together.
+//! `cargo xtask bench siege` runs it for ten minutes, and `siege SECONDS` for another time. A row has the duration of
+//! the show with and without attacks, and the peak memory of program and broker together.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../common/mod.rs"]
@@ -23,22 +23,22 @@ use common::Outcome;
 use program::Program;
 use screen::Screen;
 
-/// The time of attacks where none is stated.
+/// Default duration of the attacks, seconds.
 const SECONDS: u64 = 600;
 
-/// What all attackers know.
+/// The attacked program, as all attackers share it.
 pub struct Target {
     /// Address of the web server.
     pub web: String,
     /// Address of the broker.
     pub broker: String,
     is_over: AtomicBool,
-    /// Things done to the program: packets, connections, requests.
+    /// Number of packets, connections and requests that attackers have sent.
     pub attacks: AtomicU64,
 }
 
 impl Target {
-    /// Repeats an attack until the siege is over. What it meets, a closed connection above all, is no reason to stop.
+    /// Repeats an attack until the siege is over. Errors such as a closed connection do not stop it.
     fn repeat(
         self: &Arc<Self>,
         pause: Duration,

@@ -1,4 +1,4 @@
-//! The program that is attacked.
+//! The process that is attacked.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::common::{self, Outcome};
 
-/// How often memory is looked at.
+/// Time between two measurements of its memory.
 const LOOK: Duration = Duration::from_millis(200);
 
 pub struct Program {
@@ -21,7 +21,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// `lightbots run` with thirty robots, its library in a folder of its own.
+    /// Starts `lightbots run` with thirty robots and an empty library.
     pub fn start() -> Outcome<Self> {
         let folder = std::env::temp_dir().join(format!("lightbots-siege-{}", std::process::id()));
         let show = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/hello.json");
@@ -51,7 +51,7 @@ impl Program {
         Ok(Self { child, folder, web, broker, peak_bytes })
     }
 
-    /// The most memory that program and broker had together.
+    /// Peak memory of program and broker together, bytes.
     pub fn peak_bytes(&self) -> u64 {
         self.peak_bytes.load(Ordering::Relaxed)
     }
@@ -65,7 +65,7 @@ impl Drop for Program {
     }
 }
 
-/// Memory of a process and its children; `None` once it has ended.
+/// Resident memory of a process and its children, bytes. `None` if the process has ended.
 fn resident_bytes(id: u32) -> Option<u64> {
     let own = resident_kb(id)?;
     let list = std::fs::read_to_string(format!("/proc/{id}/task/{id}/children")).unwrap_or_default();

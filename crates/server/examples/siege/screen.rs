@@ -1,4 +1,4 @@
-//! The operator's screen: plays the show and reads the log.
+//! The operator's screen, which plays the show and reads the log.
 
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use tungstenite::{Message, WebSocket};
 
 use crate::common::Outcome;
 
-/// A show that takes so long will never end.
+/// Longest wait for the end of a show.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 pub struct Screen {
@@ -17,7 +17,7 @@ pub struct Screen {
     id: u32,
     ready: usize,
     is_planned: bool,
-    /// Lines of the log that no play has read.
+    /// Lines of the log that no call of `play` has read yet.
     log: Vec<String>,
     pub dropouts: usize,
     pub restarts: usize,
@@ -39,7 +39,7 @@ impl Screen {
         Ok(())
     }
 
-    /// Plays the show once; how long it took, in seconds.
+    /// Plays the show once. Returns its duration in seconds.
     pub fn play(&mut self) -> Outcome<f64> {
         let began = Instant::now();
         self.id += 1;

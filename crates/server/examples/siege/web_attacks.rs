@@ -1,4 +1,4 @@
-//! What hostile clients do to the web server.
+//! Attacks of hostile clients on the web server.
 
 use std::io::{Read, Result, Write};
 use std::net::TcpStream;
@@ -10,7 +10,7 @@ use crate::Target;
 const PAUSE: Duration = Duration::from_secs(1);
 const ANSWER: Duration = Duration::from_secs(30);
 
-/// Begins all of them.
+/// Starts all attacks.
 pub fn begin(target: &Arc<Target>) {
     let mut half_open = Vec::new();
     target
@@ -28,7 +28,7 @@ pub fn begin(target: &Arc<Target>) {
         .repeat(PAUSE / 20, |target| upload(target, "POST", "/api/convert?to=original", "{\"lightbots\":1}"));
 }
 
-/// Keeps `count` connections open that have said no more than `head`.
+/// Keeps `count` connections open that have sent only `head`.
 fn keep(open: &mut Vec<TcpStream>, count: usize, target: &Target, head: &str) -> Result<()> {
     open.retain(|stream| {
         let _ = stream.set_nonblocking(true);
@@ -56,7 +56,7 @@ fn upload(target: &Target, method: &str, path: &str, body: &str) -> Result<()> {
     Ok(())
 }
 
-/// A show of two frames, a square of robots that is turned over.
+/// A show of two frames, in which a square of robots is mirrored.
 fn crowd(robots: usize) -> String {
     let side = (robots as f64).sqrt().ceil() as usize;
     let frame = |sign: f64| {

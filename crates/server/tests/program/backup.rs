@@ -1,4 +1,4 @@
-//! Backup and restore of a data folder, also while a server uses it.
+//! Backup and restore of a data folder, even while a server uses it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,10 +16,10 @@ use crate::screen::Screen;
 use crate::sign_in::{session, sign_in, start, start_on};
 use crate::{alone, http, shows, wait_for};
 
-/// The list in a backup.
+/// Name of the file in a backup that lists its contents.
 const LIST: &str = "lightbots-backup.json";
 
-/// All files of a folder by their paths, without the locks of a program.
+/// All files in a folder by their paths, without a program's lock files.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut open = vec![folder.to_owned()];
@@ -41,14 +41,14 @@ fn path(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().unwrap().to_owned()
 }
 
-/// Runs a command that must end well; what it says.
+/// Runs a command that must succeed. Returns its output.
 fn must(arguments: &[&str]) -> String {
     let (code, out, err) = run(arguments);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     out
 }
 
-/// Runs a command that is refused in one line; the line.
+/// Runs a command that must fail with one line. Returns that line.
 fn refused(arguments: &[&str]) -> String {
     let (code, out, err) = run(arguments);
     assert!((1..=2).contains(&code) && out.is_empty() && err.lines().count() == 1, "{code} {out} {err}");
@@ -73,7 +73,7 @@ fn a_folder_in_use_is_saved_and_another_server_goes_on_with_it() {
     let (file, other) = (path(&folder, "backup.zip"), path(&folder, "other/data"));
     let is_over = AtomicBool::new(false);
     let first = std::thread::scope(|scope| {
-        // Each save replaces files and adds an earlier state.
+        // Each save replaces files and adds an earlier version.
         scope.spawn(|| {
             for number in 0.. {
                 save(&format!("busy {number}").replace(' ', "%20"), "Busy");
@@ -97,7 +97,7 @@ fn a_folder_in_use_is_saved_and_another_server_goes_on_with_it() {
     for (name, bytes) in files(Path::new(&other)) {
         assert!(!name.ends_with(".json") || serde_json::from_slice::<Value>(&bytes).is_ok(), "{name} is cut");
     }
-    // Nothing changes any more: the folder comes back to the byte.
+    // Nothing changes any more, so the folder is restored byte for byte.
     must(&["backup", &file, "--data", &data, "--replace"]);
     let restored = must(&["restore", &file, "--data", &other, "--replace"]);
     let before = path(&folder, "other/data.before-1");
@@ -148,7 +148,7 @@ fn a_backup_during_a_run_has_its_recording_and_starts_no_robot() {
         "{out}{err}"
     );
     drop(server);
-    // The journal of the run is in the folder, and not in the backup.
+    // The journal of the run is in the data folder, but not in the backup.
     assert!(Path::new(data).join("runs/present.lbjournal").is_file());
     let (_server, address, _) =
         start_on_loopback(&["--robots", "4", "--data", &other, "--on-return", "go", &show]);
@@ -157,7 +157,7 @@ fn a_backup_during_a_run_has_its_recording_and_starts_no_robot() {
     assert!(screen.log.iter().all(|line| !line.contains("To frame")), "{:?}", screen.log);
 }
 
-/// Writes a zip of these files, the list last.
+/// Writes a zip archive with these files, and the list as its last file. Returns its path.
 fn archive(name: &str, list: &Value, entries: &[(&str, &str)]) -> String {
     let mut archive = ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let list = list.to_string();
@@ -246,7 +246,7 @@ fn a_folder_that_holds_something_is_never_overwritten() {
     must(&["restore", &good, "--data", data, "--replace"]);
     assert_eq!(fs::read(folder.join("data.before-1/own/picture")).unwrap(), b"mine");
     assert!(folder.join("data.before-2/a.json").is_file() && target.join("a.json").is_file());
-    // A folder that only a program's locks are in is empty.
+    // A folder counts as empty if it holds only a program's lock files.
     let empty = folder.join("empty");
     fs::create_dir_all(&empty).unwrap();
     fs::write(empty.join(".lock"), b"process 1").unwrap();
@@ -288,7 +288,7 @@ fn a_backup_goes_to_a_new_file_outside_of_the_folder() {
     }
 }
 
-/// Names in a fresh backup of a folder.
+/// Names of the files in a fresh backup of a data folder.
 fn entries(data: &str, file: &str) -> Vec<String> {
     must(&["backup", file, "--data", data, "--replace"]);
     let mut archive = ZipArchive::new(fs::File::open(PathBuf::from(file)).unwrap()).unwrap();

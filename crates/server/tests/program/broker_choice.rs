@@ -1,4 +1,4 @@
-//! The broker chosen on the screen.
+//! The broker that the operator chooses on the screen.
 
 use serde_json::json;
 
@@ -9,7 +9,7 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{http, shows};
 
-/// Waits until the controller has connected so often: the first time to the embedded broker.
+/// Waits until the controller has connected this number of times. The first connection is to the embedded broker.
 fn connected_times(screen: &mut Screen, times: usize) {
     screen.until(&format!("{times} connections"), |screen| {
         let lines = screen.log.iter().filter(|line| line.starts_with("Connected to the broker"));
@@ -30,7 +30,8 @@ fn a_broker_is_chosen_lost_left_and_remembered() {
     assert_eq!(settings()["address"], "embedded");
     assert!(settings()["embedded"].as_str().unwrap().starts_with("mqtt://127.0.0.1"));
 
-    // Two addresses: nobody answers at the first. Any other free port the server may be given itself when it starts anew.
+    // Nothing answers at the first of two addresses. It is port 1, because the restarted server might get any free
+    // port.
     let two = format!("127.0.0.1:1,{}", broker.url());
     screen.must(json!({"do": "connect", "address": two, "user": "me", "password": "secret"}));
     let url = broker.url();
@@ -43,7 +44,7 @@ fn a_broker_is_chosen_lost_left_and_remembered() {
     let lost = screen.wait_for_broker("retrying");
     assert!(!lost["reason"].as_str().unwrap().is_empty() && lost["node"].is_null(), "{lost}");
 
-    // At the next start it is the broker again, until somebody leaves it.
+    // At the next start the chosen broker is used again, until the operator leaves it.
     server.terminate();
     server.end();
     let (mut server, address, _) = start(&arguments);
@@ -74,7 +75,7 @@ fn what_a_form_may_hold_and_what_is_refused() {
     connected_times(&mut screen, 1);
     screen.must(connect(Some(&pasted), Some("secret")));
     connected_times(&mut screen, 2);
-    // The form never got the password; it is the kept one.
+    // The screen's form never receives the password, so a connection without one uses the saved password.
     screen.must(connect(Some(&made.file("ca.pem")), None));
     connected_times(&mut screen, 3);
     screen.must(connect(Some(&pasted), Some("wrong")));

@@ -1,4 +1,4 @@
-//! A broker that freezes or is gone while 30 robots drive: the show stands still and is then played to its end by all.
+//! A broker freezes or is gone while 30 robots drive. The show pauses, and all robots play it to its end.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
 
-/// Two rows of 30 robots, 0.9 m apart.
+/// A show of two rows of 30 robots, 0.9 m apart.
 fn far_rows() -> String {
     let mut show: Value = serde_json::from_str(&shows::row(30, &[0.1, 0.1])).unwrap();
     for pixel in show["frames"][1]["pixels"].as_array_mut().unwrap() {
@@ -17,7 +17,7 @@ fn far_rows() -> String {
     shows::file("rows.lightbots.json", show.to_string())
 }
 
-/// Said when robots have not reported for 6 s: by then all have stopped by themselves.
+/// Text of the log when robots have not reported for 6 s. By then all have stopped by themselves.
 const LONG_SILENT: &str = "not reported lately";
 
 #[cfg(target_os = "linux")]
@@ -43,7 +43,8 @@ fn the_embedded_broker_freezes_and_the_show_is_played_to_its_end() {
     assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
 }
 
-/// `robots` and `play` on Mosquitto while robots drive to the second frame, and what happens to the broker then.
+/// Plays a show on Mosquitto and calls `disturb` while robots drive to the second frame. Returns the report, or null
+/// without Mosquitto.
 fn played_on_mosquitto(disturb: impl FnOnce(&mut Mosquitto, &Child)) -> Value {
     let Some(mut broker) = Mosquitto::start() else { return Value::Null };
     let url = broker.url();

@@ -1,4 +1,4 @@
-//! Certificates: those `lightbots certs` makes, and some that are wrong.
+//! Certificates of `lightbots certs`, and some that are wrong.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -10,12 +10,12 @@ use crate::shows;
 
 const DAY: Duration = Duration::from_secs(86_400);
 
-/// A folder of certificates.
+/// A folder with certificates.
 pub struct Certificates(PathBuf);
 
 impl Certificates {
-    /// What `lightbots certs` makes for this machine and a client, with two that no broker should have: `expired` and
-    /// `elsewhere`, for another name.
+    /// Makes the certificates of `lightbots certs` for this machine and a client. Adds two that no broker should have:
+    /// `expired`, and `elsewhere` for another name.
     pub fn make() -> Self {
         let folder = PathBuf::from(shows::file("certs", "")).with_extension("d");
         let out = folder.to_str().unwrap();
@@ -33,7 +33,7 @@ impl Certificates {
         made
     }
 
-    /// Path of a file of it.
+    /// Path of a file in the folder.
     pub fn file(&self, name: &str) -> String {
         self.0.join(name).to_str().unwrap().to_owned()
     }
@@ -61,7 +61,7 @@ fn certificates_are_made_and_keys_stay_private() {
         let mode = std::fs::metadata(made.file(name)).unwrap().permissions().mode();
         assert_eq!(mode & 0o777, 0o600, "{name}");
     }
-    // Again in the same folder: another server, the same authority.
+    // A second call in the same folder makes another server certificate, and keeps the authority.
     let ca = std::fs::read(made.file("ca.pem")).unwrap();
     let out = Path::new(&made.file("ca.pem")).parent().unwrap().to_str().unwrap().to_owned();
     let (code, said, _) = run(&["certs", "--out", &out, "--name", "10.0.0.7"]);

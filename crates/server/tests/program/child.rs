@@ -1,4 +1,4 @@
-//! A child process: its output is kept, it is killed with the value.
+//! A child process whose output is kept. Dropping the value kills the process.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child as Process, Command, Stdio};
@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use crate::wait_for;
 
-/// Lines that came so far.
+/// Lines that a process has printed until now.
 type Lines = Arc<Mutex<Vec<String>>>;
 
 pub struct Child {
@@ -16,7 +16,7 @@ pub struct Child {
     err: Lines,
 }
 
-/// `lightbots` with a library of its own.
+/// A command for `lightbots` with an empty library.
 fn lightbots(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
     command.args(arguments).env("XDG_DATA_HOME", crate::shows::own_folder());
@@ -24,24 +24,24 @@ fn lightbots(arguments: &[&str]) -> Command {
 }
 
 impl Child {
-    /// `lightbots` with these arguments.
+    /// Starts `lightbots` with these arguments.
     pub fn lightbots(arguments: &[&str]) -> Self {
         Self::lightbots_with(arguments, &[])
     }
 
-    /// The same with variables in its environment.
+    /// Starts `lightbots` with these arguments and environment variables.
     pub fn lightbots_with(arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         let mut command = lightbots(arguments);
         command.envs(variables.iter().copied());
         Self::start(command, &arguments.join(" "))
     }
 
-    /// `lightbots` with an input: Enter can be pressed.
+    /// Starts `lightbots` with a pipe as its input, so that Enter can be sent.
     pub fn lightbots_at_terminal(arguments: &[&str]) -> Self {
         Self::spawn(lightbots(arguments), &arguments.join(" "), Stdio::piped())
     }
 
-    /// Presses Enter; `lightbots_at_terminal` started the process.
+    /// Sends Enter to a process that `lightbots_at_terminal` started.
     pub fn press_enter(&mut self) {
         let input = self.process.stdin.as_mut().expect("it has a terminal");
         input.write_all(b"\n").expect("it reads its input");
@@ -59,7 +59,7 @@ impl Child {
         Self { name: name.to_owned(), process, out, err }
     }
 
-    /// Waits until stderr holds this.
+    /// Waits until stderr contains this text.
     pub fn complains(&mut self, part: &str) {
         let name = self.name.clone();
         wait_for(&format!("'{part}' from {name}"), || {
@@ -71,17 +71,17 @@ impl Child {
         });
     }
 
-    /// Everything it said on stdout.
+    /// Everything that the process has printed on stdout.
     pub fn out(&self) -> String {
         self.out.lock().unwrap().join("\n")
     }
 
-    /// Everything it said on stderr.
+    /// Everything that the process has printed on stderr.
     pub fn err(&self) -> String {
         self.err.lock().unwrap().join("\n")
     }
 
-    /// The text right after `before` on stdout, up to the next blank; waits for it.
+    /// Waits for `before` on stdout. Returns the text right after it, up to the next blank.
     pub fn said(&mut self, before: &str) -> String {
         let name = self.name.clone();
         wait_for(&format!("'{before}' from {name}"), || {
@@ -94,28 +94,28 @@ impl Child {
         })
     }
 
-    /// How it ended, if it has.
+    /// The exit code if the process has ended. It is -1 after a signal.
     pub fn exit_code(&mut self) -> Option<i32> {
         self.process.try_wait().unwrap().map(|status| status.code().unwrap_or(-1))
     }
 
-    /// Waits for its end; its exit code.
+    /// Waits until the process has ended. Returns its exit code.
     pub fn end(&mut self) -> i32 {
         let name = self.name.clone();
         let code = wait_for(&format!("the end of {name}"), || self.exit_code());
-        // Its last lines come through a thread of ours.
+        // The threads that read its output may still hold its last lines.
         wait_for("its last lines", || {
             (Arc::strong_count(&self.out) + Arc::strong_count(&self.err) == 2).then_some(())
         });
         code
     }
 
-    /// Its number in the system.
+    /// Process id.
     pub fn id(&self) -> u32 {
         self.process.id()
     }
 
-    /// The processes that it has started.
+    /// Ids of its child processes.
     #[cfg(target_os = "linux")]
     pub fn children(&self) -> Vec<u32> {
         let list =
@@ -123,30 +123,30 @@ impl Child {
         String::from_utf8_lossy(&list.stdout).split_whitespace().map(|id| id.parse().unwrap()).collect()
     }
 
-    /// Sends TERM, as a service manager does.
+    /// Sends SIGTERM, as a service manager does.
     #[cfg(unix)]
     pub fn terminate(&self) {
         self.signal("-TERM");
     }
 
-    /// Sends a signal by its option of `kill`.
+    /// Sends a signal, named by an option of `kill` such as `-TERM`.
     #[cfg(unix)]
     pub fn signal(&self, signal: &str) {
         let sent = Command::new("kill").args([signal, &self.process.id().to_string()]).status().unwrap();
         assert!(sent.success());
     }
 
-    /// Kills it and what it started, where it was started in a group of its own.
+    /// Kills the process and its children, if it was started in its own process group.
     #[cfg(unix)]
     pub fn kill_group(&mut self) {
         let group = format!("-{}", self.process.id());
-        // It may have ended.
+        // The process may have ended already.
         let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
         self.kill();
     }
 
     pub fn kill(&mut self) {
-        // It may have ended.
+        // The process may have ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
@@ -161,19 +161,19 @@ impl Drop for Child {
     }
 }
 
-/// Kills a process that is no child of ours.
+/// Kills a process that is not our child.
 #[cfg(target_os = "linux")]
 pub fn kill(process: u32) {
     send_signal(process, "-KILL");
 }
 
-/// Sends a signal to a process that is no child of ours, by its option of `kill`.
+/// Sends a signal to a process that is not our child. `signal` is an option of `kill`, such as `-TERM`.
 #[cfg(target_os = "linux")]
 pub fn send_signal(process: u32, signal: &str) {
     assert!(Command::new("kill").args([signal, &process.to_string()]).status().unwrap().success());
 }
 
-/// Keeps the lines of a pipe, from a thread.
+/// Reads the lines of a pipe in a thread, and returns them as they grow.
 fn keep(pipe: impl Read + Send + 'static) -> Lines {
     let lines = Lines::default();
     let kept = lines.clone();
@@ -185,7 +185,7 @@ fn keep(pipe: impl Read + Send + 'static) -> Lines {
     lines
 }
 
-/// Runs `lightbots` with an input to its end: exit code, stdout, stderr.
+/// Runs `lightbots` with this input until it ends. Returns exit code, stdout and stderr.
 pub fn run_with_input(arguments: &[&str], input: &str) -> (i32, String, String) {
     let mut child = Child::lightbots_at_terminal(arguments);
     let mut pipe = child.process.stdin.take().expect("it has an input");
@@ -195,7 +195,7 @@ pub fn run_with_input(arguments: &[&str], input: &str) -> (i32, String, String) 
     (code, child.out(), child.err())
 }
 
-/// Runs `lightbots` to its end: exit code, stdout, stderr.
+/// Runs `lightbots` until it ends. Returns exit code, stdout and stderr.
 pub fn run(arguments: &[&str]) -> (i32, String, String) {
     let mut child = Child::lightbots(arguments);
     let code = child.end();

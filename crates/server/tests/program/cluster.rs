@@ -1,4 +1,4 @@
-//! A clustered broker: a node dies in the middle of a show, and the show goes on.
+//! A clustered broker. A node dies during a show, and the show goes on.
 
 use serde_json::Value;
 
@@ -11,7 +11,7 @@ fn a_show_goes_on_when_a_node_of_the_broker_dies() {
     let _turn = alone();
     let Some(mut cluster) = Cluster::start() else { return };
     let urls = cluster.urls();
-    // A connection each, begun at the nodes in turn: robots at every node.
+    // Each robot has its own connection and tries the nodes in turn, so that every node has robots.
     let mut robots = Child::lightbots(&[
         "robots",
         "--count",
@@ -26,8 +26,8 @@ fn a_show_goes_on_when_a_node_of_the_broker_dies() {
     robots.said("30 robots connected");
     let at = |url: &String| arrivals(&robots, url);
     wait_for("all robots at a node", || (urls.iter().map(at).sum::<usize>() >= 30).then_some(()));
-    // The controller is at the node that dies, stated by itself, and many robots with it. A busy node may have turned
-    // robots away: it comes last.
+    // The controller connects first to the node that dies, which also has many robots. A busy node may have refused
+    // robots, so nodes are sorted by their robots.
     let mut nodes = [1, 2, 0];
     nodes.sort_by_key(|&node| std::cmp::Reverse(at(&urls[node])));
     let show = shows::row_file(30, &[0.1, 0.1, 0.1, 0.1]);
@@ -44,14 +44,14 @@ fn a_show_goes_on_when_a_node_of_the_broker_dies() {
         (Some(4), Some(0)),
         "{report}"
     );
-    // A node may turn it away once more while the rest of the cluster finds together again.
+    // A node may refuse the controller once more until the rest of the cluster has formed again.
     assert!(
         arrivals(&play, &urls[nodes[1]]) + arrivals(&play, &urls[nodes[2]]) > 0,
         "it did not move to another node"
     );
 }
 
-/// How often it came to a node.
+/// How often the process connected to this node.
 fn arrivals(child: &Child, url: &str) -> usize {
     let line = format!("connected to {url}");
     child.err().lines().filter(|said| said.ends_with(&line)).count()

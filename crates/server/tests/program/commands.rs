@@ -1,4 +1,4 @@
-//! The contract of the commands that only compute.
+//! Behaviour of the commands that only compute: exit codes, output and errors.
 
 use serde_json::Value;
 
@@ -45,7 +45,7 @@ fn check_says_what_it_promises() {
 
 #[test]
 fn check_says_who_comes_closest_when_and_where() {
-    // Two who change places past each other, and one far away.
+    // Two robots that change places and pass each other, and a third one far away.
     let show = r##"{"lightbots":1,"identity":"fixed","starts":[[-0.5,0],[0.5,0],[0,1]],"frames":[
         {"name":"A","air_time_s":1,"pixels":[{"id":4,"place":[-0.5,0],"color":"#ffffff"},
             {"id":7,"place":[0.5,0],"color":"#ffffff"},{"id":9,"place":[0,1],"color":"#ffffff"}]},
@@ -111,7 +111,7 @@ fn check_explains_which_solvers_ran() {
 
 #[test]
 fn check_says_where_no_robot_may_stop_dead() {
-    // Two that drive 6 mm apart, one behind the other; the frame says how long that takes.
+    // Two robots that drive 6 mm apart, one behind the other, in a time that the frame prescribes.
     let show = r##"{"lightbots":1,"identity":"fixed","starts":[[-1,0],[-1.06,0]],"frames":[
         {"name":"A","air_time_s":1,"transition_s":8.5,"pixels":[{"id":4,"place":[1,0],"color":"#ffffff"},
             {"id":7,"place":[0.94,0],"color":"#ffffff"}]}]}"##;
@@ -122,32 +122,32 @@ fn check_says_where_no_robot_may_stop_dead() {
     assert_eq!(report["transitions"][0]["stop_safe"], share);
     has(worst, &["robot", "pixel", "by", "by_pixel", "frame", "moment", "show_moment", "place", "missing_m"]);
     assert_eq!((&worst["pixel"], &worst["by_pixel"], &worst["frame"]), (&4.into(), &7.into(), &0.into()));
-    // 20 mm to stop and 3 mm to spare, less the 6 mm that there are.
+    // A robot needs 20 mm to stop and 3 mm to spare, and has 6 mm.
     assert!((0.010..0.0175).contains(&worst["missing_m"].as_f64().unwrap()), "{worst}");
     let (code, text, _) = run(&["check", &file]);
     assert_eq!(code, 0);
     assert!(text.contains("if the robot for pixel 4 does"), "{text}");
     assert!(text.contains("too tight for more on the way to: frame 1 \"A\""), "{text}");
-    // A show that cannot be played says nothing of it.
+    // The report of a show that cannot be played has no stop-safety.
     let off_floor = show.replace("[0.94,0]", "[9.4,0]");
     let file = shows::file("off-floor.lightbots.json", &off_floor);
     assert_eq!(json(&run(&["check", &file, "--json"]).1)["stop_safe"]["share"], Value::Null);
     assert!(!run(&["check", &file]).1.contains("stop dead"));
-    // With as much time as it takes the one behind leaves a little later.
+    // If the plan may take longer, the robot behind leaves a little later.
     let file = shows::file("queue.lightbots.json", show.replace(r#""transition_s":8.5,"#, ""));
     let report = json(&run(&["check", &file, "--json"]).1);
     assert_eq!((&report["stop_safe"]["share"], &report["stop_safe"]["worst"]), (&1.0.into(), &Value::Null));
     assert!(run(&["check", &file]).1.contains("any one robot may stop dead at any moment"));
 }
 
-/// The most decimals of a number below a key that ends like this, and whether there was one.
+/// Largest number of decimals among the numbers below keys with this ending. `None` if there is no such number.
 fn most_decimals(value: &Value, key: &str, ending: &str) -> Option<usize> {
     let inside = |pairs: Vec<(String, &Value)>| {
         pairs.iter().filter_map(|(key, value)| most_decimals(value, key, ending)).max()
     };
     match value {
         Value::Object(map) => {
-            // What lies below a key has its unit.
+            // A nested value without a unit in its own key has the unit of the key above it.
             let key_of = |inner: &String| {
                 let own = inner.ends_with("_s") || inner.ends_with("_m") || inner.ends_with("_ms");
                 if own { inner.clone() } else { key.to_owned() }
@@ -172,11 +172,11 @@ fn numbers_are_as_long_in_a_rehearsal_as_in_a_check() {
     let show = shows::row_file(6, &[0.3, 0.2]);
     for command in ["check", "rehearse"] {
         let mut report = json(&run(&[command, &show, "--json"]).1);
-        // Clocks are microseconds apart.
+        // This value is left out, because clocks differ by microseconds.
         report.as_object_mut().unwrap().remove("clock_spread_s");
         let decimals = ["_s", "_m"].map(|unit| most_decimals(&report, "", unit).unwrap());
         assert!(decimals[0] <= 3 && decimals[1] <= 5, "{command}: {decimals:?} {report}");
-        // Places by plan are round numbers, those of robots are not.
+        // Planned places are round numbers, and places of robots are not.
         let least = if command == "check" { [2, 1] } else { [2, 4] };
         assert!(decimals[0] >= least[0] && decimals[1] >= least[1], "{command}: {decimals:?} {report}");
     }
@@ -300,7 +300,7 @@ fn convert_plans_shows_for_other_programs_and_reads_them_again() {
         let (code, _, notes) = run(&["convert", &ours, &theirs]);
         assert_eq!(code, 0, "{notes}");
         assert!(notes.contains("[sampled]"), "{notes}");
-        // Curves and their ramps come back; those of lines in time need a plan of their own.
+        // A `.skyc` file holds curves and passes the check. The other formats hold timed lines, which need a new plan.
         assert_eq!(run(&["check", &theirs]).0, i32::from(ending != "skyc"));
         let (code, _, notes) = run(&["convert", &theirs, &back, "--replan"]);
         assert_eq!(code, 0, "{notes}");
@@ -320,7 +320,7 @@ fn an_fseq_file_is_put_onto_a_show() {
     let (code, _, notes) = run(&["convert", &lights, &lit]);
     assert_eq!(code, 2);
     assert!(notes.contains("--onto SHOW"), "{notes}");
-    // A show that cannot be planned leaves no file.
+    // A show that cannot be planned leaves the output file as it was.
     let close = shows::file("close.lightbots.json", shows::row(3, &[0.5]).replace("\"id\":1", "\"id\":0"));
     let none = shows::file("none.skyc", "before");
     assert_eq!(run(&["convert", &close, &none]).0, 1);
@@ -379,7 +379,7 @@ fn unreadable_input_is_one_line_and_exit_code_2() {
                 "{command} {name}: {err}"
             );
         }
-        // One of them is large.
+        // One of the files is large.
         std::fs::remove_file(file).unwrap();
     }
     for missing in ["nothing.json", "."] {

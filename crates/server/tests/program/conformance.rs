@@ -1,5 +1,5 @@
-//! Parts of MQTT that the embedded broker adds to rmqtt, as Eclipse's interoperability tests ask for them. Numbers of
-//! sections are those of MQTT 5.
+//! Parts of MQTT that the embedded broker adds to rmqtt, as in Eclipse's interoperability tests. Section numbers are
+//! those of MQTT 5.
 
 use std::time::Duration;
 
@@ -8,31 +8,31 @@ use crate::plain_mqtt::Mqtt;
 use crate::raw_mqtt::{RawMqtt, packet, text};
 use crate::wait_for;
 
-/// A broker without users, and where it listens.
+/// Starts a broker without users. Returns it with its address.
 fn broker() -> (Child, String) {
     let mut process = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0"]);
     let address = process.said("Broker mqtt://");
     (process, address)
 }
 
-/// The next message; waits for it.
+/// Waits for the next message. Returns its topic and payload.
 fn next(mqtt: &mut Mqtt) -> (String, String) {
     wait_for("a message", || mqtt.next())
 }
 
-/// What a client of version 5 asks for when it connects.
+/// Fields of CONNECT that a client of version 5 sends.
 struct Login<'a> {
     is_clean: bool,
     keep_alive_s: u16,
     properties: &'a [u8],
 }
 
-/// A client that asks for nothing of the kind.
+/// A clean start without keep-alive and properties.
 const PLAIN: Login<'static> = Login { is_clean: true, keep_alive_s: 0, properties: &[] };
 /// Session Expiry Interval of 60 s (3.1.2.11.2).
 const EXPIRY_60_S: &[u8] = &[0x11, 0, 0, 0, 60];
 
-/// A client of version 5, whether it found its session, and the properties of the answer.
+/// Connects a client of version 5. Returns it, whether the broker had its session, and the properties of CONNACK.
 fn open(address: &str, client_id: &str, login: &Login) -> (RawMqtt, bool, Vec<u8>) {
     let mut client = RawMqtt::silent(address);
     let length = u8::try_from(login.properties.len()).unwrap();
@@ -48,7 +48,7 @@ fn open(address: &str, client_id: &str, login: &Login) -> (RawMqtt, bool, Vec<u8
     (client, answer[0] == 1, answer[3..].to_vec())
 }
 
-/// Subscribes over version 5 with subscription identifier 7.
+/// Subscribes in version 5 with subscription identifier 7.
 fn subscribe(client: &mut RawMqtt, filter: &str) {
     client.send(&packet(0x82, &[&[0, 1, 2, 0x0b, 7][..], &text(filter), &[0]].concat()));
     assert_eq!(client.read_packet(), (0x90, vec![0, 1, 0, 0]));
@@ -68,7 +68,7 @@ fn retained_messages_reach_later_subscribers_until_they_are_removed() {
     tool.publish_retained("stage/light", "dim");
     tool.publish_retained("stage/fog", "");
     tool.publish("stage/light", "off");
-    // Messages of one connection are handled in order: the answer says that those before it are done.
+    // Messages of one connection are handled in order. When this message returns, those before it are handled.
     let mut echo = Mqtt::open(&address, "echo", &["done"]);
     tool.publish("done", "1");
     next(&mut echo);
@@ -110,7 +110,7 @@ fn a_shared_subscription_gives_each_message_to_one_client_in_turn() {
     }
     done.sort();
     assert_eq!(done, (0..10).map(|number| number.to_string()).collect::<Vec<_>>());
-    // A robot receives every message for it: it is in no group.
+    // A robot must receive every message for it, so it may not share a subscription in a group.
     assert!(!RawMqtt::open(&address, "LightBot/r7").subscribe("$share/group/T/LightBot/Broadcast"));
 }
 
@@ -118,7 +118,7 @@ fn a_shared_subscription_gives_each_message_to_one_client_in_turn() {
 fn a_session_without_an_expiry_ends_with_its_connection() {
     let (_process, address) = broker();
     let resume = |properties| open(&address, "a", &Login { is_clean: false, properties, ..PLAIN });
-    // The connection is still there while the next one takes over.
+    // The first connection is still open while the second one takes over its session.
     let (_first, ..) = open(&address, "a", &PLAIN);
     let (_second, is_present, _) = resume(&[]);
     assert!(!is_present);
@@ -127,12 +127,12 @@ fn a_session_without_an_expiry_ends_with_its_connection() {
     subscribe(&mut third, "news");
     let (mut fourth, is_present, _) = resume(EXPIRY_60_S);
     assert!(is_present);
-    // DISCONNECT says that the session ends, and the client leaves its connection open.
+    // DISCONNECT ends the session, although the client leaves its connection open.
     fourth.send(&packet(0xe0, &[0, 5, 0x11, 0, 0, 0, 0]));
     fourth.send(&packet(0xc0, &[]));
     assert_eq!(fourth.read_packet().0, 0xd0);
     assert!(!resume(EXPIRY_60_S).1);
-    // So does a clean session of version 3.1.1, section 3.1.2.4.
+    // A clean session of version 3.1.1 ends with its connection too (section 3.1.2.4 of that version).
     let _clean = RawMqtt::open(&address, "b");
     let mut next = RawMqtt::silent(&address);
     next.send(&packet(0x10, &[&text("MQTT")[..], &[4, 0, 0, 0], &text("b")].concat()));
@@ -142,7 +142,7 @@ fn a_session_without_an_expiry_ends_with_its_connection() {
 #[test]
 fn a_client_that_lost_its_connection_is_let_in_again_at_once() {
     let (_process, address) = broker();
-    // The pause varies, so that some logins find the session while it is ending.
+    // The pause varies, so that some logins come while the session is ending.
     for round in 0_u64..300 {
         let (client, ..) = open(&address, "a", &PLAIN);
         drop(client);
@@ -157,7 +157,7 @@ fn topic_aliases_stand_for_topics_in_both_directions() {
     let (mut client, _, answer) = open(&address, "a", &Login { properties: &[0x22, 0, 4], ..PLAIN });
     assert!(answer.windows(3).any(|property| property == [0x22, 0, 8]), "{answer:x?}");
     subscribe(&mut client, "news");
-    // It came over version 3, without properties; alias and subscription identifier are all it has.
+    // The message was published in version 3 without properties. So it has only alias and subscription identifier.
     let tool = Mqtt::open(&address, "tool", &[]);
     let mut received = Vec::new();
     for payload in ["1", "2"] {

@@ -1,4 +1,4 @@
-//! Shows as the original saves them, in which the same robot shows pixel 7 in every frame and straight lines collide.
+//! Shows as the original saves them: the same robot shows pixel 7 in every frame, and straight lines collide.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use crate::shows;
 
 type Place = (f64, f64);
 
-/// A file of frames in the original's format, from places in metres.
+/// Writes a file of frames in the original's format. Places are in metres.
 fn file(frames: &[Vec<Place>]) -> String {
     let pixel = |(id, (x, y)): (usize, &Place)| json!({"pixelId": id, "color": {"R": 1.0, "G": 0.647, "B": 0.0}, "physicalLocation": {"X": x, "Y": y}});
     let frame = |(number, places): (usize, &Vec<Place>)| {

@@ -1,4 +1,4 @@
-//! Frames that wait for GO: from the terminal of `play`, and without one.
+//! Frames that wait for GO, which comes from the terminal of `play` or from MQTT.
 
 use serde_json::{Value, json};
 
@@ -9,10 +9,10 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
 
-/// Where GO is said.
+/// Topic of GO messages.
 const CUE: &str = "T/LightBot/Controller/Cue";
 
-/// A show of three frames whose second one waits for GO.
+/// Writes a show of three frames whose second one waits for GO. Returns its path.
 fn show_file() -> String {
     let mut show: Value = serde_json::from_str(&shows::row(3, &[0.1, 0.1, 0.1])).unwrap();
     show["lightbots"] = json!(2);
@@ -56,7 +56,7 @@ fn without_a_terminal_go_is_given_after_the_air_time() {
     assert_played(play);
 }
 
-/// A show of three frames of which the first two repeat until GO.
+/// Writes a show of three frames, of which the first two repeat until GO. Returns its path.
 fn loop_file() -> String {
     let mut show: Value = serde_json::from_str(&shows::row(3, &[0.1, 0.1, 0.1])).unwrap();
     show["lightbots"] = json!(2);

@@ -1,4 +1,4 @@
-//! Lighting desks: real UDP packets of Art-Net and sACN, robots on a real broker.
+//! Lighting desks that send real UDP packets of Art-Net and sACN, and robots on a real broker.
 
 use std::net::UdpSocket;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,7 +20,7 @@ use crate::{alone, shows, wait_for};
 const RED: Rgb = Rgb::new(255, 0, 0);
 const TEAL: Rgb = Rgb::new(0, 128, 129);
 
-/// A sender of packets.
+/// A simulated desk that sends packets.
 struct LightingDesk {
     socket: UdpSocket,
     to: String,
@@ -33,7 +33,7 @@ impl LightingDesk {
     }
 
     fn send(&self, bytes: &[u8]) {
-        // A full queue of the system is no error: packets are repeated.
+        // A full send queue of the system is no error, because packets are repeated.
         let _ = self.socket.send_to(bytes, &self.to);
     }
 
@@ -72,12 +72,12 @@ impl LightingDesk {
     }
 }
 
-/// The values of at most 512 channels.
+/// Channel values of these colours, cut after 512 channels.
 fn channels(colours: &[Rgb]) -> Vec<u8> {
     colours.iter().flat_map(|colour| [colour.r, colour.g, colour.b]).take(512).collect()
 }
 
-/// Robots of ours on the broker, whose lamps can be looked at.
+/// Our robots on the broker, with the colours of their lamps.
 struct Lamps {
     lights: Arc<Mutex<Vec<(RobotId, Rgb)>>>,
     stop: Arc<AtomicBool>,
@@ -116,12 +116,12 @@ impl Lamps {
         Self { lights, stop, thread: Some(thread) }
     }
 
-    /// Their colours, in the order of the robots' names.
+    /// Colours of the lamps in the order of the robots' names.
     fn colours(&self) -> Vec<Rgb> {
         self.lights.lock().unwrap().iter().map(|(_, light)| *light).collect()
     }
 
-    /// Calls `send` every 40 ms until the lamps show these colours; how long that took.
+    /// Calls `send` every 40 ms until the lamps show these colours. Returns how long that took.
     fn until(&self, what: &str, expected: &[Rgb], mut send: impl FnMut()) -> Duration {
         let began = Instant::now();
         let mut due = began;
@@ -156,7 +156,7 @@ fn packets_on_the_wire_light_robots_and_silence_gives_the_light_back() {
     let row = [RED, TEAL, RED, RED];
     let both = [RED, TEAL, Rgb::BLACK, RED];
     lamps.until("Art-Net on the lamps", &both, || art_net.art_net(1, &row));
-    // 512 channels: the third robot has the last three.
+    // A full universe of 512 channels. The third robot has the last three.
     let mut whole: Vec<Rgb> = (0..171).map(|_| Rgb::BLACK).collect();
     (whole[169], whole[170]) = (Rgb::new(9, 9, 1), Rgb::new(2, 3, 0));
     let expected = [RED, TEAL, Rgb::new(1, 2, 3), RED];
@@ -164,7 +164,7 @@ fn packets_on_the_wire_light_robots_and_silence_gives_the_light_back() {
         art_net.art_net(1, &row);
         sacn.sacn(7, (100, 0), &whole);
     });
-    // A source of higher priority takes a universe over, and strangers' bytes change nothing.
+    // A source of higher priority takes the universe over, and invalid packets change nothing.
     let strangers: Vec<Vec<u8>> = (0..60usize).map(|n| vec![n as u8; n * 12]).collect();
     lamps.until("the higher priority", &[TEAL, RED, Rgb::BLACK, TEAL], || {
         strangers.iter().for_each(|bytes| [&art_net, &sacn].iter().for_each(|desk| desk.send(bytes)));
@@ -174,7 +174,7 @@ fn packets_on_the_wire_light_robots_and_silence_gives_the_light_back() {
     let passed = lamps.until("Art-Net again, after silence", &both, || art_net.art_net(1, &row));
     assert!(passed >= Duration::from_millis(2_300), "after {passed:?}");
     lamps.until("sACN once more", &[TEAL, TEAL, Rgb::BLACK, TEAL], || sacn.sacn(1, (101, 0), &[TEAL; 4]));
-    // The packets go on, so it is not silence that ends the source.
+    // The desk still sends packets, so the source does not end by silence.
     lamps.until("the end of the stream", &both, || {
         art_net.art_net(1, &row);
         sacn.sacn(1, (101, 0x40), &[TEAL; 4]);

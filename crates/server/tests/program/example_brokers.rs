@@ -1,4 +1,4 @@
-//! The brokers in the folder `brokers`: what can be tried here is tried.
+//! Settings of brokers in the folder `brokers`, tested as far as the brokers are installed here.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -70,7 +70,7 @@ fn mosquitto_runs_with_its_settings_and_keeps_robots_apart() {
     let mut play = Child::lightbots(&["play", &shows::row_file(2, &[0.1]), "--broker", &url, "--json"]);
     assert_eq!(play.end(), 0, "{}", play.err());
 
-    // A robot that wants to hear everything hears what is for it.
+    // A robot that subscribes to everything receives only its own messages.
     let address = format!("127.0.0.1:{plain}");
     let mut nosy = Mqtt::open_as(&address, "LightBot/r7", ("robot", "r"), &["#", "T/LightBot/r7"]);
     let controller = Mqtt::open_as(&address, "BotControl/a", ("controller", "c"), &[]);

@@ -1,4 +1,4 @@
-//! `robots` and `play` on Mosquitto.
+//! The commands `robots` and `play` on Mosquitto.
 
 use serde_json::Value;
 
@@ -16,7 +16,7 @@ fn play(show: &str, broker: &str, more: &[&str]) -> Child {
     Child::lightbots(&all)
 }
 
-/// The run report of a show that was played whole.
+/// Waits for the end of `play`, asserts that the whole show was played, and returns the report.
 fn report(mut play: Child) -> Value {
     let code = play.end();
     let report: Value = serde_json::from_str(&play.out()).unwrap_or_default();
@@ -80,7 +80,7 @@ fn a_run_that_is_stopped_tells_how_long_it_was() {
     play.terminate();
     assert_eq!(play.end(), 1);
     let report: Value = serde_json::from_str(&play.out()).expect("one object");
-    // The drive of 0.1 m takes 0.99 s.
+    // The drive of 0.1 m takes 0.99 s, so the report covers a whole drive.
     assert!(report["duration_s"].as_f64().unwrap() > 0.98, "{report}");
     assert_eq!((report["ok"].as_bool(), report["frames_played"].as_u64()), (Some(false), Some(1)));
 }

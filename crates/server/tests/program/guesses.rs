@@ -12,17 +12,18 @@ use crate::sign_in::{session, sign_in, start, token};
 use crate::site::{Line, Site};
 use crate::{DEADLINE, alone, http};
 
-/// Guesses of each test.
+/// Number of guesses of each test.
 const GUESSES: usize = 10_000;
-/// Wrong passwords for one name from one address until a pause, as SECURITY.md states.
+/// Wrong passwords for one name from one address before a pause, as SECURITY.md states.
 const TRIES: usize = 5;
-/// Wrong passwords of all names together at once, and the seconds for each further one, as SECURITY.md states.
+/// Wrong passwords for all names together that are allowed at once, and seconds for each further one, as SECURITY.md
+/// states.
 const IN_WHOLE: (usize, u64) = (60, 10);
-/// How much more memory the server may take for refused guesses, kB: less than 1 kB for each.
+/// Most memory that the server may gain from refused guesses, kB: less than 1 kB for each.
 const GROWTH_KB_MAX: u64 = 8_000;
-/// What the allocator may keep of one further hash, kB: its 19 MiB.
+/// Memory that the allocator may keep for each concurrent password hash, kB: its 19 MiB.
 const HASH_KB: u64 = 20_000;
-/// Connections that guess at once.
+/// Number of connections that guess at the same time.
 const CONNECTIONS: usize = 4;
 
 /// A connection that stays open for many guesses.
@@ -38,7 +39,7 @@ impl Guesser {
         Self { stream: BufReader::new(stream), host: site.address.clone() }
     }
 
-    /// Status, `Retry-After` and body of the answer to a guess.
+    /// Sends a guess. Returns status, `Retry-After` in seconds and body of the answer.
     fn guess(&mut self, name: &str, password: &str) -> (u16, Option<u64>, String) {
         let body = json!({"name": name, "password": password}).to_string();
         let request = format!(
@@ -68,28 +69,28 @@ impl Guesser {
     }
 }
 
-/// Memory of a process that is in use, kB; `None` where the system does not tell.
+/// Resident memory of a process, kB. `None` if the system does not report it.
 fn memory_kb(server: &Child) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{}/status", server.id())).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
     line.trim().trim_end_matches("kB").trim().parse().ok()
 }
 
-/// Fails if the server took more memory than refused guesses and that number of hashes may.
+/// Fails if the server's memory grew by more than refused guesses and `hashes` concurrent hashes may take.
 fn assert_memory(server: &Child, before: Option<u64>, hashes: usize) {
     if let (Some(before), Some(after)) = (before, memory_kb(server)) {
         assert!(after < before + GROWTH_KB_MAX + HASH_KB * hashes as u64, "from {before} kB to {after} kB");
     }
 }
 
-/// Each refusal during a pause says how long it is, in seconds and in words.
+/// Asserts that a refusal states its pause in seconds and in words. `most` bounds it, seconds.
 fn assert_is_pause((status, retry_after, body): &(u16, Option<u64>, String), most: u64) {
     assert_eq!(*status, 429, "{body}");
     assert!(retry_after.is_some_and(|seconds| (1..=most).contains(&seconds)), "{retry_after:?}");
     assert!(body.contains("Too many wrong passwords. Try again in "), "{body}");
 }
 
-/// Guesses at ann's password on all connections at once; how many were tried.
+/// Guesses ann's password on all connections at the same time. Returns how many guesses were tried.
 fn guess_at_ann(site: &Site, guesses: usize) -> usize {
     let guess = |thread: usize| {
         let mut guesser = Guesser::open(site);
@@ -112,7 +113,7 @@ fn ten_thousand_guesses_at_one_name_are_five_tries() {
     let first = GUESSES / 10;
     let tried = thread::scope(|scope| {
         let guessing = scope.spawn(|| guess_at_ann(&site, first));
-        // Another person signs in meanwhile, and a program with a token works on.
+        // Meanwhile another user signs in, and a program with a token is served.
         session(&site, "bob", "password of bob");
         let shows = http::request(&site, "GET", "/api/shows", &[("Authorization", &bearer)], "");
         assert_eq!(shows.status, 200);
@@ -127,9 +128,9 @@ fn ten_thousand_guesses_at_one_name_are_five_tries() {
     session(&site, "bob", "password of bob");
 }
 
-/// An address of this machine that is none of loopback. Packets to it do not leave the machine.
+/// A non-loopback address of this machine. Packets to it do not leave the machine.
 fn own_address() -> Option<String> {
-    // To choose a route sends nothing.
+    // Connecting a UDP socket chooses a route and sends nothing.
     let socket = UdpSocket::bind("0.0.0.0:0").ok()?;
     socket.connect("192.0.2.1:9").ok()?;
     let address = socket.local_addr().ok()?.ip();

@@ -1,4 +1,4 @@
-//! What an attacker sends to the embedded broker, and what becomes of the others.
+//! Attacks of clients on the embedded broker and the web server, and their effect on other clients.
 
 use std::io::Write;
 
@@ -12,7 +12,7 @@ use crate::run::start_by;
 use crate::screen::Screen;
 use crate::{alone, http, shows, wait_for};
 
-/// `lightbots broker` on a free port, and its address.
+/// Starts `lightbots broker` on a free port. Returns it with its address.
 fn broker() -> (Child, String) {
     let mut broker = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0"]);
     let address = broker.said("Broker mqtt://");
@@ -44,14 +44,14 @@ fn topics_of_ten_thousand_levels_are_refused_and_the_broker_goes_on() {
 fn a_packet_longer_than_any_message_costs_the_connection() {
     let (mut process, address) = broker();
     let mut hostile = RawMqtt::open(&address, "hostile");
-    // Only the head of 256 MB: the broker must not wait for the rest.
+    // Only the head of a packet of 256 MB is sent: the broker must not wait for the rest.
     hostile.send(&[0x30, 0xff, 0xff, 0xff, 0x7f]);
     hostile.wait_for_close();
     process.complains("refused client hostile");
     assert!(RawMqtt::open(&address, "robot").is_answered());
 }
 
-/// The most memory a process has had, in bytes.
+/// Peak resident memory of a process, bytes.
 #[cfg(target_os = "linux")]
 fn peak_memory(process: u32) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
@@ -69,7 +69,7 @@ fn clients_that_do_not_read_cost_bounded_memory_and_nobody_elses_messages() {
     assert!(robot.subscribe("T/LightBot/r1"));
     let mut hostile = RawMqtt::open(&address, "hostile");
     let message = publish("flood", &[b'x'; 60_000]);
-    // 600 MB to each of ten.
+    // 600 MB for each of the ten subscribers.
     for _ in 0..10_000 {
         hostile.send(&message);
     }
@@ -88,7 +88,7 @@ fn connections_that_do_not_log_in_are_closed() {
     let silent = RawMqtt::silent(&address);
     let mut half = RawMqtt::silent(&address);
     half.send(&connect("half")[..9]);
-    // More than may be without a login at once: the first of them go early.
+    // More connections than may be without a login at the same time, so that the first of them are closed early.
     let crowd: Vec<_> = (0..700).map(|_| RawMqtt::silent(&address)).collect();
     let mut robot = RawMqtt::open(&address, "LightBot/r1");
     for client in [silent, half].into_iter().chain(crowd) {
@@ -137,7 +137,7 @@ fn a_broker_alone_is_refused_where_it_would_be_open_to_every_machine() {
     assert!(code == 1 && error.contains("is taken"), "{code} {error}");
 }
 
-/// Sends the head of an upload of `length` bytes and the first byte of it.
+/// Sends the head of an upload of `length` bytes and its first byte.
 fn begin_upload(address: &str, length: usize) -> std::net::TcpStream {
     let mut stream = std::net::TcpStream::connect(address).unwrap();
     let head = format!("POST /api/check HTTP/1.1\r\nHost: {address}\r\nContent-Length: {length}\r\n\r\n[");
@@ -155,7 +155,7 @@ fn uploads_that_never_end_do_not_keep_others_from_saving() {
     assert_eq!(saved.status, 200, "{}", saved.body);
     let long = http::request(&address, "POST", "/api/check", &[("Content-Length", "70000000")], "");
     assert_eq!(long.status, 413, "{}", long.body);
-    // One that breaks off is no show, and its room is free again at once.
+    // An upload that breaks off is no show, and its memory is free again at once.
     drop(uploads);
     let padded = format!("{}{}", " ".repeat(40_000_000), show);
     assert_eq!(http::request(&address, "POST", "/api/check", &[], &padded).status, 200);
@@ -171,7 +171,7 @@ fn a_robot_that_floods_is_cut_off_and_named_and_the_show_goes_on() {
     screen.until("the show", |screen| (screen.phase() == "playing").then_some(()));
     let mut hostile = RawMqtt::open(&broker, "LightBot/flood");
     let reports = publish("T/LightBot/UUID", b"flood 0.5 1.3").repeat(1_000);
-    // Its connection ends while it sends.
+    // The broker closes the connection during a write.
     while hostile.stream.write_all(&reports).is_ok() {}
     let line = screen.wait_for_log("is cut off");
     assert!(line.contains("LightBot/flood"), "{line}");
@@ -182,7 +182,7 @@ fn a_robot_that_floods_is_cut_off_and_named_and_the_show_goes_on() {
     assert!(last.contains("2 frames") && last.contains("0 dropouts"), "{last}");
 }
 
-/// More connections than the system lets the program have: the screens that are there and the robots go on.
+/// Opens more connections than the system allows the program. Open screens and robots must go on.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_flood_of_connections_to_the_web_app_is_named_and_the_show_goes_on() {

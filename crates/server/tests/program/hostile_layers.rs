@@ -1,4 +1,4 @@
-//! Layers of light that are absurd: what is said of them, from a file and over HTTP, and that nothing is lost.
+//! Absurd layers of light from a file and over HTTP: each is reported, and no data is lost.
 
 use serde_json::Value;
 
@@ -14,7 +14,7 @@ fn layer(kind: &str, settings: &str) -> String {
     format!(r#"{{"kind":"{kind}","name":"Absurd","settings":{{{settings}}}}}"#)
 }
 
-/// Layers that cannot be read, and what is said of them.
+/// Layers that cannot be read, each with its error.
 fn unreadable() -> [(String, &'static str); 3] {
     [
         (vec![layer("solid", ""); 100_000].join(","), "more than 1000 layers; take some away"),
@@ -26,7 +26,7 @@ fn unreadable() -> [(String, &'static str); 3] {
     ]
 }
 
-/// Layers that stay dark, and what is said of them.
+/// Layers that give no light, each with its issue.
 fn dark() -> [(String, &'static str); 2] {
     [
         (
@@ -40,7 +40,7 @@ fn dark() -> [(String, &'static str); 2] {
     ]
 }
 
-/// The messages of issues of a kind.
+/// Messages of all issues with this code.
 fn messages(issues: &Value, code: &str) -> Vec<String> {
     let issues = issues.as_array().unwrap().iter().filter(|issue| issue["code"] == code);
     issues.map(|issue| issue["message"].as_str().unwrap().to_owned()).collect()

@@ -1,4 +1,4 @@
-//! Shows that are made to keep the planner busy.
+//! Shows that are made to overload the planner.
 
 use serde_json::{Value, json};
 
@@ -6,14 +6,14 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, child, http, shows};
 
-/// A show of one pixel at this place.
+/// A show of one pixel whose y is this text.
 fn pixel_at(y: &str) -> String {
     format!(
         r##"{{"lightbots": 1, "frames": [{{"name": "Far", "air_time_s": 1, "pixels": [{{"id": 0, "place": [0, {y}], "color": "#ffffff"}}]}}]}}"##
     )
 }
 
-/// Robots in a crowd that all go to each other's places: far more than a second of work on any machine.
+/// A show in which the robots of a dense crowd exchange places: much more than a second of planning on any machine.
 fn endless() -> String {
     let side = 100;
     let pixel = |id: usize, place: usize| {

@@ -1,4 +1,4 @@
-//! Just enough HTTP.
+//! A minimal HTTP client.
 
 use std::io::{ErrorKind, Read, Write};
 
@@ -25,7 +25,7 @@ impl Answer {
     }
 }
 
-/// Sends a request to a server, such as `host:port`.
+/// Sends a request to a site, such as `host:port`. Returns the answer.
 pub fn request(
     site: impl Into<Site>,
     method: &str,
@@ -49,7 +49,7 @@ pub fn request(
     )
 }
 
-/// Sends these bytes as they are; the connection must be one that the server closes.
+/// Sends these bytes and returns the answer. The request must make the server close the connection.
 pub fn send(site: impl Into<Site>, bytes: &str) -> Answer {
     let mut stream = site.into().connect().unwrap();
     stream.set_read_timeout(DEADLINE);
@@ -60,7 +60,8 @@ pub fn send(site: impl Into<Site>, bytes: &str) -> Answer {
     let (head, body) = text.split_once("\r\n\r\n").unwrap_or((&text, ""));
     let status = head.split(' ').nth(1).and_then(|status| status.parse().ok()).unwrap_or(0);
     let answer = Answer { status, head: head.to_owned(), body: body.to_owned() };
-    // hyper drops a connection whose upgrade was refused without the farewell of TLS: the stated length says the end.
+    // hyper drops a connection with a refused upgrade without closing TLS. Then `Content-Length` shows that the answer
+    // is whole.
     let is_whole = answer.header("Content-Length") == answer.body.len().to_string();
     if !read.as_ref().is_err_and(|error| error.kind() == ErrorKind::UnexpectedEof && is_whole) {
         read.unwrap();

@@ -1,4 +1,4 @@
-//! Pictures that layers project on the floor: read in a process of their own, shown by robots, and what is wrong is said.
+//! Pictures that layers project on the floor: a separate process reads them, robots show them, and errors are reported.
 
 use lightbots_exchange::{ARCHIVE, asset_of, read};
 use lightbots_show::{Layer, LayerSpan, Setting, Show};
@@ -11,11 +11,11 @@ use crate::{alone, child, http, shows};
 /// A GIF of 2 by 1 pixels, blue and red.
 const GIF: &[u8] = b"GIF89a\x02\0\x01\0\x80\0\0\0\0\xff\xff\0\0,\0\0\0\0\x02\0\x01\0\0\x02\x02D\n\0;";
 
-/// A PNG whose header tells of 31,250 x 32,000 pixels.
+/// A PNG whose header claims 31,250 x 32,000 pixels.
 const HUGE: &[u8] =
     b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x7a\x12\0\0\x7d\0\x08\x02\0\0\0\x06\x80\x01\x0c\0\0\0\x09IDATx";
 
-/// Four robots in a row, and a picture 0.2 m wide over the two in the middle.
+/// A show of four robots in a row, and a picture 0.2 m wide over the two in the middle.
 fn show(picture: &[u8], name: &str) -> Show {
     let mut show = read(shows::row(4, &[60.0]).as_bytes(), None).unwrap().show;
     let (hash, asset) = asset_of(name, "image/gif", picture.into());
@@ -89,7 +89,7 @@ fn robots_of_the_live_program_show_the_picture_of_a_saved_show() {
         let colours: Vec<u64> = lights.into_iter().map(|(_, colour)| colour).collect();
         (colours == [own, 0x00_00_ff, 0xff_00_00, own]).then_some(())
     });
-    // A document names files of the library: this one is damaged.
+    // The document refers to a file of the library that is damaged.
     let bad = show(&GIF[..20], "moon.gif");
     let document = lightbots_exchange::LIGHTBOTS.write(&bad, None).bytes;
     let missing =

@@ -1,4 +1,4 @@
-//! The library over restarts of the program.
+//! The library keeps its shows over restarts of the program.
 
 use crate::screen::Screen;
 use crate::{alone, child, http, run, shows};
@@ -9,7 +9,7 @@ fn title(address: &str, name: &str) -> String {
     got.json()["name"].as_str().unwrap().to_owned()
 }
 
-/// Saves a show titled `title` over `name`, as a screen does that edits it; answers the name it is saved under.
+/// Saves a show titled `title` over `name`, as an editing screen does. Returns the name under which it is saved.
 fn save(address: &str, name: &str, title: &str) -> String {
     let path = format!("/api/shows/{name}");
     let etag = http::request(address, "GET", &path, &[], "").header("ETag");

@@ -1,9 +1,9 @@
-//! The program as people run it: real processes, real brokers, real sockets.
+//! The program as it is used: real processes, real brokers, real sockets.
 //!
-//! Everything waits for conditions, never for a time; deadlines are long because they only matter when something is
+//! Tests wait for conditions and not for fixed times. Deadlines are long, because they only matter when something is
 //! broken. Tests with robots run one at a time, so that a small machine keeps up.
 
-// What children said is shown when a test fails.
+// A failing test prints the output of its child processes.
 #![allow(clippy::print_stderr)]
 
 mod backup;
@@ -57,16 +57,16 @@ mod web_tls;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long anything may take before it is broken.
+/// Longest wait for any condition. After it a test fails.
 const DEADLINE: Duration = Duration::from_secs(120);
 
-/// Holds back other tests with robots.
+/// Waits until no other test with robots runs, and holds the others back while the guard lives.
 fn alone() -> MutexGuard<'static, ()> {
     static TURN: Mutex<()> = Mutex::new(());
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Looks again and again until there is something; fails after [`DEADLINE`].
+/// Calls `look` until it returns a value, and returns that value. Panics after [`DEADLINE`].
 fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let until = Instant::now() + DEADLINE;
     loop {

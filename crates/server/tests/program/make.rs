@@ -1,4 +1,4 @@
-//! Shows made of words, shapes and files, from the command line to a rehearsal.
+//! Makes shows of words, shapes and files on the command line, and rehearses them.
 
 use serde_json::Value;
 
@@ -9,7 +9,7 @@ fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in {text}"))
 }
 
-/// A face of areas and a line.
+/// An SVG of a face that consists of areas and a line.
 const FACE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">
     <circle cx="50" cy="50" r="45" fill="orange"/><circle cx="33" cy="40" r="7" fill="#003366"/>
     <circle cx="67" cy="40" r="7" fill="#003366"/>

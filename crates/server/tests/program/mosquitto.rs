@@ -1,4 +1,4 @@
-//! Mosquitto, the broker most people have.
+//! A Mosquitto broker in a child process.
 
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
@@ -13,12 +13,12 @@ pub struct Mosquitto {
 }
 
 impl Mosquitto {
-    /// Starts one on a free port of loopback; `None` where the tests were told to do without.
+    /// Starts a broker on a free port of loopback. `None` if the tests are told to run without Mosquitto.
     pub fn start() -> Option<Self> {
         if is_unwanted() {
             return None;
         }
-        // Another program may take a port between its choice and its use.
+        // Another program may take a port after it was chosen, so several ports are tried.
         for _ in 0..10 {
             let port = free_port();
             if let Some(child) = serve(port) {
@@ -28,7 +28,7 @@ impl Mosquitto {
         panic!("mosquitto does not start on any of ten ports");
     }
 
-    /// Starts one with settings made for as many free ports; the first of them must be listened on.
+    /// Starts a broker with settings for `PORTS` free ports. The settings must listen on the first of them.
     pub fn with_settings<const PORTS: usize>(
         settings: impl Fn([u16; PORTS]) -> String,
     ) -> Option<(Self, [u16; PORTS])> {
@@ -49,13 +49,13 @@ impl Mosquitto {
         format!("mqtt://127.0.0.1:{}", self.port)
     }
 
-    /// Kills it and starts it again at the same address.
+    /// Kills the broker and starts it again at the same address.
     pub fn restart(&mut self) {
         self.kill();
         self.start_again();
     }
 
-    /// Sends it a signal by its option of `kill`.
+    /// Sends it a signal, named by an option of `kill`.
     #[cfg(unix)]
     pub fn signal(&self, signal: &str) {
         self.child.signal(signal);
@@ -65,13 +65,13 @@ impl Mosquitto {
         self.child.kill();
     }
 
-    /// Starts it at the same address, after it was killed.
+    /// Starts the broker at the same address after it was killed.
     pub fn start_again(&mut self) {
         self.child = wait_for("mosquitto to come back", || serve(self.port));
     }
 }
 
-/// A port nobody listens on right now.
+/// A port on which no program listens at this moment.
 pub fn free_port() -> u16 {
     TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
 }
@@ -84,7 +84,7 @@ fn is_unwanted() -> bool {
     unwanted
 }
 
-/// A process that answers at that port, or `None` where it ended.
+/// Starts a broker at this port and waits until it answers. `None` if the process ended.
 fn serve(port: u16) -> Option<Child> {
     answering(&["-p", &port.to_string()], port)
 }

@@ -1,5 +1,5 @@
-//! Seeded mutations of what clients send to the sockets of `run`: MQTT, HTTP and WebSocket. The program, its broker and its
-//! screens go on, whatever comes.
+//! Seeded mutations of what clients send to the sockets of `run`: MQTT, HTTP and WebSocket. The program, its broker and
+//! its screens must keep running.
 //!
 //! `LIGHTBOTS_MUTATIONS=5000 cargo test -p lightbots-server --test program mutations` tries more than the usual run.
 
@@ -21,16 +21,16 @@ mod numbers;
 use mutator::{corpus_files, mutant, rounds};
 use numbers::Numbers;
 
-/// Mutations of each message in a usual run.
+/// Number of mutations of each message in a usual run.
 const USUAL: usize = 40;
 
-/// How long an answer is waited for. Many mutants get none.
+/// How long a mutant waits for an answer. Many get none.
 const ANSWER: Duration = Duration::from_millis(20);
 
-/// Mutations between two looks at whether everything works.
+/// Number of mutations between two checks that everything works.
 const BATCH: usize = 20;
 
-/// Conversations of MQTT clients with the broker.
+/// Sequences of packets that MQTT clients send to the broker.
 fn mqtt() -> Vec<Vec<u8>> {
     let robot = connect("LightBot/mutant");
     let report = publish("Position", b"LightBot/mutant 0.5 -1.25 state=idle bat=87");
@@ -47,7 +47,7 @@ fn mqtt() -> Vec<Vec<u8>> {
     ]
 }
 
-/// Requests as pages and programs send them.
+/// Requests as pages and programs send them, in bytes.
 fn http_requests(address: &str) -> Vec<Vec<u8>> {
     let head = |first: &str, more: &str| {
         format!("{first} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n{more}\r\n").into_bytes()
@@ -69,7 +69,7 @@ fn http_requests(address: &str) -> Vec<Vec<u8>> {
     ]
 }
 
-/// What a screen sends: the request for a WebSocket, and frames with messages.
+/// What a screen sends: a request for a WebSocket, and frames with messages.
 fn websocket(address: &str) -> Vec<Vec<u8>> {
     let head = format!(
         "GET /ws HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
@@ -88,7 +88,7 @@ fn websocket(address: &str) -> Vec<Vec<u8>> {
     ]
 }
 
-/// Sends bytes on a connection of their own; what becomes of it is up to the program.
+/// Sends these bytes on a new connection and ignores the outcome.
 fn send(address: &str, bytes: &[u8]) {
     let Ok(mut stream) = TcpStream::connect(address) else { return };
     let _ = stream.set_read_timeout(Some(ANSWER));
@@ -137,7 +137,7 @@ fn no_mutation_breaks_the_program_its_broker_or_its_screens() {
         }
         assert!(RawMqtt::open(&broker, "after").is_answered());
     }
-    // A mutant may have played the show or opened another: the screen still hears the robots.
+    // A mutant may have played the show or opened another one. The screen must still show the robots.
     screen.wait_for_robots(2);
     server.terminate();
     assert_eq!(server.end(), 0);

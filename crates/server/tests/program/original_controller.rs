@@ -1,4 +1,4 @@
-//! Our robots under a controller that speaks nothing but the original's protocol.
+//! Our robots under a controller that speaks only the original's protocol.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use crate::child::Child;
 use crate::plain_mqtt::Mqtt;
 use crate::{alone, run, wait_for};
 
-/// Where robots say they are, from reports `<uuid> <x> <y>` on a topic; later fields are not looked at.
+/// Reads places of robots from reports `<uuid> <x> <y>` on a topic. Later fields are ignored.
 fn read(mqtt: &mut Mqtt, topic: &str, places: &mut BTreeMap<String, (f64, f64)>) {
     while let Some((on, payload)) = mqtt.next() {
         if on != topic {
@@ -33,7 +33,7 @@ fn an_original_controller_drives_our_robots() {
 
     let mut found = BTreeMap::new();
     wait_for("three robots that know where they are", || {
-        // People press Refresh until all are there.
+        // As an operator does, the controller requests names again until all robots have answered.
         mqtt.publish("T/LightBot/Broadcast", "|UUID|");
         std::thread::sleep(std::time::Duration::from_millis(200));
         read(&mut mqtt, "T/LightBot/UUID", &mut found);
@@ -41,7 +41,7 @@ fn an_original_controller_drives_our_robots() {
     });
     junk(&mqtt, &broker, found.keys().next().unwrap());
 
-    // On a machine with a decimal comma, and each straight ahead of where it stands.
+    // Numbers have decimal commas, as on some machines. Each target is straight ahead of its robot.
     let targets: BTreeMap<String, (f64, f64)> =
         found.iter().map(|(id, (x, y))| (id.clone(), (*x, y - 0.3))).collect();
     for (id, (x, y)) in &targets {
@@ -61,7 +61,7 @@ fn an_original_controller_drives_our_robots() {
     assert_eq!(robots.end(), 0);
 }
 
-/// What nobody should send.
+/// Publishes invalid messages of many kinds.
 fn junk(mqtt: &Mqtt, broker: &str, robot: &str) {
     let own = format!("T/LightBot/{robot}");
     let topics = [
@@ -76,8 +76,8 @@ fn junk(mqtt: &Mqtt, broker: &str, robot: &str) {
         mqtt.publish(topic, "");
         mqtt.publish(topic, vec![0xff, 0xfe, 0x00, b'|', 0xc3]);
         mqtt.publish(topic, vec![b'A'; 60_000]);
-        // Longer than a packet may be: it costs this client its connection, and no other client anything.
-        // The broker may end it before the client has taken the packet.
+        // This payload is longer than a packet may be. It costs its own client the connection, and no other client.
+        // The broker may close the connection before the client has sent the packet.
         Mqtt::open(broker, &format!("junk-{number}"), &[]).try_publish(topic, vec![b'A'; 1_000_000]);
         mqtt.publish(
             topic,

@@ -1,4 +1,4 @@
-//! A robot that speaks nothing but the original's protocol.
+//! A robot that speaks only the original's protocol.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::plain_mqtt::Mqtt;
 
-/// What it did until it was switched off.
+/// What the robot has done until it was switched off.
 #[derive(Clone, Debug, Default)]
 pub struct Diary {
     pub targets: usize,
@@ -29,7 +29,7 @@ struct Body {
 }
 
 impl OriginalRobot {
-    /// Switches one on; it drives at 0.2 m/s.
+    /// Starts a robot that drives at 0.2 m/s.
     pub fn start(broker: &str, id: &str, at: (f64, f64)) -> Self {
         let topics = ["T/LightBot/Broadcast".to_owned(), format!("T/LightBot/{id}")];
         let topics: Vec<&str> = topics.iter().map(String::as_str).collect();
@@ -40,7 +40,7 @@ impl OriginalRobot {
         Self { stop, thread: std::thread::spawn(move || body.live(&wanted)) }
     }
 
-    /// Switches it off.
+    /// Ends the robot. Returns what it has done.
     pub fn end(self) -> Diary {
         self.stop.store(true, Ordering::Relaxed);
         self.thread.join().unwrap()

@@ -1,4 +1,4 @@
-//! An MQTT client that knows nothing of ours.
+//! An MQTT client that shares no code with ours.
 
 use std::sync::{Arc, Mutex};
 
@@ -6,7 +6,7 @@ use rumqttc::{Client, Event, MqttOptions, Packet, PublishOptions, QoS};
 
 use crate::wait_for;
 
-/// Topics and payloads in the order they came.
+/// Topics and payloads in the order in which they arrived.
 type Messages = Vec<(String, Vec<u8>)>;
 
 pub struct Mqtt {
@@ -21,7 +21,7 @@ impl Mqtt {
         Self::open_as(address, client_id, ("default", "default"), topics)
     }
 
-    /// The same as another user. Subscriptions that are refused count as answered.
+    /// Connects and subscribes as another user. Refused subscriptions count as answered.
     pub fn open_as(address: &str, client_id: &str, login: (&str, &str), topics: &[&str]) -> Self {
         let (host, port) = address.rsplit_once(':').unwrap();
         let mut options = MqttOptions::new(client_id, (host, port.parse::<u16>().unwrap()));
@@ -57,17 +57,17 @@ impl Mqtt {
         assert!(self.try_publish(topic, payload), "the connection of {topic}'s sender is gone");
     }
 
-    /// Publishes a message that the broker is to keep for later subscribers.
+    /// Publishes a retained message, which the broker keeps for later subscribers.
     pub fn publish_retained(&self, topic: &str, payload: impl Into<Vec<u8>>) {
         self.client.publish(topic, payload.into(), PublishOptions::at_most_once().retained()).unwrap();
     }
 
-    /// Publishes unless the broker has ended the connection.
+    /// Publishes a message. Returns whether the connection still existed.
     pub fn try_publish(&self, topic: &str, payload: impl Into<Vec<u8>>) -> bool {
         self.client.publish(topic, payload.into(), PublishOptions::at_most_once()).is_ok()
     }
 
-    /// The next message, if one came.
+    /// The next message that has arrived, if any: topic and payload.
     pub fn next(&mut self) -> Option<(String, String)> {
         let heard = self.heard.lock().unwrap();
         let (topic, payload) = heard.get(self.read)?;

@@ -1,4 +1,4 @@
-//! A day by playlist, and operations over HTTP.
+//! A day that a playlist controls, and operations over HTTP.
 
 use serde_json::{Value, json};
 
@@ -18,13 +18,13 @@ fn state(address: &str) -> Value {
     answer.json()
 }
 
-/// Replaces the playlist.
+/// Replaces the playlist. Returns the answer of the server.
 fn change(address: &str, on: bool, entries: &Value) -> Answer {
     let revision = &state(address)["revision"];
     ask(address, "PUT", "/api/playlist", &json!({"revision": revision, "on": on, "entries": entries}))
 }
 
-/// The results of today, in order.
+/// The results of today's entries, in order.
 fn results(state: &Value) -> Vec<String> {
     let today = state["today"].as_array().unwrap();
     today.iter().map(|one| one["result"].as_str().unwrap().to_owned()).collect()
@@ -36,7 +36,7 @@ fn save(address: &str, name: &str, pixels: usize, air_s: f64) {
     assert_eq!(saved.status, 200, "{}", saved.body);
 }
 
-/// An entry that starts now. A minute that begins meanwhile makes it a minute late, which is not too late.
+/// An entry whose time is the present minute. If the next minute begins meanwhile, it is still not too late.
 fn now(address: &str, show: &str) -> Value {
     json!({"show": show, "at": state(address)["now"], "speed_percent": 100})
 }
@@ -76,7 +76,7 @@ fn two_shows_are_played_with_one_between_that_fails() {
     assert!(incidents.contains("missing failed by schedule."), "{incidents}");
     let runs = ask(&address, "GET", "/api/runs", &json!(null)).json();
     assert_eq!(runs.as_array().unwrap().len(), 2, "{runs}");
-    // The operator's speed is back.
+    // The operator's speed is set again.
     screen.until("the usual speed", |screen| {
         (screen.get("state")["playback"]["speed_percent"] == 100).then_some(())
     });
@@ -99,7 +99,7 @@ fn a_stop_holds_the_playlist_until_go_on_and_a_restart_plays_nothing_twice() {
     let held = wait_for_results(&address, &["failed", "waiting"]);
     let why = held["held"].as_str().unwrap();
     assert!(why.contains("Stop all was pressed") && why.contains("Go on"), "{why}");
-    // Nothing starts for longer than the next one would take to begin.
+    // This is longer than the next entry would take to begin.
     std::thread::sleep(std::time::Duration::from_secs(4));
     assert_eq!(results(&state(&address)), ["failed", "waiting"]);
 
@@ -116,7 +116,7 @@ fn a_stop_holds_the_playlist_until_go_on_and_a_restart_plays_nothing_twice() {
     );
     assert_eq!(ask(&address, "POST", "/api/operate", &json!({"do": "go_on"})).status, 204);
     wait_for_results(&address, &["failed", "playing"]);
-    // The program's end is no stop by a person.
+    // The end of the program does not count as a stop by the operator.
     end(server);
     let (_server, address, _) = start(&["--robots", "3", "--data", data]);
     let last = wait_for_results(&address, &["failed", "failed"]);

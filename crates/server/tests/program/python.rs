@@ -1,4 +1,4 @@
-//! The example of docs/api.md: a program of another language that uses the server.
+//! The example of docs/api.md, a Python program that uses the server.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use crate::child::{Child, run};
 use crate::sign_in::{session, start_with, token};
 use crate::{alone, http, shows};
 
-/// Runs docs/run_show.py to its end: exit code, stdout, stderr.
+/// Runs docs/run_show.py until it ends. Returns exit code, stdout and stderr.
 fn run_show(token: &str, arguments: &[&str]) -> (i32, String, String) {
     let mut command = Command::new("python3");
     command.arg(format!("{}/../../docs/run_show.py", env!("CARGO_MANIFEST_DIR")));

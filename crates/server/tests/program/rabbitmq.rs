@@ -1,4 +1,4 @@
-//! Three nodes of RabbitMQ on this machine, one broker together.
+//! A RabbitMQ cluster of three nodes on this machine.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -11,7 +11,7 @@ use crate::child::Child;
 use crate::mosquitto::free_port;
 use crate::{shows, wait_for};
 
-/// Debian's script of that name on the path changes the user first; this one does not.
+/// Debian's start script. The script of the same name on the `PATH` changes the user first.
 const DEBIAN: &str = "/usr/lib/rabbitmq/bin/rabbitmq-server";
 
 struct Node {
@@ -19,15 +19,15 @@ struct Node {
     mqtt: u16,
 }
 
-/// A cluster. Its processes end with the value.
+/// A running cluster. Dropping it ends its processes.
 pub struct Cluster {
     nodes: Vec<Node>,
-    /// The nodes find each other through it.
+    /// The name server (epmd), by which the nodes find each other.
     _names: Child,
 }
 
 impl Cluster {
-    /// Starts one; `None` where there is no RabbitMQ.
+    /// Starts a cluster. `None` if RabbitMQ is not installed.
     pub fn start() -> Option<Self> {
         let program = if Path::new(DEBIAN).exists() { DEBIAN } else { "rabbitmq-server" };
         if !has(program) || !has("epmd") {
@@ -42,7 +42,8 @@ impl Cluster {
         let names = Child::start(command, "epmd");
         let folder = PathBuf::from(shows::file("cluster", "")).with_extension("d");
         let mut cluster = Self { nodes: Vec::new(), _names: names };
-        // One after the other: nodes that start together may not agree on who keeps their clients' names, for good.
+        // Nodes start one after another, because nodes that start at the same time may never agree on the registry of
+        // client ids.
         for number in 1..=3 {
             cluster.nodes.push(node(program, &folder, number, names_port));
             cluster.wait();
@@ -55,13 +56,13 @@ impl Cluster {
         self.nodes.iter().map(|node| format!("mqtt://127.0.0.1:{}", node.mqtt)).collect()
     }
 
-    /// One of the nodes dies.
+    /// Kills one of the nodes.
     pub fn kill(&mut self, node: usize) {
         self.nodes[node].child.kill_group();
     }
 
-    /// Waits until every node so far says that it has started, and then until each lets a client in: before that it may
-    /// know the others and still be busy agreeing with them who its clients are.
+    /// Waits until every started node reports that, and then until each accepts a client. Before that the nodes may
+    /// still synchronise their clients.
     fn wait(&mut self) {
         for node in &mut self.nodes {
             let child = &mut node.child;
@@ -127,7 +128,7 @@ fn node(program: &str, folder: &Path, number: usize, names_port: u16) -> Node {
         .env("ERL_EPMD_ADDRESS", "127.0.0.1")
         .env("ERL_EPMD_PORT", names_port.to_string())
         .env("RABBITMQ_SERVER_ADDITIONAL_ERL_ARGS", "-kernel inet_dist_use_interface {127,0,0,1}")
-        // The script starts the node as a child: both are ended together.
+        // The script starts the node as a child process, and a group ends both.
         .process_group(0);
     Node { child: Child::start(command, &format!("RabbitMQ node {number}")), mqtt }
 }

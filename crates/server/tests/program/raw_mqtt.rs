@@ -1,4 +1,4 @@
-//! MQTT 3.1.1 byte by byte: what no client library sends.
+//! A client of MQTT 3.1.1 that writes single bytes, to send what no client library sends.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -14,14 +14,14 @@ pub struct RawMqtt {
 }
 
 impl RawMqtt {
-    /// A connection that has not said anything.
+    /// Opens a connection without sending anything.
     pub fn silent(address: &str) -> Self {
         let stream = TcpStream::connect(address).unwrap();
         stream.set_read_timeout(Some(DEADLINE)).unwrap();
         Self { stream }
     }
 
-    /// A client that has logged in, with no keep-alive.
+    /// Connects and logs in without keep-alive.
     pub fn open(address: &str, client_id: &str) -> Self {
         let mut client = Self::silent(address);
         client.send(&connect(client_id));
@@ -39,20 +39,20 @@ impl RawMqtt {
         bytes
     }
 
-    /// The next packet: its first byte, and what follows its length. No test needs more than 127 bytes.
+    /// Reads the next packet: its first byte, and the bytes after its length. Panics above 127 bytes.
     pub fn read_packet(&mut self) -> (u8, Vec<u8>) {
         let header = self.read(2);
         assert!(header[1] < 128, "a packet of kind {:#x} is too long", header[0]);
         (header[0], self.read(header[1].into()))
     }
 
-    /// Subscribes; whether that was granted.
+    /// Sends a subscription. Returns whether the broker granted it.
     pub fn subscribe(&mut self, filter: &str) -> bool {
         self.send(&subscribe(filter));
         self.read(5)[4] == 0
     }
 
-    /// Whether the broker answers a ping.
+    /// Sends a ping. Returns whether the broker answered it.
     pub fn is_answered(&mut self) -> bool {
         self.send(&packet(0xc0, &[]));
         self.read(2) == [0xd0, 0]
@@ -61,7 +61,7 @@ impl RawMqtt {
     /// Waits until the broker closes the connection.
     pub fn wait_for_close(mut self) {
         let mut rest = Vec::new();
-        // A reset is an end as well.
+        // A reset of the connection counts as its end.
         let _ = self.stream.read_to_end(&mut rest);
     }
 }

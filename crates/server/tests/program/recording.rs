@@ -9,7 +9,7 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
 
-/// What `replay --json` says of a recorded run, with its exit code.
+/// Runs `replay --json`. Returns its exit code and its output.
 fn replay(arguments: &[&str]) -> (i32, Value) {
     let (code, out, err) = run(&[&["replay", "--json"], arguments].concat());
     assert_eq!(err, "");
@@ -94,7 +94,7 @@ fn a_run_on_the_screen_is_recorded_in_the_data_folder() {
     assert_eq!(server.end(), 0);
 }
 
-/// Two runs of a server have ended well: what it lists of them, and their reports.
+/// Checks the list of runs and their reports after two runs of the server have ended well.
 fn reports_are_read_over_http(address: &str) {
     let get = |path: &str| http::request(address, "GET", path, &[], "");
     let runs = wait_for("the end of the second run in the list", || {

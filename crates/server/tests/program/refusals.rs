@@ -1,5 +1,5 @@
-//! A broker that cannot be used is said in one line: place, cause, remedy. The embedded broker and Mosquitto, both
-//! with TLS and passwords.
+//! Messages about brokers that cannot be used: one line with place, cause and remedy. The brokers are the embedded one
+//! and Mosquitto, both with TLS and passwords.
 
 use crate::alone;
 use crate::certificates::Certificates;
@@ -8,17 +8,17 @@ use crate::mosquitto::{Mosquitto, free_port};
 use crate::run::start;
 use crate::{http, shows};
 
-/// A broker with a good certificate, an expired one and one for another name, each at its own port.
+/// Ports of brokers: without TLS, with a good certificate, with an expired one and with one for another name.
 struct Ports {
     plain: u16,
     good: u16,
     expired: u16,
     elsewhere: u16,
-    /// Wants to see a client's certificate.
+    /// Port of a broker that requires a client certificate.
     choosy: u16,
 }
 
-/// A robot that tries a broker, and what it should say.
+/// A robot that connects to a broker, and the text that it must print.
 struct Attempt {
     robot: Child,
     says: &'static str,
@@ -29,7 +29,7 @@ fn attempt(url: &str, options: &[&str], says: &'static str) -> Attempt {
     Attempt { robot: Child::lightbots(&all), says }
 }
 
-/// Tries everything at once, and waits for every line.
+/// Makes all attempts at the same time, and waits for every line.
 fn check(ports: &Ports, made: &Certificates) {
     let (ca, other) = (made.file("ca.pem"), Certificates::make());
     let (cert, key) = (made.file("client-r7.pem"), made.file("client-r7.key"));
@@ -98,7 +98,7 @@ fn mosquitto_with_tls_and_passwords() {
             format!("listener {port} 127.0.0.1\ncafile {ca}\ncertfile {cert}\nkeyfile {key}\n")
         };
         let [plain, good, expired, elsewhere, choosy] = ports;
-        // It gives up root's rights at the start, and with them the private keys.
+        // Mosquitto drops root's rights at its start, and with them access to the private keys.
         let user = std::env::var("USER").unwrap_or_else(|_| "root".into());
         format!(
             "user {user}\nallow_anonymous false\npassword_file {passwords}\nlistener {plain} 127.0.0.1\n{}{}{}{}require_certificate true\n",
@@ -135,7 +135,7 @@ fn the_embedded_broker_with_tls_and_passwords() {
     let (_three, _, elsewhere) = serve("elsewhere", &[]);
     let (mut four, _, choosy) = serve("server", &["--client-ca", &ca]);
     check(&Ports { plain, good, expired, elsewhere, choosy }, &made);
-    // Its own log says as clearly who was turned away; a client is named once in a while.
+    // The broker's own log names the refused client too. It names a client only once in a while.
     one.complains("The broker refused TLS with a client from 127.0.0.1");
     four.complains("The broker refused TLS with a client from 127.0.0.1");
 }

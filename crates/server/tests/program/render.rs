@@ -1,4 +1,4 @@
-//! Films and sheets, from the command line to files.
+//! Renders films and sheets from the command line to files.
 
 use std::io::BufReader;
 use std::process::Command;
@@ -16,7 +16,7 @@ fn made(robots: &str) -> String {
     show
 }
 
-/// The bytes of a file that `render` writes twice, which are the same.
+/// Calls `render` twice and asserts that the files are equal. Returns its JSON and the bytes of the file.
 fn rendered(show: &str, name: &str, more: &[&str]) -> (Value, Vec<u8>) {
     let write = || {
         let out = shows::file(name, "");
@@ -45,7 +45,7 @@ fn a_film_is_a_gif_of_the_whole_show_in_its_colours() {
         brightest = brightest.max(frame.buffer.chunks(4).map(|pixel| pixel[0]).max().unwrap_or(0));
     }
     let duration_s = summary["duration_s"].as_f64().unwrap();
-    // A lead of 1.5 s, two frames of 1 s, and the drive between them.
+    // The film has a lead of 1.5 s, two frames of 1 s, and the drive between them.
     assert!(duration_s > 5.0 && (f64::from(hundredths) / 100.0 - duration_s).abs() < 0.02, "{summary}");
     assert!(brightest > 230, "lights are seen: {brightest}");
 }
@@ -86,7 +86,7 @@ fn what_cannot_be_made_is_said() {
     assert!(without.status.code() == Some(1) && said.contains("ffmpeg is not on the path"), "{said}");
 }
 
-/// Where `ffmpeg` is on the path. Without it there is nothing to try.
+/// Makes a video if `ffmpeg` is on the `PATH`.
 #[test]
 fn ffmpeg_makes_a_video() {
     if Command::new("ffmpeg").arg("-version").output().is_err() {

@@ -1,4 +1,4 @@
-//! `run` is killed in a show, and goes on with it when it is started again. Robots and broker are processes of their own.
+//! `run` is killed in a show, and continues it when it is started again. Robots and broker are separate processes.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -9,11 +9,11 @@ use crate::child::{Child, run};
 use crate::screen::Screen;
 use crate::{alone, http, shows, wait_for};
 
-/// Moments after the frame before was reached, milliseconds: in drives, in air times, and between them.
+/// Times of the kills after the frame before was reached, milliseconds: in drives, in air times, and between them.
 const MOMENTS_MS: [u64; 7] = [900, 150, 1_700, 2_400, 500, 1_200, 2_000];
 const ROBOTS: &str = "6";
 
-/// A broker, robots on it, and the data folder and show of a controller that is killed again and again.
+/// A broker, its robots, and the data folder and show of a controller that is killed repeatedly.
 struct Stage {
     broker: Child,
     _robots: Child,
@@ -23,7 +23,7 @@ struct Stage {
 }
 
 impl Stage {
-    /// With a show of this number of frames, half a metre apart.
+    /// Starts broker and robots, for a show of this number of frames that are half a metre apart.
     fn new(frames: usize) -> Self {
         let mut broker = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0"]);
         let url = format!("mqtt://{}", broker.said("Broker mqtt://"));
@@ -66,7 +66,7 @@ fn wait_for_frame(screen: &mut Screen, frame: u64) {
     });
 }
 
-/// Saves a show, and how it was acknowledged.
+/// Saves a show. Returns its path and the `ETag` of the answer.
 fn save(address: &str, number: usize) -> (String, String) {
     let path = format!("/api/shows/kept%20{number}");
     let body = shows::row(2, &[1.0]).replace("Rows", &format!("Kept {number}"));
@@ -75,7 +75,7 @@ fn save(address: &str, number: usize) -> (String, String) {
     (path, answer.header("ETag"))
 }
 
-/// Three kills; `LIGHTBOTS_KILLS=20` makes it more.
+/// Kills three times by default. `LIGHTBOTS_KILLS=20` kills more often.
 #[test]
 fn a_show_whose_controller_is_killed_again_and_again_is_finished() {
     let _turn = alone();

@@ -1,4 +1,4 @@
-//! What the embedded broker lets a robot do: speak for itself, and hear what is for it.
+//! Rights of a robot at the embedded broker: it sends only as itself, and receives only its own messages.
 
 use serde_json::json;
 
@@ -9,7 +9,7 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
 
-/// The next message but those of others; waits for it.
+/// Waits for the next message of another client. Returns its topic and payload.
 fn next(mqtt: &mut Mqtt) -> (String, String) {
     wait_for("a message", || mqtt.next())
 }
@@ -24,7 +24,7 @@ fn a_robot_that_poses_as_another_or_listens_to_all_is_refused_and_named() {
     assert!(line.contains("LightBot/r7") && line.contains("user default"), "{line}");
     server.complains("the subscription to #");
 
-    // It says it is another, then who it is: only that is heard.
+    // This robot reports first under another name and then under its own. Only the second report is delivered.
     let posing = Mqtt::open(&broker, "LightBot/r9", &[]);
     posing.publish("T/LightBot/UUID", "r8 0.1 0.2");
     posing.publish("T/LightBot/UUID", "r9 0.3 0.4");
@@ -33,13 +33,13 @@ fn a_robot_that_poses_as_another_or_listens_to_all_is_refused_and_named() {
     screen.until("the robot that says who it is", |screen| (screen.places() == [(0.3, 0.4)]).then_some(()));
     assert_eq!(screen.get("fleet")["rows"].as_array().unwrap().len(), 1);
 
-    // What is for others does not reach it, what is for it does.
+    // Messages for others do not reach the robot, and its own do.
     let controller = Mqtt::open(&broker, "BotControl/a", &[]);
     controller.publish("T/LightBot/r8", "|STOP|");
     controller.publish("T/LightBot/UUID", "r7 1.0 1.0");
     controller.publish("T/LightBot/r7", "|BLINK 3|");
     assert_eq!(next(&mut robot), ("T/LightBot/r7".into(), "|BLINK 3|".into()));
-    // Nor does a robot speak to others.
+    // A robot may not send to other robots either.
     Mqtt::open(&broker, "LightBot/r5", &[]).publish("T/LightBot/r9", "|STOP|");
     screen.wait_for_log("a message on T/LightBot/r9");
 }
@@ -50,7 +50,7 @@ fn users_have_passwords_and_roles() {
     let file = shows::file("users", "stage:secret:controller\nr7:seven:robot\ndefault:default:any-robot\n");
     let (mut server, address, broker) = start(&["--robots", "2", "--mqtt-users", &file]);
     let mut screen = Screen::open(&address);
-    // Its own robots and controller get in by themselves.
+    // The robots and the controller of the program itself need no login.
     screen.wait_for_robots(2);
     let robots = |login: &str, together: &str, variables: &[(&str, &str)]| {
         let url = format!("mqtt://{login}{broker}");
@@ -60,7 +60,7 @@ fn users_have_passwords_and_roles() {
     robots("default:wrong@", "1", &[]).complains("refuses this user and password");
     screen.wait_for_log("user or password is wrong");
     robots("", "1", &[]).complains("refuses this user and password");
-    // Many on one connection are no robot, and none of them is r7.
+    // The role `any-robot` excludes several robots on one connection. The user r7 may only be the robot r7.
     robots("default:default@", "2", &[]).complains("refuses this user and password");
     robots("r7:seven@", "1", &[]).complains("refuses this user and password");
     screen.wait_for_log("user r7 is that robot only");
@@ -76,7 +76,7 @@ fn users_have_passwords_and_roles() {
     let mut crowd = Child::lightbots(&[&["robots", "--count", "3", "--broker", &url][..], &login].concat());
     crowd.said("3 robots connected");
     screen.until("everybody", |screen| (screen.places().len() == 7).then_some(()));
-    // A robot hears broadcasts, and its own user is only itself.
+    // A robot receives broadcasts. A robot's own user may only use that robot's name.
     let mut seven = Mqtt::open_as(&broker, "LightBot/r7", ("r7", "seven"), &["T/LightBot/Broadcast"]);
     screen.must(json!({"do": "refresh"}));
     assert_eq!(next(&mut seven).1, "|UUID|");
@@ -123,7 +123,7 @@ fn two_robots_of_one_name_are_named_and_the_show_plays_on() {
     let mut screen = Screen::open(&address);
     screen.wait_for_robots(4);
     screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
-    // Each takes the connection from the other, and says where it stands.
+    // Each connection takes the session from the one before, and reports where it stands.
     let mut connections = Vec::new();
     for x in ["1.4", "-1.4"].iter().cycle().take(8) {
         let mut robot = RawMqtt::silent(&broker);
@@ -147,7 +147,7 @@ fn a_session_belongs_to_the_user_who_began_it() {
     let users = shows::file("users", "one:first:fleet\ntwo:second:fleet\n");
     let mut process = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0", "--mqtt-users", &users]);
     let broker = process.said("Broker mqtt://");
-    // The answer to a connection that goes on with its session: whether there is one, and the code.
+    // Connects and continues the session. Returns the client with the session flag and the code of CONNACK.
     let open = |user: &str, password: &str| {
         let mut client = RawMqtt::silent(&broker);
         let login =

@@ -1,4 +1,5 @@
-//! `robot-check` on real brokers: our robot on the embedded one, the robot of docs/build-a-robot.md on Mosquitto.
+//! `robot-check` on real brokers: our robot on the embedded broker, and the robot of docs/build-a-robot.md on
+//! Mosquitto.
 
 use std::collections::BTreeMap;
 use std::process::Command;
@@ -9,12 +10,12 @@ use crate::child::Child;
 use crate::mosquitto::Mosquitto;
 use crate::{run, shows};
 
-/// Starts an examination; its robot may drive at once.
+/// Starts an examination without asking for permission to drive.
 fn check(broker: &str, more: &[&str]) -> Child {
     Child::lightbots(&[&["robot-check", "--broker", broker, "--json", "--yes"], more].concat())
 }
 
-/// Rules by verdict, once an examination has ended.
+/// Waits for the end of an examination. Returns the exit code, and the rules by their verdict.
 fn verdicts(examination: &mut Child) -> (i32, BTreeMap<String, Vec<String>>) {
     let code = examination.end();
     let answer: Value = serde_json::from_str(&examination.out()).expect("one JSON object");
@@ -29,7 +30,7 @@ fn verdicts(examination: &mut Child) -> (i32, BTreeMap<String, Vec<String>>) {
     (code, rules)
 }
 
-/// The Python robot as the document has it; `None` where Python or paho is missing.
+/// Starts the Python robot of the document. `None` if Python or paho is missing.
 fn python_robot(port: &str) -> Option<Child> {
     let page = include_str!("../../../../docs/build-a-robot.md");
     let (_, after) = page.split_once("```python\n").expect("the page has a robot");
@@ -51,7 +52,7 @@ fn python_robot(port: &str) -> Option<Child> {
 #[test]
 fn our_robot_and_the_documents_robot_keep_the_protocol() {
     let (_server, _, embedded) = run::start(&["--robots", "0"]);
-    // `run` is a controller too, and answers time questions; this one is examined on a broker of its own.
+    // `run` is a controller too and answers time requests, so this robot is examined on its own broker.
     let Some(mosquitto) = Mosquitto::start() else { return };
     let other = Mosquitto::start().expect("there is one");
     let url = mosquitto.url();
@@ -79,7 +80,7 @@ fn our_robot_and_the_documents_robot_keep_the_protocol() {
     }
 }
 
-/// No robot is a problem, too many without a name are wrong use.
+/// Checks that a missing robot is reported as a problem, and several robots without a chosen name as wrong use.
 fn nobody_and_several(broker: &str) {
     let mut nobody = check(broker, &["--robot", "nobody-of-this-name"]);
     assert_eq!(nobody.end(), 1);

@@ -1,4 +1,4 @@
-//! `run`, as its screens see it.
+//! The command `run`, observed through its screens.
 
 use serde_json::json;
 
@@ -7,7 +7,7 @@ use crate::original_robot::OriginalRobot;
 use crate::screen::Screen;
 use crate::{alone, http, shows};
 
-/// `run` on free ports: the process, the screen's address, the broker's.
+/// Starts `run` on free ports. Returns the process, the screen's address and the broker's address.
 pub fn start(arguments: &[&str]) -> (Child, String, String) {
     let data = shows::own_folder();
     let data = data.to_str().unwrap();
@@ -46,7 +46,7 @@ fn a_show_plays_to_its_end_on_two_screens() {
     assert_eq!(server.end(), 0);
 }
 
-/// The robots' names, in the order they were found.
+/// The robots' names, in the order in which they were found.
 fn names(screen: &Screen) -> Vec<String> {
     let fleet = screen.get("fleet");
     fleet["rows"].as_array().unwrap().iter().map(|row| row["id"].to_string()).collect()
@@ -77,7 +77,7 @@ fn sorted(mut places: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 #[test]
 fn abort_stops_everybody_and_the_next_run_begins_from_there() {
     let _turn = alone();
-    // From the front row to the far end: nobody is there before the abort.
+    // From the front row to the far end, so that no robot has arrived before the abort.
     let far = shows::row(4, &[0.1]).replace("1.200", "-1.300");
     let (_server, address, _) = start(&["--robots", "4", &shows::file("far.lightbots.json", far)]);
     let mut screen = Screen::open(&address);
@@ -246,14 +246,15 @@ fn everything_stops_cleanly_when_told_to() {
     let (mut server, _, broker) = start(&["--robots", "2"]);
     server.terminate();
     assert_eq!(server.end(), 0);
-    // Nobody is there any more: robots go on trying, and stop all the same.
+    // The broker is gone: robots still try to connect, and stop cleanly.
     let mut robots = Child::lightbots(&["robots", "--count", "2", "--broker", &broker]);
     crate::wait_for("a first attempt", || robots.err().contains("connecting").then_some(()));
     robots.terminate();
     assert_eq!(robots.end(), 0);
 }
 
-/// `run` started by another program, which it takes the place of: the process, the screen's address, the broker's.
+/// Starts `run` through another program, which `run` replaces. Returns the process and the addresses of screen and
+/// broker.
 #[cfg(target_os = "linux")]
 pub fn start_by(starter: &[&str], arguments: &[&str]) -> (Child, String, String) {
     let data = shows::own_folder();
@@ -270,7 +271,7 @@ pub fn start_by(starter: &[&str], arguments: &[&str]) -> (Child, String, String)
 fn a_closed_terminal_stops_the_robots_as_ctrl_c_does() {
     let _turn = alone();
     let show = shows::row_file(2, &[60.0]);
-    // The tests themselves may run under nohup.
+    // The tests themselves may run under nohup, which ignores SIGHUP.
     let (mut server, address, broker) = start_by(&["env", "--default-signal=HUP"], &["--robots", "2", &show]);
     let mut robots = crate::plain_mqtt::Mqtt::open(&broker, "listener", &["T/LightBot/Broadcast"]);
     let mut screen = Screen::open(&address);
@@ -278,7 +279,7 @@ fn a_closed_terminal_stops_the_robots_as_ctrl_c_does() {
     screen.must(json!({"do": "play", "from": 0, "missing": "refuse"}));
     screen.until("the show", |screen| (screen.phase() == "playing").then_some(()));
     server.signal("-HUP");
-    // Not once: the first may be lost, and the broker ends with the program.
+    // STOP is repeated, because the first copy may be lost and the broker ends with the program.
     let mut copies = 0;
     crate::wait_for("copies of STOP", || {
         copies +=

@@ -1,4 +1,4 @@
-//! A browser's side of the WebSocket.
+//! A screen's side of the WebSocket, without a browser.
 
 use std::time::{Duration, Instant};
 
@@ -9,10 +9,10 @@ use tungstenite::{Message, WebSocket};
 use crate::DEADLINE;
 use crate::site::{Line, Site};
 
-/// The robots of a binary message as JSON; null where something is not known.
+/// The robots of a binary message as JSON. Unknown values are null.
 fn robots(bytes: &[u8]) -> Value {
     let robots = lightbots_api::Robots::from_bytes(bytes).expect("a binary message that is not the robots");
-    // They are said to 0.1 mm.
+    // Places are rounded to 0.1 mm, the unit of the message.
     let metres = |list: Vec<f32>| -> Vec<f64> {
         list.into_iter().map(|number| (f64::from(number) * 1e4).round() / 1e4).collect()
     };
@@ -34,12 +34,12 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Connects as a page of `origin` (`host:port`) would.
+    /// Connects to a site as a page of `origin` (`host:port`) does.
     pub fn try_open(site: impl Into<Site>, origin: &str) -> Result<Self, String> {
         Self::try_open_with(site, origin, &[])
     }
 
-    /// The same with further header lines.
+    /// Connects as [`Self::try_open`] does, with further header lines.
     pub fn try_open_with(
         site: impl Into<Site>,
         origin: &str,
@@ -72,7 +72,7 @@ impl Screen {
         Self::try_open(address, address).unwrap()
     }
 
-    /// Reads messages until `look` finds something in what is known.
+    /// Reads messages until `look` returns a value for the state of this screen. Panics after [`DEADLINE`].
     pub fn until<T>(&mut self, what: &str, mut look: impl FnMut(&Self) -> Option<T>) -> T {
         let until = Instant::now() + DEADLINE;
         loop {
@@ -114,12 +114,12 @@ impl Screen {
         self.last.insert(kind, message);
     }
 
-    /// The last message of a type; null before the first.
+    /// The last message of this type. Null before the first one.
     pub fn get(&self, kind: &str) -> Value {
         self.last.get(kind).cloned().unwrap_or_default()
     }
 
-    /// Asks for something; the answer.
+    /// Sends an operation and waits for its answer.
     pub fn operate(&mut self, operation: Value) -> Value {
         self.requests += 1;
         let id = self.requests;
@@ -128,7 +128,7 @@ impl Screen {
         self.until("an answer", |screen| Some(screen.get("answer")).filter(|answer| answer["id"] == id))
     }
 
-    /// Asks for something that must be done.
+    /// Sends an operation and asserts that it succeeds.
     pub fn must(&mut self, operation: Value) {
         let answer = self.operate(operation.clone());
         assert_eq!(answer["ok"], true, "{operation}: {answer}");
@@ -138,7 +138,7 @@ impl Screen {
         self.socket.send(Message::text(text)).unwrap();
     }
 
-    /// Whether the server hangs up.
+    /// Whether the server closes the connection before [`DEADLINE`].
     pub fn is_hung_up(&mut self) -> bool {
         let until = Instant::now() + DEADLINE;
         while Instant::now() < until {
@@ -156,12 +156,12 @@ impl Screen {
         false
     }
 
-    /// What is being played, such as `playing`.
+    /// The phase of the playback, such as `playing`. Empty before the first state.
     pub fn phase(&self) -> String {
         self.get("state")["playback"]["phase"].as_str().unwrap_or("").to_owned()
     }
 
-    /// Where robots are; empty until all of them are known.
+    /// Places of the robots. Empty until all of them are known.
     pub fn places(&self) -> Vec<(f64, f64)> {
         let robots = &self.get("robots");
         let list = |key: &str| {
@@ -173,14 +173,15 @@ impl Screen {
         }
     }
 
-    /// Waits until the link to the broker is in this phase; its state. The server listens before it is connected.
+    /// Waits until the link to the broker is in this phase, and returns its state. The server listens before that link
+    /// exists.
     pub fn wait_for_broker(&mut self, phase: &str) -> Value {
         self.until(phase, |screen| {
             Some(screen.get("state")["broker"].clone()).filter(|broker| broker["phase"] == phase)
         })
     }
 
-    /// Waits until so many robots are ready, and the plan of the open show is made.
+    /// Waits until exactly this number of robots is ready, and the plan of the open show is made.
     pub fn wait_for_robots(&mut self, count: usize) {
         self.until(&format!("{count} robots"), |screen| {
             let is_planned = screen.get("plan")["planning"] == false;
@@ -188,7 +189,7 @@ impl Screen {
         });
     }
 
-    /// Waits for a line of the log.
+    /// Waits for a line of the log that contains this text, and returns the line.
     pub fn wait_for_log(&mut self, part: &str) -> String {
         self.until(&format!("the line '{part}'"), |screen| {
             screen.log.iter().find(|line| line.contains(part)).cloned()

@@ -1,4 +1,4 @@
-//! Where the show is on its timeline, as screens play music by it.
+//! The show's position on its timeline, which screens use to play music.
 
 use serde_json::json;
 
@@ -6,7 +6,7 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows};
 
-/// What a screen hears of the show's time: its moment, milliseconds, the position, seconds, and whether it moves on.
+/// The show's time in a message to a screen: server time, milliseconds, position, seconds, and whether it runs.
 struct Heard {
     at_ms: f64,
     show_s: f64,

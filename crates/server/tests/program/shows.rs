@@ -1,17 +1,17 @@
-//! Shows for tests, in files.
+//! Shows for tests, as text or files.
 
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A folder of this process, in the folder cargo gives integration tests.
+/// The folder of this test process, below cargo's folder for integration tests.
 pub fn folder() -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("program-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }
 
-/// A folder that no other part of the tests has.
+/// Makes a folder that no other part of the tests uses.
 pub fn own_folder() -> PathBuf {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let folder = folder().join(COUNT.fetch_add(1, Ordering::Relaxed).to_string());
@@ -19,14 +19,15 @@ pub fn own_folder() -> PathBuf {
     folder
 }
 
-/// Writes a file; its path.
+/// Writes a file in a new folder. Returns its path.
 pub fn file(name: &str, bytes: impl AsRef<[u8]>) -> String {
     let path = own_folder().join(name);
     std::fs::write(&path, bytes).unwrap();
     path.to_str().unwrap().to_owned()
 }
 
-/// A show of a row of `pixels` that steps towards the viewer by 0.1 m a frame; `air_s[k]` is the air time of frame k.
+/// A show with a row of `pixels` that moves towards the viewer by 0.1 m per frame. `air_s[k]` is the air time of frame
+/// k, seconds.
 pub fn row(pixels: usize, air_s: &[f64]) -> String {
     let mut frames = Vec::new();
     for (index, air_s) in air_s.iter().enumerate() {
@@ -42,12 +43,12 @@ pub fn row(pixels: usize, air_s: &[f64]) -> String {
     format!(r#"{{"lightbots":1,"name":"Rows","frames":[{}]}}"#, frames.join(","))
 }
 
-/// The same in a file.
+/// Writes the show of [`row`] to a file. Returns its path.
 pub fn row_file(pixels: usize, air_s: &[f64]) -> String {
     file("rows.lightbots.json", row(pixels, air_s))
 }
 
-/// An example show that comes with the program.
+/// Path of an example show of the repository.
 pub fn example(name: &str) -> String {
     format!("{}/../../shows/{name}", env!("CARGO_MANIFEST_DIR"))
 }

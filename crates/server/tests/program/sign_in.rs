@@ -1,4 +1,4 @@
-//! Sign-in on a network address: roles, sessions, tokens and guesses.
+//! Sign-in on a network address: roles, sessions, tokens and password guesses.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::screen::Screen;
 use crate::site::Site;
 use crate::{alone, shows};
 
-/// The table of SECURITY.md: request, and whether each column may send it.
+/// Columns of the table of SECURITY.md, which states for each column whether it may send a request.
 const COLUMNS: [&str; 4] = ["before sign-in", "viewer", "editor", "operator"];
 
 fn source(path: &str) -> String {
@@ -36,12 +36,12 @@ fn table() -> Vec<(String, [bool; 4])> {
         .collect()
 }
 
-/// Starts a server on the network with these people; its folder and the server.
+/// Starts a server on the network with these people. Returns the server, its data folder and its site.
 pub fn start(people: &[(&str, &str)]) -> (Child, String, Site) {
     start_with(people, "0")
 }
 
-/// The same with that number of simulated robots.
+/// The same as [`start`], with this number of simulated robots.
 pub fn start_with(people: &[(&str, &str)], robots: &str) -> (Child, String, Site) {
     let data = shows::own_folder().to_str().unwrap().to_owned();
     for (name, role) in people {
@@ -53,7 +53,7 @@ pub fn start_with(people: &[(&str, &str)], robots: &str) -> (Child, String, Site
     (child, data, site)
 }
 
-/// Starts a server on the network on a folder. Its own certificate is trusted.
+/// Starts a server on the network with this data folder. The site trusts the server's own certificate.
 pub fn start_on(data: &str, more: &[&str]) -> (Child, Site) {
     serve(data, "0", more)
 }
@@ -72,7 +72,7 @@ pub fn sign_in(site: impl Into<Site>, name: &str, password: &str) -> Answer {
     http::request(site, "POST", "/api/session", &[("Content-Type", "application/json")], &body)
 }
 
-/// The `Cookie` line of a new session.
+/// Signs in. Returns the `Cookie` line of the new session.
 pub fn session(site: impl Into<Site>, name: &str, password: &str) -> String {
     let site = site.into();
     let answer = sign_in(&site, name, password);
@@ -91,7 +91,7 @@ fn get(site: &Site, path: &str, cookie: &str) -> Answer {
     http::request(site, "GET", path, &[("Cookie", cookie)], "")
 }
 
-/// A token of a program with this role.
+/// Makes a token for a program with this role. Returns its `Authorization` value.
 pub fn token(site: &Site, operator: &str, name: &str, role: &str) -> String {
     let body = json!({"name": name, "role": role}).to_string();
     let headers = [("Content-Type", "application/json"), ("Cookie", operator)];
@@ -109,7 +109,7 @@ fn is_refused_for_role(answer: &Answer) -> bool {
     answer.status == 403 && answer.body.contains("needs the role")
 }
 
-/// An operation with values that the server can read.
+/// An operation with this name and all fields that any operation needs.
 fn operation(name: &str) -> Value {
     let mut wish = json!({"frame": 0, "from": 0, "missing": "refuse", "on": false, "percent": 100, "incident": 1,
         "robot": "r1", "called": "", "robots": [], "listed": true, "pixel": 0, "name": "countdown", "address": "nonsense://", "user": null, "password": null});
@@ -117,13 +117,13 @@ fn operation(name: &str) -> Value {
     wish
 }
 
-/// The names of all operations: serde lists them when it meets another.
+/// The names of all operations, from serde's error about an unknown one.
 fn operations() -> Vec<String> {
     let error = serde_json::from_str::<lightbots_api::Operation>(r#"{"do":"?"}"#).unwrap_err().to_string();
     error.split('`').skip(3).step_by(2).map(str::to_owned).collect()
 }
 
-/// The routes of the server's source, such as `GET /api/shows`.
+/// The routes in the server's source, such as `GET /api/shows`.
 fn routes() -> Vec<String> {
     let text = source("src/web/mod.rs");
     let lines = text.lines().filter_map(|line| line.trim().strip_prefix(".route(\""));
@@ -161,7 +161,7 @@ fn each_cell_of_the_access_table_holds() {
     for (request, may) in table.iter().filter(|(request, _)| request.contains(' ')) {
         let (method, path) = request.split_once(' ').unwrap();
         for (column, may) in may.iter().enumerate() {
-            // A show of its own per column; no token has that name.
+            // Each column uses another show. No token has that name.
             let name = format!("of-{}", COLUMNS[column].replace(' ', "-"));
             let path = path.replace("{name}", &name).replace("{number}", "1").replace("{*rest}", "none");
             let path = path.replace("{hash}", &"0".repeat(64));
@@ -252,7 +252,7 @@ fn a_removed_person_is_out_at_once_and_the_last_operator_stays() {
         |path: &str| http::request(&address, "GET", path, &[("Authorization", &bearer)], "").status;
     assert_eq!(by_token("/api/people"), 200);
 
-    // A token allows no more than its maker.
+    // A token never allows more than the account that made it.
     assert_eq!(ask("PUT", "/api/people/bob", &ann, json!({"role": "viewer"})).status, 204);
     assert_eq!((by_token("/api/people"), by_token("/api/shows")), (403, 200));
     assert_eq!(get(&address, "/api/session", &of_bob).json()["role"], "viewer");
@@ -298,7 +298,7 @@ fn the_first_operator_comes_by_an_address_that_works_once() {
     let _turn = alone();
     let (mut server, _, site) = start(&[]);
     let first = server.said("#first=");
-    // The QR code comes after the address.
+    // The QR code is printed after the address.
     server.said("█");
     let make = |token: &str, name: &str, password: &str| {
         let body = json!({"token": token, "name": name, "password": password}).to_string();

@@ -1,4 +1,4 @@
-//! Where a server of the screen is, and connections to it, with TLS or without.
+//! The address of a server for screens, and connections to it with or without TLS.
 
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
@@ -10,12 +10,12 @@ use tokio_rustls::rustls::pki_types::pem::PemObject;
 use tokio_rustls::rustls::pki_types::{CertificateDer, ServerName};
 use tokio_rustls::rustls::{ClientConfig, ClientConnection, RootCertStore, StreamOwned};
 
-/// A server.
+/// A server's address, and the certificate that its clients trust.
 #[derive(Clone)]
 pub struct Site {
     /// `host:port`.
     pub address: String,
-    /// The certificate that a client trusts; `None`: there is no TLS.
+    /// The certificate that a client trusts. `None` without TLS.
     root: Option<CertificateDer<'static>>,
 }
 
@@ -38,7 +38,7 @@ impl From<&Self> for Site {
 }
 
 impl Site {
-    /// A server with TLS, whose certificate, or its authority's, is in this file.
+    /// A server with TLS. `root` is the file of its certificate or of its authority's.
     pub fn secure(address: &str, root: &str) -> Self {
         let root = CertificateDer::from_pem_file(root).unwrap_or_else(|error| panic!("{root}: {error}"));
         Self { address: address.to_owned(), root: Some(root) }
@@ -48,7 +48,7 @@ impl Site {
         if self.root.is_some() { "https" } else { "http" }
     }
 
-    /// A connection; the handshake of TLS is done.
+    /// Opens a connection, including the TLS handshake.
     pub fn connect(&self) -> io::Result<Line> {
         let mut stream = TcpStream::connect(&self.address)?;
         let Some(root) = &self.root else { return Ok(Line::Plain(stream)) };
@@ -69,14 +69,14 @@ impl Site {
     }
 }
 
-/// A connection.
+/// A connection to a site.
 pub enum Line {
     Plain(TcpStream),
     Secure(Box<StreamOwned<ClientConnection, TcpStream>>),
 }
 
 impl Line {
-    /// How long a read waits.
+    /// Sets how long a read waits.
     pub fn set_read_timeout(&self, time: Duration) {
         let stream = match self {
             Self::Plain(stream) => stream,

@@ -1,4 +1,4 @@
-//! Sound desks: real UDP packets of OSC.
+//! Sound desks, which send and receive real UDP packets of OSC.
 
 use std::net::UdpSocket;
 use std::time::Duration;
@@ -11,7 +11,7 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows, wait_for};
 
-/// A sound desk: what it sends, and what it hears.
+/// A simulated sound desk with one socket to send and receive.
 struct SoundDesk {
     socket: UdpSocket,
     heard: Vec<OscMessage>,
@@ -33,7 +33,7 @@ impl SoundDesk {
         self.socket.send_to(&rosc::encoder::encode(&OscPacket::Message(message)).unwrap(), to).unwrap();
     }
 
-    /// Waits for a message.
+    /// Waits until the desk receives this message.
     fn hears(&mut self, addr: &str, args: &[OscType]) {
         wait_for(addr, || {
             let mut bytes = [0; 1_500];
@@ -48,7 +48,7 @@ impl SoundDesk {
     }
 }
 
-/// A show of three frames whose second one waits for GO.
+/// Writes a show of three frames whose second one waits for GO. Returns its path.
 fn show_file() -> String {
     let mut show: Value = serde_json::from_str(&shows::row(3, &[0.1, 0.1, 30.0])).unwrap();
     show["lightbots"] = json!(2);
@@ -72,7 +72,7 @@ fn a_sound_desk_hears_of_frames_and_gives_go_and_stop() {
     desk.hears("/lightbots/drive", &[OscType::Int(1)]);
     desk.hears("/lightbots/frame", &[OscType::Int(1)]);
     desk.hears("/lightbots/cue", &[OscType::Int(2), OscType::String("Curtain".to_owned())]);
-    // Letting a button go, and bytes that are no OSC, do nothing.
+    // The release of a button and packets that are not OSC have no effect.
     desk.press(&osc, "/lightbots/go", 0.0);
     for length in [0, 1, 7, 900] {
         desk.socket.send_to(&vec![b'/'; length], &osc).unwrap();

@@ -1,4 +1,4 @@
-//! Requests of pages and names that are not this server's.
+//! Requests from pages of other origins and for other host names are refused.
 
 use crate::alone;
 use crate::http;
@@ -7,12 +7,11 @@ use crate::screen::Screen;
 use crate::sign_in::start as start_on_network;
 use crate::site::Site;
 
-/// Lines that ask for a WebSocket.
+/// Header lines that request a WebSocket.
 const UPGRADE: [&str; 3] =
     ["Upgrade: websocket", "Sec-WebSocket-Version: 13", "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="];
 
-/// The status of a request with these header lines and no others but what closes the connection. An opened WebSocket is
-/// left at once.
+/// The status of a request with these header lines and `Connection: close`. An opened WebSocket is closed at once.
 fn status(site: impl Into<Site>, path: &str, lines: &[String]) -> u16 {
     let lines: String = lines.iter().map(|line| format!("{line}\r\n")).collect();
     let answer = http::send(site, &format!("GET {path} HTTP/1.1\r\nConnection: close\r\n{lines}\r\n"));
@@ -38,18 +37,18 @@ fn pages_of_other_servers_and_foreign_names_are_turned_away() {
         (vec![named("stage.local")], 200),
         (vec![named("127.0.0.1"), of("127.0.0.1")], 200),
         (vec![named("stage.local"), of("STAGE.local")], 200),
-        // No name, two names, and what is none.
+        // No host name, two of them, and an empty one.
         (vec![], 400),
         (vec![named("127.0.0.1"), named("127.0.0.1")], 400),
         (vec![named("127.0.0.1"), named("evil.example")], 400),
         (vec!["Host: ".into()], 400),
-        // Names that DNS may point here, and ports of other servers.
+        // Host names that DNS may point to this machine, and ports of other servers.
         (vec![named("evil.example")], 421),
         (vec![named("evil.example"), of("evil.example")], 421),
         (vec![named("localhost.")], 421),
         (vec!["Host: 127.0.0.1".into()], 421),
         (vec!["Host: 127.0.0.1:1".into()], 421),
-        // Pages of other servers, on this machine too.
+        // Pages of other servers, also on this machine.
         (vec![named("127.0.0.1"), of("localhost")], 403),
         (vec![named("127.0.0.1"), "Origin: http://127.0.0.1:5173".into()], 403),
         (vec![named("127.0.0.1"), format!("Origin: https://127.0.0.1:{port}")], 403),
@@ -83,11 +82,11 @@ fn names_of_others_are_turned_away_on_the_network_too() {
         (vec![host.clone()], 401),
         (vec![host.clone(), origin.clone()], 401),
         (vec![format!("Host: evil.example:{port}")], 421),
-        // An address of another machine.
+        // The host is an address of another machine.
         (vec![format!("Host: 192.0.2.1:{port}")], 421),
         (vec![format!("Host: evil.example:{port}"), format!("Origin: https://evil.example:{port}")], 421),
         (vec![host.clone(), "Origin: https://evil.example".into()], 403),
-        // The same address without TLS is another site.
+        // The same address without TLS is another origin.
         (vec![host.clone(), other], 403),
         (vec![host, "Origin: null".into()], 403),
     ] {

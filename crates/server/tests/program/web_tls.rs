@@ -1,4 +1,4 @@
-//! The screen over TLS: certificates, sockets, and clients that speak something else.
+//! The screen over TLS: certificates, sockets, and clients that speak other protocols.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -11,7 +11,8 @@ use crate::sign_in::{session, start, start_on};
 use crate::site::Site;
 use crate::{DEADLINE, alone, shows};
 
-/// What the server answers to these bytes without TLS; empty where it hangs up. `is_all`: the client says that no more come.
+/// Sends bytes without TLS and returns the answer. It is empty if the server closes the connection. `is_all` ends the
+/// client's side after the bytes.
 fn plainly(address: &str, bytes: &[u8], is_all: bool) -> String {
     let mut stream = TcpStream::connect(address).unwrap();
     stream.set_read_timeout(Some(DEADLINE)).unwrap();
@@ -20,7 +21,7 @@ fn plainly(address: &str, bytes: &[u8], is_all: bool) -> String {
         let _ = stream.shutdown(std::net::Shutdown::Write);
     }
     let mut answer = Vec::new();
-    // A server that hangs up on bytes that it has not read resets the connection.
+    // A server that closes a connection with unread bytes resets it.
     let _ = stream.read_to_end(&mut answer);
     String::from_utf8_lossy(&answer).into_owned()
 }
@@ -49,10 +50,10 @@ fn the_network_is_served_over_tls_with_a_certificate_of_the_first_start() {
     screen.until("the greeting", |screen| (screen.get("hello")["plain_http"] == false).then_some(()));
     screen.wait_for_broker("connected");
     screen.must(serde_json::json!({"do": "stop_all"}));
-    // A certificate that the client does not trust.
+    // The client does not trust this certificate.
     let other = Certificates::make();
     assert!(Site::secure(&site.address, &other.file("ca.pem")).connect().is_err());
-    // The next start takes the same certificate.
+    // The next start uses the same certificate.
     let before = std::fs::read(&file).unwrap();
     server.kill();
     let (_server, site) = start_on(&data, &[]);
@@ -87,7 +88,7 @@ fn clients_without_tls_are_told_the_right_address() {
         let answer = plainly(address, noise, true);
         assert!(!answer.contains(" 200 "), "{answer}");
     }
-    // It goes on, and nothing of it panicked.
+    // The server still works, and no thread of it panicked.
     session(&site, "ann", "password of ann");
     assert!(!server.err().contains("panicked"), "{}", server.err());
 }

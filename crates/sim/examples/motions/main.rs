@@ -1,7 +1,7 @@
 //! Pictures that move as one: `cargo run --release -p lightbots-sim --example motions [ROBOTS…]`.
 //!
 //! Prints one line for each motion and number of robots. It has the time to plan the show, the least duration of the
-//! motion, the share of stop-safe moments, and the results of a rehearsal under standard conditions.
+//! motion and the share of stop-safe moments. Results of a rehearsal under standard conditions follow.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "../arguments/mod.rs"]

@@ -1,4 +1,4 @@
-//! Measures how far robots are from their estimates and from their routes, for several sensor and wheel errors:
+//! Measures how far robots are from their estimates and routes, for several sensor and wheel errors:
 //! `cargo run --release -p lightbots-sim --example noise [--json]`.
 //!
 //! Prints a row for each kind of trouble, over three seeds of a show of the repository. One row for each kind of narrow

@@ -6,8 +6,8 @@ use lightbots_sim::{BrakeCounts, Conditions, Faults, RehearsalOptions, Rehearsal
 
 const ROBOTS: u32 = 16;
 
-/// A show in which robots follow each other closely: a line of 100 mm spacing, a block of 85 mm and a diagonal of 93
-/// mm.
+/// A show of a line with 100 mm spacing, a block with 85 mm and a diagonal with 93 mm. Robots follow each other
+/// closely.
 fn dense_show() -> Show {
     let side = |index: u32| (f64::from(index % 4), f64::from(index / 4));
     let centred = |steps: f64, of: f64| steps - 0.5 * (of - 1.0);
