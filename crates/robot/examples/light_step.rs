@@ -1,8 +1,8 @@
-//! How much a step costs more with light tracks than without: `cargo run --release -p lightbots-robot --example light_step`.
-//! `cargo xtask bench light-step` runs it.
+//! Measures how much longer a step takes with light tracks:
+//! `cargo run --release -p lightbots-robot --example light_step`. `cargo xtask bench light-step` runs it.
 //!
-//! Two robots drive the same route in the same world, one of them with light. What happens to each of them is recorded, and
-//! then played again and again to robots that were just switched on; only steps are timed.
+//! Two robots drive the same route in the same world, one of them with light. Their inputs are recorded and then played
+//! repeatedly to robots that were just switched on. Only steps are timed.
 #![allow(clippy::print_stdout, dead_code)]
 
 #[path = "../tests/plant/mod.rs"]
@@ -18,22 +18,22 @@ use lightbots_robot::{Config, Message, Robot};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS, Route, Topic};
 use plant::{Flaws, Plant, STEP, Turn, straight};
 
-/// Interleaved runs; odd, for the median.
+/// Number of interleaved runs. It is odd, for the median.
 const ROUNDS: usize = 101;
-/// A route of 18.9 s.
+/// Start and `END` of a route that takes 18.9 s, metres.
 const START: Vec2 = Vec2::new(-2.5, 0.0);
 const END: Vec2 = Vec2::new(2.5, 0.0);
 const SEQ: u32 = 1;
 /// Duration of a stretch.
 const STRETCH: Span = Span::from_millis(10_000);
-/// The next stretch comes when this much of the one before is left, as from the controller.
+/// Remaining time of a stretch at which the next one is sent, as by the controller.
 const REFILL: Span = Span::from_millis(5_000);
 /// How long the robot stands after its drive.
 const STANDS: Span = Span::from_millis(20_000);
-/// Steps that are timed at once: reading the clock takes as long as a part of a step.
+/// Steps that are timed together, because reading the clock takes as long as a part of a step.
 const AT_ONCE: usize = 32;
 
-/// What happened to a robot, and the moments of its own clock at which its drive begins and ends.
+/// Inputs of a robot, and the times of its own clock at which its drive begins and ends.
 struct Recording {
     turns: Vec<Turn>,
     drives: (Instant, Instant),
@@ -46,13 +46,13 @@ fn main() {
     let [dark, lit] = [false, true].map(record);
     let mut runs: Vec<(Taken, Taken)> = Vec::new();
     for round in 0..=ROUNDS {
-        // What runs second finds a warmer machine: they take turns.
+        // The order alternates, because the second run finds a warmer machine.
         let dark_first = round % 2 == 0;
         let first = play(if dark_first { &dark } else { &lit });
         let second = play(if dark_first { &lit } else { &dark });
         runs.push(if dark_first { (first, second) } else { (second, first) });
     }
-    // The first round loads code.
+    // The first round is left out, because it loads code.
     runs.remove(0);
     for (phase, name) in ["drives", "stands"].into_iter().enumerate() {
         let without = median(runs.iter().map(|run| nanoseconds(run.0[phase])));
@@ -76,7 +76,7 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or_default()
 }
 
-/// A robot that drives and then stands, with light or without.
+/// Records a robot that drives and then stands, with or without light.
 fn record(is_lit: bool) -> Recording {
     let mut plant = Plant::new(START, 0.0, Flaws::STANDARD, 1);
     plant.turns = Some(Vec::new());
@@ -101,7 +101,7 @@ fn record(is_lit: bool) -> Recording {
     Recording { drives: (own(begins), own(begins + drive)), turns: plant.turns.take().unwrap_or_default() }
 }
 
-/// Ten seconds of three moving layers, for a robot that drives `route` and then stands.
+/// A stretch of ten seconds of three moving layers, for a robot that drives `route` and then stands.
 fn stretch(route: &Route, number: u32, anchor: LightAnchor) -> LightStretch {
     let path = PathRef::new(route.start, &route.pieces);
     let robot = DrivenLight {
@@ -125,7 +125,7 @@ fn stretch(route: &Route, number: u32, anchor: LightAnchor) -> LightStretch {
     LightStretch { number, anchor, skip, over: Span::ZERO, start: fitted.start, records }
 }
 
-/// A rainbow, a chase and a twinkle.
+/// Three layers: a rainbow, a chase and a twinkle.
 fn layers() -> Layers {
     let rainbow = LightEffect::Rainbow { along: Coordinate::Line, saturation: 1.0 };
     let rising = || Look { palette: Palette::rising(Rgb::new(255, 255, 255)), ..Look::default() };
@@ -138,7 +138,7 @@ fn layers() -> Layers {
     Layers::new(layers).expect("the layers are valid")
 }
 
-/// The same happens to a robot that was just switched on.
+/// Plays the inputs to a robot that was just switched on. Returns the durations of its steps.
 fn play(recording: &Recording) -> Taken {
     let id = RobotId::new("r1").expect("a name");
     let mut robot = Robot::new(Config::new(id));

@@ -1,4 +1,4 @@
-//! Whole-robot stories on a small fake world.
+//! Tests of a whole robot in a small simulated world.
 
 mod plant;
 
@@ -10,7 +10,7 @@ use plant::{Flaws, Plant, straight};
 const START: Vec2 = Vec2::new(-0.5, 0.2);
 const END: Vec2 = Vec2::new(0.4, -0.3);
 
-/// Sends a route that starts 0.3 s from now.
+/// Sends a route that starts 0.3 s from now. Returns its start, show clock.
 fn send(plant: &mut Plant, route: &Route) -> Instant {
     let at = plant.show() + Span::from_millis(300);
     plant.tell(&Command::Route(route.clone()));
@@ -18,7 +18,8 @@ fn send(plant: &mut Plant, route: &Route) -> Instant {
     at
 }
 
-/// Drives a route; the worst true distances from where the path says, and of the estimate from the truth.
+/// Drives a route. Returns the largest distance from the place on the path, and the largest error of the estimate,
+/// metres.
 fn worst_off(plant: &mut Plant, route: &Route, held: Span) -> (f64, f64) {
     let at = send(plant, route);
     let path = PathRef::new(route.start, &route.pieces);
@@ -39,10 +40,10 @@ fn a_world_that_paused_leaves_its_robot_on_its_route_and_the_show_clock_right() 
     let at = send(&mut plant, &route);
     let path = PathRef::new(route.start, &route.pieces);
     for pause_ms in [0, 400, 900] {
-        // The world stands while the robot's own clock and the show clock go on, as in a simulation that pauses.
+        // The world pauses while the robot's clock and the show clock run on, as in a simulation that pauses.
         plant.now += Span::from_millis(pause_ms);
         plant.lag += Span::from_millis(pause_ms);
-        // Time questions are asked and answered meanwhile: the filter must not count the pause as well.
+        // The clock is synchronised meanwhile, and its filter must not count the pause a second time.
         for _ in 0..50 {
             plant.step();
             let due = path.at_instant(at, plant.show() - plant.lag).position;

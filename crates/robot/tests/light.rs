@@ -1,4 +1,4 @@
-//! Light that was sent ahead, on a robot that drives.
+//! Light records that are sent ahead, on a robot that drives.
 
 #[allow(dead_code)]
 mod plant;
@@ -11,7 +11,7 @@ const START: Vec2 = Vec2::new(-0.8, 0.0);
 const END: Vec2 = Vec2::new(0.8, 0.0);
 const SEQ: u32 = 1;
 
-/// Ten seconds of lines and steps, again and again.
+/// A stretch of ten seconds with lines and steps that repeat.
 fn stretch(number: u32, anchor: LightAnchor, skip: Span) -> LightStretch {
     let records = [
         LightRecord::Line { ticks: 60, to: Rgb::new(255, 0, 40) },
@@ -23,10 +23,10 @@ fn stretch(number: u32, anchor: LightAnchor, skip: Span) -> LightStretch {
     LightStretch { number, anchor, skip, over: Span::ZERO, start: Rgb::new(9, 9, 9), records }
 }
 
-/// Path time at a moment of a drive that is held from `hold` to `resume`, by R38.
+/// Path time at `show` in a drive that begins at `began` and is held from `hold` to `resume`, by R38.
 fn path_time(show: Instant, [began, hold, resume]: [Instant; 3]) -> Span {
     let ease = Route::EASE;
-    // Progress along an ease: it falls or rises evenly.
+    // Progress along an ease, in which the rate falls or rises linearly.
     let eased = |since: Span| {
         let since = since.clamp(Span::ZERO, ease).as_secs();
         Span::from_secs(since * since / (2.0 * ease.as_secs()))
@@ -36,7 +36,7 @@ fn path_time(show: Instant, [began, hold, resume]: [Instant; 3]) -> Span {
     (show - began).min(hold - began) + slowing - eased(slowing) + eased(show - resume) + after
 }
 
-/// Largest difference of a channel of what is shown from what was wanted in the last 5 ms: the clock is that good.
+/// Largest difference between a shown channel and the wanted one within 5 ms, because the clock is that accurate.
 fn off(plant: &Plant, colour: impl Fn(Instant) -> Rgb) -> u8 {
     let moments = (-5..=5).map(|ms| colour(plant.show() + Span::from_millis(ms)));
     let differs = |wanted: Rgb| {

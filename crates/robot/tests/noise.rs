@@ -1,5 +1,5 @@
-//! A robot among senseless messages and sensors: it never panics, its wheels stay within bounds, and the same inputs give
-//! the same outputs.
+//! A robot with senseless messages and sensor readings. It never panics, its wheels stay within bounds, and the same
+//! inputs give the same outputs.
 
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_robot::{Config, Fix, Inputs, Message, Robot};
@@ -68,7 +68,7 @@ impl Dice {
     }
 }
 
-/// A life of 4000 steps; everything it did and said, as text.
+/// Runs a robot for 4000 random steps. Returns all its outputs as text.
 fn life(seed: u64) -> String {
     let mut dice = Dice(seed * 2 + 1);
     let id = RobotId::new("r1").unwrap();

@@ -1,4 +1,4 @@
-//! `STOP`, at once and for a moment (R40 of `docs/protocol.md`).
+//! `STOP` and `StopFrom`, immediate and at a moment (R40 of `docs/protocol.md`).
 
 mod plant;
 
@@ -9,7 +9,7 @@ use plant::{Flaws, Plant, straight};
 const START: Vec2 = Vec2::new(-0.6, 0.2);
 const END: Vec2 = Vec2::new(0.6, -0.1);
 
-/// A robot in the middle of a route, with the next one; when its route began.
+/// A robot in the middle of a route, which also keeps the next one. Returns that first route and its beginning too.
 fn driving() -> (Plant, Route, Instant) {
     let mut plant = Plant::ready(START, 0.0, Flaws::STANDARD, 2);
     let route = straight(9, START, END);
@@ -22,7 +22,7 @@ fn driving() -> (Plant, Route, Instant) {
     (plant, route, at)
 }
 
-/// It has forgotten its routes, and does not move.
+/// Asserts that the robot has forgotten its routes and does not move.
 fn has_stopped(plant: &mut Plant) {
     plant.said.clear();
     plant.tell(&Command::Status);

@@ -1,5 +1,5 @@
-//! A robot that is cut off or lost stands in time, says why by light and report, and takes part again when it is back:
-//! the table at the end of the safety rules in `docs/protocol.md`.
+//! A robot that is cut off or lost stops in time, shows the reason by its light and reports, and takes part again
+//! afterwards. The cases are the table at the end of the safety rules in `docs/protocol.md`.
 
 mod plant;
 
@@ -13,21 +13,21 @@ const FAR: Vec2 = Vec2::new(0.9, 0.2);
 const OWN: Rgb = Rgb::new(0, 60, 90);
 const RED: Rgb = Rgb::new(255, 0, 0);
 
-/// A robot of this colour, with a synchronised clock.
+/// A robot with the colour `OWN` and a synchronised clock.
 fn ready(flaws: Flaws) -> Plant {
     let mut plant = Plant::ready(START, 0.0, flaws, 2);
     plant.tell(&Command::Color(OWN));
     plant
 }
 
-/// Sends a route that starts a number of milliseconds from now.
+/// Sends a route to `to` that starts in `in_ms` milliseconds.
 fn send(plant: &mut Plant, seq: u32, to: Vec2, in_ms: i64) {
     let at = plant.show() + Span::from_millis(in_ms);
     plant.tell(&Command::Route(straight(seq, plant.at, to)));
     plant.tell(&Command::Start { seq, at });
 }
 
-/// A robot that is in the middle of a route.
+/// A robot in the middle of a route.
 fn driving() -> Plant {
     let mut plant = ready(Flaws::STANDARD);
     send(&mut plant, 9, FAR, 300);
@@ -37,7 +37,7 @@ fn driving() -> Plant {
     plant
 }
 
-/// Seconds until it stands, 5 at most.
+/// Steps until the robot stands. Returns the seconds that took, at most about 5.
 fn stands_after(plant: &mut Plant) -> f64 {
     let began = plant.now;
     while !plant.stands() && plant.now < began + Span::from_millis(5_000) {
@@ -46,7 +46,7 @@ fn stands_after(plant: &mut Plant) -> f64 {
     (plant.now - began).as_secs()
 }
 
-/// Red flashes within two seconds, and whether it shows its own colour in between.
+/// Number of red flashes within two seconds, and whether the robot shows its own colour between them.
 fn flashes(plant: &mut Plant) -> (usize, bool) {
     let mut shown = vec![plant.last.light];
     for _ in 0..125 {
@@ -56,7 +56,7 @@ fn flashes(plant: &mut Plant) -> (usize, bool) {
     (shown.windows(2).filter(|pair| pair[0] != RED && pair[1] == RED).count(), shown.contains(&OWN))
 }
 
-/// Goes on a route from where it stands.
+/// Checks that the robot drives a new route from its place.
 fn takes_part_again(plant: &mut Plant, seq: u32) {
     plant.said.clear();
     let to = plant.at + Vec2::new(-0.3, 0.2);
@@ -82,7 +82,7 @@ fn cut_off_on_a_route_it_stands_after_two_seconds() {
     assert_eq!(plant.robot.state(), RobotState::Cut);
     plant.run(0.5);
     assert_eq!(flashes(&mut plant), (2, true));
-    // Nothing of what it said meanwhile was heard.
+    // What the robot sent meanwhile did not arrive.
     plant.said.clear();
     plant.answers = true;
     plant.robot.link(plant.now, true);
@@ -121,7 +121,7 @@ fn cut_off_in_air_time_it_says_so_and_does_not_set_out() {
     assert_eq!(plant.robot.state(), RobotState::Ready);
     assert_eq!(flashes(&mut plant), (2, true));
     plant.run(2.0);
-    // Its moment has passed: others may be where it would have been.
+    // The start of its route has passed, and other robots may be where it would have been.
     assert!(plant.stands() && plant.at.distance(START) < 0.01, "{:?}", plant.at);
     assert_eq!(plant.robot.state(), RobotState::Cut);
     plant.said.clear();
@@ -184,7 +184,7 @@ fn a_robot_that_stands_for_long_or_was_stopped_turns_towards_its_next_route() {
         let goal = START + Vec2::new(0.1, 0.0);
         send(&mut plant, 9, goal, 300);
         plant.run(2.0);
-        // It may have asked for the time a second ago.
+        // The robot may have requested the time a second ago.
         plant.answers = false;
         plant.run(silent_s);
         plant.answers = true;
@@ -267,7 +267,8 @@ fn lost_on_a_route_it_stands_before_its_doubt_is_large() {
 
 #[test]
 fn without_fixes_for_a_while_it_stands_before_it_is_lost_and_goes_on() {
-    // In its first metre, not knowing yet how much its wheels slip, it drove on for half a second until it was lost.
+    // In its first metre the robot does not know its wheels' slip. It once drove on for half a second until it was
+    // lost.
     let mut plant = ready(Flaws { slip: [0.12, 0.03], ..Flaws::STANDARD });
     send(&mut plant, 9, FAR, 300);
     plant.run(0.7);
@@ -304,15 +305,15 @@ fn senseless_wheels_stop_it_at_once_and_show() {
     plant.last = plant.robot.step(plant.now + plant::STEP, &senseless);
     assert!(plant.stands() && plant.robot.state() == RobotState::Faulty);
     plant.run(0.5);
-    // It lasts for a second only: the first two flashes of three.
+    // The state lasts only one second, so there are only the first two flashes of three.
     let (red, _) = flashes(&mut plant);
     assert_eq!(red, 2);
     assert_eq!(states(&plant.heard(Topic::Status))[0], RobotState::Faulty);
     takes_part_again(&mut plant, 10);
 }
 
-/// Milliseconds from now until a robot in the middle of a route is cut, with a message every 0.1 s: START that left
-/// `age_ms` ago, at first, and STATUS after that.
+/// Milliseconds until a robot in the middle of a route is cut. It receives a START that was sent `age_ms` ago, and then
+/// STATUS every 0.1 s. `None` if it is not cut.
 fn cut_after(plant: &mut Plant, seq: u32, age_ms: Option<i64>) -> Option<i64> {
     let began = plant.now;
     let show = plant.show();

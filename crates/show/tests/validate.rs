@@ -1,4 +1,4 @@
-//! Shows that must not be played: each fault gives one line with place, cause and remedy.
+//! Shows that must not be played. Each fault gives one line with place, cause and remedy.
 
 mod rows;
 
@@ -6,7 +6,7 @@ use lightbots_base::Vec2;
 use lightbots_show::{Pixel, Show, Stage, validate};
 use rows::{row, show};
 
-/// The messages for a show, one a line, with their codes.
+/// Codes and messages of all issues of a show, one per line.
 fn messages(show: &Show) -> String {
     let lines: Vec<String> =
         validate(show).iter().map(|issue| format!("{}: {}", issue.code, issue.message)).collect();

@@ -1,10 +1,10 @@
-//! The examples in docs/protocol.md are true.
+//! Checks the examples in docs/protocol.md.
 
 use lightbots_wire::{Command, Report, TimeQuestion, Topic, Unknown, commands, encode};
 
 const DOCUMENT: &str = include_str!("../../../docs/protocol.md");
 
-/// The lines of all blocks fenced with this word; there must be some.
+/// The lines of all blocks that are fenced with this word. Fails if there are none.
 fn examples(word: &str) -> Vec<&'static str> {
     let mut lines = Vec::new();
     let mut inside = false;

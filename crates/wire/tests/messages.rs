@@ -1,4 +1,4 @@
-//! Golden bytes, round trips, and truncation at every byte.
+//! Tests with exact bytes, round trips, and truncation at every byte.
 
 use lightbots_base::{Instant, LightRecord, Piece, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
@@ -33,7 +33,7 @@ fn route(pieces: &[Piece]) -> Route {
     }
 }
 
-/// Turn, speed up, cruise, slow down: what most transitions are.
+/// A route that turns, speeds up, cruises and slows down, as most transitions do.
 fn usual_route() -> Route {
     let at = |y| Vec2::new(-1.25, y);
     route(&[
@@ -67,7 +67,7 @@ fn every_command() -> Vec<Command> {
     ]
 }
 
-/// Colours of consecutive slots, each another one.
+/// Live colours of `colours` consecutive slots, all different.
 fn live(colours: usize) -> LiveColours {
     let colour = |place: usize| Rgb::new(place as u8, 255 - place as u8, 7);
     LiveColours { number: 9, first: 12, colours: (0..colours).map(colour).collect() }

@@ -1,5 +1,5 @@
-//! Seeded mutations of good messages for every decoder of the wire: none panics, and what was read is the same after writing
-//! and reading it again.
+//! Seeded mutations of good messages for every decoder of the wire. None panics, and a message that was read stays the
+//! same when it is written and read again.
 //!
 //! `LIGHTBOTS_MUTATIONS=1000000 cargo test -p lightbots-wire --release --test mutations` tries more than the usual run.
 //! Bytes that break a decoder are written to `corpus`, whose files every run reads.
@@ -17,10 +17,10 @@ use checks::read;
 use mutator::{corpus_files, keep_broken, mutant, rounds};
 use numbers::Numbers;
 
-/// Mutations of each message in a usual run.
+/// Number of mutations of each message in a usual run.
 const USUAL: usize = 2_000;
 
-/// Longest payload after a mutation: doubled pieces would grow without end.
+/// Longest payload after a mutation, bytes. Without a bound, doubled pieces would make it grow without end.
 const LONGEST: usize = 4_096;
 
 const GOOD: [&str; 19] = [

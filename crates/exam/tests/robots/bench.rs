@@ -1,4 +1,4 @@
-//! An exam in virtual time.
+//! A test bench that runs an exam in virtual time.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::flaws::Flaw;
 
 /// Difference between the exam's clock and the robots' clocks.
 const EXAM_AHEAD: Span = Span::from_millis(7_000_000);
-/// End of the longest exam.
+/// Time at which an exam is cut off.
 const LONGEST: Instant = Instant(900_000_000);
 
 /// A message: topic and payload.
@@ -30,16 +30,16 @@ pub struct Bench {
     exam: Exam,
     flaw: Box<dyn Flaw>,
     now: Instant,
-    /// Messages under way, by arrival and order; `true`: to the robots.
+    /// Undelivered messages by arrival and order. `true` marks those to the robots.
     wires: BTreeMap<(Instant, u64), (bool, Message)>,
     said: u64,
     dice: u64,
-    /// Colours of the first robot's light, with the moment of each change.
+    /// Colours of the first robot's light, and when each of them began.
     shown: Vec<(Instant, Rgb)>,
 }
 
 impl Bench {
-    /// One robot in the middle of the front edge; further robots beside it.
+    /// An exam with one robot in the middle of the front edge and further robots beside it.
     pub fn new(robots: usize, flaw: impl Flaw + 'static, options: Options) -> Self {
         let starts = (0..robots).map(|index| Vec2::new(0.1 * index as f64, 1.3)).collect();
         let config =
@@ -101,7 +101,7 @@ impl Bench {
     fn post(&mut self, to_robots: bool, message: Message) {
         self.dice = self.dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let late = Span(5_000 + ((self.dice >> 33) % 15_000) as i64);
-        // Links keep their order.
+        // Messages of one direction arrive in the order in which they were sent.
         let last = self.wires.iter().filter(|(_, (to, _))| *to == to_robots).map(|(key, _)| key.0).max();
         let at = (self.now + late).max(last.unwrap_or(Instant::ZERO));
         self.said += 1;
@@ -180,7 +180,7 @@ fn near(a: Rgb, b: Rgb) -> bool {
 }
 
 impl Outcome {
-    /// Rules with this verdict.
+    /// Numbers of the rules with this verdict.
     pub fn with(&self, verdict: RuleVerdict) -> Vec<u8> {
         self.findings
             .iter()
@@ -189,7 +189,7 @@ impl Outcome {
             .collect()
     }
 
-    /// Fails, with all findings, unless exactly these rules are broken.
+    /// Fails with all findings unless exactly these rules are broken.
     pub fn assert_broken(&self, rules: &[u8]) {
         if self.with(RuleVerdict::Breaks) != rules {
             let wrong = self

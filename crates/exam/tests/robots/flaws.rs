@@ -1,4 +1,4 @@
-//! Faulty robots: changes to messages between the robot core and the network.
+//! Flaws of robots: changes to messages between the robot core and the network.
 
 use lightbots_base::Instant;
 
@@ -6,14 +6,14 @@ use crate::bench::Message;
 
 /// A change to received and sent messages.
 pub trait Flaw {
-    /// A received message, at `now` of the exam's clock: returns what the core receives instead. `says` takes messages that
-    /// are sent at once.
+    /// Handles a received message at `now` of the exam's clock. Returns what the core receives instead. `says` takes
+    /// messages that are sent at once.
     fn hear(&mut self, now: Instant, message: Message, says: &mut Vec<Message>) -> Vec<Message> {
         let _ = (now, says);
         vec![message]
     }
 
-    /// A message from the core: returns what is sent instead.
+    /// Handles a message from the core. Returns what is sent instead.
     fn say(&mut self, message: Message) -> Vec<Message> {
         vec![message]
     }
@@ -80,12 +80,13 @@ pub fn text(message: &Message) -> String {
     String::from_utf8_lossy(&message.1).into_owned()
 }
 
-/// Whether it is on `T/LightBot/<name>`.
+/// Whether a message is on `T/LightBot/<name>`.
 pub fn on(message: &Message, name: &str) -> bool {
     message.0 == format!("T/LightBot/{name}")
 }
 
-/// Rewrites each command of a payload by its word and its text; an empty text deletes it.
+/// Rewrites each command of a payload. `change` gets the command's word and its text, and an empty result deletes the
+/// command.
 pub fn edit(message: Message, mut change: impl FnMut(&str, &str) -> String) -> Message {
     let Ok(text) = String::from_utf8(message.1.clone()) else { return message };
     if text.len() > 16 * 1024 {

@@ -1,4 +1,4 @@
-//! Robots that keep the rules of the protocol that they know.
+//! Robots that keep all rules of the protocol that they implement.
 
 use lightbots_exam::{Ending, Options, RuleVerdict};
 

@@ -10,7 +10,7 @@ fn examined(flaw: impl Flaw + 'static) -> Outcome {
     Bench::new(1, flaw, Options::default()).run()
 }
 
-/// A robot that receives the result of `change` instead of each command.
+/// A flaw that replaces each received command by the result of `change`.
 fn hears(mut change: impl FnMut(&str, &str) -> String + 'static) -> impl Flaw {
     Hears(move |_, message: Message, _: &mut Vec<Message>| vec![edit(message, &mut change)])
 }
@@ -274,7 +274,7 @@ fn drives_at_once_without_start() {
         let seq = text.strip_prefix("|PATH ").and_then(|rest| rest.split(' ').next()).map(str::to_owned);
         let topic = message.0.clone();
         let mut heard = vec![message];
-        // 1000 s: how far the exam has set the show clock by then.
+        // 1000 s is how far the exam has set the show clock by then, and the route starts 0.1 s later.
         if let Some(seq) = seq {
             heard.push((topic, format!("|START {seq} {}|", now.0 + 1_000_000_000 + 100_000).into_bytes()));
         }
@@ -361,7 +361,7 @@ fn takes_a_stop_for_a_moment_for_a_hold() {
     .assert_broken(&[40]);
 }
 
-/// The slot that the exam gives last.
+/// The last slot that the exam assigns.
 const SLOT: &str = "100";
 
 #[test]
@@ -398,7 +398,7 @@ fn is_not_released() {
 
 #[test]
 fn is_released_after_each_live_message() {
-    // A robot that takes 0.1 s of silence for the end of live light.
+    // The robot takes 0.1 s of silence for the end of live light.
     let flaw = Hears(|_, message: Message, _: &mut Vec<Message>| {
         let is_live = text(&message).starts_with("|LIVE ");
         let release = (message.0.clone(), format!("|RELEASE 4000000000 {SLOT} 1|").into_bytes());
@@ -418,7 +418,7 @@ fn shows_a_colour_instead_of_live_light() {
 
 #[test]
 fn drives_on_in_silence() {
-    // Something talks to it all the time.
+    // A robot that receives messages all the time.
     struct Chatty;
     impl Flaw for Chatty {
         fn say(&mut self, message: Message) -> Vec<Message> {

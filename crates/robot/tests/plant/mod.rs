@@ -1,23 +1,23 @@
-//! A small fake world for whole-robot tests: a unicycle with one step of dead time, wheel slip and noisy sensors, and a
-//! controller whose clock is the show clock.
+//! A small simulated world for tests of a whole robot: a unicycle with one step of dead time, wheel slip and noisy
+//! sensors. The controller's clock is the show clock.
 
 use lightbots_base::{Instant, Limits, Piece, RobotId, Span, Vec2, wrap};
 use lightbots_robot::{Config, Fix, Inputs, Message, Outputs, Robot};
 use lightbots_wire::{Command, Pieces, Report, Route, TimeAnswer, TimeQuestion, Topic, encode};
 
-/// One step.
+/// Duration of one step.
 pub const STEP: Span = Span(16_000);
 
-/// What goes wrong in this world.
+/// Errors of this world.
 #[derive(Clone, Copy)]
 pub struct Flaws {
-    /// 1 sigma in each coordinate, metres.
+    /// Standard deviation of each coordinate of a fix, metres.
     pub fix_sigma_m: f64,
-    /// 1 sigma, radians; `None`: no compass.
+    /// Standard deviation of a fix's heading, radians. `None`: fixes have no heading.
     pub heading_sigma_rad: Option<f64>,
-    /// How much of their turning the left and the right wheel lose.
+    /// Share of its turning that the left and the right wheel lose.
     pub slip: [f64; 2],
-    /// Steps a fix is late.
+    /// Delay of a fix, steps.
     pub fix_delay_steps: usize,
 }
 
@@ -25,22 +25,22 @@ impl Flaws {
     /// The standard conditions of a rehearsal.
     pub const STANDARD: Self =
         Self { fix_sigma_m: 0.002, heading_sigma_rad: Some(0.0175), slip: [0.03, 0.0], fix_delay_steps: 0 };
-    /// An ideal world.
+    /// A world without errors.
     pub const NONE: Self =
         Self { fix_sigma_m: 0.0, heading_sigma_rad: Some(0.0), slip: [0.0, 0.0], fix_delay_steps: 0 };
 }
 
-/// What happened to a robot. Benchmarks read it.
+/// An input of a robot, recorded for benchmarks.
 #[allow(dead_code)]
 #[derive(Clone)]
 pub enum Turn {
-    /// A message on its own topic.
+    /// A message on the robot's own topic, and its arrival.
     Message(Instant, Vec<u8>),
-    /// A step.
+    /// A step, and its inputs.
     Step(Instant, Inputs),
 }
 
-/// A robot on its floor.
+/// A robot, its floor and its controller.
 pub struct Plant {
     pub robot: Robot,
     pub id: RobotId,
@@ -48,20 +48,20 @@ pub struct Plant {
     pub now: Instant,
     /// How far this world lags behind the robot's own clock.
     pub lag: Span,
-    /// Where it truly is.
+    /// Its true place.
     pub at: Vec2,
     pub heading: f64,
     pub flaws: Flaws,
-    /// Whether fixes come.
+    /// Whether the robot receives fixes.
     pub sees: bool,
-    /// Whether time questions are answered.
+    /// Whether time requests are answered.
     pub answers: bool,
     pub last: Outputs,
-    /// Everything it said but time questions.
+    /// Everything that the robot sent except time requests.
     pub said: Vec<(Topic, Report)>,
-    /// Everything that happened to it, if that is recorded.
+    /// All inputs of the robot, if they are recorded.
     pub turns: Option<Vec<Turn>>,
-    /// True wheel rates of the step under way.
+    /// True wheel rates of the present step.
     wheels: [f64; 2],
     past: Vec<(Vec2, f64)>,
     seed: u64,
@@ -133,7 +133,7 @@ impl Plant {
         self.at += Vec2::unit(self.heading + turn / 2.0) * way;
         self.heading = wrap(self.heading + turn);
         let turns = self.wheels.map(|rate| rate * dt);
-        // What is said now takes effect at the next step.
+        // Rates that the robot commands in this step take effect in the next one.
         self.wheels = self.last.wheels_radps;
         let (fix, lag) = (self.fix(), self.lag);
         let inputs = Inputs { wheel_turns_rad: turns, fix, battery: Some(80), lag, ..Inputs::default() };
@@ -167,7 +167,7 @@ impl Plant {
         }
     }
 
-    /// Reports on a topic until now.
+    /// The reports on a topic until now.
     pub fn heard(&self, topic: Topic) -> Vec<&Report> {
         self.said.iter().filter(|(on, _)| *on == topic).map(|(_, report)| report).collect()
     }
@@ -181,13 +181,13 @@ impl Plant {
         (self.seed >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A standard normal number, as the sum of twelve even ones.
+    /// A standard normal random number, as the sum of twelve uniform ones.
     fn gauss(&mut self) -> f64 {
         (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
     }
 }
 
-/// Turn for 0.35 s, then straight with ramps of 1 m/s² and 0.27 m/s.
+/// A route that turns for 0.35 s and then goes straight at 0.27 m/s, with ramps of 1 m/s².
 pub fn straight(seq: u32, start: Vec2, end: Vec2) -> Route {
     let way = end - start;
     let direction = way.normalized().unwrap();

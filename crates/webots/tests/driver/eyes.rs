@@ -1,29 +1,30 @@
-//! What proximity sensors see in Webots, whose rays end at bounding objects: those of the PROTO LightBot, ten sensors of
+//! Readings of proximity sensors in Webots, whose rays end at bounding objects. The PROTO LightBot has ten sensors with
 //! one ray each.
 //!
-//! Source: the reference manual of R2025a, `DistanceSensor`: a generic one tells how far away its ray meets something.
+//! Source: the reference manual of R2025a, `DistanceSensor`. A sensor of type "generic" measures the distance to the
+//! first hit.
 
 use Controller::proximity::{RAYS, TABLE, sigma_m};
 use lightbots_base::{Pose, Vec2};
 use std::f64::consts::TAU;
 
-/// From the centre to a sensor, and to the rim, metres.
+/// Distance from the robot's centre to a sensor, metres. `RADIUS_M` is the distance to the rim.
 const SENSOR_M: f64 = 0.024;
 const RADIUS_M: f64 = 0.027;
 
-/// The eyes of all robots.
+/// Simulates the sensors of all robots.
 pub struct Eyes {
-    /// State of the noise's generator.
+    /// State of the random generator for the noise.
     dice: u64,
 }
 
 impl Eyes {
-    /// Eyes with this noise.
+    /// Sensors whose noise has this seed.
     pub fn new(seed: u64) -> Self {
         Self { dice: seed.wrapping_mul(2).wrapping_add(1) }
     }
 
-    /// What a robot's sensors see, clockwise from the front, metres; infinite: nothing.
+    /// Readings of a robot's sensors, clockwise from the front, metres. Infinite if a ray hits nothing.
     pub fn near_m(&mut self, robot: Pose, places: &[Vec2]) -> [f64; RAYS] {
         let reach_m = TABLE[TABLE.len() - 1][0];
         let sight_m = SENSOR_M + reach_m + RADIUS_M;
@@ -41,7 +42,7 @@ impl Eyes {
         })
     }
 
-    /// About normal: a sum of twelve even numbers.
+    /// A random number of about normal distribution, as the sum of twelve uniform ones.
     fn normal(&mut self) -> f64 {
         let even = (0..12).map(|_| {
             self.dice ^= self.dice << 13;
@@ -53,7 +54,7 @@ impl Eyes {
     }
 }
 
-/// How far along a ray of length 1 a disc around `centre` begins; `None` where it misses it.
+/// Distance along a unit ray from the origin to a disc around `centre`, metres. `None` if the ray misses the disc.
 fn hit_m(ray: Vec2, centre: Vec2) -> Option<f64> {
     let (ahead_m, aside_m) = (ray.dot(centre), ray.cross(centre));
     let meets = ahead_m > 0.0 && aside_m.abs() < RADIUS_M;

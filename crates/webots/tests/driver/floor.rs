@@ -1,5 +1,4 @@
-//! The floor that the drivers' processes stand on: our simulated world behind the stand-in's socket, at the pace of a
-//! Webots.
+//! The floor for the drivers' processes: our simulated world behind the stand-in's socket, at the pace of a Webots.
 
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
@@ -19,27 +18,27 @@ use crate::eyes::Eyes;
 use crate::pace::{Pace, Steps};
 use crate::processes::PATIENCE;
 
-/// What happened on a floor.
+/// The results of a simulation.
 #[derive(Debug)]
 pub struct Account {
-    /// Pairs of robots that touched.
+    /// Number of pairs of robots that touched.
     pub contacts: u64,
     /// Least distance between two centres, metres.
     pub closest_m: Option<f64>,
     /// The last colour of each robot's light.
     pub colours: Vec<u32>,
-    /// Where they stood at the end.
+    /// Places of the robots at the end.
     pub places: Vec<Vec2>,
-    /// Where they were, each a track: `[robot][tenth of a second]`, when and where.
+    /// The track of each robot, `[robot][sample]`: real time and place, every `STEPS_A_PLACE` steps.
     pub tracks: Vec<Vec<(Instant, Vec2)>>,
-    /// Simulated seconds in a real one, pauses included.
+    /// Simulated seconds per real second, pauses included.
     pub rate: f64,
 }
 
-/// Steps between two places of a track.
+/// Steps between two samples of a track.
 pub const STEPS_A_PLACE: u32 = 6;
 
-/// A floor with a thread that steps it.
+/// A floor, and the thread that steps it.
 pub struct Floor {
     stop: Arc<AtomicBool>,
     steps: Arc<AtomicU32>,
@@ -47,8 +46,8 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Listens at `address` and begins when `count` processes are connected. Robot `LightBot n` stands at start n−1. On
-    /// further starts stand robots without power.
+    /// Listens at `address` and begins when `processes` drivers are connected. Robot `LightBot n` stands at start n -
+    /// 1. Robots without power stand at further starts.
     pub fn open(
         address: &Path,
         stage: &Stage,
@@ -76,25 +75,25 @@ impl Floor {
         }
     }
 
-    /// Ends the simulation as Webots does, and tells what happened.
+    /// Ends the simulation as Webots does. Returns its results.
     pub fn close(self) -> Account {
         self.stop.store(true, Ordering::Release);
         self.thread.join().expect("the floor ran to its end")
     }
 }
 
-/// A robot on the floor and the process that drives it.
+/// A robot on the floor, and the connection to its driver.
 struct Body {
-    /// Gone once the process is: Webots goes on without it.
+    /// The connection. `None` once the process has ended, because Webots continues without it.
     process: Option<UnixStream>,
     command: StepCommand,
-    /// What its wheels' sensors read: less than how far the wheels turned.
+    /// Readings of the wheels' position sensors, which stay behind the true turns.
     read_rad: [f64; 2],
     track: Vec<(Instant, Vec2)>,
 }
 
 impl Body {
-    /// Waits for its process, which the whole world does in every step.
+    /// Waits for the driver's command. The whole world waits for it in every step.
     fn listen(&mut self) {
         if let Some(process) = &mut self.process {
             match StepCommand::read(process) {
@@ -140,7 +139,7 @@ fn run(
         }
         world.step();
         steps.store(step, Ordering::Release);
-        // As Webots does: time that was lost is not made good.
+        // Lost time is not made up, as in Webots.
         due = (due + paces.take()).max(Instant::now());
         std::thread::sleep(due.saturating_duration_since(Instant::now()));
         let time_s = f64::from(step) * STEP.as_secs();
@@ -179,7 +178,7 @@ fn run(
     }
 }
 
-/// One socket a robot, in the order of the numbers in their names.
+/// Accepts one connection per robot. Returns them in the order of the numbers in the robots' names.
 fn gather(listener: &UnixListener, count: usize) -> Vec<UnixStream> {
     let mut sockets: Vec<(usize, UnixStream)> = (0..count)
         .map(|_| {

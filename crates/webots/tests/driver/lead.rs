@@ -1,4 +1,4 @@
-//! A controller of a few lines for one robot.
+//! A minimal controller for one robot.
 
 use std::time::Duration;
 
@@ -6,19 +6,19 @@ use lightbots_base::{Instant, Piece, RobotId, Span, Vec2};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 use lightbots_wire::{Command, Pieces, Report, Route, TimeAnswer, TimeQuestion, Topic, encode};
 
-/// What its route leaves a robot to others, metres.
+/// Clearance to other robots that a route states, metres.
 pub const ROOM_M: f64 = 0.04;
-/// Longest wait of a test; reached only on failure.
+/// Longest wait of a test, reached only on failure.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Sends a robot that faces the way straight there; back with the report in which it says that something stands there.
+/// Sends a robot straight to `end`, which it faces, past an obstacle. Returns the report that its path is blocked.
 pub fn into_its_way(broker: &str, id: RobotId, start: Vec2, end: Vec2) -> Report {
     drive_until(broker, id, (start, end), |report| {
         report.details.as_ref().is_some_and(|details| details.blocked.is_some())
     })
 }
 
-/// The same; back with the first report `that` is true of.
+/// Sends a robot straight to `end`. Returns the first report for which `that` holds.
 pub fn drive_until(
     broker: &str,
     id: RobotId,
@@ -36,7 +36,7 @@ pub fn drive_until(
     })
 }
 
-/// Half a second of rest, then 0.25 m/s.
+/// A route with half a second of rest and then 0.25 m/s.
 pub fn route(start: Vec2, end: Vec2) -> Route {
     let way = (end - start).normalized().expect("two places");
     let (cruise, ramp) = (way * 0.25, Span::from_millis(500));

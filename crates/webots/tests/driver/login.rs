@@ -1,4 +1,4 @@
-//! How a driver gets into a broker: TLS with an authority of one's own, user, and a password from a file.
+//! Logins of a driver at a broker: TLS with a private authority, a user, and a password from a file.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -14,7 +14,8 @@ use crate::processes::{Running, built, free_port};
 use crate::tape::Tape;
 use crate::{TURN, driver, driver_command, ends_well, id, tempfile};
 
-/// `lightbots run` without robots, with TLS by certificates of its own in `folder`: it, its plain and its safe address.
+/// Starts `lightbots run` without robots, with TLS and new certificates in `folder`. Returns the process, its plain
+/// address and its TLS address.
 fn server(folder: &Path) -> (Running, String, String) {
     let certs = Command::new(built("lightbots")).args(["certs", "--out"]).arg(folder).output();
     assert!(certs.is_ok_and(|output| output.status.success()));

@@ -1,5 +1,5 @@
-//! Whole shows through the real driver: one process a robot on the stand-in, as Webots does it, with a real broker and
-//! the real controller.
+//! Whole shows with the real driver: one process per robot on the stand-in, as in Webots, with a real broker and the
+//! real controller.
 
 mod eyes;
 mod floor;
@@ -26,10 +26,10 @@ use pace::Pace;
 use processes::{Running, built, mosquitto, stand_in};
 use tape::{Score, Tape};
 
-/// Shows are played one after the other: each keeps a machine busy.
+/// Held while a show is played, because two at once would overload the machine.
 pub static TURN: Mutex<()> = Mutex::new(());
 
-/// A show of `shows/`, or its first `frames` only.
+/// The show in a file of `shows/`, cut to its first `frames`.
 fn show(file: &str, frames: usize) -> Show {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows").join(file);
     let bytes = std::fs::read(path).expect("the show is there");
@@ -38,13 +38,13 @@ fn show(file: &str, frames: usize) -> Show {
     show
 }
 
-/// A robot's name, counted from 1 as in the worlds.
+/// The name of a robot. Numbers begin at 1, as in the worlds.
 fn id(number: usize) -> RobotId {
     RobotId::new(&format!("robot-{number}")).expect("a name")
 }
 
-/// Plays a show with as many drivers as it has pixels; what the controller reported, the floor saw and the broker
-/// carried.
+/// Plays a show with one driver per pixel. Returns the controller's report, the results of the floor and the record of
+/// the broker's messages.
 fn play(show: &Show, format: &Format, pace: Pace) -> (serde_json::Value, Account, Score) {
     let count = show.frames[0].pixels.len();
     let starts = lightbots_show::front_rows(&show.stage, count);
@@ -75,12 +75,12 @@ fn play(show: &Show, format: &Format, pace: Pace) -> (serde_json::Value, Account
     (report, account, score)
 }
 
-/// Robot `LightBot number` of a floor.
+/// Starts the driver of robot `LightBot number` on a floor.
 fn driver(number: usize, broker: &str, socket: &Path, more: &[&str]) -> Running {
     Running(driver_command(number, broker, socket).args(more).spawn().expect("the driver starts"))
 }
 
-/// How it is started.
+/// The command that starts a driver.
 fn driver_command(number: usize, broker: &str, socket: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_LightBotFirmware"));
     command
@@ -97,7 +97,7 @@ fn tempfile(name: &str) -> std::path::PathBuf {
     folder
 }
 
-/// Plays a show at Webots' usual pace, and tells where the robots were: `[robot][place]`.
+/// Plays a show at Webots' usual pace and checks it. Returns the robots' tracks, `[robot][sample]`.
 fn plays_without_contact(show: &Show, format: &Format) -> Vec<Vec<(Instant, Vec2)>> {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let (report, account, score) = play(show, format, Pace::WEBOTS);
@@ -116,7 +116,7 @@ fn plays_without_contact(show: &Show, format: &Format) -> Vec<Vec<(Instant, Vec2
     account.tracks
 }
 
-/// How far robots were at most beside their routes, and from where they were due, metres.
+/// Largest distances of robots from the lines of their routes, and from their due places, metres.
 fn off_m(score: &Score, account: &Account) -> (f64, f64) {
     let off = account.tracks.iter().enumerate();
     let off = off.map(|(index, track)| score.furthest_off_m(id(index + 1), track));
@@ -125,7 +125,7 @@ fn off_m(score: &Score, account: &Account) -> (f64, f64) {
     })
 }
 
-/// Over the whole show robots were where the plan's routes led, and none braked for a neighbour.
+/// Checks that robots were on the plan's routes during the whole show, and that none braked for a neighbour.
 #[allow(clippy::print_stdout)]
 fn keeps_to_its_routes(show: &Show, score: &Score, account: &Account) {
     let (beside_m, timed_m) = off_m(score, account);
@@ -141,9 +141,8 @@ fn keeps_to_its_routes(show: &Show, score: &Score, account: &Account) {
     assert!(beside_m > 0.0 && beside_m <= 0.005, "a robot was {:.1} mm beside its route", beside_m * 1e3);
 }
 
-/// How far a robot was at most from its way to the first picture in the rehearsal, metres. The same planner plans both,
-/// and the robots begin at the same places; later a controller starts from what robots report, and may choose another
-/// plan that is as good.
+/// Largest distance of a robot from its path to the first picture in the plan of a rehearsal, metres. Planner and
+/// starts are the same. Later plans may differ, because the controller starts from the places that robots report.
 fn furthest_off(show: &Show, tracks: &[Vec<(Instant, Vec2)>]) -> f64 {
     let starts = lightbots_show::front_rows(&show.stage, tracks.len());
     let plan = lightbots_plan::show(show, &starts, &lightbots_plan::ShowOptions::default());
@@ -167,7 +166,7 @@ fn ends_well(driver: &mut Running) {
     assert!(status.success(), "a driver did not end well: {status}");
 }
 
-/// The driver tells the core what its sensors see: it does not drive into a robot that stands in its way.
+/// The driver passes sensor readings to the core, so the robot does not drive into one in its path.
 #[test]
 fn a_driver_sees_who_stands_in_its_way() {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -185,15 +184,15 @@ fn a_driver_sees_who_stands_in_its_way() {
     let details = report.details.expect("a robot of ours");
     assert!(details.simulated, "a robot of Webots is no real one");
     let blocked = details.blocked.expect("it says so");
-    // It says so as soon as it brakes, within the range of its sensors.
+    // The robot reports as soon as it brakes, within the range of its sensors.
     assert!(blocked.gap_m < 0.03, "{blocked:?}");
     assert!((blocked.towards - std::f64::consts::FRAC_PI_2).abs() < 0.4, "{blocked:?}");
     assert_eq!(account.contacts, 0);
-    // It stands half of the room before it that the route leaves, at most; then it backs away by 8 mm at most.
+    // It stops within half of the room that the route leaves, and then backs away by 8 mm at most.
     assert!(account.places[0].distance(dead) < 0.054 + 0.5 * lead::ROOM_M + 0.008, "{:?}", account.places);
 }
 
-/// Webots' motors keep on doing what they were told last when their controller is gone.
+/// Webots' motors continue with the last command when their controller is gone.
 #[test]
 fn a_robot_whose_driver_is_killed_stops_by_itself() {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -213,7 +212,7 @@ fn a_robot_whose_driver_is_killed_stops_by_itself() {
     let account = floor.close();
     let _ = std::fs::remove_dir_all(&folder);
     let track = &account.tracks[0];
-    // The usual speed at cruise: after a pause of the machine a robot catches up with its route for a moment.
+    // The median speed at cruise is taken, because a robot catches up with its route after a pause of the machine.
     let cruising = track.iter().filter(|(moment, at)| *moment <= killed && at.distance(start) > 0.1);
     let cruising: Vec<Vec2> = cruising.map(|(_, at)| *at).collect();
     let mut driven_m: Vec<f64> = cruising.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
@@ -222,12 +221,12 @@ fn a_robot_whose_driver_is_killed_stops_by_itself() {
     assert!((0.24..0.27).contains(&usual_mps), "it drove: {usual_mps} m/s");
     let last_driven = track.iter().rfind(|(moment, _)| *moment <= killed).expect("it drove before");
     let rolled_m = account.places[0].distance(last_driven.1);
-    // Up to 25 mm are from the last place of the track to when it was killed.
+    // Up to 25 mm lie between the last sample of the track and the place at the kill.
     assert!(rolled_m < 0.065, "it rolled on for {rolled_m} m");
     assert!(track[track.len() - 1].1.distance(track[track.len() - 3].1) < 1e-3, "it still drives");
 }
 
-/// A show with a heart, or the show of `LIGHTBOTS_SHOW`, a file, by hand.
+/// The show with a heart, or the one that `LIGHTBOTS_SHOW` names.
 #[test]
 fn thirty_processes_play_a_show() {
     let file = std::env::var("LIGHTBOTS_SHOW").unwrap_or_else(|_| "heart.lightbots.json".into());

@@ -1,37 +1,37 @@
-//! The pace of a simulation: how much real time its steps take.
+//! The pace of a simulation: how long its steps take in real time.
 
 use std::time::Duration;
 
-/// How a world keeps time. A real Webots (R2023b) runs at 0.967 to 0.972 of real time where it could run faster, at less on
-/// a busy machine, and stands now and then while it loads, draws or is moved.
+/// The timing of a world. A real Webots (R2023b) that could run faster keeps 0.967 to 0.972 of real time, and less on a
+/// busy machine. It pauses now and then while it loads, draws or its window is moved.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
-    /// Simulated seconds in a real one.
+    /// Simulated seconds per real second.
     pub rate: f64,
-    /// A step takes up to this longer or less long than usual, seconds.
+    /// Largest deviation of a step's duration from the usual one, seconds.
     pub jitter_s: f64,
-    /// It stands for this long each time, seconds; 0: never.
+    /// Duration of each pause, seconds. 0 for a world without pauses.
     pub pause_s: f64,
-    /// Simulated time from one pause to the next is between these, seconds.
+    /// Least and most simulated time between two pauses, seconds.
     pub apart_s: (f64, f64),
 }
 
 impl Pace {
-    /// As Webots keeps it where nothing else is to be done.
+    /// The pace of an idle Webots.
     pub const WEBOTS: Self = Self { rate: 0.97, jitter_s: 0.003, pause_s: 0.0, apart_s: (3.0, 7.0) };
 
-    /// The same at another rate.
+    /// Webots' pace at another rate.
     pub const fn at(rate: f64) -> Self {
         Self { rate, ..Self::WEBOTS }
     }
 
-    /// The same with pauses of this length.
+    /// Webots' pace with pauses of this length.
     pub const fn pausing(pause_s: f64) -> Self {
         Self { pause_s, ..Self::WEBOTS }
     }
 }
 
-/// What the steps of one world take.
+/// Durations of the steps of one world.
 pub struct Steps {
     pace: Pace,
     step_s: f64,
@@ -40,7 +40,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Steps of `step_s` simulated seconds; the same seed gives the same jitter and the same pauses.
+    /// Steps of `step_s` simulated seconds. The same seed gives the same jitter and pauses.
     pub fn new(pace: Pace, step_s: f64, seed: u64) -> Self {
         let mut steps =
             Self { pace, step_s, until_pause_s: 0.0, dice: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1 };
@@ -48,7 +48,7 @@ impl Steps {
         steps
     }
 
-    /// The real time of the next step.
+    /// Real duration of the next step.
     pub fn take(&mut self) -> Duration {
         let mut took_s = self.step_s / self.pace.rate + (2.0 * self.even() - 1.0) * self.pace.jitter_s;
         self.until_pause_s -= self.step_s;
@@ -80,7 +80,7 @@ fn steps_take_what_the_pace_says() {
     };
     let (usual_s, slow_s) = (total_s(Pace::WEBOTS), total_s(Pace::at(0.8)));
     assert!((usual_s - 160.0 / 0.97).abs() < 1.0 && (slow_s - 200.0).abs() < 1.0, "{usual_s} {slow_s}");
-    // Each 3 to 7 s of 160.
+    // One pause per 3 to 7 s of 160 s.
     let pauses = (total_s(Pace::pausing(0.9)) - usual_s) / 0.9;
     assert!((25.0..45.0).contains(&pauses), "{pauses}");
 }

@@ -1,5 +1,5 @@
-//! Shows in worlds that are slow, jitter and pause. `cargo xtask webots paces` plays them all and prints the table; the
-//! test alone plays the beginning of one show in the worst of them.
+//! Shows in worlds that are slow, jitter and pause. `cargo xtask webots paces` plays them all and prints the table. The
+//! test itself plays the beginning of one show in the worst of them.
 
 use std::sync::PoisonError;
 
@@ -9,11 +9,11 @@ use lightbots_show::Show;
 use crate::pace::Pace;
 use crate::{TURN, off_m, play, show};
 
-/// A world, and what must hold in it besides that no robots touch and none drops out.
+/// The pace of a world, and a requirement besides that no robots touch and none drops out.
 struct Scenario {
     name: &'static str,
     pace: Pace,
-    /// The fleet never waits, and robots are this near where they are due, metres.
+    /// Largest distance of robots from their due places, metres. If it is set, the fleet must not wait either.
     due_m: Option<f64>,
 }
 
@@ -35,7 +35,7 @@ const ALL: [Scenario; 6] = [
 fn robots_stay_apart_whatever_the_pace_of_their_world() {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let Ok(files) = std::env::var("LIGHTBOTS_PACES") else {
-        // The two that ask most of robots and controller.
+        // The two worlds that are hardest for robots and controller.
         let worlds = &ALL[ALL.len() - 2..];
         let wrong =
             worlds.iter().flat_map(|world| wrong_in(world, &show("rings.lightbots.json", 2), &LIGHTBOTS));
@@ -55,7 +55,7 @@ fn robots_stay_apart_whatever_the_pace_of_their_world() {
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// Plays a show in a world, prints a line of the table, and tells what is not as it must be.
+/// Plays a show in a world and prints a line of the table. Returns what is wrong.
 #[allow(clippy::print_stdout)]
 fn wrong_in(scenario: &Scenario, show: &Show, format: &Format) -> Vec<String> {
     let (report, account, score) = play(show, format, scenario.pace);

@@ -1,14 +1,14 @@
-//! The processes of a test: killed when it ends, and heard when it fails.
+//! The processes of a test, which are killed when it ends. Their output is shown if it fails.
 
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Longest wait of a test on a busy machine; reached only on failure.
+/// Longest wait of a test on a busy machine, reached only on failure.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A process that does not outlive its test.
+/// A process that is killed when the value is dropped.
 pub struct Running(pub Child);
 
 impl Drop for Running {
@@ -18,7 +18,7 @@ impl Drop for Running {
     }
 }
 
-/// What cargo built for this workspace besides this package: the folder above the test's own.
+/// Path of another program that cargo built for this workspace, in the folder above the test's own.
 pub fn built(name: &str) -> PathBuf {
     let test = std::env::current_exe().expect("a test knows its own path");
     let folder = test.parent().and_then(Path::parent).expect("tests lie in deps");
@@ -27,7 +27,7 @@ pub fn built(name: &str) -> PathBuf {
     place
 }
 
-/// The stand-in for libController, beside this test.
+/// Path of the stand-in for libController, beside this test.
 pub fn stand_in() -> PathBuf {
     let test = std::env::current_exe().expect("a test knows its own path");
     let name = format!("{}Controller{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
@@ -36,7 +36,7 @@ pub fn stand_in() -> PathBuf {
     place
 }
 
-/// A Mosquitto of our own on loopback, and its port.
+/// Starts a Mosquitto on loopback. Returns it with its port.
 pub fn mosquitto() -> (Running, u16) {
     let program = std::env::var("LIGHTBOTS_MOSQUITTO").unwrap_or_else(|_| "mosquitto".into());
     let fallback = Path::new("/usr/sbin/mosquitto");
@@ -62,7 +62,7 @@ pub fn mosquitto() -> (Running, u16) {
     panic!("Mosquitto did not open its port");
 }
 
-/// A port on loopback that nothing listens on.
+/// A free port on loopback.
 pub fn free_port() -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").expect("loopback has a free port");
     listener.local_addr().expect("it is bound").port()

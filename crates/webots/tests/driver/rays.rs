@@ -1,5 +1,5 @@
-//! One ray a sensor is nearly enough: a robot that drives at one that stands in its way brakes before it touches, unless
-//! that stands about a radius beside the middle of its way.
+//! One ray per sensor is almost enough. A robot that drives towards a standing robot brakes before it touches, unless
+//! the other one is about a radius beside the middle of the path.
 
 use Controller::proximity::RAYS;
 use lightbots_base::{Instant, Pose, RobotId, Span, Vec2};
@@ -12,10 +12,10 @@ use lightbots_wire::{Command, TimeAnswer, TimeQuestion, Topic, encode};
 use crate::eyes::Eyes;
 use crate::lead::route;
 
-/// The show clock is this far ahead of the robot's.
+/// How far the show clock is ahead of the robot's clock.
 const AHEAD: Span = Span::from_millis(1_000);
 
-/// A robot on the core, and one without power.
+/// A robot with our core, and one without power.
 struct Meeting {
     world: World,
     robot: Robot,
@@ -40,13 +40,13 @@ impl Meeting {
         self.robot.receive(self.now, Topic::Robot(self.robot.id()), text.as_bytes());
     }
 
-    /// A step; whether the robot says that its way is blocked.
+    /// Makes a step. Returns whether the robot reports that its path is blocked.
     fn step(&mut self) -> bool {
         self.world.step();
         self.now += STEP;
         let (pose, places) = (self.world.pose(0), self.world.places().to_vec());
         let clockwise_m = self.eyes.near_m(pose, &places);
-        // As the driver has it: from the sensor at 24 mm to the rim at 27 mm, and counter-clockwise.
+        // As the driver does: from the sensor at 24 mm to the rim at 27 mm, and counter-clockwise.
         let along_m: [f64; RAYS] =
             std::array::from_fn(|ray| (clockwise_m[(RAYS - ray) % RAYS] - 0.003).max(0.0));
         let inputs = Inputs {
@@ -79,7 +79,8 @@ impl Meeting {
     }
 }
 
-/// How fast a robot at 0.25 m/s touches one that stands `beside` the middle of its way, m/s; `None`: it does not.
+/// Speed at which a robot that drives at 0.25 m/s touches a standing one, m/s. `aside_m` is how far that one is beside
+/// the middle of the path. `None` if they do not touch.
 fn touches_mps(aside_m: f64, seed: u64) -> Option<f64> {
     let (start, end) = (Vec2::new(0.0, -0.5), Vec2::new(0.0, 0.5));
     let mut meeting = Meeting::new(start, Vec2::new(aside_m, 0.0), seed);
@@ -109,7 +110,7 @@ fn a_robot_brakes_for_one_that_stands_in_its_way() {
             touched.push(aside_mm.abs());
         }
     }
-    // Not where the ray ahead has just missed it, and the next one meets it beside its middle.
+    // They touch only where the ray ahead just misses the other robot and the next ray hits it beside its middle.
     assert!(touched.len() <= 16, "{} of 840 touch", touched.len());
     assert!(touched.iter().all(|aside_mm| (26..=30).contains(aside_mm)), "{touched:?}");
 }

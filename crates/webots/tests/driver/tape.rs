@@ -1,4 +1,4 @@
-//! What went over the broker during a show, and where each robot was to be by it at every moment.
+//! Records the messages on the broker during a show, and where robots should be at every moment according to them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,21 +9,21 @@ use lightbots_base::{Instant, PathRef, RobotId, Span, Vec2};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 use lightbots_wire::{Command, Report, Route, TimeAnswer, Topic, commands};
 
-/// Messages that may wait; a show of thirty robots has a few hundred a second.
+/// Most queued messages. A show of thirty robots has a few hundred per second.
 const QUEUE: usize = 1 << 16;
-/// Longest wait of a test; reached only on failure.
+/// Longest wait of a test, reached only on failure.
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
-/// A listener on a broker.
+/// A client that records messages on a broker.
 pub struct Tape {
     stop: Arc<AtomicBool>,
-    /// Robots that reported.
+    /// Robots that have reported.
     heard: Arc<Mutex<BTreeSet<RobotId>>>,
     thread: JoinHandle<Score>,
 }
 
 impl Tape {
-    /// Listens from now on; back once the broker has let it in.
+    /// Starts to record. Returns once the broker has accepted the connection.
     pub fn record(broker: &str) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let broker = BrokerUrl::parse(broker).expect("the test's own address");
@@ -65,33 +65,33 @@ impl Tape {
         }
     }
 
-    /// Ends the recording.
+    /// Ends the recording and returns its contents.
     pub fn end(self) -> Score {
         self.stop.store(true, Ordering::Release);
         self.thread.join().expect("it listened to the end")
     }
 }
 
-/// A route that a robot was given, and when it began.
+/// A route that a robot received.
 struct Given {
     route: Route,
-    /// The latest moment stated, show clock.
+    /// The latest beginning that a START gave, show clock.
     starts: Option<Instant>,
 }
 
-/// What robots were told.
+/// Commands and reports of a show.
 #[derive(Default)]
 pub struct Score {
     routes: BTreeMap<RobotId, Vec<Given>>,
     /// Holds (`true`) and resumes, show clock.
     eases: Vec<(Instant, bool)>,
-    /// What the show clock said at least at a moment of this machine, by the quickest time answer.
+    /// The show clock, at least, at a moment of this machine, by the fastest time answer.
     show: Option<(Instant, std::time::Instant)>,
-    /// When robots were told to stand and forget their routes, show clock; `None`: all of them.
+    /// STOPs that arrived, show clock, each with its robot. `None` stands for all robots.
     stops: Vec<(Instant, Option<RobotId>)>,
-    /// Reports of robots that something stood in the way of.
+    /// Reports of robots whose path was blocked.
     blocked: Vec<String>,
-    /// How far a robot said it was off its route at most, metres.
+    /// Largest distance from its route that a robot reported, metres.
     off_m: f64,
 }
 
@@ -150,14 +150,14 @@ impl Score {
         }
     }
 
-    /// The show clock at a moment of this machine.
+    /// The show clock at a moment of this machine. `None` before the first time answer.
     fn show_at(&self, moment: std::time::Instant) -> Option<Instant> {
         let (show, then) = self.show?;
         let later = moment.saturating_duration_since(then).as_secs_f64();
         Some(show + Span::from_secs(later - then.saturating_duration_since(moment).as_secs_f64()))
     }
 
-    /// An answer was on its way for a while: the show clock says no less than it.
+    /// Updates the show clock. Messages take time, so the true clock is never behind an answer.
     fn compare(&mut self, answer: &TimeAnswer) {
         let now = std::time::Instant::now();
         if self.show_at(now).is_none_or(|known| answer.sent > known) {
@@ -165,23 +165,23 @@ impl Score {
         }
     }
 
-    /// How often all were held, and how often robots were told to stand.
+    /// Number of holds, and number of STOPs.
     pub fn holds(&self) -> (usize, usize) {
         (self.eases.iter().filter(|(_, hold)| *hold).count(), self.stops.len())
     }
 
-    /// How far a robot said it was off its route at most, metres.
+    /// Largest distance from its route that a robot reported, metres.
     pub fn off_m(&self) -> f64 {
         self.off_m
     }
 
-    /// Reports of robots that something stood in the way of.
+    /// Reports of robots whose path was blocked.
     pub fn blocked(&self) -> &[String] {
         &self.blocked
     }
 
-    /// How far a robot was at most from the line of its route near where it was to be, and from that very place, metres.
-    /// The place depends on how well this machine keeps pace, the line does not.
+    /// Largest distances of a robot, metres: from the line of its route near its due place, and from the due place
+    /// itself. The due place depends on how well this machine keeps pace, and the line does not.
     pub fn furthest_off_m(&self, id: RobotId, track: &[(std::time::Instant, Vec2)]) -> (f64, f64) {
         let given: Vec<&Given> =
             self.routes.get(&id).into_iter().flatten().filter(|given| given.starts.is_some()).collect();
@@ -205,7 +205,7 @@ impl Score {
         (beside_m, timed_m)
     }
 
-    /// Path time, as R38 has it: in steps of a millisecond.
+    /// Path time by R38, integrated in steps of a millisecond.
     fn path_time(&self, starts: Instant, show: Instant) -> Span {
         const STEP_US: u64 = 1_000;
         let eases: Vec<_> = self.eases.iter().filter(|(at, _)| *at >= starts && *at <= show).collect();
@@ -223,7 +223,7 @@ impl Score {
     }
 }
 
-/// How far a place is from a path near this time, metres.
+/// Distance of a place from a path within half a second of this time, metres.
 fn beside(path: &PathRef<'_>, time: Span, at: Vec2) -> f64 {
     let near = (-250..=250).map(|step| time + Span(step * 2_000));
     near.map(|time| path.at(time).position.distance(at)).fold(f64::INFINITY, f64::min)

@@ -1,4 +1,4 @@
-//! PROTOs and worlds, read as Webots reads them: what would make a real Webots complain, stand still or drive wrong.
+//! Reads PROTOs and worlds as Webots does, and checks what would make a real Webots complain, hang or drive wrongly.
 
 mod nodes;
 mod vrml;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use nodes::{Holds, faults, fits, holds};
 use vrml::{File, Interface, Node, Value, read};
 
-/// Where Webots' own PROTOs lie since releases ship none, pinned to a release.
+/// Address of Webots' own PROTOs, pinned to a release, because releases do not contain them.
 const WEBOTS: &str = "https://raw.githubusercontent.com/cyberbotics/webots/R2025a/projects/";
 /// Webots' Elisa-3: its devices and the fields of its interface (R2025a).
 const ELISA_DEVICES: [&str; 13] = [
@@ -43,7 +43,7 @@ fn webots() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../webots")
 }
 
-/// Files of a folder with this ending, by name.
+/// The files of a folder with this extension, sorted by name.
 fn files(folder: &str, ending: &str) -> Vec<(PathBuf, File)> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(webots().join(folder))
         .expect("the folder is there")
@@ -60,7 +60,7 @@ fn proto(file: &File) -> (&str, &Interface) {
     (name, fields)
 }
 
-/// Names of all devices below a node, a GPS and a compass by their default names.
+/// Names of all devices below a node. A GPS or compass without a name has its default name.
 fn devices(node: &Node) -> Vec<String> {
     let mut names = Vec::new();
     node.walk(&mut |node| {
@@ -177,7 +177,7 @@ fn robots_have_every_device_the_driver_asks_for_once() {
         if elisa {
             found.extend(ELISA_DEVICES.map(str::to_owned));
         }
-        // The Elisa-3 has only eight proximity sensors, with which the driver makes do.
+        // The Elisa-3 has only eight proximity sensors, and the driver works with these.
         for device in asked.iter().filter(|device| !(elisa && ["ps8", "ps9"].contains(device))) {
             let count = found.iter().filter(|name| name == device).count();
             assert_eq!(count, 1, "{}: {name} has {count} '{device}'", path.display());
@@ -193,7 +193,7 @@ fn our_robot_has_the_measures_of_the_elisa() {
     let bounds = &robot.nodes("boundingObject")[0].nodes("children")[0];
     assert_eq!(bounds.numbers("radius"), Some(&[0.027][..]));
     let physics = &robot.nodes("physics")[0];
-    // A density beside the mass would be a contradiction for Webots.
+    // Webots rejects a density beside a mass.
     assert_eq!(
         (physics.numbers("mass"), physics.numbers("density")),
         (Some(&[0.039][..]), Some(&[-1.0][..]))
@@ -204,14 +204,14 @@ fn our_robot_has_the_measures_of_the_elisa() {
         if node.kind == "HingeJoint" {
             let anchor = node.nodes("jointParameters")[0].numbers("anchor").unwrap().to_vec();
             let end = &node.nodes("endPoint")[0];
-            // A wheel that does not begin at its anchor jumps in the first step.
+            // A wheel that is not at its anchor jumps in the first step.
             assert_eq!(end.numbers("translation"), Some(anchor.as_slice()));
             assert_eq!(node.nodes("jointParameters")[0].numbers("axis"), Some(&[0.0, 1.0, 0.0][..]));
             assert!(end.fields.contains_key("physics") && end.fields.contains_key("boundingObject"));
             wheels.push(anchor);
         }
     });
-    // Left is +y: the driver's left motor must be the left wheel, on a track of 40 mm and with a radius of 4.5 mm.
+    // Left is +y: the driver's left motor must be the left wheel. The track is 40 mm and the wheels' radius 4.5 mm.
     assert_eq!(wheels, [[0.0, 0.02, 0.0045], [0.0, -0.02, 0.0045]]);
     let first = devices(robot).into_iter().find(|name| name.ends_with("wheel motor"));
     assert_eq!(first.as_deref(), Some("left wheel motor"));
@@ -230,22 +230,22 @@ fn our_robot_has_the_measures_of_the_elisa() {
 fn our_robot_looks_around_as_the_driver_and_its_tests_take_it() {
     let (_, file) =
         files("protos", "proto").into_iter().find(|(_, file)| proto(file).0 == "LightBot").unwrap();
-    // All of them can be left out, with their rays: they stand in a field of the PROTO and nowhere else.
+    // All sensors must be in one field of the PROTO, so that a world can leave them out with their rays.
     let (_, fields) = proto(&file);
     let Some((_, Value::Nodes(sensors))) = fields.get("proximity") else { panic!("a field for sensors") };
     file.nodes[0].walk(&mut |node| assert_ne!(node.kind, "DistanceSensor"));
     assert_eq!(sensors.len(), Controller::proximity::RAYS);
     for (index, sensor) in sensors.iter().enumerate() {
         assert_eq!(sensor.text("name"), Some(format!("ps{index}").as_str()));
-        // Clockwise from the front, 24 mm from the centre, looking away from it.
+        // Sensors are numbered clockwise from the front, 24 mm from the centre, and face away from it.
         let looks = -(index as f64) * std::f64::consts::TAU / sensors.len() as f64;
         let (at, turned) = (sensor.numbers("translation").unwrap(), sensor.numbers("rotation").unwrap());
         assert!((at[0] - 0.024 * looks.cos()).abs() < 1e-5 && (at[1] - 0.024 * looks.sin()).abs() < 1e-5);
         assert_eq!(turned[..3], [0.0, 0.0, 1.0]);
         assert!((turned[3] - looks).sin().abs() < 1e-4 && (turned[3] - looks).cos() > 0.0, "{turned:?}");
-        // Within the height of other robots' bounding objects.
+        // The ray is within the height of other robots' bounding objects.
         assert!(at[2] > 0.001 && at[2] < 0.031);
-        // One ray, which comes back from whatever it meets, however obliquely.
+        // One ray, which any surface reflects at any angle.
         assert_eq!(sensor.text("type"), Some("generic"));
         assert_eq!(sensor.numbers("numberOfRays"), None);
         let table = sensor.numbers("lookupTable").unwrap();
@@ -258,7 +258,7 @@ fn worlds_stand_as_the_report_has_them() {
     let protos = files("protos", "proto");
     for (path, file) in files("worlds", "wbt") {
         let info = file.nodes.iter().find(|node| node.kind == "WorldInfo").expect("a world has one");
-        // Curves wander at 32 ms; the default coordinate system is ENU, and northDirection is deprecated.
+        // At 32 ms curves wander. The default coordinate system is ENU, and northDirection is deprecated.
         assert_eq!(info.numbers("basicTimeStep"), Some(&[16.0][..]), "{}", path.display());
         assert!(!info.fields.contains_key("coordinateSystem") && !info.fields.contains_key("northDirection"));
         let is_robot = |node: &&Node| protos.iter().any(|(_, file)| proto(file).0 == node.kind);
@@ -268,7 +268,7 @@ fn worlds_stand_as_the_report_has_them() {
             let at = robot.numbers("translation").unwrap();
             let x_m = -1.45 + 0.1 * index as f64;
             assert!((at[0] - x_m).abs() < 1e-6 && at[1] == 1.3 && at[2] == 0.0, "{at:?}");
-            // Facing +y, as in the report.
+            // Robots face +y, as in the report.
             let turned = robot.numbers("rotation").unwrap();
             assert_eq!(turned[..3], [0.0, 0.0, 1.0]);
             assert!((turned[3] - std::f64::consts::FRAC_PI_2).abs() < 1e-4, "{turned:?}");
@@ -278,7 +278,7 @@ fn worlds_stand_as_the_report_has_them() {
     }
 }
 
-/// Webots waits for ever where two robots have one name, and complains about solids that do.
+/// Webots waits for ever if two robots have one name, and complains about solids with one name.
 fn unique_names(path: &Path, file: &File) {
     let mut names = BTreeSet::new();
     for name in file.nodes.iter().filter_map(|node| node.text("name")) {
@@ -286,7 +286,7 @@ fn unique_names(path: &Path, file: &File) {
     }
 }
 
-/// A PROTO that a world uses must be named in an EXTERNPROTO, and the other way about.
+/// A PROTO that a world uses must be named in an EXTERNPROTO, and each EXTERNPROTO must be used.
 fn all_known(path: &Path, file: &File) {
     let used: BTreeSet<&str> = file.nodes.iter().map(|node| node.kind.as_str()).collect();
     for address in &file.externs {
@@ -311,7 +311,7 @@ fn the_controller_is_the_drivers_program() {
         assert!(matches!(fields["synchronization"].1, Value::Flag(true)), "{name} must be waited for");
         assert!(matches!(fields["supervisor"].1, Value::Flag(false)), "{name}");
     }
-    // A Dockerfile there would win over the program.
+    // Webots would use a Dockerfile there instead of the program.
     assert!(!webots().join("controllers/LightBotFirmware/Dockerfile").exists());
 }
 

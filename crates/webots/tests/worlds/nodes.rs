@@ -1,10 +1,10 @@
 //! The fields of Webots' nodes that our files use.
 //!
-//! Source: the Webots reference manual of R2025a, one page a node; the same fields stand in R2023b.
+//! Source: the Webots reference manual of R2025a, which has one page per node. The same fields exist in R2023b.
 
 use crate::vrml::{Node, Value};
 
-/// What a field holds.
+/// The kind of value that a field holds.
 #[derive(Clone, Copy, Debug)]
 pub enum Holds {
     /// This many numbers.
@@ -60,7 +60,7 @@ const DISTANCE: Fields = &[
     ("resolution", Numbers(1)),
     ("redColorSensitivity", Numbers(1)),
 ];
-/// How a `DistanceSensor` can measure.
+/// Types of a `DistanceSensor`.
 const DISTANCE_TYPES: [&str; 4] = ["generic", "infra-red", "sonar", "laser"];
 const WORLD: Fields =
     &[("info", Texts), ("title", Text), ("basicTimeStep", Numbers(1)), ("contactProperties", Nodes)];
@@ -75,7 +75,7 @@ const LIGHT: Fields = &[
     ("castShadows", Flag),
 ];
 
-/// The fields of a kind of node; nothing where we use none of that kind.
+/// The fields of a kind of node, in groups. `None` for kinds that our files do not use.
 fn fields(kind: &str) -> Option<Vec<Fields>> {
     Some(match kind {
         "Group" => vec![&POSE[2..]],
@@ -105,7 +105,7 @@ fn fields(kind: &str) -> Option<Vec<Fields>> {
     })
 }
 
-/// What is wrong with a node and those below it, where `protos` are kinds of our own with their fields.
+/// Faults of a node and of those below it. `protos` are our own kinds of nodes with their fields.
 pub fn faults(node: &Node, protos: &[(&str, Vec<(&str, Holds)>)]) -> Vec<String> {
     let mut faults = Vec::new();
     node.walk(&mut |node| {
@@ -129,7 +129,7 @@ pub fn faults(node: &Node, protos: &[(&str, Vec<(&str, Holds)>)]) -> Vec<String>
     faults
 }
 
-/// What Webots would not take of a `DistanceSensor` although its fields are right.
+/// Faults of a `DistanceSensor` that Webots would report although its fields have the right types.
 fn distance_faults(node: &Node) -> Vec<String> {
     let mut faults = Vec::new();
     if node.kind != "DistanceSensor" {
@@ -150,7 +150,7 @@ fn distance_faults(node: &Node) -> Vec<String> {
     faults
 }
 
-/// What a PROTO's field holds, by its type.
+/// The kind of value of a PROTO's field, by the name of its type.
 pub fn holds(kind: &str) -> Holds {
     match kind {
         "SFVec3f" | "SFColor" => Numbers(3),

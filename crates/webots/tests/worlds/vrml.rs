@@ -1,4 +1,4 @@
-//! Reads PROTO and world files: as much of VRML as they use.
+//! Reads PROTO and world files: the part of VRML that they use.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ pub struct Node {
     pub fields: BTreeMap<String, Value>,
 }
 
-/// What stands behind a field's name.
+/// The value of a field.
 #[derive(Clone, Debug)]
 pub enum Value {
     Numbers(Vec<f64>),
@@ -19,7 +19,7 @@ pub enum Value {
     Flag(bool),
     Nodes(Vec<Node>),
     Texts(Vec<String>),
-    /// Nothing between brackets.
+    /// Empty brackets.
     Empty,
     /// `USE name`.
     Use(String),
@@ -27,10 +27,10 @@ pub enum Value {
     Is(String),
 }
 
-/// The fields of a PROTO by their names: type and default.
+/// The fields of a PROTO by their names, each with its type and default value.
 pub type Interface = BTreeMap<String, (String, Value)>;
 
-/// A file.
+/// The contents of a file.
 #[derive(Debug, Default)]
 pub struct File {
     pub header: String,
@@ -46,7 +46,7 @@ struct Reader {
     at: usize,
 }
 
-/// Reads a whole file; panics with the place where it is none.
+/// Reads a whole file. Panics with the place if the file cannot be read.
 pub fn read(text: &str) -> File {
     let header = text.lines().next().unwrap_or("").to_owned();
     let mut reader = Reader { tokens: tokens(text), at: 0 };
@@ -71,7 +71,7 @@ pub fn read(text: &str) -> File {
     file
 }
 
-/// Words, texts in quotes, and brackets; comments are left out.
+/// Splits a text into words, quoted texts and brackets, without comments.
 fn tokens(text: &str) -> Vec<String> {
     let mut tokens = Vec::new();
     for line in text.lines() {
@@ -223,7 +223,7 @@ impl Node {
         }
     }
 
-    /// A field that is a text.
+    /// The field's text. `None` if the field is missing or holds something else.
     pub fn text(&self, field: &str) -> Option<&str> {
         match self.fields.get(field) {
             Some(Value::Text(text)) => Some(text),
@@ -231,7 +231,7 @@ impl Node {
         }
     }
 
-    /// A field that is numbers.
+    /// The field's numbers. `None` if the field is missing or holds something else.
     pub fn numbers(&self, field: &str) -> Option<&[f64]> {
         match self.fields.get(field) {
             Some(Value::Numbers(numbers)) => Some(numbers),
@@ -239,7 +239,7 @@ impl Node {
         }
     }
 
-    /// Nodes in a field.
+    /// The nodes in a field. Empty if the field is missing or holds something else.
     pub fn nodes(&self, field: &str) -> &[Node] {
         match self.fields.get(field) {
             Some(Value::Nodes(nodes)) => nodes,

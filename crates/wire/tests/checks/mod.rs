@@ -1,13 +1,13 @@
-//! What holds for every message, for mutations here and for the fuzzers in `fuzz`.
+//! Properties of every message, for mutations here and for the fuzzers in `fuzz`.
 
 use lightbots_wire::{Command, Report, TimeQuestion, Topic, commands, encode};
 
-/// Reads the bytes as everything that can come over the wire; answers whether any decoder took them.
+/// Reads the bytes with every decoder of the wire. Returns whether any of them accepted the bytes.
 pub fn read(bytes: &[u8]) -> bool {
     let mut is_read = false;
     for command in commands(bytes).flatten() {
         is_read = true;
-        // A robot refuses such a target (R19); its last decimals are beyond what a number holds.
+        // A robot refuses this target (R19), whose last decimals are finer than its `f64`.
         if matches!(command, Command::Target(to) if to.x.abs().max(to.y.abs()) > 1_000.0) {
             continue;
         }
