@@ -1,7 +1,7 @@
-//! Plans one transition of several fleets natively and writes the requests, for a comparison with WebAssembly.
+//! Plans one transition for several fleets in native code and writes the requests, for a comparison with WebAssembly.
 //!
-//! `native_plans FOLDER` writes `FOLDER/N.json`, a `PlanningRequest` for N robots, and prints a line of JSON for each: the
-//! number of robots and the median duration of the same call, milliseconds.
+//! `native_plans FOLDER` writes `FOLDER/N.json`, a `PlanningRequest` for N robots. For each it prints a line of JSON:
+//! the number of robots and the median duration of the same call, milliseconds.
 
 #![allow(clippy::print_stdout, reason = "it prints its table")]
 
@@ -12,9 +12,9 @@ use lightbots_base::random::split_mix;
 
 /// Numbers of robots.
 const FLEETS: [usize; 4] = [30, 100, 1_000, 10_000];
-/// Distance of the cells in which pixels lie, metres: about 30 robots on 9 m².
+/// Side of the cells that contain one pixel each, metres: about 30 robots on 9 m².
 const CELL_M: f64 = 0.55;
-/// How far pixels lie from the middle of their cell, metres: they are at least 76.4 mm apart.
+/// Largest distance of a pixel from the middle of its cell in x and y, metres. Pixels are at least 76.4 mm apart.
 const OFF_M: f64 = 0.23;
 
 fn main() {
@@ -38,7 +38,7 @@ fn timed(request: &str) -> f64 {
     took_ms
 }
 
-/// Two random frames, the robots on the pixels of the first at the start.
+/// A request with two random frames. Robots start on the pixels of the first frame.
 fn request(robots: usize) -> String {
     let columns = (robots as f64).sqrt().ceil() as usize;
     let side_m = columns as f64 * CELL_M;

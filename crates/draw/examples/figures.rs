@@ -1,4 +1,4 @@
-//! Figures of placing methods on simple shapes: `cargo run --release -p lightbots-draw --example figures [FILE.svg]`.
+//! Measures placing methods on simple shapes: `cargo run --release -p lightbots-draw --example figures [FILE.svg]`.
 #![allow(clippy::print_stdout)]
 
 use std::fmt::Write;

@@ -1,5 +1,5 @@
-//! How many robots letters and digits need: each is placed, seen from five slightly wrong views, and read by templates:
-//! `cargo run --release -p lightbots-draw --example letters`.
+//! Measures how many robots letters and digits need. Each is placed, viewed from five slightly wrong positions, and
+//! read by templates: `cargo run --release -p lightbots-draw --example letters`.
 #![allow(clippy::print_stdout)]
 
 use lightbots_base::{Vec2, random::split_mix};

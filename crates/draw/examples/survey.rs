@@ -1,5 +1,5 @@
-//! Draws every file below folders and counts what came of it: `cargo run --release --example survey -- FOLDER…`.
-//! Icon sets and test suites of package registries are the files that this project did not make.
+//! Draws every file below folders and counts the outcomes: `cargo run --release --example survey -- FOLDER…`. Suitable
+//! files that this project did not make are icon sets and test suites of package registries.
 #![allow(clippy::print_stdout)]
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::time::Instant;
 use lightbots_draw::picture::PictureSettings;
 use lightbots_draw::{DrawError, FileKind, Note, animation, list, picture, sniff, svg, unsupported};
 
-/// Slowest files that are named.
+/// Number of the slowest files that are listed.
 const SLOWEST: usize = 5;
 
 fn main() {
@@ -39,7 +39,7 @@ fn main() {
     times.iter().take(SLOWEST).for_each(|(time, path)| println!("{time:8.2} s {}", path.display()));
 }
 
-/// What is missing from the drawing of a file.
+/// Notes about parts of a file that its drawing lacks.
 fn notes(bytes: &[u8]) -> Result<Vec<Note>, DrawError> {
     let settings = PictureSettings::default();
     match sniff(bytes) {

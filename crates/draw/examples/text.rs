@@ -1,4 +1,4 @@
-//! Writes a text as SVG, with areas filled and spines as lines:
+//! Writes a text as SVG, with filled areas, and spines as lines:
 //! `cargo run -p lightbots-draw --example text -- lato LOVE > love.svg`.
 
 use std::io::{Error, Write};

@@ -1,4 +1,4 @@
-//! Fonts that are small and ask for endless work.
+//! Small fonts that need endless work.
 
 use std::time::{Duration, Instant};
 
@@ -56,7 +56,7 @@ fn font(glyphs: &[Vec<u8>], layout: Option<Vec<u8>>) -> Vec<u8> {
     bytes
 }
 
-/// A square.
+/// A glyph of one square.
 fn square() -> Vec<u8> {
     let mut glyph = Vec::new();
     put(&mut glyph, &[1, 0, 0, 500, 700, 3, 0]);
@@ -65,7 +65,7 @@ fn square() -> Vec<u8> {
     glyph
 }
 
-/// A glyph made of another one several times.
+/// A glyph composed of several copies of another one.
 fn composite(of: u16, times: usize) -> Vec<u8> {
     let mut glyph = Vec::new();
     put(&mut glyph, &[0xffff, 0, 0, 500, 700]);
@@ -76,7 +76,7 @@ fn composite(of: u16, times: usize) -> Vec<u8> {
     glyph
 }
 
-/// A layout table in which each of several steps replaces the glyph by many of itself.
+/// A layout table with several steps, each of which replaces the glyph by several copies of itself.
 fn multiplying(steps: u16, glyph: u16, times: u16) -> Vec<u8> {
     let mut table = Vec::new();
     let features = 10 + 20;
@@ -96,7 +96,7 @@ fn multiplying(steps: u16, glyph: u16, times: u16) -> Vec<u8> {
     table
 }
 
-/// Draws a text with a font, or says why not; within the time.
+/// Draws a text with a font, or returns the code of the error. Panics if that takes longer than `LONGEST`.
 fn outcome(bytes: &[u8], words: &str) -> Result<usize, &'static str> {
     let start = Instant::now();
     let drawn = Font::read(bytes).and_then(|font| draw(&TextSettings::new(words, &font)));

@@ -1,4 +1,4 @@
-//! Seeded mutations of good files for every decoder: each is read, or refused with one line, and never panics.
+//! Seeded mutations of good files for every decoder. Each is read, or refused with one line, and never panics.
 //!
 //! `LIGHTBOTS_MUTATIONS=100000 cargo test -p lightbots-draw --release --test mutations` tries more of them than the usual
 //! run. Bytes that break a decoder are written to `corpus`, whose files every run reads.
@@ -19,10 +19,10 @@ use lightbots_draw::{DrawError, animation, list, picture, svg, text};
 use mutator::{corpus_files, keep_broken, mutant, rounds};
 use numbers::Numbers;
 
-/// Mutations of each file in a usual run.
+/// Number of mutations of each file in a usual run.
 const USUAL: usize = 150;
 
-/// A decoder by the name of its folder in the corpus.
+/// A decoder, and the name of its folder in the corpus.
 type Decoder = (&'static str, fn(&[u8]) -> Result<(), DrawError>);
 
 const DECODERS: [Decoder; 5] = [
@@ -36,7 +36,7 @@ const DECODERS: [Decoder; 5] = [
     }),
 ];
 
-/// A ring with a gap on a transparent ground.
+/// A picture of a ring with a gap on a transparent ground.
 fn small_picture() -> RgbaImage {
     RgbaImage::from_fn(24, 24, |x, y| {
         let distance = f64::from(x).hypot(f64::from(y) - 12.0);

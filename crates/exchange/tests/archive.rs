@@ -1,4 +1,5 @@
-//! Archives: a show and its files come back; what was changed, is too large or leads out of the archive is refused.
+//! Archives of a show and its files. They can be read again. An archive that was changed, is too large or names paths
+//! outside of itself is refused.
 
 mod extras;
 #[path = "../../show/tests/rows/mod.rs"]
@@ -30,7 +31,7 @@ fn open(bytes: &[u8]) -> Result<Loaded, ReadError> {
     read(bytes, Some("a.lightbots.zip"))
 }
 
-/// The code of the refusal; panics if the bytes are read.
+/// The code of the refusal. Panics if the bytes are read.
 fn code(bytes: &[u8]) -> &'static str {
     let error = open(bytes).expect_err("must not be read");
     assert!(!error.to_string().contains('\n') && error.to_string().len() < 400, "{error}");
@@ -44,7 +45,7 @@ fn a_show_and_its_files_come_back() {
     assert_eq!((&written.issues, sniff(&written.bytes)), (&Vec::new(), Some(&ARCHIVE)));
     let loaded = open(&written.bytes).unwrap();
     assert_eq!((loaded.issues, loaded.unread, loaded.has_stage), (Vec::new(), None, true));
-    // Places of pixels are rounded, so the text is compared, and the file's bytes.
+    // Places of pixels are rounded, so the test compares the text of the show and the bytes of its files.
     assert_eq!(LIGHTBOTS.write(&loaded.show, None).bytes, document());
     assert_eq!(loaded.show.assets, show.assets);
     assert_eq!(ARCHIVE.write(&loaded.show, None), written, "the same show gives the same bytes");
@@ -147,7 +148,7 @@ fn bombs_are_refused() {
 fn a_file_that_claims_another_size_is_counted_while_it_is_unpacked() {
     let zeros = vec![0; 65 << 20];
     let mut bomb = archive(&[("show.lightbots.json", &zeros)]);
-    // The sizes in the local header and in the directory: 40 bytes.
+    // Changes the size in the local header and in the directory to 40 bytes.
     let size = (zeros.len() as u32).to_le_bytes();
     let mut places = 0;
     for at in 0..bomb.len() - 4 {

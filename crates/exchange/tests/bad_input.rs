@@ -1,4 +1,4 @@
-//! Broken and hostile files: each gives one line with place, cause and remedy.
+//! Broken and hostile files. Each gives one line with place, cause and remedy.
 
 #[path = "../../show/tests/rows/mod.rs"]
 mod rows;
@@ -6,17 +6,17 @@ mod rows;
 use lightbots_exchange::{LIGHTBOTS, read};
 use rows::{row, show};
 
-/// What reading says; panics if it is read.
+/// The message of the refusal. Panics if the text is read.
 fn refusal(text: &str) -> String {
     read(text.as_bytes(), Some("a.json")).expect_err("must not be read").to_string()
 }
 
-/// A show of ours with one frame "A", from its pixels.
+/// A show in our format with one frame "A" that has these pixels.
 fn ours(pixels: &str) -> String {
     format!("{{\"lightbots\": 1, \"frames\": [{{\"name\": \"A\", \"pixels\": [\n{pixels}]}}]}}")
 }
 
-/// A show of the original's with one frame "A", from the fields of its only pixel.
+/// A show in the original's format with one frame "A". Its only pixel has these fields.
 fn original(pixel: &str) -> String {
     format!("[{{\"name\": \"A\", \"airTime\": 0, \"pixels\": [{{{pixel}, \"pixelId\": 7}}]}}]")
 }

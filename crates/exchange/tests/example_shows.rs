@@ -1,4 +1,4 @@
-//! The example shows are what their generator writes, are sound, and leave robots room to drive straight.
+//! The example shows equal the output of their generator, are valid, and leave robots room to drive straight.
 
 #[path = "../examples/shows/programme.rs"]
 mod programme;
@@ -10,7 +10,7 @@ use lightbots_exchange::{ORIGINAL, read, sniff};
 use lightbots_show::{close_pairs, validate};
 use programme::Entry;
 
-/// Between the pixels of a frame, metres: more than 76.4 mm keeps synchronised straight lines apart.
+/// Least distance between the pixels of a frame, metres. More than 76.4 mm keeps synchronised straight lines apart.
 const LEAST_GAP_M: f64 = 0.08;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Seeded mutations of good files: each is read, or refused with one line, and never panics.
+//! Seeded mutations of good files. Each is read, or refused with one line, and never panics.
 
 mod checks;
 mod extras;
@@ -62,12 +62,12 @@ fn no_mutation_breaks_reading_or_validating() {
     assert!(were_read > 500 && refused > 500, "{were_read} read, {refused} refused");
 }
 
-/// Whether a mutant is a show, which a file of ours then holds.
+/// Whether a mutant is a show. It is then written in our format and read again.
 fn is_read(bytes: &[u8]) -> bool {
     is_show(bytes, "a.skyc", &LIGHTBOTS)
 }
 
-/// How many mutants were read and refused.
+/// Numbers of mutants that were read and refused.
 #[derive(Default)]
 struct Counted {
     were_read: usize,
@@ -86,7 +86,7 @@ impl Counted {
     }
 }
 
-/// Mutants of one file inside of an archive, whose checksums are right.
+/// Reads mutants in which one file of an archive is changed, with right checksums.
 fn mutated_inside(files: &[(String, Vec<u8>)], rounds: usize, numbers: &mut Numbers) -> Counted {
     let mut counted = Counted::default();
     for _ in 0..rounds {
@@ -100,7 +100,7 @@ fn mutated_inside(files: &[(String, Vec<u8>)], rounds: usize, numbers: &mut Numb
     counted
 }
 
-/// The lit show with its music, its plan, and a file of it.
+/// A file in this format, of the lit show with its music and its plan.
 fn file_of(format: &Format) -> Vec<u8> {
     let mut show = played::lit_show();
     let content = b"OggS, and what follows";
@@ -116,7 +116,7 @@ fn no_mutation_breaks_reading_archives() {
         let whole = file_of(format);
         mutated_inside(&zipped::contents(&whole), 300, &mut numbers).has_both();
         for _ in 0..75 {
-            // A changed archive is nearly always one with a wrong checksum.
+            // A changed archive almost always has a wrong checksum.
             is_read(&mutant(&whole, 2, &mut numbers));
         }
     }
@@ -142,7 +142,7 @@ fn no_mutation_breaks_reading_parts_and_music_in_files_of_their_own() {
 #[test]
 fn no_mutation_breaks_reading_light_programs() {
     let mut numbers = Numbers(5);
-    // Set, sleep, a loop with a fade, wait until, pyrotechnics, end.
+    // The program's commands: set, sleep, a loop with a fade, wait until, pyrotechnics, end.
     let program =
         [4, 255, 9, 0, 100, 2, 50, 12, 3, 8, 0, 0, 255, 25, 6, 25, 13, 3, 0x90, 3, 0x14, 2, 7, 30, 0];
     let mut counted = Counted::default();
@@ -174,7 +174,7 @@ fn no_mutation_breaks_reading_sequences() {
         for ranges in [&[][..], &[(0, 4), (5, 8)]] {
             let file = sequences::packed(&plain, compression, ranges);
             put_onto(&mut show.clone(), &file).expect("the file itself is read");
-            // What stands before the frames is a small part of the file.
+            // The header before the frames is a small part of the file.
             let (head, frames) = file.split_at(sequences::data_at(&file));
             let mut counted = Counted::default();
             for round in 0..400 {
@@ -190,7 +190,7 @@ fn no_mutation_breaks_reading_sequences() {
     }
 }
 
-/// Files that fuzzers begin with (`cargo xtask fuzz`), and those that broke a reader once.
+/// The corpora hold the files with which fuzzers begin (`cargo xtask fuzz`), and files that once broke a reader.
 #[test]
 fn files_of_the_corpora_are_read_or_refused() {
     let corpus =

@@ -1,4 +1,4 @@
-//! What a format keeps comes back from its files unchanged.
+//! The parts of a show that a format keeps come back unchanged from its files.
 
 mod extras;
 mod played;

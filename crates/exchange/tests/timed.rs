@@ -1,5 +1,5 @@
-//! Formats of other programs: what a show becomes in them, and what comes back. docs/exchange.md has the figures, which
-//! `--nocapture` prints.
+//! Formats of other programs: how a show changes when it is written and read again. docs/exchange.md has the figures,
+//! which `--nocapture` prints.
 #![allow(clippy::print_stdout)]
 
 mod played;
@@ -13,7 +13,7 @@ use lightbots_plan::ShowPlan;
 use lightbots_show::{Issue, Show, validate};
 use played::{Apart, apart, lit_show, moments, order, planned, prescribed, seen, small_show};
 
-/// Writes a show, reads it again and compares both.
+/// Writes a show and reads it again. Returns the result and its differences from the show.
 fn there_and_back(format: &Format, show: &Show, codes_max: u8) -> (Show, Apart) {
     let plan = planned(show);
     let written = format.write(show, Some(&plan));
@@ -27,7 +27,7 @@ fn there_and_back(format: &Format, show: &Show, codes_max: u8) -> (Show, Apart) 
     (back, apart)
 }
 
-/// Largest errors: millimetres, codes, milliseconds.
+/// Asserts that errors are within these bounds: millimetres, colour codes and milliseconds.
 #[track_caller]
 fn within(apart: Apart, place_mm: f64, codes: u8, time_ms: usize) {
     assert!(apart.place_mm <= place_mm, "{apart:?}");
@@ -52,7 +52,7 @@ fn pictures_and_paths_come_back() {
 #[test]
 fn fades_and_steps_of_layers_come_back_as_a_sequence() {
     for (format, place_mm) in [(&SKYC, 1e-6), (&CSV, 1.5), (&VVIZ, 0.6)] {
-        // A channel that dips to 4 codes for less than a sample keeps 22.
+        // A channel that falls to code 4 for less than one sample stays at 22.
         let (back, apart) = there_and_back(format, &lit_show(), 24);
         within(apart, place_mm, 24, 40);
         assert_eq!((back.layers.len(), back.layers[0].kind.as_str()), (1, "sequence"), "{format:?}");
@@ -89,7 +89,7 @@ fn music_in_an_archive_comes_back_with_the_first_frame() {
         assert_eq!(back.show.music.as_deref(), Some("march.ogg"));
         assert_eq!(back.show.assets.get(&hash), Some(&asset));
         assert_eq!(back.show.frames.len(), 3, "no frame is before that with the music");
-        // Without the sound there is nothing to keep.
+        // Without the file of the music the show keeps no music.
         show.assets.clear();
         let silent = SKYC.write(&show, Some(&plan));
         assert!(silent.issues.iter().any(|issue| issue.message.contains("add it to the show")));
@@ -121,7 +121,7 @@ fn colours_of_a_sequence_are_put_onto_a_show() {
     assert_eq!(back.music.as_deref(), Some("march.ogg"));
     let moments_s: Vec<f64> = moments(&plan).into_iter().filter(|at_s| *at_s >= first_s).collect();
     let (before, mut after) = (seen(&lit, &plan, &moments_s), back.clone());
-    // Places are those of the show, which has no trajectories.
+    // Places come from the show, which has no trajectories.
     after.starts = Some(lightbots_show::starting_places(&plain));
     lightbots_lighting::attach_pictures(&mut after, |_, asset| {
         lightbots_exchange::sequence_picture(asset.content.as_ref().unwrap()).map(Arc::new)

@@ -1,4 +1,4 @@
-//! Files of other programs that we did not write: what becomes of them, and what is refused.
+//! Files that other programs wrote: the shows that they become, and the files that are refused.
 
 mod zipped;
 
@@ -6,7 +6,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_exchange::{Loaded, ReadError, read};
 use zipped::archive;
 
-/// A Skybrush show of one drone per pair of a path's points and further settings.
+/// A Skybrush show with one drone per pair. A pair has the points of its path and its further settings.
 fn skybrush(drones: &[(&str, &str)]) -> String {
     let drone = |(points, more): &(&str, &str)| {
         format!(
@@ -21,7 +21,7 @@ fn open(document: &str) -> Result<Loaded, ReadError> {
     read(&archive(&[("show.json", document.as_bytes())]), Some("a.skyc"))
 }
 
-/// What reading says; panics if it is read.
+/// The message of the refusal. Panics if the document is read.
 fn refusal(document: &str) -> String {
     let error = open(document).expect_err("must not be read").to_string();
     assert!(!error.contains('\n') && error.len() < 400, "{error}");
@@ -32,12 +32,12 @@ fn refusal(document: &str) -> String {
 fn stands_become_pictures_and_flights_trajectories() {
     let first = "[[0,[0,0,0],[]],[2,[0,0,0],[]],[6,[1,0,9],[[0.2,0.3,5],[0.8,0.3,8]]],[10,[1,0,9],[]],[11,[1,2,0],[]]]";
     let second = "[[0,[0,5,0]],[2.2,[0,5,0]],[5,[0,6,0]],[20,[0,6,0]]]";
-    // Red for 8 s, then green: lights change while robots stand.
+    // Red for 8 s, then green: the light changes while the robot stands.
     let lights = ",\"name\":\"D 1\",\"lights\":{\"version\":1,\"data\":\"BP8AAJADBAD/AJADAA==\"}";
     let loaded = open(&skybrush(&[(first, lights), (second, ",\"name\":\"r7\"")])).unwrap();
     let show = &loaded.show;
     let air: Vec<f64> = show.frames.iter().map(|frame| (frame.air_time_s * 1e3).round() / 1e3).collect();
-    // Quarter turns of 0.35 s belong to the drives.
+    // The drives include quarter turns of 0.35 s.
     assert_eq!(air, [1.65, 3.65, 9.0]);
     assert_eq!((show.stage.width_m, show.stage.depth_m), (3.0, 13.0));
     assert_eq!(show.starts, Some(vec![Vec2::new(0.0, 0.0), Vec2::new(0.0, 5.0)]));
@@ -93,7 +93,7 @@ fn parts_in_files_of_their_own_are_read() {
     let loaded = read(&archive(&files), None).unwrap();
     assert_eq!(loaded.show.name, "Parts");
     let [c1, c2] = loaded.show.trajectories[0].pieces[0].controls.unwrap();
-    // A quadratic curve, raised to a cubic one.
+    // A quadratic curve becomes a cubic one.
     assert!(
         c1.distance(Vec2::new(1.0 / 3.0, 2.0 / 3.0)) < 1e-12
             && c2.distance(Vec2::new(2.0 / 3.0, 2.0 / 3.0)) < 1e-12
@@ -185,7 +185,7 @@ fn large_files_end_with_words() {
     let ten_million = format!("[{}]", many("[0,[0,0,0],[]]", 5_000_000));
     let zip = archive(&[("show.json", skybrush(&[(&ten_million, "")]).as_bytes())]);
     assert_eq!(read(&zip, None).unwrap_err().code, "too-big");
-    // Twenty thousand drones that refer to one large file.
+    // Twenty thousand drones refer to one large file.
     let lights = format!("{{\"version\":1,\"data\":\"{}\"}}", "AQ".repeat(2_000_000));
     let own = ",\"lights\":{\"$ref\":\"l#\"}";
     let zip =

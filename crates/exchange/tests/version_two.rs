@@ -1,4 +1,5 @@
-//! Parts of version 2 of our format: kept exactly, bounded, and absent from files that do not need them.
+//! Parts of version 2 of our format. They are kept exactly, are bounded, and are absent from files that do not need
+//! them.
 
 mod extras;
 mod numbers;
@@ -16,12 +17,12 @@ fn text_of(show: &Show) -> String {
     String::from_utf8(LIGHTBOTS.write(show, None).bytes).unwrap()
 }
 
-/// What reading says; panics if it is read.
+/// The message of the refusal. Panics if the text is read.
 fn refusal(text: &str) -> String {
     read(text.as_bytes(), None).expect_err("must not be read").to_string()
 }
 
-/// A show of ours with one empty frame and these fields.
+/// A show in our format with one empty frame and these fields.
 fn with(fields: &str) -> String {
     format!("{{\"lightbots\": 2, {fields}, \"frames\": [{{\"pixels\": []}}]}}")
 }
@@ -49,7 +50,7 @@ fn a_show_is_of_version_2_only_if_it_uses_a_part_of_it() {
     let mut named = plain;
     named.frames[0].id = Some("one".into());
     assert!(text_of(&named).contains("\"lightbots\": 2,"));
-    // A reader takes the parts from a file whose number is too low.
+    // A reader takes parts of version 2 also from a file whose version is lower.
     let text = text_of(&with_every_part(show(vec![row(3)])));
     let low = text.replace("\"lightbots\": 2", "\"lightbots\": 1");
     assert_eq!(text_of(&read(low.as_bytes(), None).unwrap().show), text);

@@ -1,17 +1,17 @@
-//! Colours against the table of an independent script, `expected.py`.
+//! Compares colours with the table of an independent script, `expected.py`.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_light::*;
 use std::collections::BTreeMap;
 
-/// Largest difference: the script adds in another order.
+/// Largest difference of a channel. The script adds in another order.
 const TOLERANCE: f64 = 1e-9;
 
 fn stop(at: f64, light: [f64; 3], opacity: f64) -> PaletteStop {
     PaletteStop { at, colour: Linear::new(light[0], light[1], light[2]), opacity }
 }
 
-/// The settings of all scenes that state no other.
+/// The settings of all scenes that do not set others.
 fn look() -> Look {
     Look {
         place: Vec2::new(0.1, -0.2),

@@ -1,26 +1,26 @@
-//! What holds for every effect: values within bounds, continuity, period, seeds.
+//! Properties of every effect: values within bounds, continuity, period, and use of seeds.
 
 use lightbots_base::Vec2;
 use lightbots_base::random::split_mix;
 use lightbots_light::*;
 
-/// Draws of settings for each effect.
+/// Number of random settings for each effect.
 const DRAWS: u64 = 60;
 
-/// What an effect promises.
+/// Properties that an effect guarantees.
 #[derive(Clone, Copy, PartialEq)]
 enum Promise {
     /// Continuous in time and place and periodic.
     Smooth,
-    /// Continuous in time and place, not periodic.
+    /// Continuous in time and place, but not periodic.
     Continuous,
     /// Periodic, with jumps.
     Periodic,
-    /// Neither.
+    /// Neither continuous nor periodic.
     Neither,
 }
 
-/// Every effect, its promise, and whether its seed matters.
+/// Every effect with its guaranteed properties, and whether its seed matters.
 fn effects() -> Vec<(LightEffect, Promise, bool)> {
     use Promise::*;
     let along = || Coordinate::Distance;
@@ -48,7 +48,7 @@ fn effects() -> Vec<(LightEffect, Promise, bool)> {
 struct Draw(u64);
 
 impl Draw {
-    /// A number from `least` to `most`.
+    /// A random number from `least` to `most`.
     fn within(&mut self, least: f64, most: f64) -> f64 {
         least + (most - least) * (split_mix(&mut self.0) >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -114,7 +114,7 @@ fn colours_stay_within_bounds_and_the_same_settings_give_the_same_bits() {
 #[test]
 fn effects_that_promise_continuity_change_little_in_a_little_time_and_space() {
     let mut draw = Draw(2);
-    // A microsecond and a micrometre; the steepest effect here changes by 60 a second and 30 a metre.
+    // Steps of a microsecond and a micrometre. The steepest effect changes by 60 per second and 30 per metre.
     let (step_s, step_m, most) = (1e-6, 1e-6, 1e-4);
     for (effect, promise, _) in effects() {
         if !matches!(promise, Promise::Smooth | Promise::Continuous) {
@@ -123,7 +123,7 @@ fn effects_that_promise_continuity_change_little_in_a_little_time_and_space() {
         for _ in 0..DRAWS {
             let (look, mut robot) = (draw.look(), draw.robot());
             let layers = layers(&effect, &look);
-            // Moments around the ends of cycles are where jumps would be.
+            // Jumps would be at times near the ends of cycles.
             for t_s in
                 [draw.within(0.0, 9.0), 1.0 / look.speed_hz, 3.0 / look.speed_hz, look.width / look.speed_hz]
             {
@@ -148,7 +148,7 @@ fn effects_that_promise_a_period_repeat() {
         for _ in 0..DRAWS {
             let look =
                 Look { speed_hz: [0.25, 0.5, 1.0, 2.0][draw.within(0.0, 4.0) as usize], ..draw.look() };
-            // Eighths are exact, so that rounding moves no moment across a jump.
+            // Multiples of 1/8 s are exact in binary, so that rounding moves no time across a jump.
             let (robot, t_s) = (draw.robot(), f64::from(draw.within(0.0, 80.0) as u32) / 8.0);
             let layers = layers(&effect, &look);
             let one = colour(&layers, t_s, &robot);

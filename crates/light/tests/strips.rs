@@ -1,4 +1,4 @@
-//! The film strips of docs/light.md show what the effects do today.
+//! Checks that the film strips of docs/light.md show the present effects.
 
 #[path = "../examples/strips/film.rs"]
 mod film;

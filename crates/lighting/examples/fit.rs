@@ -1,4 +1,5 @@
-//! What eleven effects take as records, with both tolerances: `cargo run --release -p lightbots-lighting --example fit`.
+//! Measures the records of eleven effects, with both tolerances: `cargo run --release -p lightbots-lighting --example
+//! fit`.
 //! `cargo xtask bench light-fit` runs it.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -9,10 +10,10 @@ use effects::{Rate, measured};
 use lightbots_lighting::Tolerance;
 use lightbots_wire::MAX_LIGHT_RECORDS;
 
-/// Rates of all effects and their mean, and the distance of what is shown from what is wanted.
+/// Rates of all effects and their mean, and the largest distance of shown colours from wanted ones.
 struct Measured {
     rates: Vec<Rate>,
-    /// The largest, codes and units of L*; channels within one step count as equal.
+    /// Largest distance, codes and units of L*. Channels within one code count as equal.
     worst: (u8, f64),
 }
 
@@ -40,7 +41,7 @@ fn main() {
 }
 
 fn measure(tolerance: Tolerance) -> Measured {
-    // With one step, 10 s of fire may take more records than a robot keeps of a stretch.
+    // With a tolerance of one step, 10 s of fire may need more records than a robot can store for a stretch.
     let records_max = if tolerance == Tolerance::OneStep { usize::MAX } else { MAX_LIGHT_RECORDS };
     let mut worst = (0, 0.0);
     let mut rates = measured(tolerance, records_max, |_, (codes, units)| {
@@ -51,7 +52,7 @@ fn measure(tolerance: Tolerance) -> Measured {
     Measured { rates, worst }
 }
 
-/// Bytes as base64.
+/// Number of bytes after the base64 encoding.
 fn encoded(bytes: f64) -> f64 {
     bytes * 4.0 / 3.0
 }

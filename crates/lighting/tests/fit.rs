@@ -1,4 +1,4 @@
-//! Fits of eleven effects on 1,000 robots: what is shown stays within the tolerance, and the records are few.
+//! Fits of eleven effects on 1,000 robots. Shown colours stay within the tolerance, and the records are few.
 
 mod effects;
 
@@ -23,7 +23,7 @@ fn two_units_of_lightness_take_few_records_and_are_kept() {
         "{:24}{:>8}{:>8}{:>8}\n{table}",
         "each second", "records", "bytes", "base64"
     ));
-    // Targets of reference measurements with the same tolerance, without repeats.
+    // These bounds come from reference measurements with the same tolerance, without repeats.
     assert!(records <= 3.2 && bytes <= 13.0, "{records} records and {bytes} bytes in the mean");
     assert!(rates.iter().all(|rate| rate.records <= 10.0 && rate.bytes <= 40.0), "{rates:?}");
 }
@@ -31,7 +31,7 @@ fn two_units_of_lightness_take_few_records_and_are_kept() {
 #[test]
 fn one_step_of_each_channel_is_kept() {
     let rates = measured(Tolerance::OneStep, usize::MAX, |name, (codes, _)| assert_eq!(codes, 0, "{name}"));
-    // Targets of reference measurements with the same tolerance, without repeats.
+    // These bounds come from reference measurements with the same tolerance, without repeats.
     assert!(rates.iter().all(|rate| rate.records <= 16.0 && rate.bytes <= 64.0), "{rates:?}");
 }
 

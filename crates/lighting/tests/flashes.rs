@@ -1,4 +1,4 @@
-//! Flashes of a hundred robots on three by three metres.
+//! Warnings about flashes, for a hundred robots on three by three metres.
 
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_lighting::{DrivenLight, FlashWarning, LitFrame, ShowLight, flash_issue, flashes};
@@ -19,7 +19,7 @@ fn colours(colours: [&str; 2]) -> Setting {
     Setting::List(colours.map(|text| Setting::Text(text.into())).to_vec())
 }
 
-/// A circle in the middle.
+/// A mask: a circle in the middle of the floor.
 fn circle(radius_m: f64) -> Setting {
     let mask =
         vec![("shape".to_owned(), Setting::Text("circle".into())), ("radius_m".to_owned(), number(radius_m))];
@@ -69,14 +69,14 @@ fn dim_and_small_flashes_are_fine() {
     let dim = ("palette", colours(["#000000", "#404040"]));
     let fast = ("speed_hz", number(3.0));
     assert_eq!(found(vec![layer("strobe", "", &[fast.clone(), dim])]), None);
-    // A circle of less than a quarter of a field of 0.75 m.
+    // The first circle covers less than a quarter of a field of 0.75 m.
     assert_eq!(found(vec![layer("strobe", "", &[fast.clone(), ("masks", circle(0.16))])]), None);
     assert!(found(vec![layer("strobe", "", &[fast, ("masks", circle(0.8))])]).is_some());
 }
 
 #[test]
 fn saturated_red_counts_where_its_luminance_does_not() {
-    // Luminance changes by 0.05 only.
+    // The luminance of this red changes by only 0.05.
     let red = ("palette", colours(["#000000", "#800000"]));
     let (warning, _) =
         found(vec![layer("strobe", "", &[("speed_hz", number(3.0)), red])]).expect("it is red");

@@ -1,4 +1,4 @@
-//! Layers of a show: their settings, their faults, and when they shine.
+//! Layers of a show: their settings, their faults, and when they are active.
 
 use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_light::FloorPicture;
@@ -27,7 +27,7 @@ fn red(span: LayerSpan) -> Layer {
     layer("solid", span, vec![("palette", Setting::List(vec![text("#ff0000")]))])
 }
 
-/// Drives of 2 s and air times of 4 s, as in `show`.
+/// Times of a frame for drives of 2 s and air times of 4 s, as in `show`.
 fn times(frame: usize) -> Option<FrameTimes> {
     let mut times = FrameTimes::after(None, 2.0, 4.0);
     for _ in 0..frame {
@@ -36,7 +36,7 @@ fn times(frame: usize) -> Option<FrameTimes> {
     Some(times)
 }
 
-/// The colour of a robot that stands, with a blue pixel.
+/// The colour of a standing robot with a blue pixel.
 fn colour(light: &ShowLight, frame: usize, show_s: f64, lead_s: f64) -> Rgb {
     let robot = DrivenLight {
         number: (0, 1),
@@ -63,7 +63,7 @@ const BLUE: Rgb = Rgb::new(0, 0, 255);
 fn a_layer_shines_in_its_frames_and_their_parts() {
     let span =
         |first: &str, last: &str, phase| LayerSpan::Frames { first: first.into(), last: last.into(), phase };
-    // Frame by frame: in the drive, and in the air time. Frame n is driven to from 6n − 2 s on.
+    // For each frame, whether it is red in the drive and in the air time. The drive to frame n begins at 6n − 2 s.
     let seen = |span: LayerSpan| {
         let (light, faults) = ShowLight::with_pictures(&show(vec![red(span)]), no_picture);
         assert_eq!(faults, []);
@@ -85,7 +85,7 @@ fn the_time_of_a_layer_counts_from_its_begin_and_a_free_one_is_ahead() {
         let settings = vec![("speed_hz", number(0.25)), ("runs_freely", Setting::Bool(free))];
         ShowLight::with_pictures(&show(vec![layer("fade", span, settings)]), no_picture).0
     };
-    // Air time of the second frame begins at 6 s; 4 s lead from black to white.
+    // The air time of the second frame begins at 6 s. The layer fades from black to white in 4 s.
     assert_eq!(colour(&fade(false), 1, 6.0, 2.0), Rgb::BLACK);
     assert_eq!(colour(&fade(false), 1, 8.0, 0.0), Rgb::new(188, 188, 188));
     assert_eq!(colour(&fade(true), 1, 6.0, 2.0), Rgb::new(188, 188, 188));

@@ -1,4 +1,4 @@
-//! Beats of pieces whose beats are known.
+//! Beats of pieces whose true beats are known.
 
 #[path = "../examples/beats/pieces.rs"]
 mod pieces;
@@ -15,7 +15,7 @@ fn found(piece: &Piece) -> Vec<f64> {
     find_beats(&sound).expect("pieces have beats").times_s
 }
 
-/// Mean F, and mean F after the best of the buttons.
+/// Mean F score, and mean F score after the best of the buttons.
 fn scores(pieces: &[Piece]) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for piece in pieces {

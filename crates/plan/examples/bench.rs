@@ -1,4 +1,5 @@
-//! Measures planning: one row a scene and size, beside plain squared distances (CAPT) and a dense library solver.
+//! Measures planning. One row per scene and size compares it with plain squared distances (CAPT) and a dense library
+//! solver.
 //!
 //! `cargo run --release -p lightbots-plan --example bench -- [--json] [--quick] [--robots N] [--scene NAME]`
 #![allow(clippy::print_stdout, missing_docs)]

@@ -14,12 +14,13 @@ mod places;
 use cpu::Watch;
 use lightbots_plan::{TransitionProblem, transition};
 
-/// What was measured of one scene and size.
+/// Results for one scene and size.
 #[derive(Default)]
 struct Row {
     seeds: usize,
     millis: Vec<f64>,
-    /// Duration over the longest straight way at full speed, and over that with a turn and a ramp.
+    /// Duration divided by that of the longest straight line at full speed. `over_least` adds a turn and a ramp to the
+    /// divisor.
     over_straight: Vec<f64>,
     over_least: Vec<f64>,
     closest_mm: f64,

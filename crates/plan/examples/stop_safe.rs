@@ -1,9 +1,9 @@
-//! Measures and raises stop-safety: one row a scene and size of the planner's bench.
+//! Measures and raises stop-safety. Prints one row per scene and size of the planner's bench.
 //!
 //! `cargo run --release -p lightbots-plan --example stop_safe -- [--json] [--robots N] [--scene NAME] [--svg FILE]`
 //!
-//! With `--svg` the last row is drawn too: all paths, and a dot where a robot must not stop dead, darker the more room
-//! another robot lacks.
+//! With `--svg` the last row is drawn too: all paths, and a dot where a robot must not stop dead. Darker dots mean that
+//! another robot lacks more room to stop.
 #![allow(clippy::print_stdout, missing_docs)]
 
 #[path = "common/cpu.rs"]
@@ -48,13 +48,13 @@ struct Row {
     raise_ms: f64,
     before: StopSafety,
     after: StopSafety,
-    /// Duration after over before.
+    /// Duration after raising stop-safety, divided by the duration before.
     longer: f64,
     paths: Vec<Path>,
     half_m: f64,
 }
 
-/// `None` where there is no plan.
+/// Measures one scene. `None` if there is no plan.
 fn row(scene: &'static str, problem: &TransitionProblem) -> Option<Row> {
     let plan = transition(problem).ok()?;
     let times = if plan.paths.len() > 2_000 { 1 } else { 5 };
@@ -101,7 +101,7 @@ impl Row {
         )
     }
 
-    /// The floor from above, 800 wide.
+    /// Draws the floor from above as SVG, 800 units wide.
     fn svg(&self) -> String {
         let scale = 400.0 / self.half_m;
         let mut svg = String::from(

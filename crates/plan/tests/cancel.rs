@@ -1,4 +1,4 @@
-//! Plans that are given up: whenever that comes, there is no plan and no panic.
+//! Plans that are cancelled. Whenever that happens, there is no plan and no panic.
 
 use std::cell::Cell;
 
@@ -6,7 +6,7 @@ use lightbots_base::{Limits, Vec2};
 use lightbots_plan::{Cancelled, TransitionProblem, transition, transition_unless};
 use lightbots_show::Obstacle;
 
-/// Robots in a square that all go to each other's places, as their numbers say.
+/// A square grid of robots. Goal g is the start of robot `order(g)`.
 fn grid(side: usize, apart_m: f64, half_m: f64, order: impl Fn(usize) -> usize) -> TransitionProblem {
     let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart_m;
     let starts: Vec<Vec2> = (0..side * side).map(|i| Vec2::new(at(i % side), at(i / side))).collect();
@@ -65,7 +65,7 @@ fn whenever_a_plan_is_given_up_there_is_none() {
         let every = (questions / 40).max(1) as usize;
         for last in (1..20).chain((20..=questions).step_by(every)) {
             let left = Cell::new(last);
-            // Yes once only: callers must remember it.
+            // The answer is yes only once, so callers must remember it.
             let is_wanted = || {
                 left.set(left.get().saturating_sub(1));
                 left.get() == 0 && asked.replace(0) != 0

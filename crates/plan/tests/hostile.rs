@@ -1,4 +1,5 @@
-//! Numbers that no show needs: whatever they are, validation and planning come to an end and say so in short lines.
+//! Numbers that no sensible show contains. Validation and planning must end with any of them, and report faults in
+//! short lines.
 
 use std::cell::Cell;
 
@@ -9,7 +10,7 @@ use lightbots_show::{
     Easing, Frame, Identity, Issue, Obstacle, Pixel, Show, Stage, front_rows, robots_needed, validate,
 };
 
-/// Stands in for numbers of a file.
+/// Replacements for the numbers of a file.
 const WORDS: [&str; 16] = [
     "0",
     "-1",
@@ -28,7 +29,7 @@ const WORDS: [&str; 16] = [
     "1e999",
     "4294967296",
 ];
-/// Questions that a plan of three robots may ask: far more than any needs, far fewer than one without end.
+/// Most cancellation checks of a plan of three robots: far more than any needs, far fewer than an endless plan makes.
 const ENOUGH: u64 = 200_000;
 
 fn seed_show() -> Show {
@@ -60,10 +61,10 @@ fn seed_show() -> Show {
     }
 }
 
-/// Puts a number into a show.
+/// A change that puts a number into a show.
 type Change<'a> = &'a dyn Fn(&mut Show);
 
-/// Validates and plans as the program does; whether it is fit.
+/// Validates and plans a show as the program does. Returns whether it is valid.
 fn take(show: &Show, what: &str) -> bool {
     let issues = validate(show);
     let starts = show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show).min(100)));
@@ -83,7 +84,7 @@ fn take(show: &Show, what: &str) -> bool {
     is_fit
 }
 
-/// Where the numbers of a text are.
+/// The ranges of the numbers in a text.
 fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
     let is_part = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');
     let bytes = text.as_bytes();
@@ -105,7 +106,7 @@ fn every_number_of_a_document_may_be_any_number() {
     assert!(take(&seed_show(), "the seed"));
     let (mut fit, mut unfit) = (0, 0);
     for format in FORMATS.into_iter().filter(|format| !format.needs_plan) {
-        // An archive holds the text of another format; its bytes are tested where it is read.
+        // An archive holds the text of another format. Its bytes are tested in `exchange`.
         let Ok(text) = String::from_utf8(format.write(&seed_show(), None).bytes) else { continue };
         let places = numbers(&text);
         assert!(places.len() > 20, "{}", places.len());

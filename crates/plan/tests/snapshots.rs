@@ -35,7 +35,7 @@ fn fingerprint(paths: &[Path]) -> u64 {
     hash
 }
 
-/// One line for a plan: what it takes, how close it gets and its fingerprint.
+/// One line about a plan: its duration, its least clearance and its fingerprint.
 fn summary(name: &str, problem: &TransitionProblem) -> String {
     match transition(problem) {
         Ok(plan) => {
@@ -53,7 +53,7 @@ fn summary(name: &str, problem: &TransitionProblem) -> String {
     }
 }
 
-/// A whole plan of a few robots.
+/// A whole plan of a few robots as text.
 fn text(plan: &Transition) -> String {
     let mut text = format!("{:.3} s, least {:.3} s\n", plan.duration.as_secs(), plan.least.as_secs());
     for (robot, path) in plan.paths.iter().enumerate() {

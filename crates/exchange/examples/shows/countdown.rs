@@ -1,4 +1,4 @@
-//! A clock counts from five to one; then the sun rises.
+//! A clock that counts from five to one. Then the sun rises.
 
 use lightbots_base::Vec2;
 use lightbots_show::{Frame, Show};
@@ -25,7 +25,7 @@ fn clock() -> Frame {
     frame_by_x("Clock", 0.5, dots)
 }
 
-/// A digit in a ring of which a fifth goes out with every count.
+/// A digit in a ring, of which a fifth goes out with every count.
 fn digit(count: usize) -> Frame {
     let left = gradient(&[RED, ORANGE, GOLD, GREEN], (count as f64 - 1.0) / 4.0);
     let around = ring(Vec2::ZERO, 1.3, RING, 0.25).into_iter().enumerate();
@@ -38,7 +38,7 @@ fn digit(count: usize) -> Frame {
     frame_by_x(&char.to_string(), 1.0, dots)
 }
 
-/// A disc with rays; `out_m` is how far the rays have gone out.
+/// A disc with rays that extend by `out_m`, metres.
 fn sun(name: &str, out_m: f64, air_time_s: f64) -> Frame {
     let mut dots = lit(ring(Vec2::ZERO, 0.2, 6, 0.0), WHITE);
     dots.extend(lit(ring(Vec2::ZERO, 0.45, 12, 0.0), GOLD));

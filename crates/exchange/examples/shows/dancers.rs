@@ -1,4 +1,4 @@
-//! Thirty dancers, each with a colour of its own, pass through each other's rows.
+//! A show of thirty dancers with one colour each, whose rows pass through each other.
 
 use lightbots_base::Vec2;
 use lightbots_show::{Easing, Frame, Identity, Show};
@@ -7,7 +7,7 @@ use super::color::{CYAN, GOLD, ORANGE, ROSE, VIOLET, gradient};
 use super::draw::{frame, show as on_floor};
 use super::stroke::ring;
 
-/// Dancers of each of the two groups.
+/// Number of dancers in each of the two groups.
 const GROUP: usize = 15;
 
 pub fn show() -> Show {
@@ -29,7 +29,8 @@ pub fn show() -> Show {
     Show { identity: Identity::Fixed, ..on_floor("Dancers", 3.0, frames) }
 }
 
-/// The groups as rows, the first at y, the second opposite and half a step aside, so that they can pass.
+/// A frame with one row per group, the first at `y`. The second is opposite and half a step aside, so that they can
+/// pass.
 fn rows(name: &str, y: f64) -> Frame {
     let place = |dancer: usize| {
         let (group, nth) = (dancer % 2, dancer / 2);
@@ -39,7 +40,7 @@ fn rows(name: &str, y: f64) -> Frame {
     frame(name, 0.5, (0..2 * GROUP).map(|dancer| (place(dancer), costume(dancer))))
 }
 
-/// All in a circle, the groups in turn at a radius of their own.
+/// A frame with all dancers in a circle. Their groups alternate, each at its own radius.
 fn circle(name: &str, first_m: f64, second_m: f64, turned: f64) -> Frame {
     let (outer, inner) =
         (ring(Vec2::ZERO, first_m, 2 * GROUP, turned), ring(Vec2::ZERO, second_m, 2 * GROUP, turned));

@@ -1,4 +1,4 @@
-//! From coloured dots to frames and shows.
+//! Makes frames and shows from coloured dots.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Pixel, Show};
@@ -6,7 +6,7 @@ use lightbots_show::{Easing, Frame, Pixel, Show};
 /// A place in stage metres and its colour.
 pub type Dot = (Vec2, Rgb);
 
-/// A frame whose pixels are numbered as the dots come.
+/// A frame whose pixels are numbered in the order of the dots.
 pub fn frame(name: &str, air_time_s: f64, dots: impl IntoIterator<Item = Dot>) -> Frame {
     let pixel = |(id, (at, color))| Pixel { id, at: tidy(at), color, ..Pixel::default() };
     Frame {
@@ -19,7 +19,7 @@ pub fn frame(name: &str, air_time_s: f64, dots: impl IntoIterator<Item = Dot>) -
     }
 }
 
-/// A frame whose pixels are numbered from left to right, as the original gives numbers to its robots.
+/// A frame whose pixels are numbered from left to right, as the original numbers its robots.
 pub fn frame_by_x(name: &str, air_time_s: f64, dots: impl IntoIterator<Item = Dot>) -> Frame {
     let mut dots: Vec<Dot> = dots.into_iter().map(|(at, color)| (tidy(at), color)).collect();
     dots.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(b.y.total_cmp(&a.y)));
@@ -37,12 +37,12 @@ pub fn lit(places: impl IntoIterator<Item = Vec2>, color: Rgb) -> Vec<Dot> {
     places.into_iter().map(|at| (at, color)).collect()
 }
 
-/// Places coloured by what `shade` makes of each.
+/// Dots at these places, each with the colour that `shade` returns for it.
 pub fn shaded(places: impl IntoIterator<Item = Vec2>, shade: impl Fn(Vec2) -> Rgb) -> Vec<Dot> {
     places.into_iter().map(|at| (at, shade(at))).collect()
 }
 
-/// Files keep tenths of millimetres.
+/// Rounds a place to tenths of millimetres, as files do.
 pub fn tidy(at: Vec2) -> Vec2 {
     let round = |metres: f64| (metres * 1e4).round() / 1e4 + 0.0;
     Vec2::new(round(at.x), round(at.y))

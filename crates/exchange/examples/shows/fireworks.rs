@@ -1,4 +1,4 @@
-//! Rockets rise, burst in three places, fall as embers, and all burst once more.
+//! Rockets rise, burst in three places and fall as embers. Then all burst once more.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Show};
@@ -9,16 +9,16 @@ use super::galaxy::sunflower;
 use super::stroke::{ring, row};
 use super::timeline::with_layers;
 
-/// Where the three shells burst, with their colours from the inside out.
+/// The centres of the three shells, metres, with their colours from the inside out.
 const SHELLS: [(Vec2, [Rgb; 3]); 3] = [
     (Vec2::new(-1.15, 0.1), [WHITE, GOLD, RED]),
     (Vec2::new(1.15, 0.1), [WHITE, CYAN, VIOLET]),
     (Vec2::new(0.0, 1.15), [WHITE, GOLD, GREEN]),
 ];
-/// Robots and radius (of 1) of each ring of a shell, from the inside.
+/// Rings of a shell from the inside: number of robots, and radius as a share of the shell's.
 const LAYERS: [(usize, f64); 3] = [(6, 0.32), (11, 0.66), (16, 1.0)];
 
-/// Embers flicker, shells crackle.
+/// Layers: embers that flicker, and shells that crackle.
 const LIGHT: &str = r##"
 {"name": "Crackle", "kind": "sparkle", "frames": ["3", "7"], "settings": {"palette": ["#000000", "#ffffff"], "speed_hz": 7,
     "density": 0.12, "blend": "screen"}},
@@ -44,7 +44,7 @@ fn ground() -> Frame {
     frame("Ground", 0.5, shaded(rows, |at| gradient(&[EMBER, ORANGE], (at.y + 1.85) / 0.45)))
 }
 
-/// Every shell as a head with a tail; the hundredth robot stays below.
+/// A frame in which every shell is a head with a tail. The hundredth robot stays below.
 fn rising() -> Frame {
     let mut dots = ember_below();
     for (centre, stops) in SHELLS {

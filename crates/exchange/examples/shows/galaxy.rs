@@ -11,7 +11,7 @@ use super::timeline::{turned, with_layers};
 const ROBOTS: usize = 60;
 const RADIUS_M: f64 = 1.4;
 
-/// Stars that twinkle, and light that turns with the arms.
+/// Layers: stars that twinkle, and light that turns with the arms.
 const LIGHT: &str = r##"
 {"name": "Arms", "kind": "chase", "frames": ["2", "5"], "settings": {"along": "angle", "palette": ["#707070", "#ffffff"],
     "speed_hz": 0.12, "width": 0.7, "blend": "multiply"}},
@@ -42,7 +42,7 @@ fn spiral(name: &str, arms: usize, turned: f64) -> Frame {
     frame(name, 0.3, shaded(places, glow))
 }
 
-/// A bow from near the centre outwards, through `turns` of a turn.
+/// A spiral arm from near the centre outwards, through `turns` of a turn.
 pub fn arm(from_turns: f64, radius_m: f64, turns: f64) -> Vec<Vec2> {
     let at = |part: i32| {
         let share = f64::from(part) / 200.0;
@@ -52,7 +52,7 @@ pub fn arm(from_turns: f64, radius_m: f64, turns: f64) -> Vec<Vec2> {
     (0..=200).map(at).collect()
 }
 
-/// Places as seeds lie in a sunflower: even everywhere, and no two in a line.
+/// Places like the seeds of a sunflower: evenly spread, and not in lines.
 pub fn sunflower(count: usize, radius_m: f64) -> Vec<Vec2> {
     const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
     let at = |nth: usize| {

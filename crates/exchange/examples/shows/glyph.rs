@@ -21,7 +21,7 @@ pub fn letter(char: char, centre: Vec2, height_m: f64) -> Vec<Stroke> {
     strokes(char).into_iter().map(|stroke| stroke.into_iter().map(place).collect()).collect()
 }
 
-/// Strokes in a box from 0 to [`WIDTH`] and from 0 to 1.
+/// The strokes of a letter in a box from 0 to [`WIDTH`] and from 0 to 1.
 fn strokes(char: char) -> Vec<Stroke> {
     let w = WIDTH;
     match char {
@@ -72,7 +72,7 @@ fn strokes(char: char) -> Vec<Stroke> {
     }
 }
 
-/// Two bows, one turning left and one right.
+/// The letter S: two arcs, one turning left and one right.
 fn s_bow() -> Stroke {
     let upper = arc(WIDTH / 2.0, 0.75, WIDTH * 0.48, 0.25, 30.0, 270.0);
     let lower = arc(WIDTH / 2.0, 0.25, WIDTH * 0.5, 0.25, 90.0, -150.0);
@@ -87,7 +87,7 @@ fn bow(before: &[(f64, f64)], arc: Stroke, after: &[(f64, f64)]) -> Stroke {
     line(before).into_iter().chain(arc).chain(line(after)).collect()
 }
 
-/// Part of an ellipse, angles in degrees counter-clockwise from +x.
+/// A part of an ellipse. Angles are in degrees, counter-clockwise from +x.
 fn arc(x: f64, y: f64, radius_x: f64, radius_y: f64, from_deg: f64, to_deg: f64) -> Stroke {
     const PARTS: usize = 48;
     let at = |part: usize| {

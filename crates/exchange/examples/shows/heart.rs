@@ -1,4 +1,4 @@
-//! A heart that beats, becomes two, and one again.
+//! A heart that beats, becomes two, and becomes one again.
 
 use lightbots_base::Vec2;
 use lightbots_show::{Easing, Frame, Show};
@@ -39,7 +39,8 @@ fn two() -> Frame {
     frame("Two", 1.0, dots)
 }
 
-/// The well-known curve x = 16 sin³t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, about `size_m` to each side.
+/// The heart curve x = 16 sin³t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, which extends about `size_m` to each
+/// side.
 pub fn outline(centre: Vec2, size_m: f64) -> Vec<Vec2> {
     const PARTS: usize = 720;
     let at = |part: usize| {

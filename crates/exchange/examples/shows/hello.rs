@@ -20,7 +20,7 @@ pub fn show() -> Show {
         ('O', [BLUE, VIOLET]),
     ];
     for (nth, (char, stops)) in letters.into_iter().enumerate() {
-        // The second L of a word stands a little lower, so that it is seen to come.
+        // The second L is a little lower, so that the change of letter is visible.
         let centre = Vec2::new(0.0, if nth == 3 { 0.0 } else { 0.15 });
         frames.push(spelled(char, centre, &stops));
     }
@@ -54,7 +54,7 @@ fn smile() -> Frame {
     frame_by_x("Smile", 2.0, dots)
 }
 
-/// The robots that a letter does not need stand in a dim row below it.
+/// Adds a dim row below a letter, of the robots that the letter does not need.
 fn with_footlights(mut dots: Vec<Dot>) -> Vec<Dot> {
     let rest = ROBOTS - dots.len();
     dots.extend(lit(row(Vec2::new(0.0, -1.25), 0.22, rest), DUSK));

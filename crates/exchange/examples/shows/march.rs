@@ -1,4 +1,4 @@
-//! A hundred robots to music: each picture begins with a bar, and light keeps to the beats.
+//! A show of a hundred robots to music. Each picture begins with a bar, and the light follows the beats.
 
 use std::f64::consts::TAU;
 
@@ -14,13 +14,13 @@ use super::stroke::{along, around, ring, row};
 use super::timeline::{moved, turned, with_layers};
 
 const ROBOTS: usize = 100;
-/// Made by `cargo run --release -p lightbots-music --example beats`, cut and packed by ffmpeg.
+/// The music, made by `cargo run --release -p lightbots-music --example beats`, cut and packed by ffmpeg.
 const MUSIC: &[u8] = include_bytes!("march.ogg");
-/// The name of its file.
+/// File name of the music.
 const FILE: &str = "march.ogg";
-/// Four bars of four beats, 120 a minute.
+/// Time from one picture to the next, seconds: four bars of four beats, at 120 beats a minute.
 const PICTURE_S: f64 = 8.0;
-/// How long robots drive to a picture: the rest of the bars it stands.
+/// Duration of the drive to a picture, seconds. The picture is shown for the rest of its bars.
 const DRIVE_S: f64 = 6.0;
 
 const LIGHT: &str = r##"
@@ -45,7 +45,7 @@ pub fn show() -> Show {
         moved(&heart, "The heart breathes", 0.0, breath),
     ];
     let mut frames: Vec<Frame> = frames.into_iter().map(on_bars).collect();
-    // The music begins once the first picture stands.
+    // The music begins when robots have reached the first picture, so its drive may take any time.
     frames[0].transition_s = None;
     let show = Show {
         music: Some(FILE.into()),
@@ -85,7 +85,7 @@ fn star() -> Frame {
     frame("Star", 0.0, shaded(around(&line, ROBOTS), |at| gradient(&[WHITE, CYAN, BLUE], at.length() - 0.7)))
 }
 
-/// Three hearts, one in the other.
+/// A frame of three hearts, one inside the other.
 fn heart() -> Frame {
     let hearts = [(56, 1.6), (32, 1.0), (12, 0.45)];
     let places = hearts.into_iter().flat_map(|(count, size_m)| around(&outline(Vec2::ZERO, size_m), count));

@@ -1,4 +1,4 @@
-//! All example shows with the files they are kept in.
+//! All example shows and their files.
 
 mod color;
 mod countdown;
@@ -21,9 +21,9 @@ mod words;
 use lightbots_exchange::{ARCHIVE, Format, LIGHTBOTS, ORIGINAL};
 use lightbots_show::Show;
 
-/// One example.
+/// An example show and its file.
 pub struct Entry {
-    /// Its file in the folder of shows.
+    /// File name in the folder `shows`.
     pub file: &'static str,
     /// The format of the file.
     pub format: &'static Format,

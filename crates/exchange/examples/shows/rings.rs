@@ -31,7 +31,7 @@ pub fn show() -> Show {
 fn wave(name: &str, nth: f64, radii_m: [f64; 3]) -> Frame {
     let mut dots = Vec::new();
     for (layer, (count, radius_m)) in COUNTS.into_iter().zip(radii_m).enumerate() {
-        // Neighbouring rings turn against each other, each by a share of its own gaps.
+        // Neighbouring rings turn in opposite directions, each by a share of its gap.
         let turned = nth / 5.0 / count as f64 * if layer == 1 { -1.0 } else { 1.0 };
         let color = rainbow(nth / 7.0 - layer as f64 * 0.12 + 0.5);
         dots.extend(shaded(ring(Vec2::ZERO, radius_m, count, turned), |_| color));

@@ -1,4 +1,4 @@
-//! A field of three hundred lights that waves run through, like a sea under a low sun.
+//! A field of three hundred lights with waves, like a sea under a low sun.
 
 use lightbots_base::Vec2;
 use lightbots_show::{Frame, PictureMotion, Show};

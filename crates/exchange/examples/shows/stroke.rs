@@ -1,4 +1,4 @@
-//! Places evenly along lines.
+//! Evenly spaced places along lines.
 
 use lightbots_base::Vec2;
 
@@ -31,7 +31,7 @@ pub fn around(line: &[Vec2], count: usize) -> Vec<Vec2> {
     (0..count).map(|nth| at_length(line, length * nth as f64 / count as f64)).collect()
 }
 
-/// As many places as possible, but at most `count`, evenly on all strokes, with one on each end and corner.
+/// As many places as possible, `count` at most, spread evenly over all strokes. Each end and corner has one.
 pub fn trace(strokes: &[Stroke], count: usize) -> Vec<Vec2> {
     let parts: Vec<Stroke> = strokes.iter().flat_map(|stroke| straightened(stroke)).collect();
     let total: f64 = parts.iter().map(|part| length(part)).sum();
@@ -43,7 +43,7 @@ pub fn trace(strokes: &[Stroke], count: usize) -> Vec<Vec2> {
         if places_count <= count && places_count > best.len() {
             best = places;
         }
-        // Finer steps give more places, though not one by one: beyond this there is nothing to find.
+        // Finer steps give more places, but not always just one more. Beyond this number a better result is unlikely.
         if best.len() == count || places_count > count * 3 / 2 {
             break;
         }
@@ -51,7 +51,7 @@ pub fn trace(strokes: &[Stroke], count: usize) -> Vec<Vec2> {
     best
 }
 
-/// Places about `step_m` apart; where strokes meet only one is kept.
+/// Places about `step_m` apart. Where strokes meet, only one place is kept.
 fn spaced(parts: &[Stroke], step_m: f64) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     for part in parts {

@@ -1,4 +1,4 @@
-//! A thousand robots on a floor of twelve metres.
+//! A show of a thousand robots on a floor of twelve metres.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Show};
@@ -13,7 +13,7 @@ use super::timeline::with_layers;
 const ROBOTS: usize = 1_000;
 const RADIUS_M: f64 = 5.6;
 
-/// Light over each picture.
+/// Layers over each picture.
 const LIGHT: &str = r##"
 {"name": "Northern lights", "kind": "plasma", "frames": ["1", "1"], "settings": {"palette": ["#04122b", "#00c878", "#5cffb0", "#7a2bd6"],
     "size_m": 5, "speed_hz": 0.12}},
@@ -54,19 +54,19 @@ fn spiral() -> Frame {
     )
 }
 
-/// Places of a triangular lattice inside the curve; the lattice is made finer until there are enough.
+/// A frame of a triangular lattice inside a heart. The lattice becomes finer until it has enough places.
 fn filled_heart() -> Frame {
     let line: Vec<Vec2> = outline(Vec2::ZERO, RADIUS_M).into_iter().step_by(6).collect();
     let inside = (0..60).map(|finer| lattice(0.29 - 0.0005 * f64::from(finer), &line));
     let mut places = inside.into_iter().find(|places| places.len() >= ROBOTS).unwrap_or_default();
-    // The few too many are the lowest: the tip gets a little blunter.
+    // The surplus places are the lowest ones, so the tip becomes a little blunter.
     places.truncate(ROBOTS);
     let blood =
         |at: Vec2| -> Rgb { gradient(&[RED, ROSE, ORANGE, GOLD], at.distance(Vec2::new(-1.5, 2.0)) / 8.0) };
     frame("Heart", 3.0, shaded(places, blood))
 }
 
-/// From the top row to the bottom row.
+/// Places of a triangular lattice inside the line, from the top row to the bottom row.
 fn lattice(step_m: f64, line: &[Vec2]) -> Vec<Vec2> {
     let (row_m, rows) = (step_m * 0.866, (2.0 * RADIUS_M / (step_m * 0.866)) as i32);
     let columns = (2.0 * RADIUS_M / step_m) as i32 / 2;
@@ -79,7 +79,7 @@ fn lattice(step_m: f64, line: &[Vec2]) -> Vec<Vec2> {
     all.filter(|at| is_inside(*at, line)).collect()
 }
 
-/// Counts how often a ray to the right crosses the line.
+/// Whether a place is inside a closed line: a ray to the right crosses the line an odd number of times.
 fn is_inside(at: Vec2, line: &[Vec2]) -> bool {
     let crosses = |pair: &&[Vec2]| {
         let (a, b) = (pair[0], pair[1]);
@@ -89,7 +89,7 @@ fn is_inside(at: Vec2, line: &[Vec2]) -> bool {
 }
 
 fn ripples() -> Frame {
-    // Ring n has a share of the robots that goes with its length: 1 + 2 + … + 16 = 136 shares.
+    // A ring's share of the robots is proportional to its length: 1 + 2 + … + 16 = 136 shares.
     let mut left = ROBOTS;
     let mut dots = Vec::new();
     for nth in (1..=16).rev() {

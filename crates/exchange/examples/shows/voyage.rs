@@ -1,4 +1,4 @@
-//! Line drawings: a ship that leaves a lighthouse, meets a whale and a fish, and drops its anchor.
+//! Line drawings of a voyage: a ship leaves a lighthouse, meets a whale and a fish, and drops its anchor.
 
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Show, close_pairs};
@@ -9,15 +9,15 @@ use super::stroke::{Stroke, along, trace};
 use super::timeline::with_layers;
 
 const ROBOTS: usize = 200;
-/// Where the sea is, metres.
+/// Height of the sea's first row, y in metres.
 const SEA_M: f64 = -1.75;
-/// From the first to the last light of a row of the sea, metres.
+/// Distance from the first to the last light of a row of the sea, metres.
 const SEA_WIDTH_M: f64 = 4.3;
 /// Most lights in a row of the sea.
 const SEA_ROW: usize = 50;
-/// Least distance of two lights of a drawing, metres.
+/// Least distance between two lights of a drawing, metres.
 const GAP_M: f64 = 0.084;
-/// Robots that draw the sea at least.
+/// Fewest robots that draw the sea.
 const SEA_LEAST: usize = 40;
 
 const LIGHT: &str = r##"
@@ -49,7 +49,7 @@ pub fn show() -> Show {
     with_layers(on_floor("Voyage", 5.0, frames), LIGHT)
 }
 
-/// A drawing above the sea, which takes the robots that the drawing does not need.
+/// A frame of a drawing above the sea. The sea takes the robots that the drawing does not need.
 fn picture(name: &str, strokes: &[Stroke], shade: impl Fn(Vec2) -> Rgb) -> Frame {
     let mut counts = (SEA_LEAST..ROBOTS).map(|sea| trace(strokes, ROBOTS - sea));
     let drawn = counts.find(|places| close_pairs(places, GAP_M, 1).is_empty());
@@ -58,7 +58,7 @@ fn picture(name: &str, strokes: &[Stroke], shade: impl Fn(Vec2) -> Rgb) -> Frame
     frame(name, 3.0, dots)
 }
 
-/// Waves in rows of fifty at most, all as long.
+/// Waves in rows of equal length with at most fifty lights.
 fn sea(count: usize) -> Vec<Vec2> {
     let lines = count.div_ceil(SEA_ROW);
     let place = |line: usize, column: usize, columns: usize| {
@@ -72,7 +72,7 @@ fn sea(count: usize) -> Vec<Vec2> {
     (0..lines).flat_map(row).collect()
 }
 
-/// Part of an ellipse, angles in turns.
+/// A part of an ellipse. Angles are in turns, counter-clockwise from +x.
 fn arc(centre: Vec2, radii: Vec2, from: f64, to: f64) -> Stroke {
     (0..=60)
         .map(|part| {

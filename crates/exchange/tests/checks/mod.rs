@@ -1,10 +1,10 @@
-//! What holds for every file that is read, for mutations here and for the fuzzers in `fuzz`.
+//! Properties of every file that is read, for mutations here and for the fuzzers in `fuzz`.
 #![allow(dead_code)] // Each uses a part of it.
 
 use lightbots_exchange::{Format, put_onto, read};
 use lightbots_show::{Show, front_rows, validate};
 
-/// Whether a file is a show. It is judged, written in `format` and read again; a refusal is one line.
+/// Whether a file is a show. A show is validated, written in `format` and read again. A refusal must be one line.
 pub fn is_show(bytes: &[u8], name: &str, format: &Format) -> bool {
     match read(bytes, Some(name)) {
         Ok(loaded) => {
@@ -23,7 +23,7 @@ pub fn is_show(bytes: &[u8], name: &str, format: &Format) -> bool {
     }
 }
 
-/// Whether a file is a light sequence that fits onto a show. A refusal is one line.
+/// Whether a file is a light sequence that fits the show. A refusal must be one line.
 pub fn is_sequence_for(mut show: Show, bytes: &[u8]) -> bool {
     let put = put_onto(&mut show, bytes);
     put.inspect_err(|error| assert!(!error.to_string().contains('\n'), "{error}")).is_ok()

@@ -6,7 +6,7 @@ use lightbots_show::{
     Marker, PictureMotion, Section, Setting, Show, SourceKind, SourcePart, Trajectory, TrajectoryPiece,
 };
 
-/// Every field of version 2 for a show of at least one frame with at least three pixels.
+/// Adds every field of version 2 to a show of at least one frame with at least three pixels.
 pub fn with_every_part(show: Show) -> Show {
     let hash = AssetHash([0xa7; 32]);
     let mut show = Show {

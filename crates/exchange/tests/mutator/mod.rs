@@ -1,16 +1,16 @@
-//! Seeded mutations of files and messages, for tests of everything that reads what others send.
+//! Seeded mutations of files and messages, for tests of everything that reads untrusted input.
 #![allow(dead_code)] // Each test uses a part of it.
 
 use std::path::{Path, PathBuf};
 
 use super::numbers::Numbers;
 
-/// Mutations of each file or message: as many as LIGHTBOTS_MUTATIONS says, else the usual number.
+/// Number of mutations of each file or message: LIGHTBOTS_MUTATIONS if it is set, otherwise `usual`.
 pub fn rounds(usual: usize) -> usize {
     std::env::var("LIGHTBOTS_MUTATIONS").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
-/// Good bytes, changed in 1 to `most` places.
+/// A copy of good bytes, changed in 1 to `most` places.
 pub fn mutant(good: &[u8], most: usize, numbers: &mut Numbers) -> Vec<u8> {
     let mut bytes = good.to_vec();
     for _ in 0..=numbers.below(most) {
@@ -19,7 +19,7 @@ pub fn mutant(good: &[u8], most: usize, numbers: &mut Numbers) -> Vec<u8> {
     bytes
 }
 
-/// Writes bytes that broke something into a corpus.
+/// Writes bytes that broke a reader into a corpus. Returns the path of the file.
 pub fn keep_broken(corpus: &Path, bytes: &[u8]) -> PathBuf {
     let file = corpus.join(format!("broke-{:016x}", fnv1a(bytes)));
     std::fs::write(&file, bytes).unwrap();
@@ -39,7 +39,7 @@ pub fn corpus_files(corpus: &Path) -> Vec<Vec<u8>> {
     files.into_iter().map(|file| std::fs::read(file).unwrap()).collect()
 }
 
-/// Changes the bytes in one place; they are never empty afterwards.
+/// Changes the bytes in one place. They are not empty afterwards.
 pub fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {
     const WORDS: [&[u8]; 14] = [
         b"NaN",
@@ -69,7 +69,7 @@ pub fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {
             bytes.splice(at..at, copy);
         }
         _ => {
-            // The likeliest to survive reading: another number in the place of one.
+            // A changed number is the mutation that most often survives reading.
             let Some(number) = bytes[at..].iter().position(u8::is_ascii_digit) else { return };
             let word = WORDS[numbers.below(5)];
             bytes.splice(at + number..=at + number, word.iter().copied());

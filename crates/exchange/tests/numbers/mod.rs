@@ -1,8 +1,8 @@
-//! Numbers for seeded tests.
+//! Random numbers for seeded tests.
 
 use lightbots_base::random::split_mix;
 
-/// Numbers that look random, the same at every run (SplitMix64).
+/// A generator of pseudo-random numbers (SplitMix64). Each run gives the same numbers.
 pub struct Numbers(pub u64);
 
 impl Numbers {

@@ -1,4 +1,4 @@
-//! Shows as their audience sees them, to compare a show with what came back from a file.
+//! Shows as the audience sees them, to compare a show with the same show after writing and reading.
 #![allow(dead_code)] // Each test uses a part of it.
 
 use lightbots_base::{Piece, Rgb, Span, Vec2};
@@ -10,14 +10,14 @@ use lightbots_show::{
 };
 use std::sync::Arc;
 
-/// The plan of a show; panics if it may not be played.
+/// The plan of a show. Panics if the plan has errors.
 pub fn planned(show: &Show) -> ShowPlan {
     let plan = plan_show(show, &starting_places(show), &ShowOptions::default());
     assert!(plan.ok(), "{:?}", plan.issues);
     plan
 }
 
-/// Four robots that drive lines and curves; their pixels change colour, one of them to a dark one.
+/// A show of four robots that drive lines and curves. Pixels change colour, one of them to a dark colour.
 pub fn small_show() -> Show {
     let colours = [[255, 0, 0], [0, 255, 64], [20, 30, 200], [255, 255, 255]];
     let pixel = |id: usize, turn: f64, shift: usize| {
@@ -49,7 +49,7 @@ pub fn small_show() -> Show {
     }
 }
 
-/// The same with layers that fade and step over drives and pictures.
+/// The show of [`small_show`] with layers that fade and step over drives and pictures.
 pub fn lit_show() -> Show {
     let layer = |kind: &str, settings: Vec<(&str, Setting)>| Layer {
         name: String::new(),
@@ -65,15 +65,15 @@ pub fn lit_show() -> Show {
     Show { layers, ..small_show() }
 }
 
-/// The robots of a show at each of `moments_s`, by its plan.
+/// Places and colours of a show's robots at each of `moments_s`, seconds, by its plan.
 pub fn seen(show: &Show, plan: &ShowPlan, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let (light, faults) = ShowLight::new(show);
     assert!(faults.is_empty(), "{faults:?}");
     scenes(&PlannedShow::new(show, plan, &light), moments_s)
 }
 
-/// The robots of a show at each of `moments_s`, by its trajectories alone, whether a robot could drive them or not.
-/// Pixel n is robot n.
+/// Places and colours of a show's robots at each of `moments_s`, seconds, by its trajectories alone. They need not be
+/// drivable. Pixel n is robot n.
 pub fn prescribed(show: &mut Show, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let dark = attach_pictures(show, |_, asset| {
         sequence_picture(asset.content.as_ref().expect("it is there")).map(Arc::new)
@@ -90,7 +90,7 @@ pub fn prescribed(show: &mut Show, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     scenes(&PlannedShow::of_drives(show, drives.collect(), &light), moments_s)
 }
 
-/// The paths to a frame, from where robots stand.
+/// The paths to a frame from `places`, which become the ends of the paths.
 fn paths(show: &Show, frame: &Frame, places: &mut [Vec2]) -> Vec<Path> {
     let way = |pixel: usize| {
         show.trajectories.iter().find(|way| way.frame == frame.id && way.pixel as usize == pixel)
@@ -127,19 +127,20 @@ fn scenes(planned: &PlannedShow<'_>, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     moments_s.iter().map(&mut at).collect()
 }
 
-/// How far two performances are apart.
+/// Differences between two performances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
-    /// Largest distance of the places of a robot at one moment, millimetres.
+    /// Largest distance between the places of a robot at one moment, millimetres.
     pub place_mm: f64,
-    /// How far a channel is outside of those within [`Self::time_ms`] at most, codes.
+    /// Largest distance of a channel from the range of the other performance's channels within [`Self::time_ms`],
+    /// codes.
     pub codes: u8,
-    /// How much earlier or later colours change: the least time, in steps of 5 ms, within which all are nearer than
-    /// `codes_max`.
+    /// Largest shift in time of colours: the least time, in steps of 5 ms, within which all differ by `codes_max` at
+    /// most.
     pub time_ms: usize,
 }
 
-/// Compares what was seen each 5 ms. Robot n of `one` is robot `order[n]` of the other.
+/// Compares two performances, sampled every 5 ms. Robot n of `one` is robot `order[n]` of `other`.
 pub fn apart(one: &[Vec<SeenRobot>], other: &[Vec<SeenRobot>], order: &[usize], codes_max: u8) -> Apart {
     let mut place_mm = 0.0_f64;
     for (one, other) in one.iter().zip(other) {
@@ -162,7 +163,7 @@ pub fn apart(one: &[Vec<SeenRobot>], other: &[Vec<SeenRobot>], order: &[usize], 
     Apart { place_mm, codes: codes(steps), time_ms: 5 * steps }
 }
 
-/// How far a channel of a colour is outside of those of others, codes.
+/// Largest distance of a channel of `colour` from the range of the same channel in `others`, codes.
 fn outside(colour: Rgb, others: impl Iterator<Item = Rgb>) -> u8 {
     let (mut low, mut high) = ([255; 3], [0; 3]);
     for Rgb { r, g, b } in others {
@@ -178,12 +179,12 @@ fn outside(colour: Rgb, others: impl Iterator<Item = Rgb>) -> u8 {
         .unwrap_or(0)
 }
 
-/// Moments 5 ms apart, to the end of a plan.
+/// Moments every 5 ms until the end of a plan, seconds.
 pub fn moments(plan: &ShowPlan) -> Vec<f64> {
     (0..(plan.duration_s * 200.0) as usize).map(|nth| nth as f64 * 0.005).collect()
 }
 
-/// `order[n]`: the robot of `other` that begins where robot n of `one` does.
+/// `order[n]` is the robot of `other` that is nearest to robot n of `one`.
 pub fn order(one: &[SeenRobot], other: &[SeenRobot]) -> Vec<usize> {
     let nearest = |seen: &SeenRobot| {
         let gap = |other: &SeenRobot| other.place.distance(seen.place);

@@ -1,4 +1,4 @@
-//! Random shows that use parts of version 2 of our format.
+//! Random shows with parts of version 2 of our format.
 
 use crate::numbers::Numbers;
 use lightbots_base::random::split_mix;
@@ -145,7 +145,7 @@ impl Numbers {
         Asset { name: self.text(), media_type: self.text(), bytes, content: None, picture: None }
     }
 
-    /// A show with random parts of version 2. It need not be valid.
+    /// A show with random parts of version 2. It may be invalid.
     pub fn show(&mut self) -> Show {
         Show {
             spares: self.below(3) as u32,

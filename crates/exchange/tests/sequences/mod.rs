@@ -7,18 +7,18 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
 
-/// Kinds of compression.
+/// Kinds of compression in the header.
 pub const PLAIN: u8 = 0;
 pub const ZSTD: u8 = 1;
 pub const ZLIB: u8 = 2;
 
-/// Where the frames of a file begin.
+/// Offset of the first frame in a file, bytes.
 pub fn data_at(file: &[u8]) -> usize {
     usize::from(u16::from_le_bytes([file[4], file[5]]))
 }
 
-/// A plain file, with its frames in one block and their first channels in ranges (first channel, number). Without ranges,
-/// all channels.
+/// Makes a file with one block of frames from a plain file. It keeps the channels of `ranges` (first channel, number),
+/// or all channels if there are no ranges.
 pub fn packed(plain: &[u8], compression: u8, ranges: &[(u32, u32)]) -> Vec<u8> {
     let begin = data_at(plain);
     let channels = u32::from_le_bytes(plain[10..14].try_into().unwrap());

@@ -1,4 +1,4 @@
-//! Archives for tests.
+//! Zip archives for tests.
 #![allow(dead_code)] // Each test uses a part of it.
 
 use std::io::{Cursor, Read, Write};

@@ -1,23 +1,23 @@
-//! Film strips: each effect at ten moments on a floor of 16 by 10 robots.
+//! Film strips that show each effect at ten moments on a floor of 16 by 10 robots.
 
 use image::{Rgb as Dot, RgbImage};
 use lightbots_base::{Rgb, Vec2};
 use lightbots_light::*;
 
-/// Moments of a strip.
+/// Number of moments in a strip.
 const MOMENTS: u32 = 10;
 /// Time between two moments, seconds.
 const STEP_S: f64 = 0.2;
-/// Robots of a row, and rows.
+/// Number of robots in a row, and number of rows.
 const ROBOTS: (u32, u32) = (16, 10);
-/// Distance of robots, metres.
+/// Distance between neighbouring robots, metres.
 const SPACING_M: f64 = 0.2;
-/// Pixels of a robot's side, and from one robot to the next.
+/// Side of a robot's square, and distance from one robot to the next, pixels.
 const DOT: (u32, u32) = (5, 6);
-/// Pixels between two moments.
+/// Gap between two moments, pixels.
 const GAP: u32 = 6;
 
-/// An effect with settings that show it well.
+/// The effects with settings that show them well, each with the name of its file.
 fn scenes() -> Vec<(&'static str, LightEffect, Look)> {
     let heat = ["#000000", "#8a0a00", "#ff5a00", "#ffd060"].map(colour);
     let sea = ["#001040", "#0060c0", "#40e0c0", "#ffffff"].map(colour);
@@ -56,7 +56,7 @@ fn colour(hex: &str) -> Rgb {
     Rgb::from_hex(hex).expect("a colour")
 }
 
-/// Two and a half turns around the centre.
+/// A spiral path of about two and a half turns around the centre.
 fn spiral() -> Coordinate {
     let place = |step: u32| {
         let share = f64::from(step) / 60.0;
@@ -65,7 +65,7 @@ fn spiral() -> Coordinate {
     Coordinate::Curve((0..=60).map(place).collect())
 }
 
-/// A film of two pictures: a ring, and the ring with a dot.
+/// A picture of two film frames: a ring, and the ring with a dot.
 fn ring() -> FloorPicture {
     let pixel = |x: u32, y: u32, dot: bool| {
         let from_centre = Vec2::new(f64::from(x) - 5.5, f64::from(y) - 3.5).length();
@@ -89,7 +89,7 @@ fn robot(column: u32, row: u32, moment: u32) -> LitRobot {
         index,
         count: ROBOTS.0 * ROBOTS.1,
         place: Vec2::new(x, y),
-        // Each column is faster than the one to its left, and all speed up.
+        // Robots are faster from column to column, and all become faster with time.
         speed_mps: 0.27 * f64::from(column * (moment + 1)) / f64::from((ROBOTS.0 - 1) * MOMENTS),
         frame: 0,
         pixel: None,
@@ -98,7 +98,7 @@ fn robot(column: u32, row: u32, moment: u32) -> LitRobot {
     }
 }
 
-/// The strip of each effect with the name of its file.
+/// The strip of each effect, with the name of its file.
 pub fn strips() -> Vec<(String, RgbImage)> {
     let pictures = [ring()];
     let context = LightContext { pictures: &pictures, lead_s: 0.0 };

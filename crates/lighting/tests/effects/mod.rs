@@ -1,4 +1,5 @@
-//! The eleven effects of the reference measurements of light on the wire, on 1,000 robots, and what they take as records.
+//! The eleven effects of the reference measurements of light on the wire, on 1,000 robots, and the records that they
+//! need.
 
 use lightbots_base::{LightCursor, Rgb, TICK, Vec2};
 use lightbots_light::{
@@ -9,13 +10,13 @@ use lightbots_lighting::{LightFit, Tolerance, fit};
 
 const COLUMNS: u32 = 40;
 const ROWS: u32 = 25;
-/// Every hundredth robot is fitted.
+/// Distance between the numbers of two robots that are fitted.
 const EVERY: usize = 100;
-/// Duration of a stretch, in ticks, and number of stretches.
+/// Duration of a stretch, ticks. `STRETCHES` is the number of stretches.
 const STRETCH: u32 = 1_000;
 const STRETCHES: u32 = 3;
 
-/// Each with two colours or a hue of its own.
+/// The effects, each with two colours or a hue.
 fn effects() -> Vec<(&'static str, LightEffect, Look)> {
     let look = |speed_hz: f64| Look {
         place: Vec2::new(-2.0, -1.25),
@@ -63,17 +64,17 @@ fn samples(layers: &Layers, index: u32, from: u32) -> Vec<Rgb> {
     (0..=STRETCH).map(|tick| layers.colour(at(tick), &robot, &LightContext::default()).to_rgb()).collect()
 }
 
-/// How far a shown channel is from the wanted one: in codes, and in units of L*.
+/// Distance of a shown colour from the wanted one, the largest of its channels: in codes, and in units of L*.
 fn distance(one: Rgb, other: Rgb) -> (u8, f64) {
     let pairs = [(one.r, other.r), (one.g, other.g), (one.b, other.b)];
     let far = pairs.map(|(one, other)| (one.abs_diff(other), (lightness(one) - lightness(other)).abs()));
-    // Only the worse channel counts, and one step is always allowed.
+    // Channels that differ by one code at most do not count, because one step is always allowed.
     far.into_iter()
         .filter(|&(codes, _)| codes > 1)
         .fold((0, 0.0), |worst, one| (worst.0.max(one.0), f64::max(worst.1, one.1)))
 }
 
-/// The worst distance of what a robot shows from the samples.
+/// The largest distance of a robot's shown colours from the samples, in codes and units of L*.
 fn worst(samples: &[Rgb], fit: &LightFit) -> (u8, f64) {
     let mut cursor = LightCursor::default();
     let shown = (0..samples.len()).map(|tick| cursor.at(fit.track(), TICK * tick as i64));
@@ -83,16 +84,16 @@ fn worst(samples: &[Rgb], fit: &LightFit) -> (u8, f64) {
         .fold((0, 0.0), |worst, one| (worst.0.max(one.0), f64::max(worst.1, one.1)))
 }
 
-/// What an effect takes, per robot and second.
+/// What the light of an effect needs, per robot and second.
 #[derive(Clone, Debug)]
 pub struct Rate {
     pub effect: &'static str,
     pub records: f64,
-    /// Before the encoding as base64.
+    /// Bytes before the base64 encoding.
     pub bytes: f64,
 }
 
-/// Records and bytes of each effect. `check` gets the worst distance of each fit.
+/// Measures records and bytes of each effect. `check` gets the largest distance of each fit.
 pub fn measured(
     tolerance: Tolerance,
     records_max: usize,

@@ -1,6 +1,6 @@
-//! Thirty sources with five numbers of robots each, as a picture and in figures against simple ways of placing:
-//! `cargo run --release -p lightbots-make --example sheet -- PICTURE.png [FOLDER]`. With a folder, the shows of all thirty
-//! frames for 30, 100 and 500 robots are written there, to be rehearsed.
+//! Draws thirty sources with five numbers of robots each, and compares figures with simple placing methods:
+//! `cargo run --release -p lightbots-make --example sheet -- PICTURE.png [FOLDER]`. With FOLDER, shows of all thirty
+//! frames for 30, 100 and 500 robots are written there, for rehearsals.
 #![allow(clippy::print_stdout)]
 
 mod paint;
@@ -68,7 +68,7 @@ fn made(source: &Source, floor: &PictureFloor, robots: usize) -> Result<MadeFram
         .map_err(|error| error.message)
 }
 
-/// Figures of all sources, by way of placing and number of robots.
+/// Figures of all sources, by placing method and number of robots.
 #[derive(Default)]
 struct Table {
     rows: Vec<(String, usize, Figures)>,
@@ -87,7 +87,7 @@ impl Table {
             raster: drawn.drawing.parts.first().and_then(|part| part.raster.clone()),
             ..DrawingPart::default()
         };
-        // Figures are about areas or about lines: robots on the lines of such a drawing would seem to be beside its areas.
+        // Figures describe areas or lines. In a drawing with both, robots on lines would count as outside the areas.
         if !part.areas.is_empty() && !part.strokes.is_empty() {
             return;
         }
@@ -152,7 +152,7 @@ fn write_show(sources: &[Source], robots: usize, folder: &Path) -> Result<(), Bo
     for source in sources {
         match made(source, &floor, robots) {
             Ok(MadeFrame { mut frame, .. }) => {
-                // The files of the sources are not beside the show.
+                // Sources are removed, because their files are not beside the show.
                 frame.sources.clear();
                 frame.pixels.iter_mut().for_each(|pixel| pixel.part = None);
                 show.frames.push(frame);

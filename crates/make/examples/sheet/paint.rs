@@ -1,4 +1,4 @@
-//! The contact sheet as a picture.
+//! Paints the contact sheet.
 
 use std::error::Error;
 use std::path::Path;
@@ -6,16 +6,16 @@ use std::path::Path;
 use image::{Rgb, RgbImage};
 use lightbots_make::MadeFrame;
 
-/// Side of a cell, pixels.
+/// Side length of a cell, pixels.
 const CELL: f64 = 110.0;
 
-/// Sources in a row of the sheet.
+/// Number of sources in a row of the sheet.
 const ACROSS: usize = 2;
 
 /// Share of a cell that a picture fills.
 const FILLED: f64 = 0.9;
 
-/// Cells of dots on black.
+/// A picture of cells with dots on black.
 pub struct Sheet {
     image: RgbImage,
     columns: usize,
@@ -27,7 +27,7 @@ impl Sheet {
         Self { image: RgbImage::new(width as u32 * CELL as u32, height as u32 * CELL as u32), columns }
     }
 
-    /// Draws a frame: each light a disc as wide as a robot, but wide enough to be seen.
+    /// Draws a frame into its cell. Each light is a disc as wide as a robot, but wide enough to be seen.
     pub fn draw(&mut self, source: usize, column: usize, made: &MadeFrame) {
         let scale = FILLED * CELL / made.size_m;
         let radius = (0.022 * scale).clamp(0.7, 3.5);

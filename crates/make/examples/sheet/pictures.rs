@@ -1,4 +1,4 @@
-//! Pictures with the noise, shadows and soft edges of photographs, and an animation, computed here.
+//! Generated pictures with the noise, shadows and soft edges of photographs, and an animation.
 
 use std::error::Error;
 use std::io::Cursor;
@@ -10,7 +10,7 @@ type Bytes = Result<Vec<u8>, Box<dyn Error>>;
 
 const SIDE: u32 = 320;
 
-/// A lit ball on a dark ground.
+/// A lit ball on a dark ground, as JPEG.
 pub fn ball() -> Bytes {
     photograph(ImageFormat::Jpeg, |x, y| {
         let square = x * x + y * y;
@@ -23,7 +23,7 @@ pub fn ball() -> Bytes {
     })
 }
 
-/// A red mug on a table in front of a wall.
+/// A red mug on a table in front of a wall, as JPEG.
 pub fn mug() -> Bytes {
     photograph(ImageFormat::Jpeg, |x, y| {
         let body = x.abs() < 0.4 && y.abs() < 0.5;
@@ -38,7 +38,7 @@ pub fn mug() -> Bytes {
     })
 }
 
-/// Hills under an evening sky.
+/// Hills under an evening sky, as JPEG.
 pub fn hills() -> Bytes {
     photograph(ImageFormat::Jpeg, |x, y| {
         let ridge = |base: f64, wave: f64, phase: f64| base + 0.16 * (wave * x + phase).sin();
@@ -66,7 +66,7 @@ pub fn leaf() -> Bytes {
     })
 }
 
-/// A heart that turns by a quarter in two seconds, as GIF.
+/// A heart that makes a quarter turn in two seconds, as GIF.
 pub fn turning_heart() -> Bytes {
     const PICTURES: u16 = 20;
     const WIDE: u16 = 96;
@@ -93,7 +93,7 @@ fn in_heart(x: f64, y: f64) -> bool {
     (x * x + y * y - 0.8).powi(3) - x * x * y * y * y <= 0.0
 }
 
-/// A picture from a function of x and y in -1..1, y up, with the grain of a sensor.
+/// A picture of the colours that `shade` returns for x and y from -1 to 1, y up, with the noise of a sensor.
 fn photograph(format: ImageFormat, shade: impl Fn(f64, f64) -> [f64; 3]) -> Bytes {
     let mut state = 7;
     let mut grain = || (split_mix(&mut state) % 13) as f64 - 6.0;

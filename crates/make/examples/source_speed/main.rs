@@ -1,4 +1,4 @@
-//! How long frames take to make, natively and one at a time: `cargo xtask bench make`.
+//! Measures how long frames take to make natively, one at a time: `cargo xtask bench make`.
 #![allow(clippy::print_stdout)]
 
 #[path = "../sheet/pictures.rs"]
@@ -15,7 +15,7 @@ use lightbots_show::Frame;
 
 use crate::sources::Source;
 
-/// One of each kind: a word, a drawing, a picture that is filled, one whose background is removed, a shape.
+/// Names of the measured sources: a word, a drawing, a filled picture, one whose background is removed, and a shape.
 const MEASURED: [&str; 5] = ["HELLO", "cat", "mug", "hills", "star"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Median of some rounds, milliseconds; decoding included.
+/// Median duration over some rounds, decoding included, milliseconds.
 fn median_ms(source: &Source, robots: usize, quality: Quality, rounds: usize) -> Result<f64, String> {
     let frame = Frame { sources: vec![source.recipe.source()], ..Frame::default() };
     let side_m = (robots as f64).sqrt().mul_add(0.4, 1.0);

@@ -1,5 +1,6 @@
-//! Finds the beats of twenty pieces that it makes itself, and compares them with the true ones.
-//! `cargo run --release -p lightbots-music --example beats -- [--write FOLDER]`; the pieces become WAV files there.
+//! Makes twenty pieces of music, finds their beats, and compares them with the true ones:
+//! `cargo run --release -p lightbots-music --example beats -- [--write FOLDER]`. The pieces are written to FOLDER as
+//! WAV files.
 
 mod pieces;
 mod score;
@@ -13,7 +14,7 @@ use std::time::Instant;
 fn main() {
     let folder = std::env::args().skip_while(|arg| arg != "--write").nth(1);
     if let Some(folder) = &folder {
-        // To make a show to, as docs/music.md describes.
+        // This piece is for making a show, as in docs/music.md.
         write(folder, &pieces::lasting(120.0, "two minutes 120", |_| 120.0, 301, pieces::house));
     }
     println!("{:<14} {:>6} {:>6} {:>8} {:>8} {:>6}", "piece", "bpm", "F", "buttons", "early ms", "s");

@@ -1,31 +1,33 @@
-//! Twenty pieces of music whose beats are known: ten that the tracker was made with, ten that were made after it.
+//! Twenty pieces of music whose beats are known. The tracker was developed with ten of them, and the others were made
+//! later.
 
 use crate::synth::{Noise, RATE_HZ, Tape};
 
-/// A piece and its beats.
+/// A piece of music and its true beats.
 pub struct Piece {
     pub name: String,
     pub samples: Vec<f32>,
-    /// Moments of the beats, seconds.
+    /// Times of the beats, seconds.
     pub beats_s: Vec<f64>,
 }
 
-/// How long a piece lasts, seconds.
+/// Duration of a piece, seconds.
 const LASTS_S: f64 = 50.0;
 
-/// Before the first beat, seconds.
+/// Time before the first beat, seconds.
 const LEAD_S: f64 = 0.4;
 
-/// How long a piece takes to become loud, seconds.
+/// Duration of a fade-in, seconds.
 const FADE_S: f64 = 20.0;
 
-/// Roots of a usual row of four chords, Hz.
+/// Root notes of a usual progression of four chords, Hz.
 const ROOTS_HZ: [f64; 4] = [55.0, 43.65, 65.41, 49.0];
 
-/// What is played at each beat: the tape, the number of the beat, its moment, seconds to the next.
+/// A function that plays one beat. It gets the tape, the number of the beat, its time and its duration, both in
+/// seconds.
 pub type Player = fn(&mut Tape, usize, f64, f64);
 
-/// The pieces that the tracker was made with.
+/// The ten pieces with which the tracker was developed.
 pub fn first_ten() -> Vec<Piece> {
     vec![
         piece("steady 90", steady_tempo(90.0), 1, band),
@@ -41,7 +43,7 @@ pub fn first_ten() -> Vec<Piece> {
     ]
 }
 
-/// Pieces of other tempi, seeds and ways of playing, made after the tracker was finished.
+/// Ten pieces with other tempi, seeds and styles, made after the tracker was finished.
 pub fn ten_others() -> Vec<Piece> {
     vec![
         piece("house 124", steady_tempo(124.0), 201, house),
@@ -61,7 +63,7 @@ fn steady_tempo(bpm: f64) -> impl Fn(f64) -> f64 {
     move |_| bpm
 }
 
-/// Beats of a tempo that may change, until a moment, seconds.
+/// Times of the beats at a tempo that may change, until `lasts_s`, seconds. `bpm` gives the tempo at a time.
 fn beats_of(bpm: impl Fn(f64) -> f64, lasts_s: f64) -> Vec<f64> {
     let mut beats = vec![LEAD_S];
     loop {
@@ -78,7 +80,7 @@ fn piece(name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece
     lasting(LASTS_S, name, bpm, seed, play)
 }
 
-/// A piece that lasts that many seconds.
+/// A piece of `lasts_s` seconds.
 pub fn lasting(lasts_s: f64, name: &str, bpm: impl Fn(f64) -> f64, seed: u64, play: Player) -> Piece {
     let beats_s = beats_of(bpm, lasts_s);
     let mut tape = Tape::new(lasts_s, seed);
@@ -94,7 +96,7 @@ fn root(bar: usize) -> f64 {
     ROOTS_HZ[bar % 4]
 }
 
-/// Drums, bass and chords, as most songs have.
+/// A style with drums, bass and chords, as in most songs.
 fn band(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     let bar = beat / 4;
     match beat % 4 {
@@ -114,7 +116,7 @@ fn band(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// Long and short eighths.
+/// A style with long and short eighths.
 fn swing(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.hat(at_s, 0.9);
     if beat % 2 == 1 {
@@ -129,7 +131,7 @@ fn swing(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// One heavy and two light.
+/// A style with one heavy and two light beats.
 fn waltz(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     let bar = beat / 3;
     if beat.is_multiple_of(3) {
@@ -142,7 +144,7 @@ fn waltz(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// Chords between soft beats.
+/// A style with chords between soft beats.
 fn offbeat(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.stab(at_s + beat_s / 2.0, 4.0 * root(beat / 4), 1.0);
     tape.hat(at_s + beat_s / 2.0, 0.8);
@@ -152,7 +154,7 @@ fn offbeat(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// Four cymbals a beat.
+/// A style with four cymbals per beat.
 fn fast_hats(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     for i in 0..4 {
         tape.hat(at_s + f64::from(i) * beat_s / 4.0, if i % 2 == 0 { 0.9 } else { 0.7 });
@@ -165,7 +167,7 @@ fn fast_hats(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.bass(at_s, 0.7 * beat_s, root(beat / 4), 0.7);
 }
 
-/// A bass drum at each beat, cymbals between.
+/// A style with a bass drum at each beat and cymbals between.
 pub fn house(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.kick(at_s, 1.0);
     tape.hat(at_s + beat_s / 2.0, 1.0);
@@ -180,7 +182,7 @@ pub fn house(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// The snare drum at the third beat only.
+/// A style with the snare drum only at the third beat.
 fn half_time(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     match beat % 4 {
         0 => tape.kick(at_s, 1.0),
@@ -194,7 +196,7 @@ fn half_time(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// Bowed chords without drums.
+/// A style with bowed chords and no drums.
 fn strings(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     let root_hz = root(beat / 4);
     if beat.is_multiple_of(2) {
@@ -207,7 +209,7 @@ fn strings(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     }
 }
 
-/// Syncopated chords over a soft bass drum.
+/// A style with syncopated chords over a soft bass drum.
 fn bossa(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.kick(at_s, 0.6);
     tape.kick(at_s + 0.75 * beat_s, 0.35);
@@ -221,7 +223,7 @@ fn bossa(tape: &mut Tape, beat: usize, at_s: f64, beat_s: f64) {
     tape.bass(at_s, 0.6 * beat_s, root(beat / 4), 0.7);
 }
 
-/// A piano alone: some notes, none exact, in noise.
+/// A piece for piano alone: only some beats have a note, with inexact timing, in noise.
 fn piano(name: &str, bpm: f64, seed: u64) -> Piece {
     let mut hand = Noise(seed);
     let beats_s = beats_of(|_| bpm, LASTS_S);
@@ -245,7 +247,7 @@ fn piano(name: &str, bpm: f64, seed: u64) -> Piece {
     Piece { name: name.to_owned(), samples: tape.samples, beats_s }
 }
 
-/// The piece, becoming loud slowly.
+/// The piece with a slow fade-in.
 fn faded(mut piece: Piece) -> Piece {
     for (i, sample) in piece.samples.iter_mut().enumerate() {
         *sample *= (i as f64 / RATE_HZ / FADE_S).clamp(0.02, 1.0) as f32;

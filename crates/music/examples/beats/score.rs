@@ -1,9 +1,9 @@
-//! How well found beats agree with true ones.
+//! Scores for the agreement between found beats and true ones.
 
-/// Beats this near to each other are the same, seconds.
+/// Largest distance of a found beat from the true one, seconds.
 const SAME_S: f64 = 0.05;
 
-/// F: beats that agree one to one, as the harmonic mean of the shares of both.
+/// F score: the harmonic mean of precision and recall, with beats matched one to one.
 pub fn agreement(found: &[f64], truth: &[f64]) -> f64 {
     let (mut i, mut j, mut hits) = (0, 0, 0);
     while let (Some(a), Some(b)) = (found.get(i), truth.get(j)) {
@@ -18,7 +18,7 @@ pub fn agreement(found: &[f64], truth: &[f64]) -> f64 {
     2.0 * f64::from(hits) / (found.len() + truth.len()) as f64
 }
 
-/// F after the best of the buttons: none, ×2, ÷2, the other ÷2, half a beat later.
+/// The best F score after one of the editor's buttons: none, ×2, ÷2, the other ÷2, half a beat later.
 pub fn with_buttons(found: &[f64], truth: &[f64]) -> f64 {
     let between: Vec<f64> = found.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
     let mut doubled: Vec<f64> = found.iter().chain(&between).copied().collect();
@@ -28,7 +28,7 @@ pub fn with_buttons(found: &[f64], truth: &[f64]) -> f64 {
     changed.iter().map(|beats| agreement(beats, truth)).fold(0.0, f64::max)
 }
 
-/// Median of found less true moments, seconds, of beats that agree.
+/// Median difference between matched beats, found minus true, seconds.
 pub fn offset_s(found: &[f64], truth: &[f64]) -> f64 {
     let nearest = |beat: &f64| truth.iter().map(|t| beat - t).min_by(|a, b| a.abs().total_cmp(&b.abs()));
     let mut errors: Vec<f64> =

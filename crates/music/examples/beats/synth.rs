@@ -1,15 +1,16 @@
-//! Sounds of a few instruments, added into one channel. All is computed from seeds, so pieces are ours and repeatable.
+//! Sounds of a few instruments, mixed into one channel. All are calculated from seeds, so pieces are ours and
+//! repeatable.
 
 use std::f64::consts::TAU;
 
-/// Samples a second.
+/// Sampling rate, Hz.
 pub const RATE_HZ: f64 = 22_050.0;
 
-/// Noise of a seed (splitmix64).
+/// A generator of random numbers (SplitMix64).
 pub struct Noise(pub u64);
 
 impl Noise {
-    /// Even between 0 and 1.
+    /// A uniform random number from 0 to 1.
     pub fn even(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
@@ -18,31 +19,31 @@ impl Noise {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Between -1 and 1.
+    /// A uniform random number from -1 to 1.
     pub fn signed(&mut self) -> f64 {
         2.0 * self.even() - 1.0
     }
 
-    /// About normal, standard deviation 1.
+    /// A random number of about normal distribution, with standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
 }
 
-/// A piece while it is made.
+/// A piece that is being made.
 pub struct Tape {
-    /// Samples, 1 is full scale.
+    /// Samples. Full scale is 1.
     pub samples: Vec<f32>,
     noise: Noise,
 }
 
 impl Tape {
-    /// Silence.
+    /// A silent piece.
     pub fn new(lasts_s: f64, seed: u64) -> Tape {
         Tape { samples: vec![0.0; (lasts_s * RATE_HZ) as usize], noise: Noise(seed) }
     }
 
-    /// Adds what `sound` gives for each second since `at_s`, for a while.
+    /// Adds the values of `sound` for `lasts_s` seconds from `at_s` on. `sound` gets the seconds since `at_s`.
     fn add(&mut self, at_s: f64, lasts_s: f64, mut sound: impl FnMut(f64, &mut Noise) -> f64) {
         let first = (at_s * RATE_HZ).round() as i64;
         for i in 0..(lasts_s * RATE_HZ) as i64 {
@@ -96,7 +97,7 @@ impl Tape {
         });
     }
 
-    /// A short chord of a guitar.
+    /// A short chord like that of a guitar.
     pub fn stab(&mut self, at_s: f64, root_hz: f64, gain: f64) {
         self.add(at_s, 0.2, |t, _| {
             let tone: f64 = [1.0, 1.26, 1.5, 2.0].iter().map(|r| saw(root_hz * r * t)).sum();
@@ -117,14 +118,14 @@ impl Tape {
         });
     }
 
-    /// Steady noise under all.
+    /// Steady noise during the whole piece.
     pub fn hiss(&mut self, gain: f64) {
         let lasts_s = self.samples.len() as f64 / RATE_HZ;
         self.add(0.0, lasts_s, |_, noise| gain * noise.signed());
     }
 }
 
-/// A saw tooth of a number of turns.
+/// A sawtooth wave from -1 to 1, at this number of cycles.
 fn saw(turns: f64) -> f64 {
     2.0 * turns.fract() - 1.0
 }

@@ -1,4 +1,4 @@
-//! One row: our plan, squared distances alone (CAPT), and a dense library solver.
+//! Measures one row: our plan, squared distances alone (CAPT), and a dense library solver.
 
 use crate::cpu::median_ms;
 use lightbots_base::{Piece, Span};
@@ -6,36 +6,36 @@ use lightbots_plan::assignment::Choice;
 use lightbots_plan::proof::prove;
 use lightbots_plan::{Path, TransitionProblem, transition};
 
-/// Robots up to which the dense solver is run; it needs memory and time for every pair.
+/// Most robots with which the dense solver is run, because it needs memory and time for every pair.
 const DENSE_MOST: usize = 1_000;
 
-/// What was measured.
+/// Results of one row.
 pub struct Row {
     scene: &'static str,
     robots: usize,
-    /// The whole plan with its proof.
+    /// Our whole plan with its proof. `None` if no plan was found.
     ours: Option<Way>,
-    /// What ours took where no plan was found, milliseconds.
+    /// Time of our planner if it found no plan, milliseconds.
     plan_ms: f64,
     closest_mm: f64,
-    /// `None` where all robots are bound to pixels: there is nothing to assign.
+    /// Squared distances alone. `None` if all robots are bound to pixels, because then there is nothing to assign.
     capt: Option<Way>,
-    /// `None` also where there are too many robots.
+    /// The dense solver. `None` in the same case, and with too many robots.
     dense: Option<Way>,
 }
 
-/// One way of planning.
+/// Results of one planner.
 #[derive(Clone, Copy)]
 struct Way {
-    /// Median, milliseconds.
+    /// Median duration of planning, milliseconds.
     ms: f64,
-    /// Its duration over T_min.
+    /// Duration of the plan divided by T_min.
     ratio: f64,
-    /// Pairs that come too close.
+    /// Number of pairs of robots that come too close.
     conflicts: usize,
 }
 
-/// Plans a scene several times.
+/// Plans a scene several times and returns the results.
 pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     let robots = problem.starts.len();
     let bottleneck_m = Choice::new(&problem.starts, &problem.goals, &problem.pinned)
@@ -72,14 +72,14 @@ pub fn measure(scene: &'static str, problem: &TransitionProblem) -> Row {
     Row { scene, robots, ours, plan_ms, closest_mm, capt, dense }
 }
 
-/// Least squares without a bottleneck: `start_of[goal]`.
+/// The assignment with the least sum of squared distances, without a bottleneck: `start_of[goal]`.
 fn squares_alone(problem: &TransitionProblem) -> Vec<usize> {
-    // Far more slack than the floor has room for: any way is within reach.
+    // This slack is far more than the floor is wide, so every distance is allowed.
     let choice = Choice::new(&problem.starts, &problem.goals, &[]);
     choice.and_then(|choice| choice.least_squares().solve(1e6)).unwrap_or_default()
 }
 
-/// Straight synchronised lines, and the longest one's length.
+/// Straight synchronised lines for an assignment, and the length of the longest line, metres.
 fn lines(problem: &TransitionProblem, start_of: &[usize]) -> (f64, Vec<Path>) {
     let way = |(goal, &start): (usize, &usize)| problem.starts[start].distance(problem.goals[goal]);
     let longest_m = start_of.iter().enumerate().map(way).fold(0.0, f64::max);
@@ -93,12 +93,12 @@ fn lines(problem: &TransitionProblem, start_of: &[usize]) -> (f64, Vec<Path>) {
     (longest_m, paths)
 }
 
-/// How many pairs come too close.
+/// Number of pairs of robots that come too close.
 fn judged(problem: &TransitionProblem, paths: &[Path]) -> usize {
     prove(&problem.to_prove(paths)).conflicts.len()
 }
 
-/// Least squares by a dense solver: `start_of[goal]`.
+/// The assignment of a dense solver with the least sum of squared distances: `start_of[goal]`.
 fn dense(problem: &TransitionProblem) -> Vec<usize> {
     let costs: Vec<f64> = problem
         .goals

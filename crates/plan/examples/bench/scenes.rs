@@ -1,14 +1,14 @@
-//! Legal scenes, all on the floor: pixels at least 76.4 mm apart, but for those that are called close.
+//! Legal scenes that lie on the floor. Pixels are at least 76.4 mm apart, except in scenes that are called close.
 
 use crate::dice::Dice;
 use lightbots_base::{Limits, Vec2};
 use lightbots_plan::{TransitionProblem, transition};
 
-/// A kind of transition.
+/// A kind of transition for the benchmark.
 pub struct Scene {
     pub name: &'static str,
     pub build: fn(usize) -> TransitionProblem,
-    /// The most robots it is measured with.
+    /// Most robots with which it is measured.
     pub most: usize,
 }
 
@@ -22,7 +22,7 @@ impl Scene {
     }
 }
 
-/// All kinds.
+/// All scenes.
 pub const ALL: [Scene; 19] = [
     Scene::new("random S", |robots| random(robots, 30.0 / 9.0)),
     Scene::new("random D", |robots| random(robots, 500.0 / 9.0)),
@@ -45,9 +45,9 @@ pub const ALL: [Scene; 19] = [
     Scene::up_to("anew fixed S", 1_000, |robots| midway(&fixed(random(robots, 30.0 / 9.0)))),
 ];
 
-/// Least distance between pixels, metres: a little over the 76.4 mm of Turpin et al.
+/// Least distance between pixels, metres: slightly more than the 76.4 mm of Turpin et al.
 const APART_M: f64 = 0.0774;
-/// The least that is always to be solved, metres.
+/// Least distance at which a plan must always be found, metres.
 const CLOSE_M: f64 = 0.06;
 
 fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
@@ -56,7 +56,7 @@ fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>) -> TransitionProblem {
     TransitionProblem { starts, goals, ..TransitionProblem::on_floor(half, Limits::ELISA_3) }
 }
 
-/// Random places on a square floor of a density (robots per m²), drawn again where too near to another.
+/// Random places on a square floor with this density (robots per m²), at least `apart_m` apart.
 fn scatter(dice: &mut Dice, robots: usize, density: f64, apart_m: f64) -> Vec<Vec2> {
     let half = (robots as f64 / density).sqrt() / 2.0 - 0.03;
     let cells = (2.0 * half / apart_m) as usize + 2;
@@ -88,7 +88,7 @@ fn random_apart(robots: usize, density: f64, apart_m: f64) -> TransitionProblem 
     problem(places(), places())
 }
 
-/// Random places, every one with a neighbour at the least distance.
+/// Random places in pairs whose partners are at the least distance.
 fn pairs(robots: usize, density: f64) -> TransitionProblem {
     let mut dice = Dice::new(0, 4);
     let mut places = || {
@@ -104,13 +104,14 @@ fn pairs(robots: usize, density: f64) -> TransitionProblem {
     problem(places(), places())
 }
 
-/// The same with each robot bound to the pixel of its number.
+/// The same problem with each robot bound to the pixel of its number.
 fn fixed(problem: TransitionProblem) -> TransitionProblem {
     let pinned = (0..problem.goals.len()).map(Some).collect();
     TransitionProblem { pinned, ..problem }
 }
 
-/// The same anew, as in a run: one robot died in the middle of the drive, and all stand where they were then.
+/// The same problem planned anew, as in a run: one robot died in the middle of the drive, and all stand where they
+/// were.
 fn midway(problem: &TransitionProblem) -> TransitionProblem {
     let plan = transition(problem).expect("legal scenes are solved");
     let places: Vec<Vec2> =
@@ -131,14 +132,14 @@ fn midway(problem: &TransitionProblem) -> TransitionProblem {
     }
 }
 
-/// A square grid around the origin, `step` apart.
+/// A square grid around the origin with spacing `step`, metres.
 fn grid(robots: usize, step: f64) -> Vec<Vec2> {
     let side = (robots as f64).sqrt().ceil() as usize;
     let middle = (side as f64 - 1.0) / 2.0;
     (0..robots).map(|i| Vec2::new((i % side) as f64 - middle, (i / side) as f64 - middle) * step).collect()
 }
 
-/// The places of a hexagonal grid nearest to the origin.
+/// The places of a hexagonal grid that are nearest to the origin.
 fn disc(robots: usize) -> Vec<Vec2> {
     let reach = (robots as f64).sqrt() as i32 + 2;
     let mut places: Vec<Vec2> = (-reach..=reach)
@@ -170,7 +171,7 @@ fn grid_turns(robots: usize) -> TransitionProblem {
     problem(places.clone(), turned.collect())
 }
 
-/// A grid at 80 mm in which each robot gets another place; the floor is half as wide again.
+/// A grid with 80 mm spacing, whose robots exchange places at random. The floor is half as wide again as the grid.
 fn grid_shuffled(robots: usize) -> TransitionProblem {
     let starts = grid(robots, 0.08);
     let mut goals = starts.clone();
@@ -179,7 +180,7 @@ fn grid_shuffled(robots: usize) -> TransitionProblem {
     TransitionProblem { half_floor: problem.half_floor * 1.5, ..problem }
 }
 
-/// The left half goes where the right half is, and back, half a step off.
+/// The left and the right half of a grid change places, half a step aside.
 fn halves_change(robots: usize) -> TransitionProblem {
     let places = grid(robots, 0.12);
     let across = places.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.2;
@@ -193,7 +194,7 @@ fn halves_change(robots: usize) -> TransitionProblem {
     problem(starts.clone(), swapped.collect())
 }
 
-/// Rings around the origin, 0.1 m from ring to ring; the innermost becomes the outermost.
+/// Rings around the origin, 0.1 m apart. The innermost becomes the outermost.
 fn rings_inside_out(robots: usize) -> TransitionProblem {
     let rings = ((robots as f64 / std::f64::consts::PI).sqrt().ceil() as usize).max(2);
     let ring_of = |at: &Vec2| (at.length() / 0.1).round() as usize;
@@ -220,7 +221,7 @@ fn mirrored(robots: usize) -> TransitionProblem {
     problem(starts.clone(), starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect())
 }
 
-/// From rows along the front edge, as every show begins.
+/// Robots that drive from rows along the front edge, as every show begins, to random places.
 fn rows_to_random(robots: usize) -> TransitionProblem {
     let goals = scatter(&mut Dice::new(0, 3), robots, 100.0 / 9.0, APART_M);
     let half = (robots as f64 * 0.09).sqrt() / 2.0;
@@ -234,10 +235,10 @@ fn rows_to_random(robots: usize) -> TransitionProblem {
     problem(starts.collect(), goals)
 }
 
-/// From rows along the front edge to random places in a square in the middle of a floor three times as wide: as a show
-/// begins in a hall.
+/// Robots that drive from rows along the front edge to random places in a square in the middle. The floor is three
+/// times as wide as the square, as in a hall.
 fn rows_to_middle(robots: usize) -> TransitionProblem {
-    /// Robots per m² in the square: 1,000 in 4 × 4 m.
+    /// Robots per m² in the square: 1,000 in 4 m × 4 m.
     const DENSITY: f64 = 62.5;
     let goals = scatter(&mut Dice::new(0, 6), robots, DENSITY, APART_M);
     let half = 1.5 * (robots as f64 / DENSITY).sqrt();

@@ -1,40 +1,40 @@
-//! How long something took.
+//! Measures durations.
 
-// Not every example needs all of it.
+// Each example uses only a part of this module.
 #![allow(dead_code)]
 
 use std::time::Instant;
 
-/// A stop-watch that a busy machine does not falsify.
+/// A stop-watch for processor time, which other programs on the machine hardly falsify.
 pub struct Watch {
     began: Instant,
     began_cpu_ms: Option<f64>,
 }
 
 impl Watch {
-    /// One that runs from now on.
+    /// A stop-watch that starts now.
     pub fn started() -> Self {
         Self { began: Instant::now(), began_cpu_ms: cpu_ms() }
     }
 
-    /// Milliseconds by the clock on the wall.
+    /// Real time since the start, milliseconds.
     pub fn wall_ms(&self) -> f64 {
         self.began.elapsed().as_secs_f64() * 1e3
     }
 
-    /// Milliseconds that this thread has computed; those by the clock where the system does not tell.
+    /// Processor time of this thread since the start, milliseconds. Real time if the system does not report it.
     pub fn ms(&self) -> f64 {
         cpu_ms().zip(self.began_cpu_ms).map_or_else(|| self.wall_ms(), |(after, before)| after - before)
     }
 }
 
-/// Median time of work done an odd number of times, milliseconds.
+/// Median duration of `work`, which is called `times` times (odd), milliseconds.
 pub fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
     let mut taken: Vec<f64> = (0..times)
         .map(|_| {
             let watch = Watch::started();
             work();
-            // Short work is rarely interrupted, and the processor's own account is coarse.
+            // Short work is rarely interrupted, and the system's account of processor time is coarse.
             let wall_ms = watch.wall_ms();
             if wall_ms > 8.0 { watch.ms() } else { wall_ms }
         })
@@ -43,7 +43,7 @@ pub fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
     taken[times / 2]
 }
 
-/// What this thread has computed so far. Linux only.
+/// Processor time of this thread until now, milliseconds. `None` except on Linux.
 fn cpu_ms() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e6)

@@ -1,5 +1,5 @@
-//! Places to stand at.
-// Not every example needs all of it.
+//! Starts and goals for problems.
+// Each example uses only a part of this module.
 #![allow(dead_code)]
 
 use super::dice::Dice;
@@ -9,20 +9,20 @@ use lightbots_plan::TransitionProblem;
 /// Binding of robots to goals.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Bound {
-    /// Any robot to any goal.
+    /// Any robot may take any goal.
     No,
-    /// Robot i to goal i.
+    /// Robot i takes goal i.
     Yes,
 }
 
-/// A problem on a floor of this half size.
+/// A problem on a floor of this half size, with the limits of the Elisa-3.
 pub fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>, half: Vec2, bound: Bound) -> TransitionProblem {
     let pinned = if bound == Bound::Yes { (0..goals.len()).map(Some).collect() } else { Vec::new() };
     TransitionProblem { starts, goals, pinned, ..TransitionProblem::on_floor(half, Limits::ELISA_3) }
 }
 
-/// Up to `count` places at least `apart_m` from each other where it is clear, thrown until one fits; half of them are
-/// thrown just that far from another.
+/// Up to `count` random places at least `apart_m` apart where `clear` holds. Half of the attempts are exactly `apart_m`
+/// from another place.
 pub fn scattered(
     dice: &mut Dice,
     count: usize,
@@ -50,7 +50,7 @@ pub fn scattered(
     places
 }
 
-/// `count` places of a hexagonal grid, those nearest to the origin.
+/// The `count` places of a hexagonal grid that are nearest to the origin.
 pub fn blob(count: usize, pitch_m: f64) -> Vec<Vec2> {
     let reach = (count as f64).sqrt().ceil() as i64 + 2;
     let mut places: Vec<Vec2> = Vec::new();

@@ -6,10 +6,10 @@ use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 use lightbots_show::Obstacle;
 
-/// What makes a scene of a number of robots and a seed.
+/// A function that makes a scene from a number of robots and a seed.
 type Build = fn(usize, u64) -> TransitionProblem;
 
-/// All kinds of scenes.
+/// Names and generators of all scenes.
 pub const ALL: [(&str, Build); 14] = [
     ("sparse", |robots, seed| random(robots, 30.0, seed)),
     ("dense", |robots, seed| random(robots, 500.0, seed)),
@@ -30,7 +30,7 @@ pub const ALL: [(&str, Build); 14] = [
 /// Least distance between pixels, metres.
 const APART_M: f64 = 0.0774;
 
-/// Places on a square floor that are clear and far enough from each other.
+/// Random places on a square floor that are clear and at least `APART_M` apart.
 fn places(dice: &mut Dice, count: usize, half: f64, clear: &dyn Fn(Vec2) -> bool) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     let inner = Vec2::new(half - 0.027, half - 0.027);
@@ -63,7 +63,7 @@ fn mirrored(robots: usize, per_9_m2: f64, seed: u64) -> TransitionProblem {
     scene
 }
 
-/// Two blocks change places; the seed says how far apart they are.
+/// Two blocks that change places. The seed sets the distance between them.
 fn halves(robots: usize, pitch: f64, seed: u64) -> TransitionProblem {
     let block = square(robots / 2, pitch);
     let reach = block.iter().map(|at| at.x.abs()).fold(0.0, f64::max);
@@ -72,7 +72,7 @@ fn halves(robots: usize, pitch: f64, seed: u64) -> TransitionProblem {
     problem([left.clone(), right.clone()].concat(), [right, left].concat(), by.x + reach + 0.3)
 }
 
-/// Rings around the origin, 0.1 m from ring to ring; the innermost becomes the outermost, somewhat turned.
+/// Rings around the origin, 0.1 m apart. The innermost becomes the outermost, slightly turned.
 fn rings(robots: usize, seed: u64) -> TransitionProblem {
     let mut starts: Vec<(usize, f64)> = Vec::new();
     let mut ring = 1;
@@ -96,31 +96,31 @@ fn turned_by(robots: usize, angle: f64) -> TransitionProblem {
     problem(places, turned, half * 1.1 + 0.1)
 }
 
-/// A grid turns by 27° and more around its middle.
+/// A grid that turns around its middle by 27° or more.
 fn turned(robots: usize, seed: u64) -> TransitionProblem {
     turned_by(robots, 0.3 + 0.17 * seed as f64)
 }
 
-/// A grid turns by about half a turn.
+/// A grid that turns around its middle by about half a turn.
 fn turned_half(robots: usize, seed: u64) -> TransitionProblem {
     turned_by(robots, std::f64::consts::PI - 0.04 * (seed - 1) as f64)
 }
 
-/// A grid at 80 mm in which each robot gets another place; the floor is half as wide again.
+/// A grid with 80 mm spacing, whose robots exchange places at random. The floor is half as wide again as the grid.
 fn shuffled(robots: usize, seed: u64) -> TransitionProblem {
     let starts = square(robots, 0.08);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) * 1.5 + 0.05;
     shuffled_on(starts, half, seed)
 }
 
-/// The same at the distance that messages say leaves room, on a floor that is full of it.
+/// A shuffled grid with the spacing that messages recommend, on a floor that the grid fills.
 fn full(robots: usize, seed: u64) -> TransitionProblem {
     let starts = square(robots, 0.1215);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.06;
     shuffled_on(starts, half, seed)
 }
 
-/// The same so close that no robot gets past another: the cost of a problem without a plan.
+/// A shuffled grid in which no robot can pass another, to measure the cost of a problem without a plan.
 fn hopeless(robots: usize, seed: u64) -> TransitionProblem {
     let starts = square(robots, 0.06);
     let half = starts.iter().map(|at| at.x.abs()).fold(0.0, f64::max) + 0.03;
@@ -133,7 +133,7 @@ fn shuffled_on(starts: Vec<Vec2>, half: f64, seed: u64) -> TransitionProblem {
     problem(starts, goals, half)
 }
 
-/// From rows along the front edge to random places.
+/// Robots that drive from rows along the front edge to random places.
 fn rows(robots: usize, seed: u64) -> TransitionProblem {
     let half = half_floor(robots, 300.0);
     let a_row = ((2.0 * half - 0.06) / 0.1) as usize + 1;
@@ -145,7 +145,7 @@ fn rows(robots: usize, seed: u64) -> TransitionProblem {
     problem((0..robots).map(at).collect(), goals, half)
 }
 
-/// One in thirty is dead, a column and a wall stand on the floor.
+/// One robot in thirty is dead, and a column and a wall stand on the floor.
 fn dead(robots: usize, seed: u64) -> TransitionProblem {
     let (half, mut dice) = (half_floor(robots, 200.0) + 0.1, Dice::new(0, seed));
     let obstacles = vec![

@@ -1,4 +1,4 @@
-//! Crowds on an empty floor.
+//! Dense fleets on an empty floor.
 
 use super::Kind;
 use super::dice::Dice;
@@ -6,7 +6,7 @@ use super::places::{Bound, blob, problem, ring, scattered, square};
 use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 
-/// All kinds.
+/// Names and generators of all kinds.
 pub const ALL: [Kind; 18] = [
     ("close any", |case| scattered_crowd(1, case, (2, 300), 55.6, (0.06, 0.0764), Bound::No)),
     ("close fixed", |case| scattered_crowd(2, case, (2, 300), 55.6, (0.06, 0.0764), Bound::Yes)),
@@ -29,7 +29,7 @@ pub const ALL: [Kind; 18] = [
 ];
 
 fn half_of(count: usize, per_m2: f64) -> Vec2 {
-    // Not smaller than two robots need to get past each other.
+    // The floor is at least large enough for two robots to pass each other.
     let half = ((count as f64 / per_m2).sqrt() / 2.0).max(0.1);
     Vec2::new(half, half)
 }
@@ -53,7 +53,7 @@ fn scattered_crowd(
     problem(starts, goals, half, bound)
 }
 
-/// Pairs at 60 to 76 mm that change places, each pair well off the others.
+/// Pairs of robots 60 to 76 mm apart that change places. Each pair is far from the others.
 fn pairs_swap(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(10, case);
     let (pairs, apart_m) = (dice.count(1, 40), dice.between(0.06, 0.076));
@@ -69,7 +69,7 @@ fn pairs_swap(case: u64) -> TransitionProblem {
     problem(starts, goals, half, Bound::Yes)
 }
 
-/// Neighbours in a hexagonal blob that change places; there is room around it.
+/// Neighbours in a hexagonal block that change places, with free floor around the block.
 fn blob_pairs_swap(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(11, case);
     let (count, pitch_m) = (dice.count(4, 120), dice.between(0.06, 0.076));
@@ -86,14 +86,14 @@ fn blob_pairs_swap(case: u64) -> TransitionProblem {
     around(starts, goals, 0.2)
 }
 
-/// On a floor that reaches so much farther than the starts.
+/// The problem on a floor whose edges are `room_m` beyond the outermost rims, metres.
 fn around(starts: Vec<Vec2>, goals: Vec<Vec2>, room_m: f64) -> TransitionProblem {
     let reach = starts.iter().chain(&goals).map(|at| at.x.abs().max(at.y.abs())).fold(0.0, f64::max);
     let half = Vec2::new(reach + 0.027 + room_m, reach + 0.027 + room_m);
     problem(starts, goals, half, Bound::Yes)
 }
 
-/// A row that moves on by one, the last to the first's place.
+/// A row in which each robot moves to the next place, and the last one to the first.
 fn chain(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(12, case);
     let (count, pitch_m) = (dice.whole(2, 20), dice.between(0.06, 0.076));
@@ -113,14 +113,14 @@ fn rotated_ring(case: u64) -> TransitionProblem {
     around(starts, goals, 0.15)
 }
 
-/// A ring within a blob turns by one place; all others stay.
+/// A ring inside a block turns by one place, and all other robots stay.
 fn ring_in_blob(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(14, case);
     let pitch_m = dice.between(0.06, 0.076);
     let starts = blob(dice.whole(37, 91), pitch_m);
     let radius_m = pitch_m * dice.whole(1, 2) as f64;
     let is_on_ring = |at: Vec2| {
-        // The hexagon of that radius: the greatest of three coordinates.
+        // Distance from the centre in the hexagonal metric: the greatest of three coordinates.
         let rows = at.y / 0.75_f64.sqrt();
         let most = rows.abs().max((at.x - rows / 2.0).abs()).max((at.x + rows / 2.0).abs());
         (most - radius_m).abs() < pitch_m * 0.1
@@ -140,7 +140,7 @@ fn blob_shuffled(case: u64) -> TransitionProblem {
     let starts = blob(count, pitch_m);
     let mut goals = starts.clone();
     dice.shuffle(&mut goals);
-    // A floor on which there is 55 robots' room on a square metre, or two robots' width around.
+    // The free floor allows 55 robots per square metre, or is two robots wide all around.
     let room_m = (count as f64 / 55.6).sqrt() / 2.0;
     around(starts, goals, (room_m * 0.5).max(0.13))
 }
@@ -174,7 +174,7 @@ fn edge(case: u64) -> TransitionProblem {
     problem(starts, goals, half, Bound::Yes)
 }
 
-/// A tight blob in a corner, shuffled, or from one corner to the one across.
+/// A dense block in a corner, shuffled or moved to the opposite corner.
 fn corner(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(18, case);
     let (count, pitch_m) = (dice.count(3, 64), dice.between(0.06, 0.076));

@@ -1,5 +1,6 @@
-//! Many small hard transitions, one line for every kind and one for each that is not solved:
-//! `cargo run --release -p lightbots-plan --example sweep -- [KIND [COUNT [FIRST]]]`; exit code 1 where one is not.
+//! Solves many small hard transitions. Prints one line for every kind, and one for each that is not solved:
+//! `cargo run --release -p lightbots-plan --example sweep -- [KIND [COUNT [FIRST]]]`. The exit code is 1 if one is not
+//! solved.
 #![allow(clippy::print_stdout)]
 
 #[path = "../common/cpu.rs"]
@@ -16,10 +17,10 @@ use lightbots_plan::proof::prove;
 use lightbots_plan::{TransitionProblem, transition};
 use std::process::ExitCode;
 
-/// A kind of transition, and what makes one of a number.
+/// The name of a kind of transition, and the function that makes a case from its number.
 type Kind = (&'static str, fn(u64) -> TransitionProblem);
 
-/// What was seen of one kind.
+/// Results for one kind.
 #[derive(Default)]
 struct Row {
     cases: usize,
@@ -29,7 +30,7 @@ struct Row {
 }
 
 impl Row {
-    /// Solves one and counts it; what went wrong, if anything.
+    /// Solves a problem and counts it. Returns what went wrong, if anything.
     fn solve(&mut self, problem: &TransitionProblem) -> Option<String> {
         let watch = Watch::started();
         let plan = transition(problem);

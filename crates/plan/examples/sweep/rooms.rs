@@ -1,4 +1,4 @@
-//! Floors with no-go areas, robots that stand and robots that are spare.
+//! Floors with no-go areas, standing robots and spare robots.
 
 use super::Kind;
 use super::dice::Dice;
@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 use lightbots_show::Obstacle;
 
-/// All kinds.
+/// Names and generators of all kinds.
 pub const ALL: [Kind; 10] = [
     ("narrow through", |case| corridor(case, Traffic::OneWay, (NARROWEST_M, 0.09))),
     ("wide through", |case| corridor(case, Traffic::OneWay, (0.12, 0.17))),
@@ -21,12 +21,12 @@ pub const ALL: [Kind; 10] = [
     ("spares in a ring", spares_in_a_ring),
 ];
 
-/// The least width of a corridor, metres: two margins of 3 mm and 1 mm to drive in.
+/// Least width of a corridor, metres: a robot, two margins of 3 mm and 1 mm of play.
 const NARROWEST_M: f64 = 0.061;
 /// Half the length of a corridor, metres.
 const HALF_LENGTH_M: f64 = 0.25;
 
-/// Robots that go through a corridor.
+/// Directions in which robots pass a corridor.
 enum Traffic {
     OneWay,
     BothWays,
@@ -48,7 +48,7 @@ fn corridor(case: u64, traffic: Traffic, width: (f64, f64)) -> TransitionProblem
     };
     let (mut starts, mut goals) = (room(&mut dice, -1.0), room(&mut dice, 1.0));
     if matches!(traffic, Traffic::BothWays) {
-        // Every other one comes from the other room.
+        // Every second robot starts in the other room.
         for i in (0..count).step_by(2) {
             std::mem::swap(&mut starts[i], &mut goals[i]);
         }
@@ -66,7 +66,7 @@ fn corridor(case: u64, traffic: Traffic, width: (f64, f64)) -> TransitionProblem
     TransitionProblem { obstacles, ..problem(starts, goals, half, Bound::Yes) }
 }
 
-/// Two change places in a corridor one robot wide that has a bay.
+/// Two robots that change places in a corridor one robot wide with a bay.
 fn bay(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(22, case);
     let (width_m, wide_m, deep_m) =
@@ -84,7 +84,7 @@ fn bay(case: u64) -> TransitionProblem {
     TransitionProblem { obstacles, ..problem(starts, goals, half, Bound::Yes) }
 }
 
-/// Dead robots among starts and goals, as near as 57 mm.
+/// Dead robots among starts and goals, down to 57.5 mm from them.
 fn standing(case: u64, bound: Bound) -> TransitionProblem {
     let mut dice = Dice::new(23, case);
     let (count, dead) = (dice.count(2, 150), dice.count(1, 12));
@@ -99,8 +99,8 @@ fn standing(case: u64, bound: Bound) -> TransitionProblem {
     TransitionProblem { standing: standing.clone(), ..problem(starts, goals, half, bound) }
 }
 
-/// A goal within a ring of dead robots that has one gap, one robot wide or a little more; the robot in there goes
-/// out.
+/// A goal in a ring of dead robots with one gap, which is one robot wide or slightly wider. In half of the cases a
+/// robot inside has to leave.
 fn behind_standing(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(24, case);
     let apart_m = dice.between(0.06, 0.1);
@@ -121,7 +121,7 @@ fn behind_standing(case: u64) -> TransitionProblem {
     let mut goals: Vec<Vec2> = outside;
     (0..inside).zip(&mut goals).for_each(|(i, goal)| *goal = within(i));
     if dice.share() < 0.5 {
-        // Those within and those who go in change places.
+        // Robots inside change places with those that go in.
         for i in 0..inside {
             starts.push(within(i));
             goals.push(starts[i]);
@@ -130,7 +130,7 @@ fn behind_standing(case: u64) -> TransitionProblem {
     TransitionProblem { standing, ..problem(starts, goals, half, Bound::Yes) }
 }
 
-/// Few have a goal, many are in the way.
+/// Few robots have a goal, and many spare robots block their paths.
 fn spares(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(25, case);
     let (count, apart_m) = (dice.count(3, 200), dice.between(0.06, 0.076));
@@ -143,7 +143,7 @@ fn spares(case: u64) -> TransitionProblem {
     problem(starts, goals, half, bound)
 }
 
-/// One in the middle of spare robots must leave, another must come.
+/// One robot in the middle of spare robots must leave, and another must get there.
 fn spares_in_a_ring(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(26, case);
     let apart_m = dice.between(0.06, 0.076);
