@@ -18,7 +18,7 @@ pub fn persons(text: &str) -> Vec<Place> {
     lines_where(text, |words| words.iter().any(|word| PERSONS.contains(&word.as_str())))
 }
 
-/// Doc lines with "so many", "so far" and the like.
+/// Doc lines with "so" before a word of `MEASURES`.
 pub fn vague(text: &str) -> Vec<Place> {
     lines_where(text, |words| {
         words.windows(2).any(|pair| pair[0] == "so" && MEASURES.contains(&pair[1].as_str()))

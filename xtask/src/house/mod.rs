@@ -16,7 +16,7 @@ use tree::Source;
 
 /// Most words in a sentence of a doc comment, because a reader should need to read it only once.
 const SENTENCE_WORDS_MAX: usize = 25;
-/// Most lines of a function that fits on one screen; a chosen limit.
+/// Most lines of a function that fits on one screen.
 const SCREEN_LINES: usize = 40;
 /// Most lines of a function. `tidy` reports longer ones as findings.
 pub const FUNCTION_LINES_MAX: usize = 70;

@@ -15,7 +15,7 @@ use lightbots_show::Frame;
 
 use crate::sources::Source;
 
-/// Names of the measured sources: a word, a drawing, a filled picture, one whose background is removed, and a shape.
+/// Names of the measured sources: a word, a drawing, a silhouette without background, a picture in tones, and a shape.
 const MEASURED: [&str; 5] = ["HELLO", "cat", "mug", "hills", "star"];
 
 fn main() -> Result<(), Box<dyn Error>> {

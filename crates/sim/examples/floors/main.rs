@@ -1,5 +1,5 @@
-//! Random floors with obstacles and gaps, planned, proven and rehearsed with noise and slip:
-//! `cargo run --release -p lightbots-sim --example floors [COUNT [FIRST [FAULTS [DIR]]]]`, COUNT is 500 by default.
+//! Random floors with obstacles and gaps, planned, proven and rehearsed with noise and slip.
+//! `cargo run --release -p lightbots-sim --example floors [COUNT [FIRST [FAULTS [DIR]]]]`; COUNT is 500 by default.
 //!
 //! Prints a line for each floor where a robot touches or gets lost, and for each that the planner refuses, with its
 //! reason. Their shows are saved in DIR if it is named. Totals follow at the end. The exit code is 1 if robots touched

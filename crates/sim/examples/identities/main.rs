@@ -1,5 +1,5 @@
-//! Random shows of mixed identities, pins and numbers of robots, checked, played and rehearsed:
-//! `cargo run --release -p lightbots-sim --example identities [COUNT [FIRST [ideal | FAULTS]]]`, COUNT is 200 by
+//! Random shows of mixed identities, pins and numbers of robots, checked, played and rehearsed.
+//! `cargo run --release -p lightbots-sim --example identities [COUNT [FIRST [ideal | FAULTS]]]`; COUNT is 200 by
 //! default.
 //!
 //! Prints lines for each show whose picture is not the frame, or whose run is not as planned. The exit code is then 1.

@@ -1,5 +1,5 @@
-//! Random pairs of frames, planned, proven and rehearsed with noise and slip:
-//! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST [FAULTS]]]`, COUNT is 10,000 by default.
+//! Random pairs of frames, planned, proven and rehearsed with noise and slip.
+//! `cargo run --release -p lightbots-sim --example pairs [COUNT [FIRST [FAULTS]]]`; COUNT is 10,000 by default.
 //!
 //! Prints a line for each pair that is not solved, not proven or not free of contact, with the command that repeats it.
 //! Their numbers follow at the end. The exit code is then 1.

@@ -46,8 +46,8 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Listens at `address` and begins when `processes` drivers are connected. Robot `LightBot n` stands at start n -
-    /// 1. Robots without power stand at further starts.
+    /// Listens at `address` and begins when `processes` drivers are connected. Robot `LightBot n` stands at the start
+    /// with index `n - 1`. Robots without power stand at further starts.
     pub fn open(
         address: &Path,
         stage: &Stage,
@@ -87,7 +87,7 @@ struct Body {
     /// The connection. `None` once the process has ended, because Webots continues without it.
     process: Option<UnixStream>,
     command: StepCommand,
-    /// Readings of the wheels' position sensors, which stay behind the true turns.
+    /// Wheel turns that the position sensors report, radians: less than the wheels really turned.
     read_rad: [f64; 2],
     track: Vec<(Instant, Vec2)>,
 }

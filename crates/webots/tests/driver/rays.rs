@@ -1,5 +1,5 @@
-//! One ray per sensor is almost enough. A robot that drives towards a standing robot brakes before it touches, unless
-//! the other one is about a radius beside the middle of the path.
+//! One ray per sensor is almost enough. A robot that drives towards a standing robot brakes before it touches. The
+//! exception is a robot that stands about a radius beside the middle of the path.
 
 use Controller::proximity::RAYS;
 use lightbots_base::{Instant, Pose, RobotId, Span, Vec2};
