@@ -284,7 +284,9 @@ impl fmt::Display for Refusal {
                 "Pixels {pixels:?} are bound to robots that are not here: free them, or leave them out."
             ),
             Self::UnknownRobot(id) => write!(f, "No robot {id} is known: refresh the fleet."),
-            Self::TakesPart(id) => write!(f, "Robot {id} cannot be forgotten during a run: abort the run first."),
+            Self::TakesPart(id) => {
+                write!(f, "Robot {id} cannot be forgotten during a run: abort the run first.")
+            }
             Self::NotDismissed => {
                 write!(f, "The last run was stopped: look at the floor, then dismiss the message about it.")
             }

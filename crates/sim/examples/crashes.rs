@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use lightbots_show::Show;
 use lightbots_sim::{Dice, Purpose, RehearsalReport};
 
-/// Thresholds of two random numbers from 0 to 1. How many of the numbers exceed theirs chooses the range of `AWAY_S`.
+/// Thresholds of a random number from 0 to 1. How many of them it exceeds chooses the range of `AWAY_S`.
 const SHARES: [f64; 2] = [0.4, 0.95];
 /// Ranges of the time without a controller, seconds: robots still drive, robots stand, and so late that the controller
 /// asks before it continues.
@@ -54,7 +54,8 @@ impl Sum {
         let mut sum = Self::default();
         for seed in 1..=kills {
             let mut dice = Dice::new(seed, Purpose::Scene);
-            let kind = SHARES.iter().filter(|share| dice.unit() > **share).count();
+            let drawn = dice.unit();
+            let kind = SHARES.iter().filter(|share| drawn > **share).count();
             let (from_s, to_s) = AWAY_S[kind];
             let at_s = dice.between(0.0, duration_s - 0.1);
             let faults = format!("crash={at_s:.3}s+{:.3}s", dice.between(from_s, to_s));
