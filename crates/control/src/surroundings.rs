@@ -1,5 +1,6 @@
 //! What a plan leaves around each robot: how near others come, and which of them come into sight, where and when.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use lightbots_base::{Span, Vec2};
@@ -61,13 +62,17 @@ pub(crate) fn surroundings(
     let every = STEP.max(Span(longest.0 / MOST_STEPS));
     let sightings = sight(paths, standing, longest, every, contact_m);
     let of_one = |mut sightings: Vec<Sighting>| {
-        sightings.sort_by(|a, b| a.least_m.total_cmp(&b.least_m));
-        let room_m = sightings.first().map_or(f64::INFINITY, |one| one.least_m);
+        let stands = |one: &Sighting| paths.get(one.other).is_none_or(|(_, path)| path.as_ref().rests());
+        sightings.sort_by(|a, b| {
+            (stands(a), a.least_m).partial_cmp(&(stands(b), b.least_m)).unwrap_or(Ordering::Equal)
+        });
+        let room_m = sightings.iter().map(|one| one.least_m).fold(f64::INFINITY, f64::min);
         let mut neighbours = Neighbours::new();
         for one in sightings.iter().filter(|one| one.least_m < SIGHT_M) {
             let clearance_tenths = (one.least_m.max(0.0) * 1e4) as u16;
             let knots = knots_of(one, paths, standing, longest, every);
-            // The farthest neighbours are left out if there is no room. Robots then treat them as unplanned obstacles.
+            // Of those that stand, the farthest are left out if there is no room. Robots then treat them as unplanned
+            // obstacles.
             neighbours.push(clearance_tenths, &knots);
         }
         Surroundings { room_m, neighbours: Some(Arc::new(neighbours)) }
@@ -179,6 +184,7 @@ fn knot(at: Span, place: Vec2, velocity: Vec2) -> Knot {
 mod tests {
     use super::*;
     use lightbots_base::Piece;
+    use lightbots_wire::MAX_NEIGHBOURS;
 
     fn straight(from: Vec2, to: Vec2) -> Path {
         Path { start: from, pieces: vec![Piece::straight(from, to, Span::from_millis(4_000))] }
@@ -216,6 +222,17 @@ mod tests {
         let paths: Vec<_> = (0..=MOST).map(|index| (index, straight(far(index), far(index)))).collect();
         let around = surroundings(&paths, &[], Some(0.007), 0.054);
         assert!(around.iter().all(|one| one.room_m == 0.007 && one.neighbours.is_none()));
+    }
+
+    #[test]
+    fn robots_that_drive_are_named_before_what_stands() {
+        let along = |y| straight(Vec2::new(0.0, y), Vec2::new(1.0, y));
+        let beside: Vec<Vec2> = (0..80).map(|place| Vec2::new(0.012 * f64::from(place), -0.06)).collect();
+        let around = surroundings(&[(0, along(0.0)), (1, along(0.08))], &beside, None, 0.054);
+        let named = around[0].neighbours.as_deref().unwrap();
+        assert_eq!(named.list.len(), MAX_NEIGHBOURS);
+        let drives = named.motion(&named.list[0], Span::from_millis(2_000)).unwrap();
+        assert!((drives.position.y - 0.08).abs() < 1e-3 && (around[0].room_m - 0.006).abs() < 1e-3);
     }
 
     #[test]

@@ -108,8 +108,8 @@ impl Routes {
         self.running.as_ref()?.room_mm
     }
 
-    /// Appends the planned neighbours within `sight_m` of the body, metres, at the path time of the latest step. At
-    /// most [`MAX_IN_SIGHT`] fit.
+    /// Appends the planned neighbours within `sight_m` of the body, metres, at the path time of the latest step. If
+    /// there are more than [`MAX_IN_SIGHT`], the farthest of those that stand are left out.
     pub(crate) fn expect(
         &self,
         body: BodyPose,
@@ -136,8 +136,8 @@ impl Routes {
                 acceleration: into_body(motion.acceleration * (running.rate * running.rate)),
                 clearance_m: f32::from(neighbour.clearance_tenths) * 1e-4,
             };
-            if expected.push(one).is_err() {
-                return;
+            if let Err(one) = expected.push(one) {
+                take_in(one, expected);
             }
         }
     }
@@ -384,6 +384,18 @@ fn by_show_time(motion: Motion, rate: f64) -> Motion {
         return motion;
     }
     Motion { velocity: motion.velocity * rate, acceleration: motion.acceleration * (rate * rate), ..motion }
+}
+
+/// Puts a neighbour into a full list, in the place of the farthest one that stands, if it moves or is nearer. Places
+/// where a silent robot may stand are standing neighbours, of which there may be dozens beside a path.
+fn take_in(one: Expectation, expected: &mut InSight) {
+    let moves = |one: &Expectation| one.velocity != Point::ZERO;
+    let far_m = |one: &Expectation| one.at.length();
+    let standing = expected.iter_mut().filter(|other| !moves(other));
+    let farthest = standing.max_by(|a, b| far_m(a).total_cmp(&far_m(b)));
+    if let Some(farthest) = farthest.filter(|farthest| moves(&one) || far_m(&one) < far_m(farthest)) {
+        *farthest = one;
+    }
 }
 
 #[cfg(test)]

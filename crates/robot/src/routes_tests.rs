@@ -110,3 +110,29 @@ fn neighbours_that_rested_by_the_way_do_not_crowd_out_who_is_near() {
     routes.expect(BODY, 0.11, &storage, &mut expected);
     assert_eq!((expected.len(), expected[0].index), (1, 30));
 }
+
+#[test]
+fn many_places_of_a_silent_robot_do_not_crowd_out_one_that_drives_or_the_nearest() {
+    let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
+    let mut named = route(1);
+    let knot = |at_ms: u32, x: i32, y: i32, mmps: i16| Knot {
+        at_ms,
+        place_tenths: [x, y],
+        velocity_mmps: [mmps, 0],
+    };
+    for number in 0..30 {
+        named.neighbours.push(60, &[knot(0, 1_000 - 40 * number, 640, 0)]);
+    }
+    named.neighbours.push(140, &[knot(0, 700, 0, 100), knot(1_000, 1_700, 0, 100)]);
+    routes.keep(&named, &mut storage);
+    routes.start(1, Instant(0), Some(Instant(0)));
+    routes.begin_due(Instant(0), &storage);
+    let mut expected = InSight::new();
+    routes.expect(BODY, 0.12, &storage, &mut expected);
+    assert_eq!(expected.len(), MAX_IN_SIGHT);
+    assert!(expected.iter().any(|one| one.index == 30), "it drives 70 mm ahead");
+    assert!(
+        (20..=29).all(|index| expected.iter().any(|one| one.index == index)),
+        "the nearest of those that stand"
+    );
+}

@@ -311,36 +311,3 @@ fn senseless_wheels_stop_it_at_once_and_show() {
     assert_eq!(states(&plant.heard(Topic::Status))[0], RobotState::Faulty);
     takes_part_again(&mut plant, 10);
 }
-
-/// Milliseconds until a robot in the middle of a route is cut. It receives a START that was sent `age_ms` ago, and then
-/// STATUS every 0.1 s. `None` if it is not cut.
-fn cut_after(plant: &mut Plant, seq: u32, age_ms: Option<i64>) -> Option<i64> {
-    let began = plant.now;
-    let show = plant.show();
-    let sent = age_ms.map(|age_ms| show - Span::from_millis(age_ms));
-    plant.tell(&Command::Start { seq, at: show - Span::from_millis(2_200), sent });
-    for step in 1..220 {
-        plant.step();
-        if plant.robot.state() == RobotState::Cut || plant.stands() {
-            return Some((plant.now - began).0 / 1000);
-        }
-        if step % 6 == 0 {
-            plant.tell(&Command::Status);
-        }
-    }
-    None
-}
-
-#[test]
-fn silence_counts_from_when_start_left() {
-    let deaf = || {
-        let mut plant = driving();
-        plant.answers = false;
-        plant
-    };
-    assert_eq!(cut_after(&mut deaf(), 9, None), None, "each message counts");
-    let [new, old] = [0, 250].map(|age_ms| cut_after(&mut deaf(), 9, Some(age_ms)).unwrap());
-    assert!((1_900..2_250).contains(&new) && (230..=270).contains(&(new - old)), "{new} {old}");
-    assert_eq!(cut_after(&mut deaf(), 8, Some(250)), None, "START of another route");
-    assert_eq!(cut_after(&mut driving(), 9, Some(250)), None, "answers say when they left, too");
-}
