@@ -54,6 +54,7 @@ mod routes;
 mod seek;
 mod slip;
 mod stall;
+mod steady_time;
 mod storage;
 mod supervise;
 mod timeline;

@@ -10,6 +10,7 @@ use crate::kept_route::{KeptRoute, TOO_LATE};
 use crate::look_ahead::{Ahead, LookAhead, SLOW_MPS};
 use crate::reflex::{Expectation, Point};
 use crate::seek::{Seek, within_arrival};
+use crate::steady_time::SteadyTime;
 use crate::storage::{RouteStorage, Slot};
 use crate::timeline::Timeline;
 
@@ -54,12 +55,13 @@ struct Running {
     duration: Span,
     /// Path time by the time the wheels have answered.
     time: Span,
-    /// Path time per show time at `time`, 0 to 1.
+    /// Path time per show time at `time`, 0 to 1. Negative while path time goes back.
     rate: f64,
     /// Place of the route at `time`, stage metres.
     due: Vec2,
     off_m: f64,
     cursor: RouteCursor,
+    steady: SteadyTime,
     follow: Follow,
 }
 
@@ -190,6 +192,7 @@ impl Routes {
             duration: path.duration(),
             end: path.end(),
             cursor: RouteCursor::new(route),
+            steady: SteadyTime::new(starts),
             follow,
             look_ahead: LookAhead::default(),
             seek: None,
@@ -215,7 +218,7 @@ impl Routes {
     ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
         let route = storage.at(running.slot);
-        let progress = self.timeline.at(takes_effect);
+        let progress = running.steady.step(takes_effect, self.timeline.at(takes_effect));
         running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);

@@ -109,7 +109,7 @@ impl Timeline {
 }
 
 impl RouteProgress {
-    const START: Self = Self { time: Span::ZERO, rate: 1.0, held: false };
+    pub(crate) const START: Self = Self { time: Span::ZERO, rate: 1.0, held: false };
 }
 
 impl Point {

@@ -11,11 +11,11 @@ use crate::run::link_loss::many_of;
 use crate::run::next::Next;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
-use crate::run::silence::{self, LINK_LOSS};
+use crate::run::silence;
 use crate::run::stop_times::StopTimes;
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
-use lightbots_wire::{Command, Topic};
+use lightbots_wire::{Command, Route, Topic};
 
 /// Time between two checks for robots that are back.
 const CHECK_EVERY: Span = Span::from_millis(100);
@@ -24,6 +24,9 @@ const COPIES: (u32, Span) = (4, Span::from_millis(40));
 /// Time between requests to all robots to report. TARGET-only robots (they understand the command TARGET but no
 /// routes) do not report of their own accord.
 const ASK_EVERY: Span = Span::from_millis(2_000);
+/// Time from the last message to a robot until a HOLD would stop it where it stops by itself (R43: it slows down after
+/// 1.9 s, and HOLD takes 50 ms longer to the same place).
+const SLOWS_AFTER: Span = Span::from_millis(1_850);
 /// How long the run waits for one more robot while robots come back. Clients look for a broker every 2 s.
 const ONE_MORE: Span = Span::from_millis(3_000);
 
@@ -32,7 +35,7 @@ const ONE_MORE: Span = Span::from_millis(3_000);
 pub(crate) struct Interrupted {
     /// When the run was interrupted. Reports from before do not count.
     pub since: Instant,
-    /// The oldest among the times of the robots' last reports.
+    /// When the last report of any robot came: the link broke at about this time.
     heard: Instant,
     /// What was broken off.
     pub left: Position,
@@ -43,7 +46,7 @@ pub(crate) struct Interrupted {
     /// Number of robots that have reported, and when that number last grew.
     reported: (usize, Instant),
     ask_at: Instant,
-    /// Whether HOLD or STOP was sent to robots that report again.
+    /// Whether TARGET-only robots were told to stop.
     is_halted: bool,
     /// Whether the operator agreed that the run goes on.
     is_agreed: bool,
@@ -66,7 +69,7 @@ impl Interrupted {
         }
     }
 
-    /// Sets the oldest among the times of the robots' last reports.
+    /// Sets when the last report of any robot came.
     pub fn heard(self, heard: Instant) -> Self {
         Self { heard, ..self }
     }
@@ -119,21 +122,27 @@ impl Interrupted {
         Next::Drop(missing.into_iter().map(|participant| (participant, Trouble::Silent)).collect())
     }
 
-    /// Stops robots that report again and may still drive, until the others are back. Does so only once.
+    /// Stops robots that report again and may still drive. Each robot that comes back may have missed the commands that
+    /// were sent for those before it. Robots hold when those out of reach slow down by themselves, so that all stay
+    /// where the plan keeps them apart.
     fn halt(&mut self, cx: &mut RunContext) {
-        if std::mem::replace(&mut self.is_halted, true) {
-            return;
-        }
-        // With HOLD, robots that drive would roll on into those that have already stopped by themselves.
-        let may_have_stopped = cx.now - self.heard > LINK_LOSS.drives_on;
+        let slows_at = self.heard + SLOWS_AFTER;
         match &mut self.left.drive {
-            Some(clock) if !cx.is_target_leg() && !may_have_stopped => {
-                // A HOLD that was sent before may have been lost with the link.
-                let at = clock.open_hold().map_or(cx.now + cx.link.hold_lead(), |hold| hold.at);
+            Some(_) if cx.is_target_leg() => {
+                if !std::mem::replace(&mut self.is_halted, true) {
+                    target_commands::halt_all(cx);
+                }
+            }
+            // Later, robots that drive would roll on into those that have already stopped by themselves.
+            Some(clock) if cx.now <= slows_at => {
+                let at = slows_at.max(cx.now + cx.link.hold_lead());
+                let at = clock.open_hold().map_or(at, |hold| hold.at);
                 clock.stand(at);
+                if let Some(stops) = &mut self.left.stops {
+                    stops.stood = stops.stood.max(at + Route::EASE);
+                }
                 cx.io.outbox.broadcast(cx.now, Command::Hold { at }, COPIES.0, COPIES.1);
             }
-            Some(_) if cx.is_target_leg() => target_commands::halt_all(cx),
             _ => cx.io.outbox.broadcast(cx.now, Command::Stop, COPIES.0, COPIES.1),
         }
     }

@@ -300,7 +300,7 @@ impl Run {
             io.log.record(now, EventKind::LinkLost { silent, robots });
         }
         let by_itself = io.config.waits.goes_on_within;
-        let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard).min();
+        let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard).max();
         let interrupted = Interrupted::begin(now, left, by_itself).heard(heard.unwrap_or(now));
         self.enter(RunPhase::Interrupted(interrupted));
     }

@@ -117,7 +117,7 @@ impl Run {
 
     /// Creates a run whose robots are out of reach at present. `leg` is the leg that they drive or drove last, and
     /// `left` is what was broken off. The run goes on without the operator if robots are back within `by_itself`.
-    /// `heard` is the time of the oldest among the robots' last reports.
+    /// `heard` is when the last report of any robot came.
     pub fn interrupted(
         now: Instant,
         playback: PlayedShow,

@@ -1,0 +1,115 @@
+//! Path time that does not jump back. A HOLD that comes late, as after a freeze of the broker, says that path time has
+//! stood for a while. A robot that drove straight to that place at once would meet others that do the same. So it goes
+//! back along its route, and all robots that learnt of the HOLD at the same time do so in step.
+
+use lightbots_base::{Instant, Span};
+use lightbots_wire::Route;
+
+use crate::timeline::RouteProgress;
+
+/// Lowest rate of path time, path time per show time. Below, robots that go back are too fast to see others behind them.
+/// Above, the others wait longer.
+const BACK: f64 = -0.5;
+/// Jump back of path time that a robot makes at once: 5 mm at full speed. Below, corrections of the clock count.
+const JUMP: Span = Span::from_millis(20);
+/// Path time has gone back when it is ahead by no more than this.
+const THERE: Span = Span::from_millis(2);
+
+/// The progress of a route under way, which never jumps back by more than [`JUMP`].
+#[derive(Debug)]
+pub(crate) struct SteadyTime {
+    /// Show time of the latest step.
+    at: Instant,
+    progress: RouteProgress,
+    goes_back: bool,
+}
+
+impl SteadyTime {
+    /// The progress of a route that begins at `starts`, show clock.
+    pub(crate) fn new(starts: Instant) -> Self {
+        Self { at: starts, progress: RouteProgress::START, goes_back: false }
+    }
+
+    /// Returns the progress at a moment of the show clock. `due`: the progress by the holds that are known.
+    pub(crate) fn step(&mut self, at: Instant, due: RouteProgress) -> RouteProgress {
+        let over_s = (at - core::mem::replace(&mut self.at, at)).as_secs().clamp(0.0, 0.1);
+        let RouteProgress { time, rate, .. } = self.progress;
+        let ahead = time + Span::from_secs(rate * over_s) - due.time;
+        self.goes_back = ahead > if self.goes_back { THERE } else { JUMP };
+        self.progress = due;
+        if self.goes_back {
+            let slope = 1.0 / Route::EASE.as_secs();
+            let wanted = (due.rate - libm::sqrt(2.0 * slope * ahead.as_secs())).max(BACK);
+            let rate = wanted.clamp(rate - slope * over_s, rate + slope * over_s);
+            self.progress = RouteProgress { time: time + Span::from_secs(rate * over_s), rate, ..due };
+        }
+        self.progress
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::timeline::Timeline;
+
+    const STEP: Span = Span::from_millis(16);
+
+    /// Progress of each step of a route from 0 s on. `comes`: when a HOLD of `hold` is learnt of, and a RESUME.
+    fn progress(
+        hold: Instant,
+        comes: Instant,
+        resume: Option<Instant>,
+    ) -> impl Iterator<Item = (Instant, RouteProgress)> {
+        let (mut timeline, mut steady) = (Timeline::new(), SteadyTime::new(Instant::ZERO));
+        timeline.begin(Instant::ZERO);
+        (0..600).map(move |step| {
+            let now = Instant::ZERO + STEP * step;
+            if now >= comes {
+                timeline.note(hold, true);
+                resume.into_iter().for_each(|resume| timeline.note(resume, false));
+            }
+            (now, steady.step(now, timeline.at(now)))
+        })
+    }
+
+    #[test]
+    fn a_hold_in_time_is_kept_to_the_microsecond() {
+        let hold = Instant(2_000_000);
+        let mut timeline = Timeline::new();
+        timeline.begin(Instant::ZERO);
+        timeline.note(hold, true);
+        assert!(progress(hold, Instant(1_900_000), None).all(|(now, progress)| progress == timeline.at(now)));
+    }
+
+    #[test]
+    fn after_a_late_hold_path_time_goes_back_evenly_to_where_all_hold() {
+        for late_ms in [100, 500, 1_300] {
+            let comes = Instant(2_000_000 + 1000 * late_ms);
+            let all: heapless::Vec<(Instant, RouteProgress), 600> =
+                progress(Instant(2_000_000), comes, None).collect();
+            for pair in all.windows(2) {
+                let [(from, a), (to, b)] = [pair[0], pair[1]];
+                let rate = (b.time - a.time).as_secs() / (to - from).as_secs();
+                assert!(rate >= BACK - 1e-6 && (b.rate - a.rate).abs() < 0.13, "{late_ms} ms: {a:?} {b:?}");
+            }
+            let last = all.last().unwrap().1;
+            assert_eq!(
+                (last.time, last.rate, last.held),
+                (Span::from_millis(2_150), 0.0, true),
+                "{late_ms} ms"
+            );
+        }
+    }
+
+    #[test]
+    fn with_a_resume_known_too_path_time_slows_down_until_it_is_right() {
+        let (hold, comes) = (Instant(2_000_000), Instant(3_000_000));
+        let resume = Instant(3_200_000);
+        let mut timeline = Timeline::new();
+        timeline.begin(Instant::ZERO);
+        timeline.note(hold, true);
+        timeline.note(resume, false);
+        let (now, last) = progress(hold, comes, Some(resume)).last().unwrap();
+        assert_eq!(last, timeline.at(now));
+    }
+}
