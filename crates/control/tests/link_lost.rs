@@ -149,3 +149,27 @@ fn a_robot_that_floods_is_named_and_the_others_play_on() {
     assert!(world.controller.counters().flooded > 90_000, "{:?}", world.controller.counters());
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
 }
+
+/// After an outage of the broker, clients find it again one after the other.
+#[test]
+fn robots_that_come_back_in_turn_hold_at_one_moment_when_the_others_slow_down_by_themselves() {
+    let mut world = World::under_way(10);
+    world.run_for(1.0);
+    let broke = world.now;
+    world.cut.extend(0..10);
+    world.link(false);
+    world.run_for(0.2);
+    world.link(true);
+    for robot in 0..8 {
+        world.cut.retain(|&cut| cut != robot);
+        world.robots[robot].introduce();
+        world.run_for(0.12);
+    }
+    let holds: Vec<_> = world.robots[..8].iter().map(|robot| robot.hold_since).collect();
+    let at = holds[0].unwrap();
+    assert!(holds.iter().all(|hold| *hold == Some(at)), "{holds:?}");
+    assert!((at - broke).as_secs() > 1.3 && (at - broke).as_secs() < 1.9, "{:?}", at - broke);
+    assert_eq!(world.robots[9].hold_since, None);
+    world.cut.clear();
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+}

@@ -61,6 +61,8 @@ pub struct World {
     pub frozen: bool,
     /// Numbers of the robots that receive nothing.
     pub deaf: Vec<usize>,
+    /// Robots whose link is broken: they neither send nor receive.
+    pub cut: Vec<usize>,
     /// Share of messages lost, percent.
     pub loss: u64,
     /// Delay of messages, milliseconds: the least, and the largest addition to it.
@@ -97,6 +99,7 @@ impl World {
             mute: false,
             frozen: false,
             deaf: Vec::new(),
+            cut: Vec::new(),
             loss: 0,
             delay_ms: (5, 15),
             closest_m: f64::INFINITY,
@@ -236,7 +239,9 @@ impl World {
         for index in 0..self.robots.len() {
             self.robots[index].step(self.now, STEP);
             for (topic, payload) in self.robots[index].take_said() {
-                self.post(topic, payload, true);
+                if !self.cut.contains(&index) {
+                    self.post(topic, payload, true);
+                }
             }
         }
         if !self.is_killed && self.controller.wake_at().is_some_and(|at| at <= self.now) {
@@ -256,7 +261,7 @@ impl World {
             return;
         }
         for (index, robot) in self.robots.iter_mut().enumerate() {
-            if self.deaf.contains(&index) {
+            if self.deaf.contains(&index) || self.cut.contains(&index) {
                 continue;
             }
             let personal = letter.topic == Topic::Robot(robot.id);
