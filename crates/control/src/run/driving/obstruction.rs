@@ -172,7 +172,9 @@ impl Driving {
             robot.participant.is_some_and(|participant| cx.participant(participant as usize).is_unplaced())
         };
         let placed = cx.io.fleet.robots().iter().filter(|robot| !is_unplaced(robot));
-        let known: Vec<Vec2> = placed.filter_map(|robot| robot.reported.at).collect();
+        // Robots that share a name report from several places in turn.
+        let places = |robot: &KnownRobot| robot.reported.at.into_iter().chain(robot.namesakes.places());
+        let known: Vec<Vec2> = placed.flat_map(places).collect();
         let is_obstructed = |one: &usize| self.progress[*one].obstructed_since.is_some();
         let sighting = |one: usize| {
             let robot = cx.robot(one);

@@ -31,6 +31,10 @@ const SIGMA: Sigma = Sigma { range_m: 0.002, bearing_m: 0.018, path_m: 0.002, pu
 const PUSHED_M: f64 = 0.05;
 /// Largest difference in range at which a robot that reported its place explains a sighting, metres: 4 sigma.
 const KNOWN_RANGE_M: f64 = 0.008;
+/// Largest error in bearing at which a robot whose place is known explains a sighting, radians: the angle between two
+/// sensors. Above, what is seen of a silent robot is taken for a known one. Below, a silent robot is located where a
+/// known one stands, and driven through.
+const KNOWN_BEARING: f64 = 0.8;
 /// Largest error in bearing of a sighting, radians: half the angle between two sensors.
 const BEARING: f64 = 0.4;
 /// Distance between two places that are tried, metres.
@@ -80,7 +84,7 @@ impl Sighting {
     pub fn is_of(&self, at: Vec2) -> bool {
         let (seen, known) = (self.there - self.from, at - self.from);
         let aside = wrap(seen.angle() - known.angle()).abs();
-        (seen.length() - known.length()).abs() < KNOWN_RANGE_M && aside < BEARING
+        (seen.length() - known.length()).abs() < KNOWN_RANGE_M && aside < KNOWN_BEARING
     }
 }
 
