@@ -104,15 +104,15 @@ issues: Array<Issue>,
 transitions: Array<Transition>, };
 
 /**
- * A wish for a plan by the module in the browser.
+ * A request for a plan, to the module in the browser.
  */
 export type PlanningRequest = { 
 /**
- * A show in our format.
+ * A show in the format `lightbots`.
  */
 show: unknown, 
 /**
- * `quick` leaves stop-safety as it is and does not measure it; the paths are proven all the same.
+ * `quick` neither improves stop-safety nor measures it. The paths are proven with either quality.
  */
 quality: MakeQuality, };
 
@@ -121,7 +121,7 @@ quality: MakeQuality, };
  */
 export type PlanAnswer = { 
 /**
- * The plan. `stop_safe` counts only for quality `full`. null: there is none.
+ * The plan. Its `stop_safe` is measured only for quality `full`. null: there is no plan.
  */
 plan: Plan | null, 
 /**
@@ -130,20 +130,20 @@ plan: Plan | null,
 error: MakeRemark | null, };
 
 /**
- * A wish for the light of a planned show by the module in the browser.
+ * A request for the light of a planned show, to the module in the browser.
  */
 export type LightRequest = { 
 /**
- * A show in our format.
+ * A show in the format `lightbots`.
  */
 show: unknown, 
 /**
- * The drives to its frames, with paths. Robots of a frame without a drive stand on its pixels.
+ * The drives to the frames of the show, with paths. In a frame without a drive, robots stand on its pixels.
  */
 transitions: Array<Transition>, };
 
 /**
- * What the module in the browser read of a show for its light.
+ * The answer to a [`LightRequest`].
  */
 export type LightAnswer = { 
 /**
@@ -315,12 +315,12 @@ admitted: boolean,
  */
 simulated: boolean, 
 /**
- * What the last preflight found of the robot; null: it was not in it, or one is under way.
+ * Result of the last preflight for the robot; null: the robot was not tested, or a preflight is under way.
  */
 preflight: PreflightResult | null, };
 
 /**
- * What a preflight found of a robot.
+ * The result of a preflight for one robot.
  */
 export type PreflightResult = { 
 /**
@@ -328,15 +328,16 @@ export type PreflightResult = {
  */
 faults: Array<PreflightFault>, 
 /**
- * How far it stood from its planned places at most, millimetres; null: not measured.
+ * Largest distance between the robot and its planned places, millimetres; null: not measured.
  */
 off_mm: number | null, 
 /**
- * How far its heading was off at most, degrees; null: not measured.
+ * Largest error of its heading, degrees; null: not measured.
  */
 off_deg: number | null, 
 /**
- * Whether Stop, heading and blinking were not tested, because the robot knows TARGET and COLOR only.
+ * Whether Stop, heading and blinking were not tested, because the robot understands only the commands TARGET and
+ * COLOR.
  */
 limited: boolean, };
 
@@ -381,7 +382,7 @@ fade: boolean,
 blink: boolean, };
 
 /**
- * A snapshot of the run. The binary message before it, `Robots`, has the places of the robots.
+ * A snapshot of the run. The binary message `Robots`, sent just before, has the places of the robots.
  */
 export type State = { 
 /**
@@ -393,7 +394,7 @@ at_ms: number,
  */
 pace: number, 
 /**
- * `Fleet.revision` of the table that names the robots of the binary message before.
+ * `Fleet.revision` of the fleet table that names the robots of the preceding binary message.
  */
 fleet: number, 
 /**
@@ -401,11 +402,11 @@ fleet: number,
  */
 broker: Broker, 
 /**
- * The show.
+ * The run and its progress.
  */
 playback: Playback, 
 /**
- * Where the show is on its timeline at `at_ms`; null: none is played, or its first drive has not begun.
+ * Position of the show on its timeline at `at_ms`; null: no show is played, or its first drive has not begun.
  */
 show_time: ShowTime | null, };
 
@@ -448,7 +449,7 @@ export type BrokerSettings = {
  */
 address: string, 
 /**
- * User name; null: the broker asks for none.
+ * User name; null: no user name is kept.
  */
 user: string | null, 
 /**
@@ -490,7 +491,7 @@ doing: string | null,
  */
 frame: number | null, 
 /**
- * Index of the frame after `frame`; null: none, the run ends then.
+ * Index of the frame after `frame`; null: none, the run ends after `frame`.
  */
 next: number | null, 
 /**
@@ -514,7 +515,8 @@ left_s: number | null,
  */
 failure: string | null, 
 /**
- * Index of the frame in which the last run of the show was stopped; null: it was not, or `dismiss_failure` was asked.
+ * Index of the frame in which the last run of the show ended before its end; null: it was played to its end, or
+ * `dismiss_failure` cleared the index.
  */
 stopped_in: number | null, 
 /**
@@ -522,7 +524,7 @@ stopped_in: number | null,
  */
 preflight: PreflightState | null, 
 /**
- * Name of the cue at which the show waits for `go`; may be empty. Null: it does not wait for it.
+ * Name of the cue at which the show waits for `go`; may be empty. Null: the show does not wait for `go`.
  */
 cue: string | null, 
 /**
@@ -530,11 +532,11 @@ cue: string | null,
  */
 live_light: Array<string>, 
 /**
- * The frames that repeat until `go`; null: none do at the moment.
+ * The frames that repeat until `go`; null: no frames repeat at the moment.
  */
 repeats: Repeats | null, 
 /**
- * Whether `go_on` lets a show go on whose robots were out of reach: some report again.
+ * Whether `go_on` can continue a show whose robots were out of reach: some of them report again.
  */
 may_go_on: boolean, 
 /**
@@ -542,7 +544,7 @@ may_go_on: boolean,
  */
 speed_percent: number, 
 /**
- * Whether the robots that are there have never played the open show to its end: a slow first run is offered.
+ * Whether the present robots have never played the open show to its end. The screen then offers a slow first run.
  */
 first_run: boolean, 
 /**
@@ -571,15 +573,15 @@ round: number,
  */
 rounds: number, 
 /**
- * Whether it was carried out to its end.
+ * Whether the preflight was carried out to its end.
  */
 finished: boolean, 
 /**
- * Number of robots that passed; 0 while it is under way.
+ * Number of robots that passed; 0 while the preflight is under way.
  */
 passed: number, 
 /**
- * Number of robots with findings; 0 while it is under way.
+ * Number of robots with faults; 0 while the preflight is under way.
  */
 named: number, };
 
@@ -588,24 +590,24 @@ named: number, };
  */
 export type Repeats = { 
 /**
- * Index of the first of them, counted from 0.
+ * Index of the first repeated frame, counted from 0.
  */
 first: number, 
 /**
- * Index of the last of them, counted from 0.
+ * Index of the last repeated frame, counted from 0.
  */
 last: number, 
 /**
- * Which time they are played, counted from 1.
+ * Number of the present round, counted from 1.
  */
 round: number, 
 /**
- * Whether GO was given: the show goes on after the last of them.
+ * Whether GO was given. The show then goes on with the frame after `last`.
  */
 leaves: boolean, };
 
 /**
- * Where the music of a show is on the timeline; for a show without music, where the show is.
+ * Position on the timeline: that of the music, or of the show if it has no music.
  */
 export type ShowTime = { 
 /**
@@ -613,8 +615,8 @@ export type ShowTime = {
  */
 show_s: number, 
 /**
- * Whether it moves on with the show clock. Music stands while the operator pauses, and while the show waits for GO; a
- * show without music also stands while robots are held or waited for.
+ * Whether the position advances with the show clock. With music, it stands during a pause and while the show waits
+ * for GO. Without music, it also stands while robots are held or waited for.
  */
 runs: boolean, };
 
@@ -708,7 +710,7 @@ list: Array<Incident>, };
  */
 export type Incident = { 
 /**
- * Number of the incident; it stays while the incident grows.
+ * Number of the incident. It stays the same when further events are added.
  */
 id: number, 
 /**
@@ -732,23 +734,23 @@ done: string,
  */
 advice: string, 
 /**
- * Names of the first robots that it is about.
+ * Names of the first robots concerned.
  */
 robots: Array<string>, 
 /**
- * Number of all these robots.
+ * Number of all robots concerned.
  */
 count: number, 
 /**
- * Its robots want to join: `list` admits them.
+ * Whether its robots are not admitted yet; the operation `list` admits them.
  */
 wants_to_join: boolean, 
 /**
- * It holds no longer.
+ * Whether the incident is over.
  */
 over: boolean, 
 /**
- * The operator has read it.
+ * Whether the operator has read the incident.
  */
 read: boolean, };
 
@@ -795,15 +797,15 @@ missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" }
  */
 frame: number, } | { "do": "skip" } | { "do": "live_light", 
 /**
- * Its name. A layer of the same name is replaced.
+ * Name of the layer. A layer of the same name is replaced.
  */
 name: string, 
 /**
- * The layer, as in a show file (docs/light.md); its span does not count. Null: take the layer off.
+ * The layer, as in a show file (docs/light.md); its span of time is ignored. Null: take the layer off.
  */
 layer: Record<string, unknown> | null, } | { "do": "loop", 
 /**
- * Whether it begins again.
+ * Whether the show begins again.
  */
 on: boolean, } | { "do": "speed", 
 /**
@@ -827,7 +829,7 @@ robot: string, } | { "do": "call",
  */
 robot: string, 
 /**
- * At most 40 characters; empty: none any more.
+ * The name, at most 40 characters; empty: take the name away.
  */
 called: string, } | { "do": "only_listed", 
 /**
@@ -875,7 +877,8 @@ ca?: string | null,
  */
 client_cert?: string | null, 
 /**
- * Key of the client certificate, stated like it; null: the kept key if the certificate is the kept one.
+ * Key of the client certificate: PEM text or the path of a file on the server; null: the kept key if the
+ * certificate is the kept one.
  */
 client_key?: string | null, } | { "do": "disconnect" };
 
@@ -901,7 +904,7 @@ ok: boolean,
  */
 error: string | null, 
 /**
- * Another operation that would be carried out; null: none.
+ * Another operation that the server would carry out instead; null: none.
  */
 choice: Choice | null, };
 
@@ -951,8 +954,8 @@ etag: string,
  */
 origin: ShowOrigin, 
 /**
- * Why the show cannot be saved under its name, for people: its file holds more than this version knows. null: it
- * can, or it is a read-only show by its origin.
+ * Why the show cannot be saved under its name, for people: its file holds fields that this version does not know.
+ * null: it can be saved, or it is read-only because of its origin.
  */
 read_only: string | null, 
 /**
@@ -960,7 +963,7 @@ read_only: string | null,
  */
 copy_of: ShowOrigin | null, 
 /**
- * What was found in the file, such as what it holds that shows have not. Only in the answer to a save.
+ * Issues found in the file, such as contents that a show cannot hold. Only in the answer to a save.
  */
 issues: Array<Issue>, };
 
@@ -974,7 +977,7 @@ export type ShowOrigin = "saved" | "example" | "start_file";
  */
 export type ShowState = { 
 /**
- * Number for `/api/shows/{name}/states/{number}`; null: the show as it is.
+ * Number for `/api/shows/{name}/states/{number}`; null: the current state.
  */
 number: number | null, 
 /**
@@ -994,7 +997,7 @@ frames: number,
  */
 pixels: number, 
 /**
- * Version of the file, with its quotes. Two states of one version hold the same.
+ * Version of the file, with its quotes. States with the same version have the same content.
  */
 etag: string, };
 
@@ -1019,19 +1022,19 @@ show: string,
  */
 began_ms: number, 
 /**
- * When it ended, milliseconds since 1970; null: it is on, or its program ended first.
+ * When it ended, milliseconds since 1970; null: the run is still on, or the program ended before it.
  */
 ended_ms: number | null, 
 /**
- * All frames were shown, and no robot was lost for good.
+ * Whether all frames were shown and no robot was lost for good.
  */
 ok: boolean, 
 /**
- * How it ended, in one sentence; null: it is on, or its program ended first.
+ * How the run ended, in one sentence; null: it is still on, or the program ended before it.
  */
 outcome: string | null, 
 /**
- * Whether its report can be made.
+ * Whether the report of the run can be made.
  */
 has_report: boolean, };
 
@@ -1050,7 +1053,7 @@ export type Problem = {
 error: string, };
 
 /**
- * The playlist as a client wants it.
+ * A new playlist from a client.
  */
 export type PlaylistChange = { 
 /**
@@ -1083,7 +1086,7 @@ show: string,
  */
 at?: string | null, 
 /**
- * Days on which an entry with `at` is played; none: every day.
+ * Days on which an entry with `at` is played; empty: every day.
  */
 weekdays?: Array<PlaylistDay>, 
 /**
@@ -1091,7 +1094,7 @@ weekdays?: Array<PlaylistDay>,
  */
 pause_min?: number | null, 
 /**
- * Robots drive to their starting places at the begin of that pause.
+ * Whether robots drive to their starting places at the beginning of the pause.
  */
 home?: boolean, 
 /**
@@ -1105,11 +1108,11 @@ speed_percent: number, };
 export type PlaylistDay = "mon" | "tue" | "wed" | "thu" | "fri" | "sat" | "sun";
 
 /**
- * The playlist as it is.
+ * The current playlist.
  */
 export type PlaylistState = { 
 /**
- * Increased with each change of switch and entries.
+ * Number of the playlist's version, increased with each change of `on` or `entries`.
  */
 revision: number, 
 /**
@@ -1125,12 +1128,12 @@ entries: Array<PlaylistEntry>,
  */
 today: Array<PlaylistToday>, 
 /**
- * The entry that starts next; null: none within a week, or none before the present one is over. Where the playlist is
- * off: what would start next if it was switched on now.
+ * The entry that starts next; null: none within a week, or none until the present entry is over. If the playlist
+ * is off: the entry that would start next if it were switched on.
  */
 next: PlaylistNext | null, 
 /**
- * Why no show starts, because a person stopped robots: one sentence; null: nothing holds the playlist. The operation
+ * Why the playlist starts no show after a person stopped robots, one sentence; null: it is not held. The operation
  * `go_on` lets it continue.
  */
 held: string | null, 
@@ -1148,15 +1151,15 @@ now: string, };
  */
 export type PlaylistToday = { 
 /**
- * What became of it.
+ * What became of the entry.
  */
 result: PlaylistResult, 
 /**
- * Local time of day, `HH:MM`, at which it starts, began or ended; null: not known yet.
+ * Local time of day, `HH:MM`, at which the entry starts, began or ended; null: not known yet.
  */
 time: string | null, 
 /**
- * Why it failed or was skipped, with a remedy: one line; null: it did not, or was not.
+ * Why the entry failed or was skipped, with a remedy: one line; null: neither happened.
  */
 line: string | null, };
 
@@ -1182,7 +1185,7 @@ show: string,
  */
 time: string, 
 /**
- * Time until then, seconds; 0: it is due.
+ * Time until the entry starts, seconds; 0: it is due.
  */
 in_s: number, };
 
@@ -1195,7 +1198,7 @@ export type RefusedOperation = {
  */
 error: string, 
 /**
- * Another operation that would be carried out; null: none.
+ * Another operation that the server would carry out instead; null: none.
  */
 choice: Choice | null, };
 
@@ -1205,11 +1208,11 @@ choice: Choice | null, };
 export type AccountRole = "viewer" | "editor" | "operator";
 
 /**
- * The person or program that a request is of.
+ * The person or program that sent a request.
  */
 export type Whoami = { 
 /**
- * Name of the person or the token; null on loopback, where sign-in is not asked for.
+ * Name of the person or the token; null on loopback, where no sign-in is needed.
  */
 name: string | null, 
 /**
@@ -1239,7 +1242,7 @@ export type MadeToken = {
  */
 name: string, 
 /**
- * What the token may do. It never allows more than its maker may do now.
+ * What the token may do. It never allows more than the present role of the person that made it.
  */
 role: AccountRole, 
 /**
@@ -1265,7 +1268,7 @@ role: AccountRole,
 password: string, };
 
 /**
- * What changes of a person.
+ * A change of the role or password of a person.
  */
 export type PersonChange = { 
 /**
@@ -1291,7 +1294,7 @@ name: string,
 password: string, };
 
 /**
- * The first operator, and the one-time token that the start without people printed.
+ * The first operator, with the one-time token that the program printed when it started without people.
  */
 export type FirstOperator = { 
 /**
@@ -1308,12 +1311,12 @@ name: string,
 password: string, };
 
 /**
- * A wish for a frame that is made from its source.
+ * A request to make a frame from its source.
  */
 export type MakeRequest = { 
 /**
- * A show in our format of which only the stage and the first frame count. The frame has the source; its pixels that
- * were moved by hand keep their places.
+ * A show in the format `lightbots`, of which only the stage and the first frame are used. The frame holds the
+ * source; its pixels that were moved by hand keep their places.
  */
 show: unknown, 
 /**
@@ -1321,12 +1324,12 @@ show: unknown,
  */
 robots: number, 
 /**
- * How much work is done.
+ * How much work is put into the frame.
  */
 quality: MakeQuality, };
 
 /**
- * How much work a made frame takes.
+ * How much work is put into a result.
  */
 export type MakeQuality = "quick" | "full";
 
@@ -1335,7 +1338,7 @@ export type MakeQuality = "quick" | "full";
  */
 export type MakeAnswer = { 
 /**
- * The pixels by their ids; empty with an error.
+ * The pixels with their ids; empty if there is an error.
  */
 pixels: Array<MadePixel>, 
 /**
@@ -1347,16 +1350,16 @@ size_m: number,
  */
 closest_m: number | null, 
 /**
- * How well the lights show the source; null: the source is an arrangement of lights by itself, such as a grid.
+ * How well the lights show the source; null: the source is itself an arrangement of lights, such as a grid.
  */
 readability: MadeReadability | null, 
 /**
- * Number of robots that would show the source readably, counted only for a full result that is not readable; null:
- * the result is readable, or not even a thousand robots would do.
+ * Number of robots with which the source would be readable, determined only for a `full` result that is not
+ * readable. null: not determined, or a thousand robots are not enough.
  */
 enough: number | null, 
 /**
- * What is missing from the picture, or different from the wish.
+ * What is missing from the picture, or differs from the request.
  */
 notes: Array<MakeRemark>, 
 /**
@@ -1394,15 +1397,15 @@ part: string | null, };
  */
 export type MadeReadability = { 
 /**
- * Normalised cross-correlation of the blurred lights with the source, 0 to 1: the worst part's.
+ * Normalised cross-correlation of the blurred lights with the source, 0 to 1. Of several parts, the lowest value.
  */
 correlation: number, 
 /**
- * Share of the lights that have a mirror image, where the source is mirror-symmetric; 1 for others.
+ * Share of the lights that have a mirror image, 0 to 1, if the source is mirror-symmetric; 1 for other sources.
  */
 symmetry: number, 
 /**
- * Whether guests read the picture without being told what it is.
+ * Whether `correlation` is high enough for viewers to recognise the picture without being told what it is.
  */
 readable: boolean, };
 
@@ -1428,11 +1431,12 @@ export type BeatsAnswer = {
  */
 bpm: number, 
 /**
- * The first beat, seconds of the music file, if all keep one tempo; null: `times_s` has each beat.
+ * Time of the first beat, seconds from the start of the music file, if the tempo is constant; null: `times_s` has
+ * each beat.
  */
 offset_s: number | null, 
 /**
- * Each beat, seconds of the music file, increasing; empty if all keep one tempo.
+ * Times of all beats, seconds from the start of the music file, increasing; empty if the tempo is constant.
  */
 times_s: Array<number>, 
 /**
@@ -1445,11 +1449,11 @@ error: MakeRemark | null, };
  */
 export type FilmAnswer = { 
 /**
- * In order of time; empty with an error.
+ * The frames in order of time; empty if there is an error.
  */
 frames: Array<FilmPicture>, 
 /**
- * Factor by which the animation is slowed down, so that robots have time to move; 1: as it is.
+ * Factor by which the animation is slowed down, so that robots have time to move; 1: it is not slowed down.
  */
 slowdown: number, 
 /**
@@ -1479,15 +1483,15 @@ air_time_s: number,
 made: MakeAnswer, };
 
 /**
- * A show whose frames all have one number of robots, or why there is none.
+ * A show whose frames were all fitted to the same number of robots, or why there is none.
  */
 export type FitAnswer = { 
 /**
- * The show in our format; null with an error.
+ * The show in the format `lightbots`; null if there is an error.
  */
 show: unknown, 
 /**
- * What is different from what might be expected.
+ * Differences from what might be expected of the fitted show.
  */
 notes: Array<MakeRemark>, 
 /**
@@ -1496,11 +1500,11 @@ notes: Array<MakeRemark>,
 error: MakeRemark | null, };
 
 /**
- * What the settings of sources may name.
+ * Fonts and shapes that the settings of sources may name.
  */
 export type MakeChoices = { 
 /**
- * Fonts inside, in the order in which they are offered.
+ * Built-in fonts, in the order in which they are offered.
  */
 fonts: Array<MakeFont>, 
 /**
@@ -1509,7 +1513,7 @@ fonts: Array<MakeFont>,
 shapes: Array<MakeShape>, };
 
 /**
- * A font inside.
+ * A built-in font.
  */
 export type MakeFont = { 
 /**
@@ -1534,11 +1538,11 @@ name: string,
  */
 aspect: number, 
 /**
- * Corners, tips or circles.
+ * Number of corners, tips or circles.
  */
 count: number, 
 /**
- * Turns of a spiral, periods of a wave.
+ * Turns of a spiral, or periods of a wave.
  */
 turns: number, 
 /**
@@ -1559,12 +1563,12 @@ export type MakeFile = {
  */
 hash: string, 
 /**
- * `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a show;
- * `music`: it is the music of a show; null: it is of no use here.
+ * `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a
+ * show; `music`: it is the music of a show; null: the file cannot be used.
  */
 kind: string | null, 
 /**
- * Why it is of no use, and what to do; null: it is.
+ * Why the file cannot be used, and what to do; null: it can be.
  */
 error: MakeRemark | null, };
 
@@ -1573,11 +1577,11 @@ error: MakeRemark | null, };
  */
 export type MovedAnswer = { 
 /**
- * The pixels by their ids; empty with an error.
+ * The pixels with their ids; empty if there is an error.
  */
 pixels: Array<MovedPixel>, 
 /**
- * Why there are none; null: there are.
+ * Why there are no pixels; null: there are pixels.
  */
 error: MakeRemark | null, };
 
