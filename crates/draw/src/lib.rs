@@ -2,8 +2,8 @@
 //!
 //! The crate does no IO: bytes and numbers in, places and colours out. The same input and seed give the same bits.
 //! In reading order: [`text`], [`svg`], [`picture`], [`animation`], [`list`] and [`draw_shape`] read or make a source.
-//! All but [`list`] make a [`Drawing`] of parts with areas, lines and colours. [`place`] puts lights on a drawing,
-//! [`enough_robots`] says how many robots make it readable, and [`refit`] changes the number of lights of a picture.
+//! All but [`list`] make a [`Drawing`] of parts with areas, lines and colours. [`place()`] puts lights on a drawing,
+//! [`enough_robots`] says how many robots make it readable, and [`refit()`] changes the number of lights of a picture.
 
 mod allot;
 pub mod animation;

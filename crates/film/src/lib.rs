@@ -3,7 +3,7 @@
 //! The crate does no IO and has no clock: the same show gives the same bytes on every machine. In reading order:
 //! [`FilmView`] and [`Camera`] project the stage into a picture, and [`Painter`] paints robots' lights.
 //! [`ShowFilm`] is a show as a sequence of pictures. With the feature `sheets` a film becomes a GIF ([`GifWriter`]), a
-//! [`contact_sheet`] (PNG) or a [`crew_sheet`] (PDF).
+//! [`contact_sheet()`] (PNG) or a [`crew_sheet()`] (PDF).
 
 mod camera;
 #[cfg(feature = "sheets")]

@@ -17,7 +17,7 @@ fn share(hash: u64) -> f64 {
     (hash >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// The number of the cycle that a phase is in, as a word for [`unit`].
+/// The number of the cycle that a phase is in, as a word for [`unit()`].
 pub(crate) fn cycle(phase: f64) -> u64 {
     libm::floor(phase) as i64 as u64
 }

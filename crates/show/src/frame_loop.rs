@@ -21,7 +21,7 @@ impl FrameLoop {
 }
 
 /// The loops of a show in playing order. No frame is in two of them. A cue with an invalid loop gives none: its frame
-/// waits for GO instead, as [`validate`](crate::validate) reports.
+/// waits for GO instead, as [`validate`](crate::validate()) reports.
 pub fn frame_loops(show: &Show) -> Vec<FrameLoop> {
     examined(show).0
 }

@@ -34,7 +34,7 @@ const COMPARISONS_MAX: usize = 200_000_000;
 /// no-go areas are left out.
 ///
 /// All distances grow with the radius of the robot. If the floor is too small, rows move closer, down to 60 mm for an
-/// Elisa-3. If that is not enough, further rows are beyond the far edge, which [`validate`](crate::validate) reports.
+/// Elisa-3. If that is not enough, further rows are beyond the far edge, which [`validate`](crate::validate()) reports.
 /// The list always has `count` places.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
