@@ -24,12 +24,13 @@ const CHECK: Span = Span::from_millis(100);
 const MOVED_M: f64 = 0.01;
 
 /// Sends STOP to a robot that reports and may keep a route of a run that is over. Ends when the robot reports that it
-/// keeps none: `Idle`. A `Lost` or `Faulty` robot may keep one, and would turn towards it once it has recovered.
+/// keeps none: it is `Idle`, or names no route. A `Lost` or `Faulty` robot may keep one, and would turn towards it once it
+/// has recovered.
 pub(crate) fn stop_late_comer(context: &mut Context, now: Instant, index: usize) {
     let robot = context.fleet.robot_mut(index);
     let last_run = &mut robot.last_run;
     let Some(state) = robot.reported.state.filter(|_| last_run.may_keep_route) else { return };
-    last_run.may_keep_route = state != RobotState::Idle;
+    last_run.may_keep_route = state != RobotState::Idle && robot.reported.route != 0;
     let is_due = last_run.stop_sent.is_none_or(|sent| now - sent >= STOP_AGAIN);
     if last_run.may_keep_route && (is_due || keeps_route(state)) {
         last_run.stop_sent = Some(now);

@@ -1,6 +1,5 @@
 //! What a plan leaves around each robot: how near others come, and which of them come into sight, where and when.
 
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 use lightbots_base::{Span, Vec2};
@@ -63,9 +62,7 @@ pub(crate) fn surroundings(
     let sightings = sight(paths, standing, longest, every, contact_m);
     let of_one = |mut sightings: Vec<Sighting>| {
         let stands = |one: &Sighting| paths.get(one.other).is_none_or(|(_, path)| path.as_ref().rests());
-        sightings.sort_by(|a, b| {
-            (stands(a), a.least_m).partial_cmp(&(stands(b), b.least_m)).unwrap_or(Ordering::Equal)
-        });
+        sightings.sort_by(|a, b| stands(a).cmp(&stands(b)).then(a.least_m.total_cmp(&b.least_m)));
         let room_m = sightings.iter().map(|one| one.least_m).fold(f64::INFINITY, f64::min);
         let mut neighbours = Neighbours::new();
         for one in sightings.iter().filter(|one| one.least_m < SIGHT_M) {

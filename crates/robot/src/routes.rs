@@ -60,6 +60,8 @@ struct Running {
     /// Place of the route at `time`, stage metres.
     due: Vec2,
     off_m: f64,
+    /// Distance from the place of the route by the moments of holds, metres: not `off_m` while path time goes back.
+    due_off_m: f64,
     cursor: RouteCursor,
     steady: SteadyTime,
     follow: Follow,
@@ -198,6 +200,7 @@ impl Routes {
             seek: None,
             back: None,
             off_m: 0.0,
+            due_off_m: 0.0,
             due: route.start,
             time: Span::ZERO,
             rate: 1.0,
@@ -218,13 +221,22 @@ impl Routes {
     ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
         let route = storage.at(running.slot);
-        let progress = running.steady.step(takes_effect, self.timeline.at(takes_effect));
+        let due = self.timeline.at(takes_effect);
+        let progress = running.steady.step(takes_effect, due);
+        let goes_back = progress.time != due.time;
+        if goes_back {
+            running.cursor.seek(route, due.time);
+            running.due_off_m = running.cursor.motion(due.time).position.distance(body.at);
+        }
         running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
         (running.due, running.time, running.rate) = (motion.position, progress.time, progress.rate);
         running.rests = progress.rate == 0.0;
         running.off_m = motion.position.distance(body.at);
+        if !goes_back {
+            running.due_off_m = running.off_m;
+        }
         if progress.time >= running.duration
             && (running.seek.is_some() || !running.is_there(progress.time, body.at, motion.position))
         {
@@ -364,6 +376,12 @@ impl Routes {
     /// Distance of the robot from the place of the route under way, metres; `None` without one.
     pub(crate) fn off_m(&self) -> Option<f64> {
         self.running.as_ref().map(|running| running.off_m)
+    }
+
+    /// Distance of the body from where its route is by the moments of all holds, metres; `None` without a route under
+    /// way. While the robot goes back after a late HOLD, that is farther than [`off_m`](Self::off_m).
+    pub(crate) fn due_off_m(&self) -> Option<f64> {
+        self.running.as_ref().map(|running| running.due_off_m)
     }
 }
 

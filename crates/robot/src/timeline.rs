@@ -11,7 +11,7 @@ const EVENTS: usize = 8;
 pub(crate) struct RouteProgress {
     /// Path time.
     pub time: Span,
-    /// Path time per show time, 0 to 1.
+    /// Path time per show time, 0 to 1; −0.5 at the least while path time goes back.
     pub rate: f64,
     /// Whether a hold is in force.
     pub held: bool,

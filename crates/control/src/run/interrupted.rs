@@ -27,6 +27,8 @@ const ASK_EVERY: Span = Span::from_millis(2_000);
 /// Time from the last message to a robot until a HOLD would stop it where it stops by itself (R43: it slows down after
 /// 1.9 s, and HOLD takes 50 ms longer to the same place).
 const SLOWS_AFTER: Span = Span::from_millis(1_850);
+/// Least time between two HOLDs or STOPs for robots that come back. Robots answer each STOP with a report.
+const HALT_AGAIN: Span = Span::from_millis(300);
 /// How long the run waits for one more robot while robots come back. Clients look for a broker every 2 s.
 const ONE_MORE: Span = Span::from_millis(3_000);
 
@@ -35,8 +37,8 @@ const ONE_MORE: Span = Span::from_millis(3_000);
 pub(crate) struct Interrupted {
     /// When the run was interrupted. Reports from before do not count.
     pub since: Instant,
-    /// When the last report of any robot came: the link broke at about this time.
-    heard: Instant,
+    /// When the link broke: about when the last report of a silent robot came.
+    broke: Instant,
     /// What was broken off.
     pub left: Position,
     /// Until when robots have to be back for the run to go on without the operator.
@@ -48,6 +50,10 @@ pub(crate) struct Interrupted {
     ask_at: Instant,
     /// Whether TARGET-only robots were told to stop.
     is_halted: bool,
+    /// Whether robots have come back since HOLD or STOP was sent last.
+    is_any_to_halt: bool,
+    /// HOLD or STOP is not sent before.
+    halt_from: Instant,
     /// Whether the operator agreed that the run goes on.
     is_agreed: bool,
 }
@@ -58,20 +64,22 @@ impl Interrupted {
         left.stops.get_or_insert(StopTimes { began: now, stood: now });
         Self {
             since: now,
-            heard: now,
+            broke: now,
             left,
             by_itself_until: now + by_itself,
             back_at: None,
             reported: (0, now),
             ask_at: now + ASK_EVERY,
             is_halted: false,
+            is_any_to_halt: false,
+            halt_from: now,
             is_agreed: false,
         }
     }
 
-    /// Sets when the last report of any robot came.
-    pub fn heard(self, heard: Instant) -> Self {
-        Self { heard, ..self }
+    /// Sets when the link broke.
+    pub fn broke(self, broke: Instant) -> Self {
+        Self { broke, ..self }
     }
 
     /// When [`on_tick`](Self::on_tick) has something to do next.
@@ -95,6 +103,10 @@ impl Interrupted {
         let missing = self.missing(cx).len();
         if robots - missing > self.reported.0 {
             self.reported = (robots - missing, cx.now);
+            self.is_any_to_halt = true;
+        }
+        if self.is_any_to_halt && cx.now >= self.halt_from {
+            (self.is_any_to_halt, self.halt_from) = (false, cx.now + HALT_AGAIN);
             self.halt(cx);
         }
         if missing > 0 && cx.now >= self.ask_at {
@@ -126,15 +138,19 @@ impl Interrupted {
     /// were sent for those before it. Robots hold when those out of reach slow down by themselves, so that all stay
     /// where the plan keeps them apart.
     fn halt(&mut self, cx: &mut RunContext) {
-        let slows_at = self.heard + SLOWS_AFTER;
+        let slows_at = self.broke + SLOWS_AFTER;
         match &mut self.left.drive {
             Some(_) if cx.is_target_leg() => {
                 if !std::mem::replace(&mut self.is_halted, true) {
                     target_commands::halt_all(cx);
                 }
             }
-            // Later, robots that drive would roll on into those that have already stopped by themselves.
-            Some(clock) if cx.now <= slows_at => {
+            // Later, robots that drive would roll on into those that have already stopped by themselves. STOP before all
+            // rest in a hold would halt some of them sooner than others.
+            Some(clock)
+                if cx.now
+                    <= clock.open_hold().map_or(slows_at, |hold| slows_at.max(hold.at + Route::EASE)) =>
+            {
                 let at = slows_at.max(cx.now + cx.link.hold_lead());
                 let at = clock.open_hold().map_or(at, |hold| hold.at);
                 clock.stand(at);

@@ -300,8 +300,11 @@ impl Run {
             io.log.record(now, EventKind::LinkLost { silent, robots });
         }
         let by_itself = io.config.waits.goes_on_within;
-        let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard).max();
-        let interrupted = Interrupted::begin(now, left, by_itself).heard(heard.unwrap_or(now));
+        // If a part of the robots fell silent, these were received last when the link broke.
+        let silence = if silent.is_some() { io.config.silence } else { Span::ZERO };
+        let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard);
+        let broke = heard.filter(|heard| now - *heard >= silence).max();
+        let interrupted = Interrupted::begin(now, left, by_itself).broke(broke.unwrap_or(now));
         self.enter(RunPhase::Interrupted(interrupted));
     }
 

@@ -117,13 +117,13 @@ impl Run {
 
     /// Creates a run whose robots are out of reach at present. `leg` is the leg that they drive or drove last, and
     /// `left` is what was broken off. The run goes on without the operator if robots are back within `by_itself`.
-    /// `heard` is when the last report of any robot came.
+    /// `broke` is about when the link broke.
     pub fn interrupted(
         now: Instant,
         playback: PlayedShow,
         roster: Roster,
         leg: Option<Leg>,
-        (left, by_itself, heard): (Position, Span, Instant),
+        (left, by_itself, broke): (Position, Span, Instant),
     ) -> Self {
         let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::new(&leg), leg });
         Self {
@@ -131,7 +131,7 @@ impl Run {
             playback,
             roster,
             link: LinkEstimate::default(),
-            phase: RunPhase::Interrupted(Interrupted::begin(now, left, by_itself).heard(heard)),
+            phase: RunPhase::Interrupted(Interrupted::begin(now, left, by_itself).broke(broke)),
             tally: Tally::default(),
             preflight: None,
         }

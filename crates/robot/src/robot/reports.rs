@@ -65,7 +65,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let knows_place = hot.state != RobotState::Lost && !self.is_lost_now();
         let is_blind = self.hot.routes.under_way() && self.hot.quality.blind;
         let err_m = is_blind.then(|| self.err_m());
-        let off_m = self.hot.routes.off_m();
+        let off_m = self.hot.routes.due_off_m();
         self.hot.outbox.notice(now, self.hot.state, off_m, err_m, knows_place);
         let towards = if self.hot.is_wary { self.blocked().map(|blocked| blocked.towards) } else { None };
         self.hot.outbox.notice_block(towards);
@@ -80,7 +80,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             light: self.light.tracks.newest(),
             slot: self.light.live.slot(),
             starts: self.hot.routes.starts().filter(|_| self.hot.clock.show_time(self.hot.now).is_some()),
-            off_m: self.hot.routes.off_m(),
+            off_m: self.hot.routes.due_off_m(),
             err_m: self.place().map(|_| self.err_m()),
             clock_us: self.clock_filter.error_us(&self.hot.clock, self.hot.now),
             firmware: self.config.firmware.clone(),

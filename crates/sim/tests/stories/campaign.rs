@@ -11,7 +11,7 @@ const SLOW: [u64; 5] = [233, 703, 710, 1_091, 1_337];
 
 /// Seeds that once failed, with the number of robots then (`None`: as many as the seed draws). The comments name the
 /// mistake.
-const FAILED: [(u64, Option<usize>); 41] = [
+const FAILED: [(u64, Option<usize>); 40] = [
     // Robots turned towards a route that waited for its start after 2 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed stayed paused.
@@ -82,8 +82,6 @@ const FAILED: [(u64, Option<usize>); 41] = [
     (1_896, None),
     // A robot that was blocked when the controller ended was looked for farther along its path.
     (3_519, None),
-    // A robot that had dropped out and reported its place was taken for a silent robot elsewhere.
-    (3_871, None),
     // A robot got its fixes back after the end of a run, and turned towards a route that it kept.
     (1_741, None),
 ];

@@ -7,10 +7,11 @@ use crate::run::driving::sightings::{SAME_M, Sighting, narrow, seen_by};
 use crate::run::link_loss;
 use crate::run::next::Next;
 use crate::run::pipeline::DrivenLeg;
-use crate::run::roster::Whereabouts;
+use crate::run::roster::{Participant, Whereabouts};
 use crate::run::run_context::RunContext;
 use crate::run::silence;
 use crate::run::stop_times::StopTimes;
+use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Blocked, Command};
 
@@ -138,8 +139,10 @@ impl Driving {
     /// Narrows where silent robots may stand, by what other robots have seen since. A sighting that two silent robots
     /// explain narrows neither.
     fn locate_silent(&self, cx: &mut RunContext) {
-        let seen = self.sightings(cx);
-        let silent = cx.roster.participants.iter_mut().filter(|known| known.is_unplaced());
+        let seen = self.sightings(cx, None);
+        let robots = cx.io.fleet.robots();
+        let participants = cx.roster.participants.iter_mut();
+        let silent = participants.filter(|known| is_unplaced(known, &robots[known.robot]));
         let mut places: Vec<&mut Whereabouts> = silent.map(|known| &mut known.last_seen).collect();
         let explained = |seen: &Sighting| places.iter().filter(|one| seen.is_near_any(&one.possible)).count();
         let clear: Vec<Sighting> = seen.iter().copied().filter(|seen| explained(seen) == 1).collect();
@@ -155,26 +158,30 @@ impl Driving {
         let stop = StopTimes { began: cx.now, stood: cx.now };
         let robot = cx.robot(participant);
         let mut places = silence::whereabouts((leg, targets), &self.clock, stop, participant, robot);
-        let silent = || cx.roster.participants.iter().filter(|known| known.is_unplaced());
+        let others = || cx.roster.participants.iter().filter(|known| known.is_unplaced());
         let is_unexplained =
-            |seen: &Sighting| !silent().any(|known| seen.is_near_any(&known.last_seen.possible));
-        let seen: Vec<Sighting> = self.sightings(cx).into_iter().filter(is_unexplained).collect();
+            |seen: &Sighting| !others().any(|known| seen.is_near_any(&known.last_seen.possible));
+        let seen: Vec<Sighting> =
+            self.sightings(cx, Some(participant)).into_iter().filter(is_unexplained).collect();
         narrow(&mut places.possible, &seen);
         narrow(&mut places.likely, &seen);
         places
     }
 
     /// What obstructed robots see in their paths, without robots whose places are known. These include robots that take
-    /// no part and report their places.
-    fn sightings(&self, cx: &RunContext) -> Vec<Sighting> {
+    /// no part and report their places, and leave out `silent`, a participant whose place is asked for.
+    fn sightings(&self, cx: &RunContext, silent: Option<usize>) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
-        let is_unplaced = |robot: &KnownRobot| {
-            robot.participant.is_some_and(|participant| cx.participant(participant as usize).is_unplaced())
+        let is_placed = |robot: &&KnownRobot| match robot.participant.map(|participant| participant as usize)
+        {
+            Some(participant) => {
+                Some(participant) != silent && !is_unplaced(cx.participant(participant), robot)
+            }
+            None => robot.contact.age != Age::Gone,
         };
-        let placed = cx.io.fleet.robots().iter().filter(|robot| !is_unplaced(robot));
         // Robots that share a name report from several places in turn.
         let places = |robot: &KnownRobot| robot.reported.at.into_iter().chain(robot.namesakes.places());
-        let known: Vec<Vec2> = placed.flat_map(places).collect();
+        let known: Vec<Vec2> = cx.io.fleet.robots().iter().filter(is_placed).flat_map(places).collect();
         let is_obstructed = |one: &usize| self.progress[*one].obstructed_since.is_some();
         let sighting = |one: usize| {
             let robot = cx.robot(one);
@@ -185,4 +192,9 @@ impl Driving {
         let obstructed = cx.roster.active().map(|(one, _)| one).filter(is_obstructed);
         obstructed.filter_map(sighting).filter(is_strange).collect()
     }
+}
+
+/// Whether a participant dropped out and does not report where it is. Robots that share a name report all their places.
+fn is_unplaced(known: &Participant, robot: &KnownRobot) -> bool {
+    known.is_unplaced() && !robot.namesakes.are_there()
 }
