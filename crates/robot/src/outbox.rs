@@ -100,8 +100,8 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Notes what is to be reported after a step. `off_m`: distance from the route. `err_m`: error of the place, if
-    /// fixes are overdue.
+    /// Decides after a step whether an introduction or a status report is due. `off_m`: distance from the route, metres.
+    /// `err_m`: error of the place, metres; `None` unless fixes are overdue.
     pub(crate) fn notice(
         &mut self,
         now: Instant,

@@ -41,7 +41,8 @@ pub enum LogError {
 pub enum LogEnd {
     /// At its record `End`, which the writer appended.
     Complete,
-    /// Earlier: the writer was killed, or bytes were cut or changed. The number of bytes that were read.
+    /// Before that record: the writer was killed, bytes were cut or changed, or the replay stopped at a difference. Holds
+    /// the number of bytes that were read.
     Cut(u64),
 }
 

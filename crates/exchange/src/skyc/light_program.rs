@@ -22,7 +22,7 @@ const SET: u8 = 0x04;
 const FADE: u8 = 0x08;
 const LOOP: u8 = 0x0c;
 const LOOP_END: u8 = 0x0d;
-/// Pyrotechnics: one byte follows, and no time passes.
+/// The two operations for pyrotechnics, which are skipped. One byte follows either of them, and no time passes.
 const PYRO: [u8; 2] = [0x14, 0x15];
 
 /// Writes the program of a light. Its stretches were fitted to samples one tick apart.

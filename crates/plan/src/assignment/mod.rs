@@ -156,7 +156,8 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// Finds assignments with the least sum of squares for a growing limit on their longest line.
+/// Finds the assignment with the least sum of squared line lengths and no line longer than a limit. Later calls may raise
+/// the limit, never lower it.
 pub struct Minimiser<'a> {
     choice: &'a Choice<'a>,
     solver: LeastSquares<'a>,

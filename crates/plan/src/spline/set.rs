@@ -59,8 +59,8 @@ fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option
 }
 
 impl SplineSet {
-    /// Splines with `place(robot, step)` for steps 0..=spans as control points, which rounds corners. Panics if there
-    /// are more than [`MOST_SPANS`] spans.
+    /// Splines whose free control points are `place(robot, step)` for steps 1 to `spans - 1`, so that corners become
+    /// round. The outer points follow from each robot's start and goal. Panics if there are more than [`MOST_SPANS`] spans.
     pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
         assert!(spans <= MOST_SPANS, "a path holds at most {MOST_SPANS} spans, not {spans}");

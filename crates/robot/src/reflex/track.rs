@@ -179,7 +179,8 @@ impl Track {
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Whether place and velocity agree with the plan within [`RECOGNISED_SIGMAS`].
+    /// Whether the track agrees with the planned place `at` and the planned `velocity` within [`RECOGNISED_SIGMAS`].
+    /// `sigma_m`: error of the planned place, metres, 1 sigma.
     pub fn keeps_to(&self, at: Point, velocity: Point, sigma_m: f32, of: &NeighbourModel) -> bool {
         let agrees = |off: Point, planned_sigma: f32, variance: &dyn Fn(Point) -> f32| {
             let size = off.length().max(1e-6);

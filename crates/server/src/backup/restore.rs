@@ -174,8 +174,8 @@ fn holds_files(data: &Path) -> Result<bool, Failure> {
     Ok(false)
 }
 
-/// Gives the folder `staging` the name `data`. What `data` held is moved aside first. Returns the path of the moved
-/// folder, if there is one.
+/// Gives the folder `staging` the name `data`. If `data` holds files, it is first moved aside, and its new path is
+/// returned. Otherwise it is deleted first.
 fn put_in_place(staging: &Path, data: &Path, holds_files: bool) -> Result<Option<PathBuf>, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(

@@ -116,8 +116,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// Watches a driving robot that has been silent for the time `silent`. First all wait for it; once all stand, it
-    /// drops out. `None` if neither happens in this turn.
+    /// Watches a driving robot that has been silent for the time `silent`. After a short silence all wait for it. After a
+    /// longer one it drops out, once all stand. `None` if neither happens in this turn.
     fn watch_silent(&mut self, cx: &mut RunContext, participant: usize, silent: Span) -> Option<Next> {
         let bound = cx.io.config.silence + cx.link.round_trip * 2;
         if silent > bound && self.all_stand(cx, silent) {
