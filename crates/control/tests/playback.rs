@@ -351,9 +351,8 @@ fn a_show_that_validation_rejects_is_not_begun() {
     }
 }
 
-/// Checks that a run's abort reaches a robot that keeps a route and receives nothing for `unheard_s`. It must keep no
-/// route `within_s` after it receives messages again.
-fn is_stopped_after(unheard_s: f64, within_s: f64) {
+/// A world whose run was aborted while robot 3 kept a route. The robot receives and sends nothing until `unheard_s` later.
+fn aborted_without_robot_3(unheard_s: f64) -> World {
     let mut world = World::ready(10, 0, show(3, 10, 3.0));
     world.play();
     world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
@@ -363,6 +362,13 @@ fn is_stopped_after(unheard_s: f64, within_s: f64) {
     world.operate(Operation::Abort).unwrap();
     world.run_for(unheard_s);
     world.robots[3].dead = false;
+    world
+}
+
+/// Checks that the abort of a run reaches a robot that keeps a route and receives nothing for `unheard_s`. It must keep no
+/// route `within_s` after it receives messages again.
+fn is_stopped_after(unheard_s: f64, within_s: f64) {
+    let mut world = aborted_without_robot_3(unheard_s);
     world.run_for(within_s);
     assert!(world.robots[3].kept.is_none(), "{}", world.story());
 }
@@ -381,14 +387,8 @@ fn a_robot_that_is_back_long_after_a_run_is_told_that_it_keeps_no_route() {
 /// A lost robot does not report whether it keeps a route, and answers each STOP with a report.
 #[test]
 fn a_robot_that_is_lost_after_a_run_is_told_now_and_then_that_it_keeps_no_route() {
-    let mut world = World::ready(10, 0, show(3, 10, 3.0));
-    world.play();
-    world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
-    world.run_for(1.0);
-    world.robots[3].dead = true;
-    world.operate(Operation::Abort).unwrap();
-    world.run_for(20.0);
-    (world.robots[3].dead, world.robots[3].lost) = (false, true);
+    let mut world = aborted_without_robot_3(20.0);
+    world.robots[3].lost = true;
     world.run_for(3.0);
     assert!(world.robots[3].kept.is_none(), "{}", world.story());
     world.run_for(10.0);

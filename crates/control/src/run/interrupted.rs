@@ -48,12 +48,8 @@ pub(crate) struct Interrupted {
     /// Number of robots that have reported, and when that number last grew.
     reported: (usize, Instant),
     ask_at: Instant,
-    /// Whether TARGET-only robots were told to stop.
-    is_halted: bool,
-    /// Whether robots have come back since HOLD or STOP was sent last.
-    is_any_to_halt: bool,
-    /// HOLD or STOP is not sent before.
-    halt_from: Instant,
+    /// When robots that report again were told to hold or stop last.
+    halted: Option<Instant>,
     /// Whether the operator agreed that the run goes on.
     is_agreed: bool,
 }
@@ -70,9 +66,7 @@ impl Interrupted {
             back_at: None,
             reported: (0, now),
             ask_at: now + ASK_EVERY,
-            is_halted: false,
-            is_any_to_halt: false,
-            halt_from: now,
+            halted: None,
             is_agreed: false,
         }
     }
@@ -103,10 +97,10 @@ impl Interrupted {
         let missing = self.missing(cx).len();
         if robots - missing > self.reported.0 {
             self.reported = (robots - missing, cx.now);
-            self.is_any_to_halt = true;
         }
-        if self.is_any_to_halt && cx.now >= self.halt_from {
-            (self.is_any_to_halt, self.halt_from) = (false, cx.now + HALT_AGAIN);
+        let (reported, grew) = self.reported;
+        let is_due = |halted: Instant| grew > halted && cx.now >= halted + HALT_AGAIN;
+        if reported > 0 && self.halted.is_none_or(is_due) {
             self.halt(cx);
         }
         if missing > 0 && cx.now >= self.ask_at {
@@ -138,19 +132,17 @@ impl Interrupted {
     /// were sent for those before it. Robots hold when those out of reach slow down by themselves, so that all stay
     /// where the plan keeps them apart.
     fn halt(&mut self, cx: &mut RunContext) {
+        let is_first = self.halted.replace(cx.now).is_none();
         let slows_at = self.broke + SLOWS_AFTER;
         match &mut self.left.drive {
             Some(_) if cx.is_target_leg() => {
-                if !std::mem::replace(&mut self.is_halted, true) {
+                if is_first {
                     target_commands::halt_all(cx);
                 }
             }
             // Later, robots that drive would roll on into those that have already stopped by themselves. STOP before all
             // rest in a hold would halt some of them sooner than others.
-            Some(clock)
-                if cx.now
-                    <= clock.open_hold().map_or(slows_at, |hold| slows_at.max(hold.at + Route::EASE)) =>
-            {
+            Some(clock) if cx.now <= slows_at.max(clock.rests_from().unwrap_or(slows_at)) => {
                 let at = slows_at.max(cx.now + cx.link.hold_lead());
                 let at = clock.open_hold().map_or(at, |hold| hold.at);
                 clock.stand(at);

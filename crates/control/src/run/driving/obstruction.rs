@@ -142,7 +142,7 @@ impl Driving {
         let seen = self.sightings(cx, None);
         let robots = cx.io.fleet.robots();
         let participants = cx.roster.participants.iter_mut();
-        let silent = participants.filter(|known| is_unplaced(known, &robots[known.robot]));
+        let silent = participants.filter(|known| is_silent(known, &robots[known.robot]));
         let mut places: Vec<&mut Whereabouts> = silent.map(|known| &mut known.last_seen).collect();
         let explained = |seen: &Sighting| places.iter().filter(|one| seen.is_near_any(&one.possible)).count();
         let clear: Vec<Sighting> = seen.iter().copied().filter(|seen| explained(seen) == 1).collect();
@@ -175,7 +175,7 @@ impl Driving {
         let is_placed = |robot: &&KnownRobot| match robot.participant.map(|participant| participant as usize)
         {
             Some(participant) => {
-                Some(participant) != silent && !is_unplaced(cx.participant(participant), robot)
+                Some(participant) != silent && !is_silent(cx.participant(participant), robot)
             }
             None => robot.contact.age != Age::Gone,
         };
@@ -195,6 +195,6 @@ impl Driving {
 }
 
 /// Whether a participant dropped out and does not report where it is. Robots that share a name report all their places.
-fn is_unplaced(known: &Participant, robot: &KnownRobot) -> bool {
+fn is_silent(known: &Participant, robot: &KnownRobot) -> bool {
     known.is_unplaced() && !robot.namesakes.are_there()
 }

@@ -77,7 +77,7 @@ impl Sighting {
 
     /// Whether a robot on the path through these places, or pushed off that path, explains the sighting.
     pub fn is_near_any(&self, places: &[Vec2]) -> bool {
-        places.iter().copied().chain(between(places)).any(|place| self.off_m(place) < PUSHED_M)
+        samples(places).any(|place| self.off_m(place) < PUSHED_M)
     }
 
     /// Whether a robot that stands at a place explains the sighting.
@@ -92,9 +92,8 @@ impl Sighting {
 /// `places` are samples. A robot that was run into stands beside its path, and a sensor measures range much better
 /// than bearing. If only one robot sees it far from the estimate, places up to the sighting itself are added.
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
-    let path: Vec<Vec2> = places.iter().copied().chain(between(places)).collect();
-    let is_near = |seen: &&Sighting| seen.is_near_any(places);
-    let mut left: Vec<Sighting> = sightings.iter().filter(is_near).copied().collect();
+    let path: Vec<Vec2> = samples(places).collect();
+    let mut left: Vec<Sighting> = sightings.iter().filter(|seen| seen.is_near_any(places)).copied().collect();
     let mut found = Vec::new();
     // Two groups are two robots, or one robot that is seen from two sides with wrong bearings: both places count.
     while let Some(first) = left.first().copied() {
@@ -138,6 +137,11 @@ fn fused(path: &[Vec2], group: &[Sighting]) -> Vec2 {
         steps.clone().flat_map(|x| steps.clone().map(move |y| Vec2::new(f64::from(x), f64::from(y))));
     let tried = around.map(|step| middle + step * SEARCH_STEP_M);
     tried.min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(middle)
+}
+
+/// Samples of the path through these places: the places, and those between neighbours on the path.
+fn samples(places: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
+    places.iter().copied().chain(between(places))
 }
 
 /// Places between neighbours on a path, at equal parts.
