@@ -1,5 +1,9 @@
 //! The route under way, the one kept for later, and when they begin.
 
+mod in_sight;
+
+pub(crate) use in_sight::InSight;
+
 use lightbots_base::{Instant, Limits, Motion, PathRef, Span, Vec2};
 use lightbots_wire::Route;
 
@@ -8,7 +12,6 @@ use crate::drive::{BodyPose, Setpoint};
 use crate::follow::{Follow, RESTING_MPS};
 use crate::kept_route::{KeptRoute, TOO_LATE};
 use crate::look_ahead::{Ahead, LookAhead, SLOW_MPS};
-use crate::reflex::{Expectation, Point};
 use crate::seek::{Seek, within_arrival};
 use crate::steady_time::SteadyTime;
 use crate::storage::{RouteStorage, Slot};
@@ -29,12 +32,6 @@ const BACK_M: f64 = 0.004;
 const OLD_NUMBERS: u32 = 64;
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
-
-/// Largest number of neighbours expected in sight at once: no more discs of a robot's size have their centres within
-/// 0.11 m.
-pub(crate) const MAX_IN_SIGHT: usize = 12;
-/// The neighbours expected in sight.
-pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
 
 /// The route under way.
 #[derive(Debug)]
@@ -112,49 +109,6 @@ impl Routes {
         self.running.as_ref()?.room_mm
     }
 
-    /// Appends the planned neighbours within `sight_m` of the body, metres, at the path time of the latest step. If
-    /// there are more than [`MAX_IN_SIGHT`], the farthest of those that stand are left out.
-    pub(crate) fn expect(
-        &self,
-        body: BodyPose,
-        sight_m: f64,
-        storage: &RouteStorage,
-        expected: &mut InSight,
-    ) {
-        let Some(running) = &self.running else { return };
-        let neighbours = &storage.at(running.slot).neighbours;
-        let back = Vec2::new(body.facing.x, -body.facing.y);
-        let into_body = |vector: Vec2| {
-            let turned = turned_by(vector, back);
-            Point::new(turned.x as f32, turned.y as f32)
-        };
-        for (index, neighbour) in neighbours.list.iter().enumerate() {
-            let Some(motion) = neighbours.motion(neighbour, running.time) else { continue };
-            if motion.position.distance(body.at) > sight_m {
-                continue;
-            }
-            let one = Expectation {
-                index: index as u8,
-                at: into_body(motion.position - body.at),
-                velocity: into_body(motion.velocity * running.rate),
-                acceleration: into_body(motion.acceleration * (running.rate * running.rate)),
-                clearance_m: f32::from(neighbour.clearance_tenths) * 1e-4,
-            };
-            if let Err(one) = expected.push(one) {
-                take_in(one, expected);
-            }
-        }
-    }
-
-    /// Whether the route under way accounts for all neighbours within `range_m`, metres: it lists neighbours, or its
-    /// clearance is larger than that.
-    pub(crate) fn tells_neighbours(&self, range_m: f32, storage: &RouteStorage) -> bool {
-        self.running.as_ref().is_some_and(|running| {
-            let is_alone = running.room_mm.is_some_and(|room_mm| f32::from(room_mm) > 1e3 * range_m);
-            is_alone || !storage.at(running.slot).neighbours.list.is_empty()
-        })
-    }
-
     /// Notes a HOLD or a RESUME.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
@@ -223,20 +177,17 @@ impl Routes {
         let route = storage.at(running.slot);
         let due = self.timeline.at(takes_effect);
         let progress = running.steady.step(takes_effect, due);
-        let goes_back = progress.time != due.time;
-        if goes_back {
-            running.cursor.seek(route, due.time);
-            running.due_off_m = running.cursor.motion(due.time).position.distance(body.at);
-        }
         running.cursor.seek(route, progress.time);
         let by_path_time = running.cursor.motion(progress.time);
         let motion = by_show_time(by_path_time, progress.rate);
         (running.due, running.time, running.rate) = (motion.position, progress.time, progress.rate);
         running.rests = progress.rate == 0.0;
         running.off_m = motion.position.distance(body.at);
-        if !goes_back {
-            running.due_off_m = running.off_m;
-        }
+        running.due_off_m = if progress.time == due.time {
+            running.off_m
+        } else {
+            PathRef::new(route.start, &route.pieces).at(due.time).position.distance(body.at)
+        };
         if progress.time >= running.duration
             && (running.seek.is_some() || !running.is_there(progress.time, body.at, motion.position))
         {
@@ -405,18 +356,6 @@ fn by_show_time(motion: Motion, rate: f64) -> Motion {
         return motion;
     }
     Motion { velocity: motion.velocity * rate, acceleration: motion.acceleration * (rate * rate), ..motion }
-}
-
-/// Puts a neighbour into a full list, in the place of the farthest one that stands, if it moves or is nearer. Places
-/// where a silent robot may stand are standing neighbours, of which there may be dozens beside a path.
-fn take_in(one: Expectation, expected: &mut InSight) {
-    let moves = |one: &Expectation| one.velocity != Point::ZERO;
-    let far_m = |one: &Expectation| one.at.length();
-    let standing = expected.iter_mut().filter(|other| !moves(other));
-    let farthest = standing.max_by(|a, b| far_m(a).total_cmp(&far_m(b)));
-    if let Some(farthest) = farthest.filter(|farthest| moves(&one) || far_m(&one) < far_m(farthest)) {
-        *farthest = one;
-    }
 }
 
 #[cfg(test)]

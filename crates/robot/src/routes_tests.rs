@@ -1,3 +1,4 @@
+use super::in_sight::MAX_IN_SIGHT;
 use super::*;
 use lightbots_base::Piece;
 use lightbots_wire::{Knot, Pieces};

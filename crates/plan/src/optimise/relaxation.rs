@@ -30,8 +30,7 @@ const DETECTION_MOVED_M: f64 = 0.006;
 const SMOOTHING: usize = 3;
 /// Largest time scale of a span in one step.
 const MOST_TIME_SCALED: f64 = 1.5;
-/// Longest duration of a span, seconds; beyond it the splines get more spans. Two contacts on one long span cannot be
-/// resolved.
+/// Longest duration of a span, seconds. Longer ones are divided, because two contacts in one cannot be resolved.
 const LONGEST_SPAN_S: f64 = 0.36;
 /// Distance by which displacements aim beyond the wanted one, metres, because they converge towards their aim.
 const BEYOND_M: f64 = 0.0002;
