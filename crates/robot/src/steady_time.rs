@@ -12,8 +12,6 @@ use crate::timeline::RouteProgress;
 const BACK: f64 = -0.5;
 /// Jump back of path time that a robot makes at once: 5 mm at full speed. Below, corrections of the clock count.
 const JUMP: Span = Span::from_millis(20);
-/// Longest time between two steps that counts: a robot that steps less often is not in control.
-const LONGEST_STEP: Span = Span::from_millis(100);
 /// Path time has gone back when it is ahead by no more than this.
 const THERE: Span = Span::from_millis(2);
 
@@ -34,15 +32,13 @@ impl SteadyTime {
 
     /// Returns the progress at a moment of the show clock. `due`: the progress by the holds that are known.
     pub(crate) fn step(&mut self, at: Instant, due: RouteProgress) -> RouteProgress {
-        let over = (at - core::mem::replace(&mut self.at, at)).clamp(Span::ZERO, LONGEST_STEP);
+        let over_s = (at - core::mem::replace(&mut self.at, at)).as_secs().clamp(0.0, 0.1);
         let RouteProgress { time, rate, .. } = self.progress;
-        // Path time runs with the show clock in nearly all steps.
-        let gained = if rate == 1.0 { over } else { Span::from_secs(rate * over.as_secs()) };
-        let ahead = time + gained - due.time;
+        let ahead = time + Span::from_secs(rate * over_s) - due.time;
         self.goes_back = ahead > if self.goes_back { THERE } else { JUMP };
         self.progress = due;
         if self.goes_back {
-            let (slope, over_s) = (1.0 / Route::EASE.as_secs(), over.as_secs());
+            let slope = 1.0 / Route::EASE.as_secs();
             let wanted = (due.rate - libm::sqrt(2.0 * slope * ahead.as_secs())).max(BACK);
             let rate = wanted.clamp(rate - slope * over_s, rate + slope * over_s);
             self.progress = RouteProgress { time: time + Span::from_secs(rate * over_s), rate, ..due };
