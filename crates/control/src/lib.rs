@@ -52,6 +52,7 @@ mod shared_show;
 mod snapshot;
 mod stopping;
 mod surroundings;
+mod unsure_places;
 mod view;
 
 pub use config::{Ageing, Config, LateBounds, UploadLimits, WaitBounds};

@@ -7,6 +7,7 @@ use crate::mapping::Roles;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
+use crate::unsure_places;
 use lightbots_base::{Span, Vec2};
 use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
 use lightbots_plan::{
@@ -19,9 +20,8 @@ use std::sync::Arc;
 
 /// Least clearance between a goal and a disc that does not move, metres; closer goals cannot be reached.
 const BLOCKED_MARGIN_M: f64 = 0.001;
-/// The same clearance for discs whose places are inferred, metres: as others measure it, a failed robot's place is off
-/// by 5 mm.
-const INFERRED_MARGIN_M: f64 = 0.008;
+/// The same clearance for discs whose places are inferred, metres.
+const INFERRED_MARGIN_M: f64 = unsure_places::OFF_M + BLOCKED_MARGIN_M;
 /// Number of attempts to plan a frame, with fewer pixels each time, before planning it fails.
 const LENIENT_TRIES: usize = 8;
 
@@ -199,9 +199,23 @@ impl<'a> PlanBuilder<'a> {
         }
     }
 
+    /// Plans a transition that keeps away from inferred places by as much as they may be off, or else one that does
+    /// not.
+    fn planned(&self, problem: &TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
+        if let Some(wide) = unsure_places::kept_away_from(problem, &self.problem.inferred)
+            && let Ok(plan) = self.prescribed_or_ordinary(&wide)?
+        {
+            return Ok(Ok(plan));
+        }
+        self.prescribed_or_ordinary(problem)
+    }
+
     /// Plans the transition that the show prescribes. If that is not possible, for example because failed robots are in
     /// its way, plans an ordinary one.
-    fn planned(&self, problem: &TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
+    fn prescribed_or_ordinary(
+        &self,
+        problem: &TransitionProblem,
+    ) -> Result<Result<Transition, Infeasible>, String> {
         let found = planned_unless(problem, self.is_over).map_err(given_up)?;
         if found.is_ok() || problem.prescribed.is_none() {
             return Ok(found);
@@ -291,7 +305,7 @@ impl<'a> PlanBuilder<'a> {
             standing: standing.to_vec(),
             ..TransitionProblem::timed_as(&self.problem.show.stage, frame)
         };
-        let plan = transition_unless(&problem, self.is_over).ok()?.ok()?;
+        let plan = self.planned(&problem).ok()?.ok()?;
         Some(drivers.iter().copied().zip(plan.paths).collect())
     }
 
