@@ -175,6 +175,11 @@ impl Estimate {
         self.is_blind(now, LOST_AFTER)
     }
 
+    /// How far the place has jumped since the last call, metres; 0: it has not.
+    pub(crate) fn take_jump_m(&mut self) -> f64 {
+        self.filter.take_jump_m()
+    }
+
     /// Whether the place jumped twice within a second, which no push explains. The call clears the flag.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.filter.take_senseless()

@@ -285,6 +285,11 @@ impl Filter {
         way_m * way_m * self.covariance.heading() + 0.5 * bend_m * bend_m * self.covariance.slip()
     }
 
+    /// How far the place has jumped since the last call, metres; 0: it has not.
+    pub(crate) fn take_jump_m(&mut self) -> f64 {
+        self.gate.take_jump_m()
+    }
+
     /// Whether the place jumped twice within a second, which no push explains. The call clears the flag.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.gate.take_senseless()

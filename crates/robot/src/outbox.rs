@@ -1,14 +1,15 @@
 //! The outbox: which messages wait, and when the robot sends one unasked. It holds kinds, not texts, because a report is
 //! written when it is sent.
 
-use lightbots_base::{Instant, Span, wrap};
+use lightbots_base::{Instant, Span, Vec2, wrap};
 use lightbots_wire::RobotState;
 
 /// Time between status reports while the robot drives. Below, 1,000 robots flood the broker. Above, the screen lags.
 const BUSY: Span = Span::from_millis(500);
 /// Time between status reports while it stands.
 const CALM: Span = Span::from_millis(2000);
-/// Distance from its route beyond which a robot reports that, metres. Below, ordinary tracking errors are reported.
+/// Distance from its route, or of a robot that stands from where it last reported, beyond which it reports at once,
+/// metres. Below, ordinary tracking errors are reported.
 const OFF_M: f64 = 0.008;
 /// Distance within which a robot is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
 const BACK_M: f64 = 0.006;
@@ -52,6 +53,8 @@ pub(crate) struct Outbox {
     question: bool,
     next_status: Instant,
     state: RobotState,
+    /// Where the robot was at the last status report, stage metres.
+    reported_at: Option<Vec2>,
     /// The last reported distance from the route, metres; 0: on the route.
     reported_off_m: f64,
     /// The last reported error of the place while fixes stay away, metres.
@@ -72,6 +75,7 @@ impl Outbox {
             question: false,
             next_status: Instant::ZERO + CALM + phase,
             state: RobotState::Lost,
+            reported_at: None,
             reported_off_m: 0.0,
             reported_err_m: None,
             reported_towards: None,
@@ -100,16 +104,18 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Decides after a step whether an introduction or a status report is due. `off_m`: distance from the route, metres.
-    /// `err_m`: error of the place, metres; `None` unless fixes are overdue.
+    /// Decides after a step whether an introduction or a status report is due. `at`: where the robot is, stage metres;
+    /// `None` if it does not know. `off_m`: distance from the route, metres. `err_m`: error of the place, metres; `None`
+    /// unless fixes are overdue.
     pub(crate) fn notice(
         &mut self,
         now: Instant,
         state: RobotState,
         off_m: Option<f64>,
         err_m: Option<f64>,
-        knows_place: bool,
+        at: Option<Vec2>,
     ) {
+        let knows_place = at.is_some();
         if self.newcomer.is_some_and(|since| knows_place || now - since > POWER_ON) {
             self.newcomer = None;
             self.introduction = true;
@@ -128,15 +134,22 @@ impl Outbox {
             self.reported_err_m = err_m;
         }
         let strays = is_off != was_off || is_off && off_m > farther_m;
-        if unsure || state != self.state || strays || now >= self.next_status {
+        let busy = matches!(state, RobotState::Driving | RobotState::Held);
+        let is_moved = !busy && self.is_moved(at);
+        if unsure || state != self.state || strays || is_moved || now >= self.next_status {
             self.status = true;
             self.state = state;
         }
         if self.status {
+            self.reported_at = at;
             self.reported_off_m = if is_off { off_m } else { 0.0 };
-            let busy = matches!(state, RobotState::Driving | RobotState::Held);
             self.next_status = now + if busy { BUSY } else { CALM };
         }
+    }
+
+    /// Whether a robot that stands is elsewhere than at its last report: it was lifted or pushed.
+    fn is_moved(&self, at: Option<Vec2>) -> bool {
+        at.zip(self.reported_at).is_some_and(|(at, reported)| at.distance(reported) > OFF_M)
     }
 
     /// Notes the direction of an obstacle, radians in the stage; `None`: there is none.
@@ -182,7 +195,7 @@ mod tests {
     fn statuses(outbox: &mut Outbox, seconds: u64, state: RobotState) -> usize {
         let mut count = 0;
         for step in 0..seconds * 1000 / 16 {
-            outbox.notice(Instant(step * 16_000), state, None, None, true);
+            outbox.notice(Instant(step * 16_000), state, None, None, Some(Vec2::ZERO));
             count += usize::from(outbox.take(true, true) == Some(MessageKind::Status));
         }
         count
@@ -195,10 +208,25 @@ mod tests {
     }
 
     #[test]
+    fn a_robot_that_stands_says_at_once_that_it_was_moved() {
+        let mut outbox = Outbox::new(Span::ZERO);
+        let mut says = |x_m, state| {
+            outbox.notice(Instant(1), state, None, None, Some(Vec2::new(x_m, 0.0)));
+            outbox.take(true, true) == Some(MessageKind::Status)
+        };
+        assert!(says(0.0, RobotState::Idle), "the first report");
+        assert!(
+            !says(0.007, RobotState::Idle) && says(0.009, RobotState::Idle) && !says(0.009, RobotState::Idle)
+        );
+        assert!(!says(0.016, RobotState::Idle) && says(0.018, RobotState::Idle), "pushed slowly");
+        assert!(says(0.018, RobotState::Driving) && !says(0.1, RobotState::Driving), "it drives");
+    }
+
+    #[test]
     fn leaving_the_route_is_said_again_when_it_gets_worse_and_coming_back_too() {
         let mut outbox = Outbox::new(Span::ZERO);
         let mut said = |off| {
-            outbox.notice(Instant(1), RobotState::Lost, Some(off), None, true);
+            outbox.notice(Instant(1), RobotState::Lost, Some(off), None, Some(Vec2::ZERO));
             outbox.take(true, true).is_some()
         };
         assert!(!said(0.007) && said(0.009) && !said(0.007) && said(0.005) && !said(0.007));
@@ -209,7 +237,7 @@ mod tests {
     fn want_of_fixes_is_said_at_once_again_when_it_gets_worse_and_when_it_is_over() {
         let mut outbox = Outbox::new(Span::ZERO);
         let mut said = |err| {
-            outbox.notice(Instant(1), RobotState::Lost, None, err, true);
+            outbox.notice(Instant(1), RobotState::Lost, None, err, Some(Vec2::ZERO));
             outbox.take(true, true).is_some()
         };
         assert!(!said(None) && said(Some(0.004)) && !said(Some(0.005)) && said(Some(0.006)));
@@ -231,8 +259,8 @@ mod tests {
     fn a_robot_that_introduced_without_place_says_where_as_soon_as_it_knows() {
         let mut outbox = Outbox::new(Span::ZERO);
         outbox.arrive_new(Instant(0));
-        let mut introduced = |at, knows| {
-            outbox.notice(Instant(at), RobotState::Lost, None, None, knows);
+        let mut introduced = |at, knows: bool| {
+            outbox.notice(Instant(at), RobotState::Lost, None, None, knows.then_some(Vec2::ZERO));
             core::iter::from_fn(|| outbox.take(knows, false)).any(|fact| fact == MessageKind::Introduction)
         };
         assert!(!introduced(100_000, false));

@@ -22,6 +22,9 @@ pub use state::Robot;
 /// Distance from its route beyond which a robot abandons the route, metres: it is stuck, or was never where the route
 /// starts. Below, robots abandon routes that they can still follow. Above, they drive far outside what the plan proved.
 const GIVE_UP_M: f64 = 0.3;
+/// Distance by which a robot was moved beyond which it does not drive the route that it has, metres: about a robot's size.
+/// Below, a robot that was pushed aside does not go back on its route. Above, one that was lifted drives through others.
+const AWAY_M: f64 = 0.05;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Receives a message at `now` of the own clock. Messages on other topics than `Broadcast` and the robot's own are
@@ -176,6 +179,10 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if self.hot.routes.begin_due(time, self.storage.borrow()) {
             self.hot.seek = None;
             self.reflex.begin_route();
+            let at = self.place();
+            if self.hot.routes.due().zip(at).is_some_and(|(begin, at)| begin.distance(at) > AWAY_M) {
+                self.hot.routes.abandon();
+            }
         }
     }
 

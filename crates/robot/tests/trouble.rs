@@ -311,3 +311,39 @@ fn senseless_wheels_stop_it_at_once_and_show() {
     assert_eq!(states(&plant.heard(Topic::Status))[0], RobotState::Faulty);
     takes_part_again(&mut plant, 10);
 }
+
+#[test]
+fn lifted_on_its_route_it_leaves_the_route_and_stands() {
+    let mut plant = driving();
+    plant.at += Vec2::new(-0.1, 0.15);
+    let put = plant.at;
+    stands_after(&mut plant);
+    plant.run(1.0);
+    assert!(plant.at.distance(put) < 0.1, "it drove on for {} m", plant.at.distance(put));
+    assert_eq!(states(&plant.heard(Topic::Status)).last(), Some(&RobotState::Idle));
+    takes_part_again(&mut plant, 10);
+}
+
+#[test]
+fn pushed_a_little_it_goes_back_on_its_route() {
+    let mut plant = driving();
+    plant.at += Vec2::new(0.0, 0.03);
+    plant.run(6.0);
+    assert!(plant.at.distance(FAR) < 0.01, "{:?}", plant.at);
+}
+
+#[test]
+fn lifted_before_its_start_it_does_not_begin_the_route() {
+    let mut plant = ready(Flaws::STANDARD);
+    send(&mut plant, 9, FAR, 1_000);
+    plant.run(0.5);
+    plant.said.clear();
+    plant.at += Vec2::new(0.1, 0.3);
+    let put = plant.at;
+    plant.run(0.4);
+    let told = plant.heard(Topic::Status).last().and_then(|report| report.at);
+    assert!(told.is_some_and(|at| at.distance(put) < 0.01), "{told:?} for {put:?}");
+    plant.run(3.0);
+    assert!(plant.at.distance(put) < 0.01 && plant.robot.state() == RobotState::Idle, "{:?}", plant.at);
+    takes_part_again(&mut plant, 10);
+}

@@ -42,6 +42,8 @@ pub(super) struct OutlierGate {
     odd_headings: u8,
     /// Whether two jumps came within [`JUMPS_APART`].
     senseless: bool,
+    /// How far the place has jumped since [`take_jump_m`](Self::take_jump_m) was last called, metres; 0: it has not.
+    jump_m: f64,
 }
 
 impl OutlierGate {
@@ -64,6 +66,7 @@ impl OutlierGate {
             }
             self.senseless = self.last_jump.is_some_and(|jump| now - jump < JUMPS_APART);
             self.last_jump = Some(now);
+            self.jump_m += off.length();
         }
         self.odd_places = 0;
         self.last_place = Some(now);
@@ -94,6 +97,11 @@ impl OutlierGate {
     /// When the last heading came that was no outlier.
     pub(super) fn last_heading(&self) -> Option<Instant> {
         self.last_heading
+    }
+
+    /// How far the place has jumped since the last call, metres; 0: it has not.
+    pub(super) fn take_jump_m(&mut self) -> f64 {
+        core::mem::take(&mut self.jump_m)
     }
 
     /// Whether two jumps came within [`JUMPS_APART`]. The call clears the flag.

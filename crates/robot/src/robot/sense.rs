@@ -4,6 +4,7 @@ use core::borrow::BorrowMut;
 
 use lightbots_base::{Instant, Span};
 
+use super::AWAY_M;
 use super::state::Robot;
 use crate::config::{Inputs, SENSORS};
 use crate::drive::BodyPose;
@@ -39,6 +40,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
         if let Some(fix) = &inputs.fix {
             self.hot.estimate.correct(world, fix, &self.storage.borrow().history);
+            if self.hot.estimate.take_jump_m() > AWAY_M {
+                self.hot.routes.abandon();
+            }
             if self.hot.estimate.take_senseless() {
                 self.hot.supervisor.fault(self.hot.now);
             }
