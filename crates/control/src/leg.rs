@@ -111,6 +111,18 @@ impl Leg {
         self.robots.get(participant).is_some_and(|robot| !matches!(robot.task, Task::Stay))
     }
 
+    /// Returns where a participant stands at the begin, stage metres; `None` if it joined later.
+    pub fn begin(&self, participant: usize) -> Option<Vec2> {
+        let robot = self.robots.get(participant)?;
+        match &robot.task {
+            Task::Stay => Some(robot.goal),
+            Task::Path(path) => Some(path.as_ref().at(Span::ZERO).position),
+            Task::Drives => {
+                self.drives.iter().find(|drive| drive.robot == participant).map(|drive| drive.from)
+            }
+        }
+    }
+
     /// Returns where a participant stands at the end, stage metres; `None` if it joined later.
     pub fn goal(&self, participant: usize) -> Option<Vec2> {
         self.robots.get(participant).map(|robot| robot.goal)

@@ -19,6 +19,7 @@ mod link_loss;
 mod looping;
 mod machine;
 mod membership;
+mod misplaced;
 mod music_time;
 mod next;
 mod obstacles;

@@ -5,7 +5,7 @@ use crate::event::Trouble;
 use crate::fleet::FleetUpdate;
 use crate::run::next::Next;
 use crate::run::target_commands::PASSED_ERROR_M;
-use crate::run::{Run, RunPhase, bystanders, candidates, lights, standing};
+use crate::run::{Run, RunPhase, bystanders, candidates, lights, misplaced};
 use lightbots_base::Instant;
 use lightbots_wire::{Report, Topic};
 
@@ -69,8 +69,7 @@ impl Run {
             }
             (RunPhase::Standing(_), _) => {
                 let noise_m = if topic == Topic::Arrival { 0.0 } else { PASSED_ERROR_M };
-                standing::check_place(&mut cx, participant, report.at, noise_m);
-                Next::Stay
+                misplaced::check(&mut cx, participant, noise_m)
             }
             _ => Next::Stay,
         }

@@ -38,6 +38,8 @@ pub(crate) struct Participant {
     pub last_seen: Whereabouts,
     /// How often an obstacle in the robot's path led to a new plan.
     pub replans: u8,
+    /// How often all was planned again because the robot stood elsewhere than the plan had it.
+    pub misplaced: u8,
     /// What the robot has cost since it dropped out.
     pub bystander: Bystander,
 }
@@ -65,6 +67,7 @@ impl Participant {
             probation: Probation::None,
             last_seen: Whereabouts::default(),
             replans: 0,
+            misplaced: 0,
             bystander: Bystander::default(),
         }
     }

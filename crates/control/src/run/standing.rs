@@ -1,18 +1,18 @@
 //! The phase in which all robots stand: the air time runs, what comes is planned and uploaded, and the next drive
 //! starts in time.
 
-use crate::event::{EventKind, RunOutcome, Trouble};
+use crate::event::{RunOutcome, Trouble};
 use crate::leg::LegKind;
 use crate::run::bystanders;
-use crate::run::driving::is_there;
 use crate::run::link_loss;
+use crate::run::misplaced;
 use crate::run::next::{AirTime, Next};
 use crate::run::obstacles;
 use crate::run::pipeline::Pipeline;
 use crate::run::requests;
 use crate::run::run_context::RunContext;
 use crate::run::target_commands;
-use lightbots_base::{Instant, Span, Vec2};
+use lightbots_base::{Instant, Span};
 use lightbots_wire::{Details, RobotState};
 
 /// How much earlier than necessary START is sent, because the shell may wake the controller late.
@@ -64,7 +64,7 @@ impl Standing {
         if next.stays() && restarted {
             return cx.upload_again(participant);
         }
-        next
+        next.or_else(|| misplaced::check_status(cx, participant, details))
     }
 
     /// Does what is due: checks the link, plans, uploads, and leaves the frame.
@@ -143,19 +143,4 @@ pub(crate) fn drop_if_unfit(participant: usize, details: &Details) -> Next {
         RobotState::Lost => Next::drop(participant, Trouble::Lost),
         _ => Next::Stay,
     }
-}
-
-/// Checks a place that is reported while all stand. If it is not at the goal, all is planned again. The arrival may
-/// be old, or the robot moved on its own. A TARGET-only robot (it understands the command TARGET but no routes) does
-/// not notice if it is lifted.
-pub(crate) fn check_place(cx: &mut RunContext, participant: usize, at: Option<Vec2>, noise_m: f64) {
-    let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return };
-    let is_known = cx.pipeline.planning.is_outdated;
-    if is_known || is_there(at, goal, cx.io.config.arrival_tolerance_m + noise_m) {
-        return;
-    }
-    let robot = cx.robot(participant).id;
-    cx.io.unexpected += 1;
-    cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m: at.distance(goal) });
-    cx.pipeline.planning.is_outdated = true;
 }

@@ -3,6 +3,7 @@
 
 use crate::event::Trouble;
 use crate::run::link::{ASK_AGAIN, REPEAT};
+use crate::run::misplaced;
 use crate::run::next::Next;
 use crate::run::path_clock::PathClock;
 use crate::run::roster::Whereabouts;
@@ -109,7 +110,7 @@ impl Starting {
         if restarted {
             self.confirmed[participant] = None;
         }
-        next
+        next.or_else(|| misplaced::check_status(cx, participant, details))
     }
 
     /// Handles the arrival of a participant. If it started alone, all stop and are planned again.
