@@ -2,7 +2,7 @@
 
 mod fleet;
 
-use fleet::{Dice, World, show, started};
+use fleet::{Dice, World, reached, show, started};
 use lightbots_base::{RobotId, Span};
 use lightbots_control::{ControllerState, EventKind, OnReturn, Operation, RunOutcome};
 use lightbots_show::{Identity, Show};
@@ -186,6 +186,27 @@ fn are_where_they_stand(world: &World) {
         let robot = world.robots.iter().find(|robot| robot.id == row.id).unwrap();
         let (stands, at) = (robot.at, row.reported.at.unwrap());
         assert!(robot.dead || at.distance(stands) < 1e-3, "{} stands at {stands:?}, not {at:?}", row.id);
+    }
+}
+
+/// Robot 8 does not receive START, so that it is postponed again and again. Another robot has confirmed the first
+/// moment, and its link breaks: it drives alone.
+#[test]
+fn a_robot_that_began_alone_and_is_silent_is_not_where_it_reported() {
+    for cut in 0..8 {
+        let mut world = killed(show(3, 9, 0.5), 1.0, 1.0);
+        assert!(world.return_controller(OnReturn::Go));
+        world.run_until(30.0, reached(0));
+        world.deaf = vec![8];
+        while world.robots[cut].kept.as_ref().is_none_or(|(_, starts)| starts.is_none()) {
+            world.step();
+        }
+        world.run_for(0.03);
+        world.cut = vec![cut];
+        world.run_until(60.0, |kind| matches!(kind, EventKind::Dropout { .. }));
+        world.deaf.clear();
+        assert_eq!(world.run_to_end(90.0).0, RunOutcome::Finished, "{}", world.story());
+        assert!(world.closest_m >= CONTACT_M, "{cut}: {} m\n{}", world.closest_m, world.story());
     }
 }
 

@@ -226,7 +226,10 @@ impl Run {
                 let places = robot.namesakes.places();
                 Whereabouts { possible: places.clone(), likely: places }
             }
-            Trouble::Silent => self.whereabouts_on_path(io, now, participant),
+            // A robot that does not acknowledge and is silent may have begun a drive after its last report.
+            _ if self.is_lost_by_silence(io, now, (participant, why)) => {
+                self.whereabouts_on_path(io, now, participant)
+            }
             // The robot does not know where it is. It stopped at once on its path, or had not yet left the place
             // where it last stood.
             _ if reported.is_none() && !Mutant::ForgetLostRobot.is_planted() => {
@@ -237,6 +240,10 @@ impl Run {
             }
             _ => Whereabouts::default(),
         }
+    }
+
+    fn is_lost_by_silence(&mut self, io: &mut Context, now: Instant, dropout: Dropout) -> bool {
+        link_loss::is_by_silence(&self.split(io, now).1, &dropout)
     }
 
     fn whereabouts_on_path(&mut self, io: &mut Context, now: Instant, participant: usize) -> Whereabouts {
