@@ -189,6 +189,28 @@ fn are_where_they_stand(world: &World) {
     }
 }
 
+/// On a leg of TARGETs all other robots stand. The journal holds the places that they reported before the show, and the
+/// leg says where they stand now.
+#[test]
+fn robots_that_wait_for_originals_are_where_the_leg_has_them() {
+    let mut world = World::ready(6, 2, show(3, 6, 0.5));
+    world.controller.keep_journal();
+    world.play();
+    world.run_until(30.0, reached(0));
+    world.run_until(30.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    while world.robots.iter().all(|robot| robot.target.is_none()) {
+        world.step();
+    }
+    assert!(world.robots.iter().all(|robot| robot.running.is_none()), "{}", world.story());
+    world.kill_controller();
+    assert!(world.return_controller(OnReturn::Go));
+    for robot in world.robots.iter().filter(|robot| !robot.original) {
+        let rows = world.controller.snapshot(world.now).robots;
+        let expected = rows.iter().find(|row| row.id == robot.id).unwrap().reported.at.unwrap();
+        assert!(expected.distance(robot.at) < 1e-3, "{} is expected at {expected:?}", robot.id);
+    }
+}
+
 /// Robot 8 does not receive START, so that it is postponed again and again. Another robot has confirmed the first
 /// moment, and its link breaks: it drives alone.
 #[test]

@@ -1,9 +1,10 @@
 //! Takes up a run from its journal: this controller goes on with it, from where its robots stand.
 
-use super::{JournalState, ParticipantEntry, UnfinishedRun};
+use super::{JournalState, ParticipantEntry, Position, UnfinishedRun};
 use crate::context::Context;
 use crate::controller::Controller;
 use crate::event::EventKind;
+use crate::leg::Leg;
 use crate::mutant::Mutant;
 use crate::operation::Refusal;
 use crate::run::{Participant, PlayedShow, Roster, Run, RunPurpose, StopTimes};
@@ -99,8 +100,8 @@ impl Run {
         let leg = state.leg.as_ref().and_then(|leg| leg.to_leg(state.participants.len()));
         let mut participants = Vec::new();
         for (number, entry) in state.participants.iter().enumerate() {
-            let goal =
-                leg.as_ref().and_then(|leg| leg.goal(number)).filter(|_| progress.position.is_at_goals());
+            let goal = leg.as_ref().filter(|leg| stands_at_goal(leg, progress.position, number));
+            let goal = goal.and_then(|leg| leg.goal(number));
             let robot = context.fleet.expect(entry.id, *at, &context.config);
             expect(context, robot, entry, goal);
             context.fleet.robot_mut(robot).participant = Some(number as u32);
@@ -130,6 +131,12 @@ impl Run {
         run.drop_plans(context);
         run
     }
+}
+
+/// Whether a participant stands at its goal in the leg of a journal: all do once they have arrived, and a robot that the
+/// leg leaves where it is does so on the drive too.
+fn stands_at_goal(leg: &Leg, position: Position, participant: usize) -> bool {
+    position.is_at_goals() || position.drive.is_some() && !leg.is_driven_by(participant)
 }
 
 /// Sets what the journal says of a robot of the fleet. A robot that stood counts as at its `goal` until it reports.
