@@ -211,6 +211,28 @@ fn robots_that_wait_for_originals_are_where_the_leg_has_them() {
     }
 }
 
+/// The journal does not say how far a robot that knows TARGET only is on its straight drives.
+#[test]
+fn an_original_that_died_meanwhile_is_anywhere_on_its_drives() {
+    for dies in 4..8 {
+        let mut world = World::ready(8, 4, show(3, 8, 0.5));
+        world.controller.keep_journal();
+        world.play();
+        world.run_until(60.0, reached(0));
+        while world.robots[dies].target.is_none() {
+            world.step();
+        }
+        world.run_for(0.3);
+        world.kill_controller();
+        world.robots[dies].dead = true;
+        world.run_for(3.0);
+        assert!(world.return_controller(OnReturn::Go));
+        let (outcome, frames, _) = world.run_to_end(200.0);
+        assert_eq!((outcome, frames), (RunOutcome::Finished, 3), "{dies}: {}", world.story());
+        assert!(world.closest_m >= CONTACT_M, "{dies}: {} m\n{}", world.closest_m, world.story());
+    }
+}
+
 /// Robot 8 does not receive START, so that it is postponed again and again. Another robot has confirmed the first
 /// moment, and its link breaks: it drives alone.
 #[test]

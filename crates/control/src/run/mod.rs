@@ -125,7 +125,7 @@ impl Run {
         leg: Option<Leg>,
         (left, by_itself, broke): (Position, Span, Instant),
     ) -> Self {
-        let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::new(&leg), leg });
+        let driven = leg.map(|leg| DrivenLeg { targets: TargetProgress::of_journal(&leg), leg });
         Self {
             pipeline: Pipeline { driven, ..Pipeline::new(&playback) },
             playback,

@@ -17,6 +17,8 @@ pub(crate) struct TargetProgress {
     pub followers: Vec<Vec<usize>>,
     /// `[participant]`: the straight drive that its robot is on or begins next. `None` after the last one.
     pub present: Vec<Option<usize>>,
+    /// Whether the leg is from a journal, which does not say how far robots are on their drives.
+    pub is_of_journal: bool,
 }
 
 /// Progress of one straight drive.
@@ -56,7 +58,12 @@ impl TargetProgress {
             present[drive.robot] = Some(place);
             drive.yields.iter().for_each(|yields| followers[yields.to].push(place));
         }
-        Self { states: vec![state; leg.drives.len()], followers, present }
+        Self { states: vec![state; leg.drives.len()], followers, present, is_of_journal: false }
+    }
+
+    /// The progress of a leg from a journal.
+    pub fn of_journal(leg: &Leg) -> Self {
+        Self { is_of_journal: true, ..Self::new(leg) }
     }
 
     /// The straight drive that a participant is on. `None` if it was sent on none, or has ended the last one.
@@ -98,12 +105,20 @@ impl TargetProgress {
     }
 
     /// Places where a robot that fell silent on its straight drive may stand, stage metres, at most `step_m` apart.
-    /// Empty if it is on no straight drive.
+    /// Empty if it is on no straight drive. By a journal a robot may be anywhere on its straight drives.
     pub fn whereabouts(&self, leg: &Leg, participant: usize, step_m: f64) -> Vec<Vec2> {
+        if self.is_of_journal {
+            let drives = leg.drives.iter().filter(|drive| drive.robot == participant);
+            return drives.flat_map(|drive| places(drive, (0.0, 1.0), step_m)).collect();
+        }
         let Some(place) = self.under_way(participant) else { return Vec::new() };
-        let (drive, state) = (&leg.drives[place], &self.states[place]);
-        let steps = ((state.granted - state.passed) * drive.length_m() / step_m).ceil().max(1.0);
-        let share = |step: usize| state.passed + (state.granted - state.passed) * step as f64 / steps;
-        (0..=steps as usize).map(|step| drive.at(share(step))).collect()
+        let state = &self.states[place];
+        places(&leg.drives[place], (state.passed, state.granted), step_m).collect()
     }
+}
+
+/// Places on a straight drive from one share of it to another, stage metres, at most `step_m` apart.
+fn places(drive: &StraightDrive, (first, last): (f64, f64), step_m: f64) -> impl Iterator<Item = Vec2> {
+    let steps = ((last - first) * drive.length_m() / step_m).ceil().max(1.0);
+    (0..=steps as usize).map(move |step| drive.at(first + (last - first) * step as f64 / steps))
 }
