@@ -233,6 +233,29 @@ fn an_original_that_died_meanwhile_is_anywhere_on_its_drives() {
     }
 }
 
+/// The disk was full from the first frame on. Robots stand in the third when the controller returns, and one of them
+/// has died there.
+#[test]
+fn a_robot_that_died_where_no_journal_has_it_is_looked_for_at_the_free_place_of_a_frame() {
+    for dies in 0..9 {
+        let mut world = World::ready(9, 0, show(4, 9, 0.5));
+        world.controller.keep_journal();
+        world.play();
+        world.run_until(30.0, reached(0));
+        world.run_until(30.0, started);
+        world.run_for(0.5);
+        let journal = world.journal.clone();
+        world.run_until(30.0, reached(2));
+        world.kill_controller();
+        world.robots[dies].dead = true;
+        world.run_for(8.0);
+        world.journal = journal;
+        assert!(world.return_controller(OnReturn::Go));
+        assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 4, 1), "{}", world.story());
+        assert!(world.closest_m >= CONTACT_M, "{dies}: {} m\n{}", world.closest_m, world.story());
+    }
+}
+
 /// Robot 8 does not receive START, so that it is postponed again and again. Another robot has confirmed the first
 /// moment, and its link breaks: it drives alone.
 #[test]

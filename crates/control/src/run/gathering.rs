@@ -8,11 +8,11 @@ use crate::mutant::Mutant;
 use crate::operation::MissingPolicy;
 use crate::run::clock_wait::PRECISE_US;
 use crate::run::next::{AirTime, Next};
+use crate::run::outdated_journal;
 use crate::run::path_clock::{Hold, PathClock};
 use crate::run::readiness::missing;
 use crate::run::roster::{Roster, Whereabouts};
 use crate::run::run_context::RunContext;
-use crate::run::silence;
 use crate::run::stop_times::StopTimes;
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
@@ -203,7 +203,7 @@ impl Gathering {
 
     /// Where a participant that fell silent on the broken-off drive may stand.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        silence::whereabouts_after(cx, &self.left, participant)
+        outdated_journal::whereabouts_after(cx, &self.left, participant)
     }
 }
 

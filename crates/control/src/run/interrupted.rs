@@ -9,9 +9,9 @@ use crate::event::{EventKind, Trouble};
 use crate::journal::Position;
 use crate::run::link_loss::many_of;
 use crate::run::next::Next;
+use crate::run::outdated_journal;
 use crate::run::roster::Whereabouts;
 use crate::run::run_context::RunContext;
-use crate::run::silence;
 use crate::run::stop_times::StopTimes;
 use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
@@ -157,7 +157,7 @@ impl Interrupted {
 
     /// Where a participant that has not reported since the interruption may stand.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
-        silence::whereabouts_after(cx, &self.left, participant)
+        outdated_journal::whereabouts_after(cx, &self.left, participant)
     }
 
     /// Participants that have not reported since the interruption.

@@ -23,6 +23,7 @@ mod misplaced;
 mod music_time;
 mod next;
 mod obstacles;
+mod outdated_journal;
 mod path_clock;
 mod phase;
 mod pipeline;

@@ -47,7 +47,7 @@ const STEPS_UNTIL_STOP: i64 = 2;
 const STRAIGHT_STEP_M: f64 = 0.03;
 /// Largest distance of a reported place from a path on which the robot was then, metres. Robots keep within 10 mm of
 /// their paths, and sampled places are up to 14 mm apart.
-const OFF_PATH_M: f64 = 0.03;
+pub(crate) const OFF_PATH_M: f64 = 0.03;
 /// Largest difference of distances, metres: of moments as close to a reported place as that, the first one counts.
 const SAME_MOMENT_M: f64 = 0.005;
 /// Places closer to each other than this count as one, metres. The disc of a dropped place must not stick out of the
@@ -82,16 +82,20 @@ pub(crate) fn whereabouts(
     let reached = robot.reported.at.filter(|_| is_late).and_then(|at| reached(path, at));
     // A robot that reported before the drive began drives for less long until it stops by itself.
     let early = (clock.began - placed).max(Span::ZERO);
-    let until = (stop.stood - stop.began).0 / PATH_STEP.0 + STEPS_UNTIL_STOP;
-    let stopped = (0..=until).map(|step| clock.path_time(stop.began + PATH_STEP * step));
     let died = [since].into_iter().chain(reached).flat_map(|from| steps(from, from + UNREPORTED));
-    let likely = thinned(died.chain(stopped).map(place));
+    let likely = thinned(died.chain(stopped(clock, stop)).map(place));
     let stands_after = (LINK_LOSS.stands_after() - early).max(Span::ZERO);
     let stops_from = if is_late { since } else { since + (LINK_LOSS.drives_on - early).max(Span::ZERO) };
     let first = reached.map_or(stops_from, |reached| reached.min(stops_from));
     let last = reached.map_or(since, |reached| reached.max(since)) + stands_after;
     let possible = thinned(steps(first, last).map(place)).into_iter().chain(likely.iter().copied()).collect();
     Whereabouts { possible, likely }
+}
+
+/// Path times at which robots may have stopped that received what stopped all.
+pub(crate) fn stopped(clock: &PathClock, stop: StopTimes) -> impl Iterator<Item = Span> {
+    let until = (stop.stood - stop.began).0 / PATH_STEP.0 + STEPS_UNTIL_STOP;
+    (0..=until).map(move |step| clock.path_time(stop.began + PATH_STEP * step))
 }
 
 /// Moments from one path time to another, one every `PATH_STEP`.
