@@ -153,7 +153,7 @@ impl ClockFilter {
         if late || self.answered.contains(&answer.asked) || answer.sent < answer.received {
             return;
         }
-        self.unanswered = 0;
+        let was_deaf = core::mem::take(&mut self.unanswered) >= DEAF;
         let there = (answer.received - answer.asked).0;
         let back = (now - answer.sent).0;
         let round_us = there.saturating_add(back).max(0) as f64;
@@ -161,7 +161,8 @@ impl ClockFilter {
             self.predict(clock, now);
             self.keep_within_bounds(clock, there, back, round_us);
         }
-        if self.answers == 0 {
+        let begins = self.answers == 0;
+        if begins {
             self.begin(clock, now, there, round_us);
         }
         self.answered[self.answers as usize % ANSWERED] = answer.asked;
@@ -172,6 +173,10 @@ impl ClockFilter {
         self.narrow(clock, now);
         let good = self.answers >= QUICK || self.variance[0] <= GOOD_US * GOOD_US;
         clock.synchronised |= self.answers >= ENOUGH && good;
+        if begins || was_deaf {
+            // The next question was put off at the slow pace of a settled clock, or of one without a controller.
+            clock.next_question = clock.next_question.min(now + self.pace());
+        }
     }
 
     fn begin(&mut self, clock: &mut ShowClock, now: Instant, there: i64, round_us: f64) {
@@ -258,15 +263,19 @@ impl ClockFilter {
 
     /// Notes that a question is sent, and sets when the next one is due.
     pub(crate) fn ask(&mut self, clock: &mut ShowClock, now: Instant) {
-        let pace = match self.answers {
+        clock.next_question = now + self.pace();
+        self.unanswered = self.unanswered.saturating_add(1);
+    }
+
+    /// Time between questions.
+    fn pace(&self) -> Span {
+        match self.answers {
             _ if self.unanswered >= DEAF => OLD_PACE,
             0..QUICK => QUICK_PACE,
             QUICK..PATIENT if self.variance[0] > GOOD_US * GOOD_US => QUICK_PACE,
             QUICK..SETTLED => YOUNG_PACE,
             _ => OLD_PACE,
-        };
-        clock.next_question = now + pace;
-        self.unanswered = self.unanswered.saturating_add(1);
+        }
     }
 
     /// Makes a question due at once, because a link came up.

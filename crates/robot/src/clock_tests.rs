@@ -101,6 +101,39 @@ fn a_controller_that_starts_anew_sets_the_clock_anew() {
     assert_eq!(clock.show_time(Instant(3_000_000)), Some(Instant(3_000_000)));
 }
 
+/// Answers each question from `from` on for `seconds`, with this offset of the show clock. Returns the moment from which
+/// the clock is synchronised.
+fn converse(clock: &mut Clock, from: Instant, seconds: f64, show_offset: u64) -> Option<Instant> {
+    let steps = (0..(seconds * 62.5) as u64).map(|step| from + Span(step as i64 * 16_000));
+    steps.fold(None, |good, now| {
+        if clock.take_question(now) {
+            clock.answer(now + Span(2_000), &exact(now.0, show_offset));
+        }
+        good.or(clock.show_time(now).map(|_| now)).filter(|_| clock.show_time(now).is_some())
+    })
+}
+
+#[test]
+fn a_settled_clock_that_is_set_anew_asks_as_often_as_a_new_one() {
+    let mut clock = Clock::new(Instant::ZERO);
+    converse(&mut clock, Instant::ZERO, 90.0, 50_000_000);
+    let asks_at = clock.line.next_question;
+    let good = converse(&mut clock, asks_at, 10.0, 48_000_000).unwrap();
+    assert!((good - asks_at).as_secs() < 1.0, "{:?}", good - asks_at);
+}
+
+#[test]
+fn a_robot_that_gets_answers_again_asks_as_often_as_before() {
+    let mut clock = Clock::new(Instant::ZERO);
+    converse(&mut clock, Instant::ZERO, 0.3, 50_000_000);
+    let silent = (0..1_000u64).map(|step| Instant(300_000 + step * 16_000));
+    let last = silent.filter(|&now| clock.take_question(now)).last().unwrap();
+    let asks_at = clock.line.next_question;
+    assert_eq!(asks_at - last, OLD_PACE);
+    let good = converse(&mut clock, asks_at, 10.0, 50_000_000).unwrap();
+    assert!((good - asks_at).as_secs() < 1.0, "{:?}", good - asks_at);
+}
+
 #[test]
 fn doubled_late_and_impossible_answers_are_dropped() {
     let mut clock = Clock::new(Instant::ZERO);
