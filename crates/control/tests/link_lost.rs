@@ -40,6 +40,20 @@ fn a_broker_that_freezes_while_a_frame_stands_or_a_start_is_stated_costs_no_robo
     }
 }
 
+/// Robots that set their clocks anew would be waited for until 15 s after the link was back.
+#[test]
+fn a_broker_that_freezes_while_robots_set_their_clocks_costs_no_robot() {
+    let mut world = World::under_way(10);
+    freeze(&mut world, 4.0);
+    world.run_until(5.0, |kind| matches!(kind, EventKind::LinkBack { .. }));
+    world.robots.iter_mut().for_each(|robot| robot.clockless = true);
+    world.run_for(1.0);
+    freeze(&mut world, 20.0);
+    world.robots.iter_mut().for_each(|robot| robot.clockless = false);
+    assert_eq!(world.run_to_end(90.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+    assert_eq!(world.count(lost), 2, "{}", world.story());
+}
+
 #[test]
 fn after_more_than_half_a_minute_the_operator_says_that_it_goes_on() {
     let mut world = World::under_way(10);

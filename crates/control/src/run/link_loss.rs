@@ -54,11 +54,13 @@ pub(crate) enum Verdict {
     LinkLost(usize),
 }
 
-/// Whether a robot drops out because it is silent, and not because of what it reports.
+/// Whether a robot drops out because it is silent, and not because of what it reports. What a silent robot reported last
+/// may be different by now.
 pub(crate) fn is_by_silence(cx: &RunContext, &(participant, why): &Dropout) -> bool {
     let silent =
         || cx.now - cx.robot(participant).contact.heard > cx.io.config.silence + cx.link.round_trip * 2;
-    why == Trouble::Silent || why == Trouble::Deaf && silent()
+    let is_reported = matches!(why, Trouble::Deaf | Trouble::Cut | Trouble::Lost | Trouble::Faulty);
+    why == Trouble::Silent || is_reported && silent()
 }
 
 /// Finds out what it means that these participants are silent. First all robots are asked for a report, and the

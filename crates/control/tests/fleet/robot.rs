@@ -28,6 +28,8 @@ pub struct Robot {
     pub pace: f64,
     /// Bound of its clock error that it reports, microseconds.
     pub clock_us: u32,
+    /// Whether it reports no clock, because the show clock was set anew and it has too few answers.
+    pub clockless: bool,
     /// Whether it is unsure of its place.
     pub unsure: bool,
     /// Whether it has lost its place: it reports `lost` and no place.
@@ -67,6 +69,7 @@ impl Robot {
             ahead: Span::ZERO,
             pace: 1.0,
             clock_us: 500,
+            clockless: false,
             unsure: false,
             lost: false,
             blocked: None,
@@ -135,7 +138,7 @@ impl Robot {
             light: self.stretches.last().map_or(0, |stretch| stretch.number),
             err_m: self.unsure.then_some(0.02),
             off_m: self.running.as_ref().map(|_| if self.stuck { 0.2 } else { 0.001 }),
-            clock_us: self.synchronised.then_some(self.clock_us),
+            clock_us: (self.synchronised && !self.clockless).then_some(self.clock_us),
             abilities: Abilities::ALL,
             blocked: self.blocked,
             ..Details::default()
