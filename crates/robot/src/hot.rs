@@ -55,6 +55,8 @@ pub struct Hot {
     pub(crate) stops_at: Option<Instant>,
     /// Whether the robot stands until fixes come again.
     pub(crate) pauses: bool,
+    /// Whether the safety layer slowed the robot on its route, and it has not caught up since.
+    pub(crate) is_held_up: bool,
     /// Whether the safety layer follows a neighbour or acts on one. Otherwise a step does not run the safety layer.
     pub(crate) is_wary: bool,
     /// How well the robot knew its pose in the latest step.
@@ -88,6 +90,7 @@ impl Hot {
             state: RobotState::Lost,
             stops_at: None,
             pauses: false,
+            is_held_up: false,
             is_wary: false,
             quality: PoseQuality { lost: true, lost_for_good: true, blind: true },
             drive: DriveBase::default(),

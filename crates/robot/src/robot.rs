@@ -25,6 +25,9 @@ const GIVE_UP_M: f64 = 0.3;
 /// Distance by which a robot was moved beyond which it does not drive the route that it has, metres: about a robot's size.
 /// Below, a robot that was pushed aside does not go back on its route. Above, one that was lifted drives through others.
 const AWAY_M: f64 = 0.05;
+/// Distance from its route within which a robot that the safety layer slowed has caught up, metres. Below, the error of
+/// following a route counts as being behind.
+const CAUGHT_UP_M: f64 = 0.02;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Receives a message at `now` of the own clock. Messages on other topics than `Broadcast` and the robot's own are
@@ -193,12 +196,15 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.stop_in_time(now);
         let drives = self.drives();
         let is_lost = self.is_lost_now();
+        let off_m = self.hot.routes.off_m().unwrap_or(0.0);
+        let is_behind = off_m > CAUGHT_UP_M;
+        self.hot.is_held_up = is_behind && (self.hot.is_held_up || self.braking_towards().is_some());
         self.heed_link(now);
         let hot = &mut self.hot;
         if drives == Drives::Route {
-            let gives_up = hot.routes.off_m().is_some_and(|off_m| off_m > GIVE_UP_M);
-            // A robot that pauses until fixes come falls behind its route by itself: that is no fault.
-            if gives_up && !hot.pauses {
+            let gives_up = off_m > GIVE_UP_M;
+            // A robot that pauses until fixes come, or stands for an obstacle, falls behind its route: that is no fault.
+            if gives_up && !hot.pauses && !hot.is_held_up {
                 hot.supervisor.fault(now);
             }
             if gives_up || hot.supervisor.faulty(now) || is_lost {

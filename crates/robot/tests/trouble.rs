@@ -4,7 +4,7 @@
 mod plant;
 
 use lightbots_base::{Rgb, Span, Vec2};
-use lightbots_robot::Inputs;
+use lightbots_robot::{Inputs, SENSORS};
 use lightbots_wire::{Command, Report, RobotState, Topic};
 use plant::{Flaws, Plant, straight};
 
@@ -345,5 +345,27 @@ fn lifted_before_its_start_it_does_not_begin_the_route() {
     assert!(told.is_some_and(|at| at.distance(put) < 0.01), "{told:?} for {put:?}");
     plant.run(3.0);
     assert!(plant.at.distance(put) < 0.01 && plant.robot.state() == RobotState::Idle, "{:?}", plant.at);
+    takes_part_again(&mut plant, 10);
+}
+
+/// Without a HOLD, a robot that stands for an obstacle falls behind its route by itself.
+#[test]
+fn a_robot_that_stands_for_an_obstacle_gives_its_route_up_and_is_not_faulty() {
+    let mut plant = driving();
+    let mut gaps_m = [f32::INFINITY; SENSORS];
+    gaps_m[0] = 0.006;
+    plant.gaps_m = Some(gaps_m);
+    plant.run(0.5);
+    let braked = plant
+        .heard(Topic::Status)
+        .iter()
+        .any(|report| report.details.as_ref().is_some_and(|details| details.blocked.is_some()));
+    assert!(plant.stands() && braked && plant.robot.state() == RobotState::Driving);
+    plant.run(1.5);
+    assert!(plant.stands());
+    let said = states(&plant.heard(Topic::Status));
+    assert!(said.last() == Some(&RobotState::Idle) && !said.contains(&RobotState::Faulty), "{said:?}");
+    plant.gaps_m = None;
+    plant.run(0.5);
     takes_part_again(&mut plant, 10);
 }

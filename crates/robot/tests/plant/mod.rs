@@ -2,7 +2,7 @@
 //! sensors. The controller's clock is the show clock.
 
 use lightbots_base::{Instant, Limits, Piece, RobotId, Span, Vec2, wrap};
-use lightbots_robot::{Config, Fix, Inputs, Message, Outputs, Robot};
+use lightbots_robot::{Config, Fix, Inputs, Message, Outputs, Robot, SENSORS};
 use lightbots_wire::{Command, Pieces, Report, Route, TimeAnswer, TimeQuestion, Topic, encode};
 
 /// Duration of one step.
@@ -54,6 +54,8 @@ pub struct Plant {
     pub flaws: Flaws,
     /// Whether the robot receives fixes.
     pub sees: bool,
+    /// What its proximity sensors read, if anything is there.
+    pub gaps_m: Option<[f32; SENSORS]>,
     /// Whether time requests are answered.
     pub answers: bool,
     pub last: Outputs,
@@ -82,6 +84,7 @@ impl Plant {
             heading,
             flaws,
             sees: true,
+            gaps_m: None,
             answers: true,
             last: Outputs::default(),
             said: Vec::new(),
@@ -136,7 +139,8 @@ impl Plant {
         // Rates that the robot commands in this step take effect in the next one.
         self.wheels = self.last.wheels_radps;
         let (fix, lag) = (self.fix(), self.lag);
-        let inputs = Inputs { wheel_turns_rad: turns, fix, battery: Some(80), lag, ..Inputs::default() };
+        let proximity_m = self.gaps_m;
+        let inputs = Inputs { wheel_turns_rad: turns, fix, battery: Some(80), lag, proximity_m };
         if let Some(turns) = &mut self.turns {
             turns.push(Turn::Step(self.now, inputs));
         }
