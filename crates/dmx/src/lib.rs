@@ -21,6 +21,7 @@ mod patch;
 mod receiver;
 mod sacn;
 mod universe;
+mod unpatched;
 
 pub use artnet::decode_artnet;
 pub use packet::{DmxPacket, DmxSource};

@@ -11,6 +11,7 @@ use crate::messages::write_moment;
 use crate::packet::DmxPacket;
 use crate::patch::PatchTable;
 use crate::universe::{Taken, Universe};
+use crate::unpatched::UnpatchedUniverses;
 
 /// Time between two moments of live light without robots. `PERIOD_PER_ROBOT` is added for each robot, up to
 /// `PERIOD_MAX`: 20 moments a second for few robots, 10 from 1,000 robots on. Each robot receives the colours of all,
@@ -39,7 +40,7 @@ pub struct LivePublish {
 }
 
 /// Events that are reported to people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DeskNews {
     /// A desk took over the lights of robots. Reported when their number has settled.
     Began {
@@ -48,10 +49,12 @@ pub enum DeskNews {
     },
     /// All robots show their own lights again.
     Ended,
-    /// A desk sends a universe without robots. Reported for the first packet of this kind only.
+    /// Desks send universes without robots. Each universe is reported once.
     Unpatched {
-        /// Number of the universe.
-        universe: u16,
+        /// Numbers of the universes, in order.
+        universes: Vec<u16>,
+        /// Whether there are more, which are never named, because their number is bounded.
+        has_more: bool,
     },
 }
 
@@ -94,6 +97,7 @@ pub struct DeskReceiver {
     counted: (usize, Instant),
     /// Whether people were told that a desk took over lights, and not yet that this has ended.
     is_told: bool,
+    unpatched: UnpatchedUniverses,
     publishes: VecDeque<LivePublish>,
     news: VecDeque<DeskNews>,
     counts: PacketCounts,
@@ -115,6 +119,7 @@ impl DeskReceiver {
             is_lit: false,
             counted: (0, Instant::ZERO),
             is_told: false,
+            unpatched: UnpatchedUniverses::default(),
             publishes: VecDeque::new(),
             news: VecDeque::new(),
             counts: PacketCounts::default(),
@@ -123,12 +128,12 @@ impl DeskReceiver {
 
     /// Receives a packet with values of a universe.
     pub fn packet(&mut self, now: Instant, packet: DmxPacket) {
-        self.give_channels();
+        self.give_channels(now);
         let Some(universe) = self.universes.get_mut(&packet.universe) else {
-            if self.counts.unpatched == 0 && self.fixtures.len() > 0 {
-                self.news.push_back(DeskNews::Unpatched { universe: packet.universe });
+            if self.fixtures.len() > 0 {
+                self.unpatched.receive(now, packet.universe);
+                self.counts.unpatched += 1;
             }
-            self.counts.unpatched += u64::from(self.fixtures.len() > 0);
             return;
         };
         let count = match universe.receive(now, packet) {
@@ -151,7 +156,7 @@ impl DeskReceiver {
         }
         let period = PERIOD + PERIOD_PER_ROBOT * self.fixtures.len() as i64;
         self.moment_at = now + period.min(PERIOD_MAX);
-        self.give_channels();
+        self.give_channels(now);
         self.universes.values_mut().for_each(|universe| universe.expire(now));
         for (robot, slot) in self.fixtures.next_slots(now) {
             let mut text = String::new();
@@ -170,7 +175,8 @@ impl DeskReceiver {
     pub fn wake_at(&self, now: Instant) -> Option<Instant> {
         let is_lit = self.is_lit || self.universes.values().any(Universe::is_lit);
         let is_released = self.fixtures.released().next().is_some();
-        let is_busy = is_lit || is_released || self.fixtures.need_something(now);
+        let is_busy =
+            is_lit || is_released || self.unpatched.is_waiting() || self.fixtures.need_something(now);
         is_busy.then_some(self.moment_at)
     }
 
@@ -200,8 +206,9 @@ impl DeskReceiver {
     }
 
     /// Assigns channels if robots were added. Then keeps exactly the universes that have robots.
-    fn give_channels(&mut self) {
+    fn give_channels(&mut self, now: Instant) {
         let Some(needed) = self.fixtures.patch(&self.patch) else { return };
+        self.unpatched.robots_added(now, |universe| needed.contains(&universe));
         self.universes.retain(|universe, _| needed.contains(universe));
         for universe in needed {
             self.universes.entry(universe).or_default();
@@ -239,6 +246,9 @@ impl DeskReceiver {
         } else if !self.is_lit && self.is_told {
             self.is_told = false;
             self.news.push_back(DeskNews::Ended);
+        }
+        if let Some((universes, has_more)) = self.unpatched.take(now) {
+            self.news.push_back(DeskNews::Unpatched { universes, has_more });
         }
     }
 }

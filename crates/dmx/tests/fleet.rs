@@ -231,6 +231,18 @@ fn robots_of_the_patch_table_alone_are_lit_and_a_late_robot_joins() {
 }
 
 #[test]
+fn all_universes_without_robots_are_named_in_one_message() {
+    let mut floor = Floor::new(2, PatchTable::default(), 0);
+    floor.run(3_000);
+    for _ in 0..30 {
+        [1, 4, 2].into_iter().for_each(|universe| floor.send(universe, &[ORANGE; 2]));
+        floor.run(100);
+    }
+    let unpatched = DeskNews::Unpatched { universes: vec![2, 4], has_more: false };
+    assert_eq!(floor.news, [DeskNews::Began { robots: 2 }, unpatched]);
+}
+
+#[test]
 fn strangers_fill_no_queue() {
     let mut floor = Floor::new(2, PatchTable::default(), 0);
     floor.run(3_000);
@@ -253,6 +265,16 @@ fn strangers_fill_no_queue() {
     assert_eq!(floor.lights(), [ORANGE; 2], "priority counts");
     let counts = floor.receiver.counts();
     assert_eq!((counts.unpatched, counts.newest, counts.crowded), (4_999, 6, 4_996));
+    floor.run(1_000);
+    let named: Vec<usize> = floor
+        .news
+        .iter()
+        .map(|news| match news {
+            DeskNews::Unpatched { universes, has_more: true } => universes.len(),
+            _ => 0,
+        })
+        .collect();
+    assert!(named.iter().sum::<usize>() == 16 && named.len() <= 2, "{:?}", floor.news);
     for name in 0..25_000 {
         let report = format!("r{name} 0 0 can=live");
         floor.receiver.report(floor.now, &Report::decode(report.as_bytes()).unwrap());

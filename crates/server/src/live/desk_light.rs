@@ -107,13 +107,20 @@ fn words(news: DeskNews) -> (Level, String) {
         DeskNews::Ended => {
             (Level::Info, "The lighting desk sends no more: robots show their own lights again.".into())
         }
-        DeskNews::Unpatched { universe } => {
-            let line = format!(
-                "A lighting desk sends universe {universe}, in which no robot is: see the patch table."
-            );
-            (Level::Warn, line)
-        }
+        DeskNews::Unpatched { universes, has_more } => (Level::Warn, unpatched_line(&universes, has_more)),
     }
+}
+
+/// The line for people about universes without robots; all are named, except those beyond the bound.
+fn unpatched_line(universes: &[u16], has_more: bool) -> String {
+    let mut named: Vec<String> = universes.iter().map(u16::to_string).collect();
+    named.extend(has_more.then(|| "more".into()));
+    let what = match (universes, named.pop()) {
+        ([], _) => "further universes".into(),
+        ([one], _) if !has_more => format!("universe {one}"),
+        (_, last) => format!("universes {} and {}", named.join(", "), last.unwrap_or_default()),
+    };
+    format!("A lighting desk sends {what} without robots: see the patch table.")
 }
 
 fn patch_table(file: &Path) -> Result<PatchTable, Failure> {
@@ -128,5 +135,24 @@ async fn sleep_until(alarm: Option<tokio::time::Instant>) {
     match alarm {
         Some(alarm) => tokio::time::sleep_until(alarm).await,
         None => std::future::pending().await,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_universes_without_robots_are_named() {
+        for (universes, has_more, list) in [
+            (&[7][..], false, "universe 7"),
+            (&[7, 9], false, "universes 7 and 9"),
+            (&[2, 7, 9], false, "universes 2, 7 and 9"),
+            (&[2, 7], true, "universes 2, 7 and more"),
+            (&[], true, "further universes"),
+        ] {
+            let line = unpatched_line(universes, has_more);
+            assert_eq!(line, format!("A lighting desk sends {list} without robots: see the patch table."));
+        }
     }
 }
