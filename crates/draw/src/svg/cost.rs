@@ -241,6 +241,9 @@ mod tests {
         let by_rule = doubling(17, "pattern", "fill").replace("<rect fill='url(#e17)'/>", sheet);
         assert_eq!(code(&by_rule), Some("svg-too-large"));
         assert_eq!(code(&by_rule.replace("class='a'", "")), None);
+        let by_attribute =
+            by_rule.replace(".a {", "[class='a'][x='1.5'] {").replace("class='a'/", "class='a' x='1.5'/");
+        assert_eq!(code(&by_attribute), Some("svg-too-large"));
         let by_style = doubling(17, "pattern", "fill").replace("fill='url(#e17)'", "style='fill:url(#e17)'");
         assert_eq!(code(&by_style), Some("svg-too-large"));
     }

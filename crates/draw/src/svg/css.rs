@@ -2,6 +2,9 @@
 
 use usvg::roxmltree::Node;
 
+/// Signs between the compounds of a selector.
+const COMBINATORS: [char; 8] = [' ', '>', '+', '~', '\t', '\n', '\r', '\x0c'];
+
 /// A rule of a style sheet, with one selector.
 pub struct CssRule<'a> {
     subject: Subject<'a>,
@@ -28,37 +31,104 @@ enum Subject<'a> {
     Any,
 }
 
-/// Returns the rules in the text of a style sheet, one for each selector. Rules inside `@media` count too.
+/// Returns the rules in the text of a style sheet, one for each selector. Rules inside `@media` count too. Selectors
+/// that cannot be read count as `*`, with all words before them as compounds, so that the cost is never too small.
 pub fn rules(sheet: &str) -> Vec<CssRule<'_>> {
     let mut found = Vec::new();
-    let mut rest = sheet;
-    while let Some(open) = rest.find('{') {
-        let selectors = rest[..open].rsplit([';', '}', '{']).next().unwrap_or("");
-        rest = &rest[open + 1..];
-        let end = rest.find(['}', '{']).unwrap_or(rest.len());
-        if !rest[end..].starts_with('{') {
-            found.extend(selectors.split(',').map(|selector| rule(selector, &rest[..end])));
+    // Beginning of the text that may belong to the next selector.
+    let (mut from, mut at) = (0, 0);
+    while let Some(open) = sheet[at..].find('{').map(|open| at + open) {
+        let body = &sheet[open + 1..];
+        let end = body.find(['}', '{']).unwrap_or(body.len());
+        if !body[end..].starts_with('{') {
+            let text = sheet[at..open].rsplit([';', '}']).next().unwrap_or("");
+            let unread = || vec![(Subject::Any, words(&sheet[from..open]).count() as u32)];
+            let refers = |(subject, compounds)| CssRule {
+                subject,
+                compounds,
+                refers: declared(&body[..end]).collect(),
+            };
+            found.extend(selectors(text).unwrap_or_else(unread).into_iter().map(refers));
+            from = open + 1;
         }
+        at = open + 1;
     }
     found
 }
 
-fn rule<'a>(selector: &'a str, body: &'a str) -> CssRule<'a> {
-    let compounds = selector.split([' ', '>', '+', '~', '\t', '\n', '\r']).filter(|part| !part.is_empty());
-    let last = compounds.clone().next_back().unwrap_or("");
-    CssRule { subject: subject(last), compounds: compounds.count() as u32, refers: declared(body).collect() }
+/// The parts of a text between combinators.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(COMBINATORS).filter(|part| !part.is_empty())
+}
+
+/// Reads selectors with commas between them: the subject and the number of compounds of each. `None` if an attribute
+/// selector, a comment or a parenthesis in them is not closed: it then holds a sign that ends selectors.
+fn selectors(text: &str) -> Option<Vec<(Subject<'_>, u32)>> {
+    let mut found = Vec::new();
+    let (mut subject, mut compounds) = (Subject::Any, 0);
+    let (mut start, mut at) = (0, 0);
+    loop {
+        let rest = &text[at..];
+        let sign = rest.chars().next();
+        let ends = sign.is_none_or(|sign| sign == ',' || COMBINATORS.contains(&sign));
+        let compound = &text[start..at];
+        if ends && (compound.contains('[') || !plain_parts(compound).all(str::is_empty)) {
+            (subject, compounds) = (self::subject(compound), compounds + 1);
+        }
+        if matches!(sign, None | Some(',')) {
+            found.push((std::mem::replace(&mut subject, Subject::Any), std::mem::take(&mut compounds)));
+        }
+        let Some(sign) = sign else { return Some(found) };
+        at += opaque(rest)?.max(sign.len_utf8());
+        if ends {
+            start = at;
+        }
+    }
+}
+
+/// Length of the attribute selector, the parenthesis or the comment with which a text begins; 0 if it begins with
+/// none. `None` if it is not closed.
+fn opaque(text: &str) -> Option<usize> {
+    match text.as_bytes() {
+        [b'[', ..] => {
+            let stop = text.find([']', '"', '\''])?;
+            let quote = text[stop..].chars().next().filter(|stop| *stop != ']');
+            let Some(quote) = quote else { return Some(stop + 1) };
+            let value = &text[stop + 1..];
+            let mut closing = value.match_indices(quote).map(|(at, _)| at);
+            let end = closing.find(|&at| !value[..at].ends_with('\\'))?;
+            value[end + 1..].starts_with(']').then_some(stop + end + 3)
+        }
+        [b'(', ..] => text.find(')').map(|end| end + 1),
+        [b'/', b'*', ..] => text[2..].find("*/").map(|end| end + 4),
+        [b']' | b'"' | b'\'', ..] | [b'*', b'/', ..] => None,
+        _ => Some(0),
+    }
+}
+
+/// The parts of a compound between attribute selectors, parentheses and comments.
+fn plain_parts(compound: &str) -> impl Iterator<Item = &str> {
+    let mut rest = compound;
+    std::iter::from_fn(move || {
+        let end = (0..rest.len()).find(|&at| rest.is_char_boundary(at) && opaque(&rest[at..]) != Some(0));
+        let (part, after) = rest.split_at(end.unwrap_or(rest.len()));
+        let is_over = rest.is_empty();
+        rest = &after[opaque(after).unwrap_or(after.len())..];
+        (!is_over).then_some(part)
+    })
 }
 
 fn subject(compound: &str) -> Subject<'_> {
-    let word = |from: usize| {
-        let text = &compound[from..];
-        &text[..text.find(['.', '#', ':', '[']).unwrap_or(text.len())]
+    let word = |text: &'_ str| text.find(['.', '#', ':']).unwrap_or(text.len());
+    let after = |sign: char| {
+        plain_parts(compound).find_map(|part| part.split_once(sign)).map(|(_, text)| &text[..word(text)])
     };
-    match (compound.find('.'), compound.find('#')) {
-        (Some(at), _) => Subject::Class(word(at + 1)),
-        (None, Some(at)) => Subject::Id(word(at + 1)),
-        (None, None) if word(0).is_empty() || word(0) == "*" => Subject::Any,
-        (None, None) => Subject::Element(word(0)),
+    let name = plain_parts(compound).find(|part| !part.is_empty()).map_or("", |part| &part[..word(part)]);
+    match (after('.'), after('#')) {
+        (Some(class), _) => Subject::Class(class),
+        (None, Some(id)) => Subject::Id(id),
+        (None, None) if name.is_empty() || name == "*" => Subject::Any,
+        (None, None) => Subject::Element(name),
     }
 }
 
@@ -112,6 +182,52 @@ mod tests {
         let refers = [("fill", "p"), ("mask", "m")].map(|(property, id)| Reference { property, id });
         assert_eq!(rules[0].refers, refers);
         assert_eq!(rules[2].comparisons(10), 10);
+    }
+
+    /// For each selector: whether it may match `<path class='a' id='b' d='M 0,0'/>`, and its number of compounds.
+    fn read(selectors: &str) -> Vec<(bool, u32)> {
+        let document = Document::parse("<path class='a' id='b' d='M 0,0'/>").expect("it is well-formed");
+        let sheet = format!("{selectors} {{ fill: url(#p) }}");
+        let element = document.root_element();
+        rules(&sheet).iter().map(|rule| (rule.may_match(element), rule.compounds)).collect()
+    }
+
+    #[test]
+    fn attribute_selectors_do_not_hide_the_subject() {
+        for selector in [
+            "[d='M 0,0']",
+            "path[href=\"#x\"]",
+            "path[x='1.5']",
+            "*[x='a,b > c']",
+            "[x='1.5'].a",
+            "[x='#y']#b",
+            "path[x='\\'']",
+            "path[x|=y]",
+            "path:not(.b)",
+            "/* fig. 1, #2 */path",
+        ] {
+            assert_eq!(read(selector), [(true, 1)], "{selector}");
+        }
+        assert_eq!(read("g[x='a b'] > path, .c[d='.a'], #c[x=y]"), [(true, 2), (false, 1), (false, 1)]);
+    }
+
+    #[test]
+    fn selectors_that_cannot_be_read_count_as_any_element_with_all_words_before() {
+        for (selector, compounds) in [
+            ("g g .c[x='{'] .d", 4),
+            ("g g .c[x=';'] .d", 4),
+            ("g g .c[x='}'] .d", 4),
+            (".c[x", 1),
+            (".c[x='] .d", 2),
+            (".c] .d", 2),
+            ("/* { */ .c", 3),
+        ] {
+            let most = read(selector).into_iter().max();
+            assert!(
+                most.is_some_and(|(matches, words)| matches && words >= compounds),
+                "{selector}: {most:?}"
+            );
+        }
     }
 
     #[test]
