@@ -202,7 +202,7 @@ impl Filter {
     /// itself.
     fn gate_heading(&mut self, now: Instant, off: f64) -> f64 {
         let noise = self.heading_noise.variance();
-        match self.gate.heading(now, off, self.covariance.heading() + noise, !self.aligned) {
+        match self.gate.heading(now, off, self.covariance.heading(), noise, !self.aligned) {
             GateResult::Outlier => 0.0,
             GateResult::Inlier => {
                 self.fixes[1] += 1;

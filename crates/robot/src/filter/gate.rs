@@ -1,6 +1,6 @@
 //! Outlier gate: a fix far from the prediction is rejected, until [`OUTLIERS`] in a row agree with each other.
 
-use lightbots_base::{Instant, Span, Vec2};
+use lightbots_base::{Instant, Span, Vec2, wrap};
 
 /// Largest innovation of an inlier, standard deviations. Below, good fixes of a robot that was pushed are rejected. Above,
 /// outliers near the robot pull it off its place.
@@ -39,6 +39,8 @@ pub(super) struct OutlierGate {
     /// When the last heading came that was no outlier.
     last_heading: Option<Instant>,
     odd_places: u8,
+    /// Innovation of the latest of the headings that are counted as outliers, radians.
+    odd_turn: f64,
     odd_headings: u8,
     /// Whether two jumps came within [`JUMPS_APART`].
     senseless: bool,
@@ -55,11 +57,8 @@ impl OutlierGate {
         let first = self.last_place.is_none();
         if odd && !first {
             let agrees = (off - self.odd_off).length_squared() < GATE * GATE * 2.0 * noise;
-            // An outlier that agrees with no other counts against those that agree with each other.
-            self.odd_places = if agrees { self.odd_places + 1 } else { self.odd_places.saturating_sub(1) };
-            if agrees || self.odd_places == 0 {
+            if count_outlier(&mut self.odd_places, agrees) {
                 self.odd_off = off;
-                self.odd_places = self.odd_places.max(1);
             }
             if self.odd_places < OUTLIERS {
                 return GateResult::Outlier;
@@ -73,13 +72,25 @@ impl OutlierGate {
         if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
-    /// Tests the innovation of a heading. The first heading replaces the estimate, and so does the last of [`OUTLIERS`]
-    /// in a row, whether they agree or not.
+    /// Tests the innovation of a heading against the variance of the estimate (`believed`) and of the fix (`noise`). The
+    /// first heading replaces the estimate.
     #[inline]
-    pub(super) fn heading(&mut self, now: Instant, off: f64, variance: f64, first: bool) -> GateResult {
-        let odd = off * off > GATE * GATE * variance && off * off > GATE_FLOOR_RAD * GATE_FLOOR_RAD;
+    pub(super) fn heading(
+        &mut self,
+        now: Instant,
+        off: f64,
+        believed: f64,
+        noise: f64,
+        first: bool,
+    ) -> GateResult {
+        let square = off * off;
+        let odd = square > GATE * GATE * (believed + noise) && square > GATE_FLOOR_RAD * GATE_FLOOR_RAD;
         if odd && !first {
-            self.odd_headings += 1;
+            let apart = wrap(off - self.odd_turn);
+            let agrees = apart * apart < (GATE * GATE * 2.0 * noise).max(GATE_FLOOR_RAD * GATE_FLOOR_RAD);
+            if count_outlier(&mut self.odd_headings, agrees) {
+                self.odd_turn = off;
+            }
             if self.odd_headings < OUTLIERS {
                 return GateResult::Outlier;
             }
@@ -110,9 +121,20 @@ impl OutlierGate {
     }
 }
 
+/// Counts one more outlier, which agrees with those that are counted or not. One that agrees with no other counts
+/// against those that agree with each other. Returns whether the others are compared with this one from now on.
+#[inline]
+fn count_outlier(counted: &mut u8, agrees: bool) -> bool {
+    *counted = if agrees { *counted + 1 } else { counted.saturating_sub(1) };
+    let is_newest = agrees || *counted == 0;
+    *counted = (*counted).max(1);
+    is_newest
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::PI;
 
     const NOISE: f64 = 1e-6;
 
@@ -134,11 +156,25 @@ mod tests {
     #[test]
     fn headings_are_gated_likewise() {
         let mut gate = OutlierGate::default();
-        assert_eq!(gate.heading(Instant(1), 2.0, NOISE, true), GateResult::Jump);
-        assert_eq!(gate.heading(Instant(2), 0.05, NOISE, false), GateResult::Inlier);
-        assert_eq!(gate.heading(Instant(3), 0.2, NOISE, false), GateResult::Outlier);
-        assert_eq!(gate.last_heading(), Some(Instant(2)));
-        let last = (0..9).map(|n| gate.heading(Instant(4 + n), 0.2, NOISE, false)).last();
+        assert_eq!(gate.heading(Instant(1), 2.0, 0.0, NOISE, true), GateResult::Jump);
+        let mut heading = |us: u64, off: f64| gate.heading(Instant(us), off, 0.0, NOISE, false);
+        assert_eq!(heading(2, 0.05), GateResult::Inlier);
+        assert_eq!(heading(3, 0.2), GateResult::Outlier);
+        let last = (0..9).map(|n| heading(4 + n, 0.2)).last();
         assert_eq!(last, Some(GateResult::Jump));
+        heading(20, 0.2);
+        assert_eq!(gate.last_heading(), Some(Instant(12)));
+    }
+
+    #[test]
+    fn headings_that_disagree_do_not_replace_the_estimate() {
+        let mut gate = OutlierGate::default();
+        gate.heading(Instant(1), 0.0, 0.0, NOISE, true);
+        let mut heading = |us: u64, off: f64| gate.heading(Instant(us), off, 0.0, NOISE, false);
+        // Each is half a radian and more from the one before it.
+        let scattered = |n: u64| 0.5 + (n as f64 * 2.4) % 5.2;
+        assert!((2..100).all(|us| heading(us, scattered(us)) == GateResult::Outlier));
+        let agreeing = (100..120).map(|us| heading(us, if us % 2 == 0 { -PI } else { PI - 0.01 }));
+        assert!(agreeing.take(11).any(|result| result == GateResult::Jump), "they agree over the turn");
     }
 }
