@@ -50,6 +50,8 @@ pub(crate) struct Outbox {
     introduced_without_place: bool,
     arrival: Option<u32>,
     status: bool,
+    /// Whether a command requires the status report that waits.
+    is_status_required: bool,
     question: bool,
     next_status: Instant,
     state: RobotState,
@@ -72,6 +74,7 @@ impl Outbox {
             introduced_without_place: false,
             arrival: None,
             status: false,
+            is_status_required: false,
             question: false,
             next_status: Instant::ZERO + CALM + phase,
             state: RobotState::Lost,
@@ -96,8 +99,10 @@ impl Outbox {
         self.arrival = Some(route);
     }
 
+    /// Queues the status report that a command requires.
     pub(crate) fn report_status(&mut self) {
         self.status = true;
+        self.is_status_required = true;
     }
 
     pub(crate) fn ask_time(&mut self) {
@@ -171,9 +176,9 @@ impl Outbox {
         !(self.introduction || self.arrival.is_some() || self.question || self.status)
     }
 
-    /// Takes out the next message and returns its kind. If `speaks_ours` is false, status reports and questions are
-    /// dropped, because the original protocol lacks them.
-    pub(crate) fn take(&mut self, knows_place: bool, speaks_ours: bool) -> Option<MessageKind> {
+    /// Takes out the next message and returns its kind. A robot that cannot drive routes asks for no time (R25), and
+    /// sends only the status reports that commands require (R41, R55, R59).
+    pub(crate) fn take(&mut self, knows_place: bool, drives_routes: bool) -> Option<MessageKind> {
         if core::mem::take(&mut self.introduction) {
             self.introduced_without_place = !knows_place;
             return Some(MessageKind::Introduction);
@@ -181,10 +186,11 @@ impl Outbox {
         if let Some(route) = self.arrival.take() {
             return Some(MessageKind::Arrival(route));
         }
-        if core::mem::take(&mut self.question) && speaks_ours {
+        if core::mem::take(&mut self.question) && drives_routes {
             return Some(MessageKind::Question);
         }
-        (core::mem::take(&mut self.status) && speaks_ours).then_some(MessageKind::Status)
+        let is_required = core::mem::take(&mut self.is_status_required);
+        (core::mem::take(&mut self.status) && (drives_routes || is_required)).then_some(MessageKind::Status)
     }
 }
 

@@ -381,6 +381,29 @@ fn with_no_abilities_it_speaks_and_understands_the_original_protocol_alone() {
 }
 
 #[test]
+fn a_robot_without_routes_sends_the_status_reports_that_commands_require_alone() {
+    let status = |abilities: Abilities| {
+        let id = RobotId::new("lamp").unwrap();
+        let mut robot = Robot::new(Config { abilities, ..Config::new(id) });
+        robot.link(Instant::ZERO, true);
+        robot.receive(Instant::ZERO, Topic::Robot(id), b"|SLOT 3||LIGHT 9 F0 0 0 AAAAAwAA/w|");
+        let (mut topics, mut message) = (Vec::new(), Message::new());
+        for step in 1..500u64 {
+            robot.step(Instant(step * 16_000), &Inputs::default());
+            while let Some(topic) = robot.outgoing(&mut message) {
+                topics.push((topic, message.contains("slot=3"), message.contains("light=9")));
+            }
+        }
+        topics.retain(|one| one.0 != Topic::Uuid);
+        topics
+    };
+    let none = Abilities::default();
+    assert_eq!(status(Abilities { fade: true, blink: true, ..none }), []);
+    assert_eq!(status(Abilities { live: true, ..none }), [(Topic::Status, true, false)]);
+    assert_eq!(status(Abilities { light: true, ..none }), [(Topic::Status, false, true)]);
+}
+
+#[test]
 fn messages_between_steps_do_not_shorten_them() {
     let mut plant = Plant::ready(Vec2::ZERO, 0.0, Flaws::NONE, 2);
     plant.tell(&Command::Target(Vec2::new(1.0, 0.0)));
