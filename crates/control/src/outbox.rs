@@ -75,18 +75,22 @@ impl SendQueue {
     /// Queues commands in one payload to one topic. Corrects the colours of COLOR and FADE for the lamps; the colours
     /// of stretches of light are corrected earlier, before they are fitted.
     pub fn send(&mut self, topic: Topic, commands: &[Command]) {
-        self.text.clear();
-        let Self { lamp, text, .. } = self;
-        let mut write = |command: &Command| match command {
-            Command::Color(meant) => encode(&Command::Color(lamp.sent(*meant)), text),
-            Command::Fade(fade) => encode(&Command::Fade(Fade { to: lamp.sent(fade.to), ..*fade }), text),
-            other => encode(other, text),
-        };
-        if self.linked && commands.iter().any(|command| write(command).is_err()) {
+        if self.linked && self.write(commands).is_err() {
             self.unsent += 1;
             return;
         }
         self.push(topic, self.text.as_bytes().to_vec());
+    }
+
+    /// Writes commands to `text`, with colours corrected for the lamps.
+    fn write(&mut self, commands: &[Command]) -> core::fmt::Result {
+        self.text.clear();
+        let Self { lamp, text, .. } = self;
+        commands.iter().try_for_each(|command| match command {
+            Command::Color(meant) => encode(&Command::Color(lamp.sent(*meant)), text),
+            Command::Fade(fade) => encode(&Command::Fade(Fade { to: lamp.sent(fade.to), ..*fade }), text),
+            other => encode(other, text),
+        })
     }
 
     fn push(&mut self, topic: Topic, payload: Vec<u8>) {
@@ -99,13 +103,11 @@ impl SendQueue {
 
     /// Queues a broadcast now and another `times − 1` times, at intervals of `every`.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
-        self.send(Topic::Broadcast, std::slice::from_ref(&command));
-        if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX {
-            let mut text = String::new();
-            if encode(&command, &mut text).is_ok() {
-                let payload = text.into_bytes();
-                self.repeats.push(Repeat { payload, next: now + every, every, left: times - 1 });
-            }
+        let commands = std::slice::from_ref(&command);
+        self.send(Topic::Broadcast, commands);
+        if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX && self.write(commands).is_ok() {
+            let payload = self.text.as_bytes().to_vec();
+            self.repeats.push(Repeat { payload, next: now + every, every, left: times - 1 });
         }
     }
 
@@ -193,5 +195,18 @@ mod tests {
             encode(&command, &mut text).unwrap();
         }
         assert_eq!(payloads(&mut outbox), [text]);
+    }
+
+    #[test]
+    fn every_copy_of_a_broadcast_is_corrected_for_the_lamps() {
+        let lamp = LampSettings { gain: [0.5, 1.0, 1.0], ..LampSettings::default() };
+        let mut outbox = SendQueue::new(lamp);
+        outbox.link(true);
+        outbox.broadcast(Instant::ZERO, Command::Color(Rgb::new(255, 9, 0)), 3, Span(10));
+        [10, 20].into_iter().for_each(|us| outbox.tick(Instant(us)));
+        let copies = payloads(&mut outbox);
+        let mut text = String::new();
+        encode(&Command::Color(Rgb::new(188, 9, 0)), &mut text).unwrap();
+        assert_eq!(copies, [text.clone(), text.clone(), text]);
     }
 }
