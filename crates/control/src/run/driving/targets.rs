@@ -13,10 +13,10 @@ use lightbots_wire::Command;
 
 /// Least progress by which a robot counts as moving, metres; less may be noise of its fixes.
 const MOVED_M: f64 = 0.005;
-/// Least time between requests to a TARGET-only robot for its place while others wait for it.
+/// Shortest time between requests to a TARGET-only robot for its place while others wait for it.
 const ASK_AWAITED: Span = Span::from_millis(90);
-/// The time between these requests is at least this for each robot of the run, up to [`ASK`], because the answers
-/// share one link.
+/// Time between these requests for each robot of the run, because the answers share one link. In fleets of fewer than
+/// 90 robots it is [`ASK_AWAITED`]; in fleets of more than 500 it stays [`ASK`], as for robots that nothing waits for.
 const ASK_PER_ROBOT: Span = Span::from_millis(1);
 /// Distance from its goal beyond which a robot that arrived is sent its target again, metres. It stopped at an
 /// earlier target, or farther before its target than known. The planner leaves room for a little more than this.
@@ -189,8 +189,8 @@ impl Driving {
         let Some(DrivenLeg { targets, .. }) = &cx.pipeline.driven else { return };
         let place = targets.under_way(participant);
         let awaited = place.is_some_and(|place| targets.is_awaited(place));
-        let often = (ASK_PER_ROBOT * cx.roster.len() as i64).clamp(ASK_AWAITED, ASK);
-        if cx.now - self.progress[participant].asked_at < if awaited { often } else { ASK } {
+        let every = if awaited { ask_awaited_every(cx.roster.len()) } else { ASK };
+        if cx.now - self.progress[participant].asked_at < every {
             return;
         }
         self.progress[participant].asked_at = cx.now;
@@ -203,5 +203,22 @@ impl Driving {
             send_target(cx, place);
         }
         cx.send(participant, &[Command::Uuid]);
+    }
+}
+
+/// Time between requests to a robot that others wait for, in a run of `robots`.
+fn ask_awaited_every(robots: usize) -> Span {
+    (ASK_PER_ROBOT * robots as i64).clamp(ASK_AWAITED, ASK)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn awaited_robots_are_asked_less_often_in_larger_fleets_within_bounds() {
+        for (robots, ms) in [(1, 90), (90, 90), (200, 200), (500, 500), (2_000, 500)] {
+            assert_eq!(ask_awaited_every(robots), Span::from_millis(ms), "{robots} robots");
+        }
     }
 }
