@@ -41,9 +41,10 @@ pub enum LogError {
 pub enum LogEnd {
     /// At its record `End`, which the writer appended.
     Complete,
-    /// Before that record: the writer was killed, bytes were cut or changed, or the replay stopped at a difference. Holds
-    /// the number of bytes that were read.
+    /// Before that record: the writer was killed, or bytes were cut or changed. Holds the number of bytes that were read.
     Cut(u64),
+    /// Unknown, because the replay stopped at a difference and read no further.
+    NotReached,
 }
 
 /// The first place where a replay had other outputs than the recorded controller.
@@ -320,7 +321,11 @@ impl Replay {
             robots: self.controller.robots(),
             lasted: self.now - Instant(self.header.began_us),
             digest: self.digest.value(),
-            end: if self.is_complete { LogEnd::Complete } else { LogEnd::Cut(at as u64) },
+            end: match (self.is_complete, &self.difference) {
+                (true, _) => LogEnd::Complete,
+                (false, None) => LogEnd::Cut(at as u64),
+                (false, Some(_)) => LogEnd::NotReached,
+            },
             difference: self.difference,
         }
     }

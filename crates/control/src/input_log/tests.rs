@@ -80,7 +80,9 @@ fn an_input_that_was_changed_is_found_with_its_place() {
         }
         crate::block::append_block(&mut changed, &block);
     }
-    let difference = replay(&changed, &mut |_| {}).unwrap().difference.unwrap();
+    let report = replay(&changed, &mut |_| {}).unwrap();
+    assert_eq!(report.end, LogEnd::NotReached, "the log is whole, but was not read to its end");
+    let difference = report.difference.unwrap();
     assert_eq!((difference.input, difference.at), (4, Instant(1_000_300)));
     assert_eq!(difference.what, "T/LightBot/Time a 923456");
     assert_eq!(difference.outputs[0], "T/LightBot/a |TIME 923456 1000300 1000300|");

@@ -101,12 +101,21 @@ fn as_json(report: &ReplayReport) -> serde_json::Value {
         "plans": report.plans,
         "outputs": report.outputs,
         "duration_s": rounded(report.lasted.as_secs(), 3),
-        "complete": report.end == LogEnd::Complete,
+        "complete": is_complete(report.end),
         "digest": format!("{:016x}", report.digest),
         "program": report.program,
         "notes": report.notes.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
         "difference": difference,
     })
+}
+
+/// Whether the log ends as its writer ended it; `None` if the replay did not reach its end.
+fn is_complete(end: LogEnd) -> Option<bool> {
+    match end {
+        LogEnd::Complete => Some(true),
+        LogEnd::Cut(_) => Some(false),
+        LogEnd::NotReached => None,
+    }
 }
 
 fn print(report: &ReplayReport, bytes: usize) {
@@ -121,7 +130,7 @@ fn print(report: &ReplayReport, bytes: usize) {
         }
         return;
     }
-    if let (LogEnd::Cut(after), None) = (report.end, &report.difference) {
+    if let LogEnd::Cut(after) = report.end {
         say::line(&format!("the log was cut: only {after} of its {bytes} bytes can be replayed"));
     }
     let notes: Vec<String> = report.notes.iter().map(|(name, value)| format!("{name} {value}")).collect();
@@ -134,4 +143,15 @@ fn print(report: &ReplayReport, bytes: usize) {
         count(report.outputs as usize, "output"),
     ));
     say::line(&format!("digest {:016x}; {}", report.digest, notes.join(", ")));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_that_was_not_read_to_its_end_is_neither_complete_nor_cut() {
+        let ends = [LogEnd::Complete, LogEnd::Cut(9), LogEnd::NotReached].map(is_complete);
+        assert_eq!(ends, [Some(true), Some(false), None]);
+    }
 }
