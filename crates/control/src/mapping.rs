@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn with_fixed_identity_a_pixel_stays_with_who_showed_it_in_later_runs_too() {
+    fn with_fixed_identity_a_pixel_keeps_its_robot_in_later_runs_too() {
         let mut roles = roles(Mapping::default());
         let frame = frame(&[0, 1, 2]);
         let bound = roles.bind(&frame, Identity::Fixed, &PLACES, |_| false);
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fixed_frame_among_others_keeps_who_showed_its_pixels() {
+    fn a_fixed_frame_among_others_keeps_the_robots_of_its_pixels() {
         let mut roles = roles(Mapping::default());
         let frame = frame(&[0, 1, 2]);
         let any = roles.bind(&frame, Identity::Any, &PLACES, |_| false);

@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_moved_off_the_floor_or_into_an_obstacle() {
+    fn no_robot_is_moved_off_the_floor_or_into_an_obstacle() {
         let edge = 1.0 - CONTACT_M / 2.0;
         let robots = [Vec2::new(edge, 0.0), Vec2::new(edge - 0.055, 0.0)];
         let places = place(&[], &[]).separated(&robots).unwrap();

@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn in_a_large_crowd_everybody_has_the_least_room_of_all() {
+    fn in_a_large_fleet_each_robot_has_the_least_clearance_of_all() {
         let far = |index: usize| Vec2::new(index as f64, 0.0);
         let paths: Vec<_> = (0..=MOST).map(|index| (index, straight(far(index), far(index)))).collect();
         let around = surroundings(&paths, &[], Some(0.007), 0.054);

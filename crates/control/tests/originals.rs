@@ -53,7 +53,7 @@ fn lost_target(way: Vec2) -> (World, Vec2) {
 }
 
 #[test]
-fn who_is_near_its_goal_is_not_there_before_it_says_so() {
+fn a_robot_near_its_goal_is_not_there_before_it_reports_so() {
     // The controller must not take this robot, 18 mm from its goal, for arrived, or other robots pass too close to it.
     let (mut world, goal) = lost_target(Vec2::new(0.018, 0.0));
     let at = world.robots[0].at;
@@ -64,7 +64,7 @@ fn who_is_near_its_goal_is_not_there_before_it_says_so() {
 }
 
 #[test]
-fn who_says_it_arrived_far_from_its_goal_is_told_again() {
+fn a_robot_that_reports_arrival_far_from_its_goal_is_sent_its_target_again() {
     // The reported arrival may belong to the target before. Then the robot stands 25 mm from its goal, where others
     // pass.
     let (mut world, goal) = lost_target(Vec2::new(0.06, 0.0));
@@ -76,7 +76,7 @@ fn who_says_it_arrived_far_from_its_goal_is_told_again() {
 }
 
 #[test]
-fn who_is_lifted_while_all_stand_is_planned_from_where_it_was_put_down() {
+fn a_robot_lifted_while_all_stand_is_planned_from_where_it_was_put_down() {
     let mut world = World::ready(6, 6, show(2, 6, 5.0));
     world.play();
     world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
@@ -87,7 +87,7 @@ fn who_is_lifted_while_all_stand_is_planned_from_where_it_was_put_down() {
 }
 
 #[test]
-fn who_was_not_heard_when_it_was_switched_on_is_found_soon() {
+fn a_robot_that_was_not_heard_when_it_was_switched_on_is_found_soon() {
     // A request every two seconds would be too rare: where every fifth message is lost, a robot could stay unknown
     // until the show begins.
     let mut world = World::new(6, 6);
@@ -125,7 +125,7 @@ fn pause_and_resume_work_with_originals() {
 }
 
 #[test]
-fn who_keeps_others_waiting_is_named_before_it_is_given_up() {
+fn a_robot_that_keeps_others_waiting_is_named_before_it_is_given_up() {
     let mut world = World::ready(5, 5, show(2, 5, 0.1));
     world.play();
     world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
@@ -188,7 +188,7 @@ fn a_pause_keeps_originals_where_they_are() {
 }
 
 #[test]
-fn a_picture_stays_as_long_as_it_should_though_everybody_is_asked_anew_meanwhile() {
+fn a_picture_stays_as_long_as_it_should_though_all_robots_are_asked_anew_meanwhile() {
     let mut world = World::ready(5, 3, show(2, 5, 20.0));
     world.play();
     let stands = world.run_until(60.0, |kind| matches!(kind, EventKind::FrameReached { .. })).at;

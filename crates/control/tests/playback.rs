@@ -233,7 +233,7 @@ fn half_the_speed_takes_twice_the_time_and_holds_until_it_is_changed() {
 }
 
 #[test]
-fn abort_stops_everybody_at_once() {
+fn abort_stops_all_robots_at_once() {
     let mut world = World::ready(9, 2, show(2, 9, 0.2));
     world.play();
     world.run_until(10.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));

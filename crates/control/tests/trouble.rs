@@ -125,7 +125,7 @@ fn a_robot_that_dies_while_driving_is_planned_around() {
 }
 
 #[test]
-fn who_dies_while_all_are_stopped_for_another_is_planned_around_too() {
+fn a_robot_that_dies_while_all_are_stopped_for_another_is_planned_around_too() {
     for other in [2, 4] {
         let mut world = World::ready(12, 0, show(4, 12, 0.3));
         world.play();
@@ -158,7 +158,7 @@ fn a_robot_that_finds_something_in_its_way_leads_to_the_one_that_died_there() {
 }
 
 #[test]
-fn what_nobody_knows_is_driven_around_and_the_run_ends_in_bounded_time() {
+fn an_unknown_obstacle_is_driven_around_and_the_run_ends_in_bounded_time() {
     let mut world = World::under_way(8);
     world.robots[3].stuck = true;
     world.robots[3].blocked = Some(Blocked { gap_m: 0.002, towards: 0.3 });
@@ -168,7 +168,7 @@ fn what_nobody_knows_is_driven_around_and_the_run_ends_in_bounded_time() {
 }
 
 #[test]
-fn everybody_waits_for_a_blocked_robot_then_goes_on_without_it() {
+fn all_robots_wait_for_a_blocked_one_then_go_on_without_it() {
     let mut world = World::ready(8, 0, show(2, 8, 0.3));
     world.play();
     world.run_until(10.0, started);
@@ -245,7 +245,7 @@ fn an_unsure_robot_is_waited_for_until_it_is_sure() {
 }
 
 #[test]
-fn who_is_never_sure_does_not_stop_the_show() {
+fn a_robot_that_is_never_sure_does_not_stop_the_show() {
     let mut world = World::under_way(8);
     world.robots[3].unsure = true;
     assert_eq!(world.run_to_end(240.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
@@ -336,7 +336,7 @@ fn a_controller_restarted_in_the_middle_of_a_run_can_play_again() {
 }
 
 #[test]
-fn everybody_can_be_stopped_even_when_another_set_them_going() {
+fn all_robots_can_be_stopped_by_a_controller_that_did_not_start_them() {
     let mut world = World::under_way(8);
     world.replace_controller();
     world.run_for(0.3);

@@ -67,7 +67,7 @@ fn answer_subscription(stream: &mut TcpStream) -> bool {
 }
 
 #[tokio::test]
-async fn who_comes_back_subscribes_again_in_a_while() {
+async fn a_link_that_comes_back_subscribes_again_in_a_while() {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = listener.local_addr().unwrap().port();
     let (close, closed) = std::sync::mpsc::channel();

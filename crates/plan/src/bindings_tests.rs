@@ -30,7 +30,7 @@ fn bindings(names: &[&str], shown: &[(u32, usize)]) -> Bindings {
 }
 
 #[test]
-fn who_loses_its_robot_to_a_name_gets_the_one_that_is_left() {
+fn a_pixel_that_loses_its_robot_to_a_name_gets_the_one_that_is_left() {
     let all = bindings(&["a", "b", "c"], &[(0, 0), (1, 1), (2, 2)]);
     let frame = frame(&[(0, Some("b")), (1, None), (2, None)]);
     let found = bind(&all, &frame, Identity::Fixed, 3);
@@ -101,15 +101,15 @@ fn new_names_take_robots_that_keep_a_pixel_only_where_no_others_are_left() {
 }
 
 #[test]
-fn with_fewer_robots_the_last_pixels_stay_dark_and_those_that_ask_for_somebody_last() {
-    let mut nobody = Bindings::default();
+fn with_fewer_robots_the_last_pixels_stay_dark_and_those_with_a_robots_name_last() {
+    let mut unbound = Bindings::default();
     let frame = frame(&[(0, None), (1, None), (2, None), (3, Some("ann"))]);
     for identity in [Identity::Any, Identity::Fixed] {
-        assert_eq!(bind(&nobody, &frame, identity, 2).dark, [1, 2]);
-        assert_eq!(bind(&nobody, &frame, identity, 0).dark, [0, 1, 2, 3]);
+        assert_eq!(bind(&unbound, &frame, identity, 2).dark, [1, 2]);
+        assert_eq!(bind(&unbound, &frame, identity, 0).dark, [0, 1, 2, 3]);
     }
-    nobody.claims.show(2, 0);
-    assert_eq!(bind(&nobody, &frame, Identity::Fixed, 2).dark, [0, 1]);
+    unbound.claims.show(2, 0);
+    assert_eq!(bind(&unbound, &frame, Identity::Fixed, 2).dark, [0, 1]);
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn the_next_route_is_kept_while_one_is_under_way_and_takes_over() {
 }
 
 #[test]
-fn a_route_that_nobody_comes_near_tells_so() {
+fn a_route_that_no_neighbour_comes_near_tells_so() {
     let tells = |room_mm, named: bool| {
         let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
         let mut one = Route { room_mm, ..route(1) };
@@ -96,7 +96,7 @@ fn a_route_that_nobody_comes_near_tells_so() {
 }
 
 #[test]
-fn neighbours_that_rested_by_the_way_do_not_crowd_out_who_is_near() {
+fn neighbours_that_rested_beside_the_route_do_not_displace_the_near_one() {
     let (mut routes, mut storage) = (Routes::new(), RouteStorage::new());
     let mut named = route(1);
     let knot = |x_tenths: i32| [Knot { at_ms: 0, place_tenths: [x_tenths, 700], velocity_mmps: [0; 2] }];

@@ -224,7 +224,7 @@ fn a_robot_that_aborted_its_route_does_not_turn_towards_the_one_after_it() {
 }
 
 #[test]
-fn a_short_break_in_air_time_is_nobodys_business() {
+fn a_short_break_of_the_link_in_air_time_changes_nothing() {
     let mut plant = ready(Flaws::STANDARD);
     send(&mut plant, 9, FAR, 4_000);
     plant.run(0.5);

@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_right_is_said_before_anybody_connects() {
+    fn impossible_settings_are_reported_before_a_client_connects() {
         let with = |ca: Option<&str>, cert: Option<&str>| {
             let (ca, client_cert) = (ca.map(str::to_owned), cert.map(str::to_owned));
             Settings { address: "mqtts://a".into(), ca, client_cert, ..Settings::default() }

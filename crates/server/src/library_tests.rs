@@ -48,7 +48,7 @@ fn what_is_saved_is_there() {
 }
 
 #[test]
-fn nobody_overwrites_anybody_silently() {
+fn no_client_overwrites_another_silently() {
     let temporary = Temporary::new("conflict");
     let library = &temporary.library;
     let first = library.put("a", DOT, &Condition::Any).unwrap();

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn who_presses_on_goes_over_the_edge_once() {
+    fn a_robot_that_presses_on_goes_over_the_edge_once() {
         let (bumps, all) = pressed(&[(Some((FloorObject::Edge, 0.004)), 0.0); 5]);
         assert_eq!((bumps.edges, bumps.over), (1, 1));
         assert_eq!(all.iter().map(|bump| bump.over).collect::<Vec<_>>(), [false, true]);

@@ -370,7 +370,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_touches_what_is_said_with_place_and_time() {
+    fn each_touch_is_reported_with_robot_place_and_time() {
         let say = |thing, over| {
             let bump = Bump { robot: 7, thing, over };
             let issue = bumped(&bump, Vec2::new(0.5, -0.25), "3.20 s into the show, about frame 2");

@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn who_has_no_room_says_so() {
+    fn text_beyond_the_room_is_an_error() {
         let mut out = heapless::String::<4>::new();
         let mut buffer = TextBuffer::new(&mut out);
         buffer.write_str("12345").unwrap();

@@ -146,7 +146,7 @@ fn our_messages_byte_for_byte() {
 }
 
 #[test]
-fn only_who_says_so_in_these_bytes_is_simulated() {
+fn only_a_robot_that_reports_it_in_these_bytes_is_simulated() {
     let said = |fields: &str| Report::decode(format!("r7 0.5 1.3{fields}").as_bytes()).unwrap().details;
     for (fields, simulated) in [
         (" sim=1", true),

@@ -39,9 +39,9 @@ fn one_of_several_is_examined_by_its_name() {
 }
 
 #[test]
-fn nobody_and_an_unknown_name_are_said() {
+fn no_robot_and_an_unknown_name_are_reported() {
     assert_eq!(Bench::new(0, Right, Options::default()).run().ending, Some(Ending::NoRobot));
-    let robot = lightbots_base::RobotId::new("somebody-else");
+    let robot = lightbots_base::RobotId::new("another-robot");
     let outcome = Bench::new(1, Right, Options { robot, ..Options::default() }).run();
     assert_eq!(outcome.ending, Some(Ending::NoRobot));
 }

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn who_has_no_goal_makes_way() {
+    fn a_robot_without_a_goal_makes_way() {
         let lattice = lattice(0.2);
         let starts: Vec<u32> = (0..lattice.places.len() as u32 - 3).collect();
         let mut goals = vec![NONE; starts.len()];

@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn who_meets_on_the_way_is_not_apart_though_both_ends_are() {
+    fn robots_that_meet_on_their_paths_are_not_apart_though_both_ends_are() {
         let (left, right, up) = (Vec2::new(-0.04, 0.0), Vec2::new(0.04, 0.0), Vec2::new(-0.04, 0.1));
         let instance = instance(vec![left, right, up], vec![right, left, up]);
         let roads = Roadmap::new(&instance, &VisibilityGraph::new(&instance), 0.072, 0.0).unwrap();

@@ -116,7 +116,7 @@ mod tests {
     use lightbots_base::{Limits, Vec2};
 
     #[test]
-    fn detours_are_left_out_and_who_is_in_the_way_still_makes_way() {
+    fn detours_are_left_out_and_a_robot_in_the_way_still_makes_way() {
         let at = |x: f64, y: f64| Vec2::new(x, y);
         let floor = TransitionProblem::on_floor(at(0.3, 0.3), Limits::ELISA_3);
         let starts = vec![at(-0.15, 0.0), at(0.0, 0.0)];

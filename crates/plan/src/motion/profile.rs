@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn who_stays_rests_as_long_as_the_others_drive() {
+    fn a_robot_that_stays_rests_as_long_as_the_others_drive() {
         let profile = Profile::quickest(1.0, Easing::Gentle, &LIMITS);
         let path = profile.path(Vec2::ZERO, Vec2::ZERO);
         assert_eq!(path.pieces, [Piece::rest(Vec2::ZERO, profile.duration())]);

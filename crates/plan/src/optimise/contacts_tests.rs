@@ -23,7 +23,7 @@ fn near(detector: &ContactDetector, instance: &Instance, splines: &SplineSet, le
 }
 
 #[test]
-fn who_comes_near_is_found_though_most_have_hardly_moved() {
+fn robots_that_come_near_are_found_though_most_have_hardly_moved() {
     let (mut seeded, detector) = (Seeded::new(7), ContactDetector::new());
     let mut place = || Vec2::new(seeded.between(-0.6, 0.6), seeded.between(-0.6, 0.6));
     let (starts, goals): (Vec<Vec2>, Vec<Vec2>) = (0..ROBOTS).map(|_| (place(), place())).unzip();

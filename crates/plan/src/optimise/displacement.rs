@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_moves_farther_than_their_travel_says() {
+    fn no_spline_moves_farther_than_its_displacement() {
         let (mut seeded, mut splines) = (Seeded::new(4), splines());
         let (mut displacement, first) = (Displacement::new(2, SPANS + 3), splines.clone());
         for _ in 0..40 {
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn who_did_not_move_has_not_travelled() {
+    fn a_spline_that_did_not_move_has_no_displacement() {
         let splines = splines();
         let mut displacement = Displacement::new(2, SPANS + 3);
         let influence = splines.influence(0, 4, &basis(0.5));

@@ -73,7 +73,7 @@ fn moved(path: &Path, offset: Vec2) -> Path {
 }
 
 #[test]
-fn who_is_shifted_onto_another_meets_it() {
+fn a_path_shifted_onto_another_meets_it() {
     for seed in 0..20 {
         let (mut paths, mut seeded) = legal(seed);
         let (i, j) = (0, 1 + seeded.below(ROBOTS - 1));
@@ -93,7 +93,7 @@ fn who_is_shifted_onto_another_meets_it() {
 }
 
 #[test]
-fn who_leaves_late_or_slows_down_is_judged_as_by_samples() {
+fn paths_that_begin_late_or_slow_down_are_judged_as_by_samples() {
     let mut conflicts = 0;
     for seed in 0..25 {
         let (mut paths, mut seeded) = legal(seed);
@@ -128,7 +128,7 @@ fn who_leaves_late_or_slows_down_is_judged_as_by_samples() {
 }
 
 #[test]
-fn who_drives_before_it_has_turned_is_refused() {
+fn a_path_that_begins_before_the_robot_has_turned_is_refused() {
     each_is_refused(&[FaultKind::Turn], |path, _| {
         let rest = path.pieces.remove(0);
         let end = path.as_ref().end();
@@ -142,7 +142,7 @@ fn a_drive_told_backwards_in_time_is_refused() {
 }
 
 #[test]
-fn who_is_hurried_is_too_fast_or_too_hard() {
+fn a_hurried_path_is_too_fast_or_too_hard() {
     for seed in 0..10 {
         let (mut paths, mut seeded) = legal(seed);
         // The longest way is driven at full speed.
@@ -175,7 +175,7 @@ fn a_corner_without_a_stop_is_refused() {
 }
 
 #[test]
-fn who_ends_early_or_late_is_refused() {
+fn a_path_that_ends_early_or_late_is_refused() {
     each_is_refused(&[FaultKind::Malformed], |path, seeded| {
         path.pieces[0].duration -= Span(1 + seeded.below(1000) as i64);
     });
@@ -188,7 +188,7 @@ fn who_ends_early_or_late_is_refused() {
 }
 
 #[test]
-fn who_leaves_the_floor_is_refused() {
+fn a_path_that_leaves_the_floor_is_refused() {
     each_is_refused(&[FaultKind::Floor], |path, seeded| {
         // The middle of the way lies a millimetre or more beyond the edge, beginning and end on the floor.
         let out = 1.474 + seeded.between(0.0, 0.5);
@@ -201,7 +201,7 @@ fn who_leaves_the_floor_is_refused() {
 }
 
 #[test]
-fn who_crosses_a_no_go_area_is_refused() {
+fn a_path_across_a_no_go_area_is_refused() {
     let square = [Obstacle::Rect { min: Vec2::new(-0.1, -0.1), max: Vec2::new(0.1, 0.1) }];
     for seed in 0..10 {
         let (mut paths, mut seeded) = legal(seed);

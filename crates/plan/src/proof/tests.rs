@@ -56,7 +56,7 @@ fn passing_by_is_measured_exactly() {
 }
 
 #[test]
-fn who_begins_too_close_must_only_not_come_closer() {
+fn robots_that_begin_too_close_must_only_not_come_closer() {
     let from = [Vec2::ZERO, Vec2::new(0.05, 0.0)];
     let apart = [smooth(from[0], Vec2::new(-0.3, 0.0), 3.0), smooth(from[1], Vec2::new(0.35, 0.0), 3.0)];
     assert!(prove(&input(&apart, &[], &[])).holds());

@@ -20,7 +20,7 @@ fn queue() -> TransitionProblem {
 }
 
 #[test]
-fn who_follows_closely_falls_back_within_the_time_that_is_given() {
+fn a_robot_that_follows_closely_falls_back_within_the_given_time() {
     let problem = queue();
     let mut plan = transition(&problem).unwrap();
     let before = (crate::proof::stop_safe::stop_safety(&plan.paths, &problem.limits), plan.duration);

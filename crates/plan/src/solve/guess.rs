@@ -229,7 +229,7 @@ mod tests {
     use lightbots_base::Limits;
 
     #[test]
-    fn guesses_are_alike_where_only_who_is_early_differs_and_nobody_is() {
+    fn an_early_guess_is_like_the_plain_one_unless_a_drive_is_shorter() {
         for (last_m, is_alike) in [(0.4, true), (0.2, false)] {
             let starts: Vec<Vec2> = (0..4).map(|i| Vec2::new(-0.2, f64::from(i) * 0.1)).collect();
             let mut paths: Vec<Vec<Vec2>> =

@@ -56,7 +56,7 @@ fn row(count: usize, y: f64) -> Vec<Vec2> {
 }
 
 #[test]
-fn two_who_change_places_pass_each_other() {
+fn two_robots_that_change_places_pass_each_other() {
     let (a, b) = (Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0));
     assert!(ratio(&problem(vec![a, b], vec![b, a], 1.5)) < 1.1);
 }
@@ -106,7 +106,7 @@ fn a_crowd_keeps_off_the_edge_where_its_ends_do() {
 }
 
 #[test]
-fn who_waits_in_front_of_a_narrow_gap_keeps_apart_from_the_others() {
+fn robots_that_wait_in_front_of_a_narrow_gap_keep_apart() {
     let wall = |from: f64, to: f64| Obstacle::Rect { min: Vec2::new(from, -0.05), max: Vec2::new(to, 0.05) };
     for (robots, wide_m) in [(6, 0.061), (7, 0.061), (8, 0.061), (9, 0.061), (8, 0.064)] {
         let problem = TransitionProblem {
@@ -121,7 +121,7 @@ fn who_waits_in_front_of_a_narrow_gap_keeps_apart_from_the_others() {
 }
 
 #[test]
-fn who_drives_from_stop_to_stop_keeps_off_the_edge_too() {
+fn a_robot_that_drives_from_stop_to_stop_keeps_off_the_edge_too() {
     // A bay in a corridor: one must step aside into it.
     let wall = |from: f64, to: f64| Obstacle::Rect { min: Vec2::new(from, -0.02), max: Vec2::new(to, 0.1) };
     let (a, b) = (Vec2::new(-0.25, -0.06), Vec2::new(0.25, -0.06));
@@ -325,14 +325,14 @@ fn ways_lead_around_walls_and_robots_that_stand() {
 }
 
 #[test]
-fn who_is_spare_steps_aside() {
+fn a_spare_robot_steps_aside() {
     let mut starts = vec![Vec2::new(-0.4, 0.0)];
     starts.extend((-4..=4).map(|i| Vec2::new(0.0, f64::from(i) * 0.06)));
     assert!(ratio(&problem(starts, vec![Vec2::new(0.4, 0.0)], 0.5)) < 1.8);
 }
 
 #[test]
-fn who_is_walled_in_gets_no_way() {
+fn a_walled_in_robot_gets_no_path() {
     let mut problem = problem(vec![Vec2::ZERO], vec![Vec2::new(1.0, 0.0)], 1.5);
     let side = |min: (f64, f64), max: (f64, f64)| Obstacle::Rect {
         min: Vec2::new(min.0, min.1),

@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nobody_is_in_the_way_all_takes_longer_alike() {
+    fn without_congestion_all_parts_take_longer_alike() {
         assert_eq!(time_scaled(&[0.0; 4], 1.25, 10.0), [1.25; 4]);
         assert_eq!(time_scaled(&[0.0, 8.0], 1.5, 1.6), [1.0, 1.6]);
         assert_eq!(moments(&[1.25; 4], 2), [0.0, 2.0, 4.0]);

@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_pinned_to_a_pixel_behind_a_wall_is_named() {
+    fn a_robot_pinned_to_a_pixel_behind_a_wall_is_named() {
         let mut problem = problem(&[OUTSIDE[0], (0.0, 0.0)], &[(0.0, 0.1), OUTSIDE[1]], boxed(0.02));
         assert!(transition(&problem).is_ok());
         problem.pinned = vec![Some(0)];
@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_walled_in_is_the_one_to_spare() {
+    fn a_walled_in_robot_is_the_spare_one() {
         let starts = [(-0.5, 1.3), (0.5, 1.3), (0.0, 0.0)];
         let plan = transition(&problem(&starts, &[(0.0, -0.9), (0.3, 0.0)], boxed(0.0))).unwrap();
         assert_eq!(plan.goal_of[2], None);

@@ -95,7 +95,7 @@ fn pair_that_turns(apart_at_start: Vec2, apart_at_end: Vec2) -> TransitionProble
 }
 
 #[test]
-fn who_drives_behind_another_is_left_room_to_stop_and_who_drives_beside_it_is_not() {
+fn a_robot_behind_another_gets_room_to_stop_and_one_beside_it_does_not() {
     let in_line = pair_that_turns(Vec2::new(0.064, 0.05), Vec2::new(0.064, -0.05));
     let least = transition(&in_line).unwrap().least;
     for seconds in [None, Some(6.4), Some(15.0)] {
@@ -174,7 +174,7 @@ fn what_cannot_be_shown_is_said() {
 }
 
 #[test]
-fn nobody_and_nowhere_are_fine() {
+fn no_robots_and_no_distance_are_fine() {
     let plan = transition(&problem(Vec::new(), Vec::new(), 1.5)).unwrap();
     assert!(plan.paths.is_empty() && plan.closest.is_none());
     let starts = vec![Vec2::ZERO, Vec2::new(0.5, 0.0)];
@@ -209,7 +209,7 @@ fn shuffled(side: usize, apart: f64) -> TransitionProblem {
 }
 
 #[test]
-fn who_is_left_in_each_others_way_is_named_with_a_distance_that_does() {
+fn robots_in_each_others_way_are_named_with_a_distance_that_suffices() {
     let infeasible = transition(&shuffled(6, 0.058)).unwrap_err();
     let message = &infeasible.message;
     assert!((2..=8).contains(&message.matches("to (").count()), "{message}");
@@ -221,7 +221,7 @@ fn who_is_left_in_each_others_way_is_named_with_a_distance_that_does() {
 }
 
 #[test]
-fn two_who_cannot_pass_in_a_corridor_are_named_alone() {
+fn two_robots_that_cannot_pass_in_a_corridor_are_named_alone() {
     let places: Vec<Vec2> = (0..6).map(|i| Vec2::new(f64::from(i) * 0.2 - 0.5, 0.0)).collect();
     let mut goals = places.clone();
     goals.swap(2, 3);

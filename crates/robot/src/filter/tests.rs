@@ -73,7 +73,7 @@ fn slip_is_learned_and_leads_through_a_second_without_fixes() {
 }
 
 #[test]
-fn who_stood_for_a_while_does_not_know_its_wheels_any_more() {
+fn a_robot_that_stood_for_a_while_does_not_know_its_wheels_any_more() {
     let mut one = filter();
     let mut drive = Drive { at: Vec2::ZERO, heading: 0.0, slip: [0.12, 0.06] };
     let mut live = |one: &mut Filter, steps: core::ops::Range<u64>, turns: [f64; 2]| {

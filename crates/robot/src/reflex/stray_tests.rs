@@ -11,7 +11,7 @@ use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 const NUMBER: u8 = 7;
 
 #[test]
-fn where_the_plan_has_a_neighbour_that_left_it_there_is_nobody() {
+fn where_the_plan_has_a_neighbour_that_left_it_there_is_no_robot() {
     let sensors = Sensors::new(&ProximitySensors::ELISA_3, 0.027);
     // The neighbour stopped ahead to the left. By plan it is abeam by now, where a sensor sees another robot.
     let (stopped, due) = (Point::new(0.05, 0.04), Point::new(0.0, 0.075));

@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn time_waits_for_nobody_where_others_live_by_it() {
+    async fn the_clock_does_not_wait_where_others_share_it() {
         let (mut crowd, clock, pace) = crowd();
         pace.reports.say(100_000);
         let before = crowd.fleet.advance_at();

@@ -44,7 +44,7 @@ fn check_says_what_it_promises() {
 }
 
 #[test]
-fn check_says_who_comes_closest_when_and_where() {
+fn check_names_the_closest_robots_with_time_and_place() {
     // Two robots that change places and pass each other, and a third one far away.
     let show = r##"{"lightbots":1,"identity":"fixed","starts":[[-0.5,0],[0.5,0],[0,1]],"frames":[
         {"name":"A","air_time_s":1,"pixels":[{"id":4,"place":[-0.5,0],"color":"#ffffff"},

@@ -61,7 +61,7 @@ fn peak_memory(process: u32) -> u64 {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn clients_that_do_not_read_cost_bounded_memory_and_nobody_elses_messages() {
+fn clients_that_do_not_read_cost_bounded_memory_and_no_other_clients_messages() {
     let (process, address) = broker();
     let mut slow: Vec<_> = (0..10).map(|number| RawMqtt::open(&address, &format!("slow-{number}"))).collect();
     assert!(slow.iter_mut().all(|client| client.subscribe("flood")));

@@ -143,7 +143,7 @@ fn two_robots_of_one_name_are_named_and_the_show_plays_on() {
 }
 
 #[test]
-fn a_session_belongs_to_the_user_who_began_it() {
+fn a_session_belongs_to_the_user_that_began_it() {
     let users = shows::file("users", "one:first:fleet\ntwo:second:fleet\n");
     let mut process = Child::lightbots(&["broker", "--mqtt-listen", "127.0.0.1:0", "--mqtt-users", &users]);
     let broker = process.said("Broker mqtt://");

@@ -64,7 +64,7 @@ fn our_robot_and_the_documents_robot_keep_the_protocol() {
     let mut examined = check(&other.url(), &[]);
     let mut python_examined = python.as_ref().map(|_| check(&url, &[]));
 
-    nobody_and_several(&embedded);
+    no_robot_and_several(&embedded);
     let (code, rules) = verdicts(&mut examined);
     assert_eq!((code, rules.get("breaks")), (0, None), "{rules:?}");
     assert_eq!(rules["keeps"].len(), 39, "{rules:?}");
@@ -81,10 +81,10 @@ fn our_robot_and_the_documents_robot_keep_the_protocol() {
 }
 
 /// Checks that a missing robot is reported as a problem, and several robots without a chosen name as wrong use.
-fn nobody_and_several(broker: &str) {
-    let mut nobody = check(broker, &["--robot", "nobody-of-this-name"]);
-    assert_eq!(nobody.end(), 1);
-    let answer: Value = serde_json::from_str(&nobody.out()).expect("one JSON object");
+fn no_robot_and_several(broker: &str) {
+    let mut absent = check(broker, &["--robot", "no-robot-of-this-name"]);
+    assert_eq!(absent.end(), 1);
+    let answer: Value = serde_json::from_str(&absent.out()).expect("one JSON object");
     assert_eq!(answer["ok"], false);
     let mut robots = Child::lightbots(&["robots", "--count", "2", "--broker", broker]);
     robots.said("connected to ");

@@ -75,7 +75,7 @@ fn sorted(mut places: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn abort_stops_everybody_and_the_next_run_begins_from_there() {
+fn abort_stops_all_robots_and_the_next_run_begins_from_there() {
     let _turn = alone();
     // From the front row to the far end, so that no robot has arrived before the abort.
     let far = shows::row(4, &[0.1]).replace("1.200", "-1.300");
@@ -147,7 +147,7 @@ fn too_few_robots_are_a_message_and_a_choice() {
 }
 
 #[test]
-fn the_library_keeps_shows_and_nobody_overwrites_anybody() {
+fn the_library_keeps_shows_and_no_client_overwrites_another() {
     let _turn = alone();
     let (_server, address, _) = start(&["--robots", "0"]);
     let mut screen = Screen::open(&address);
@@ -231,7 +231,7 @@ fn a_taken_port_is_one_line_with_what_to_do() {
 }
 
 #[test]
-fn a_library_that_cannot_be_kept_is_said_before_anybody_draws() {
+fn a_library_that_cannot_be_kept_ends_the_start_with_its_folder() {
     let file = shows::row_file(2, &[0.1]);
     let below = format!("{file}/library");
     let (code, out, err) =

@@ -59,19 +59,19 @@ fn touched(fault: &str) -> usize {
 }
 
 #[test]
-fn nobody_touches_a_robot_that_died_and_the_show_goes_on() {
+fn no_robot_touches_one_that_died_and_the_show_goes_on() {
     let touched = touched("kill=random") + touched("mute=random");
     assert_eq!(touched, 0, "of 60 runs");
 }
 
 #[test]
-fn nobody_touches_a_robot_that_got_stuck_and_the_show_goes_on() {
+fn no_robot_touches_one_that_got_stuck_and_the_show_goes_on() {
     let touched = touched("stuck=random");
     assert_eq!(touched, 0, "of 30 runs");
 }
 
 #[test]
-fn whoever_is_waited_for_and_left_out_is_named() {
+fn a_robot_that_is_waited_for_and_excluded_is_named() {
     let report = play("kill=5@4s", 2);
     let struck = report.issues.iter().find(|issue| issue.code == "robot-killed").unwrap();
     let name = struck.message.split(['(', ')']).nth(1).unwrap();
@@ -82,7 +82,7 @@ fn whoever_is_waited_for_and_left_out_is_named() {
 }
 
 #[test]
-fn nobody_brakes_where_nothing_is_wrong() {
+fn no_robot_brakes_where_nothing_is_wrong() {
     for seed in 1..=10 {
         let report = play("", seed);
         assert!(report.ok && report.issues.is_empty(), "seed {seed}: {:#?}", report.issues);
@@ -107,7 +107,7 @@ fn pairs_in_line() -> Show {
 
 /// Without a plan that keeps them apart, on straight lines 10 mm behind, nine in ten touched.
 #[test]
-fn who_follows_close_behind_stops_in_time_when_the_one_ahead_dies() {
+fn a_robot_close_behind_stops_in_time_when_the_one_ahead_dies() {
     for fault in ["kill=0@3.2s", "stuck=4@3.4s", "kill=6@3.6s", "stuck=2@3.3s"] {
         for seed in 1..=4 {
             let conditions = Faults::parse(fault).unwrap().added_to(Conditions::default());

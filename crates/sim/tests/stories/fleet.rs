@@ -139,7 +139,7 @@ fn a_late_call_is_caught_up_on_within_bounds() {
 }
 
 #[test]
-fn what_is_for_nobody_is_not_heard() {
+fn messages_for_no_robot_are_not_received() {
     let mut hall = Hall::new(vec![Vec2::ZERO], Conditions::default());
     for topic in ["T/LightBot/Status", "T/LightBot/no-such-robot", "", "T/LightBot/+"] {
         assert!(!hall.fleet.receive(Instant::ZERO, topic, b"|STOP|"), "{topic}");

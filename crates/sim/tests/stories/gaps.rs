@@ -45,7 +45,7 @@ fn two_change_places_by_a_bay_without_touching_its_corners_or_the_edge() {
 }
 
 #[test]
-fn who_drives_right_along_the_edge_touches_it_and_is_named_but_nothing_failed() {
+fn a_robot_right_along_the_edge_touches_it_and_is_named_but_nothing_failed() {
     let report = play(&places::along_edge(0.0), 1);
     assert!(report.ok && report.contacts == 0, "{:?}", report.issues);
     assert!(report.wall_contacts > 4, "{}", report.wall_contacts);
@@ -58,6 +58,6 @@ fn who_drives_right_along_the_edge_touches_it_and_is_named_but_nothing_failed() 
 }
 
 #[test]
-fn who_has_a_few_millimetres_does_not_touch_it() {
+fn a_robot_with_a_few_millimetres_does_not_touch_it() {
     assert_untouched(&play(&places::along_edge(0.003), 1));
 }

@@ -11,7 +11,7 @@ mod verdict;
 use lightbots_sim::Conditions;
 
 #[test]
-fn the_picture_is_the_frame_and_shown_by_whom_the_plan_says() {
+fn the_picture_is_the_frame_and_shown_by_the_robots_of_the_plan() {
     let mut numbers = [0; 3];
     for number in 0..120 {
         let scene = scene::scene(number);

@@ -62,7 +62,7 @@ fn neighbours_whose_sensors_are_poor_give_way_to_each_other() {
 }
 
 #[test]
-fn who_gets_no_fixes_for_a_second_waits_for_them_and_goes_on() {
+fn a_robot_without_fixes_for_a_second_waits_for_them_and_goes_on() {
     // Robots whose places were uncertain by centimetres once drove on, and touched others with seed 7. With seeds 6, 9
     // and 35 they kept the slip estimate from before all robots stood, and took their places for certain.
     for seed in [5, 6, 7, 8, 9, 35] {

@@ -68,7 +68,7 @@ fn lost_messages_cost_time_and_no_contact() {
 }
 
 #[test]
-fn with_ours_among_them_everybody_arrives() {
+fn with_ours_among_them_all_robots_arrive() {
     for seed in 1..=2 {
         let report = play("original=15", seed);
         assert!(report.ok, "seed {seed}: {:#?}", report.issues);

@@ -84,7 +84,7 @@ fn cut_off_or_lost_on_the_way_it_drops_out_and_comes_back() {
 }
 
 #[test]
-fn who_is_cut_off_and_drives_on_runs_into_nobody() {
+fn a_robot_that_is_cut_off_and_drives_on_runs_into_no_other() {
     // The robots ahead once held after a second of silence, while the one behind them drove on until it noticed the
     // lost link.
     let leaves_s = play_show(&column(), "", 1).per_frame[0].at_s + 2.0;

@@ -44,7 +44,7 @@ fn rehearsed(show: &Show, seed: u64, faults: &str) -> RehearsalReport {
 /// A robot in a very dense crowd once braked for a neighbour that only crossed. It fell behind by more than others had
 /// left room for, and they drove into it, or it dropped out.
 #[test]
-fn nobody_brakes_for_one_that_crosses() {
+fn no_robot_brakes_for_one_that_crosses() {
     for number in [2763, 3331, 4523, 5045, 5355, 7953, 8737, 8855] {
         let report = run(number, "");
         assert!(report.ok, "pair {number}: {:?}", report.issues);
@@ -54,7 +54,7 @@ fn nobody_brakes_for_one_that_crosses() {
 
 /// A slow robot once estimated the distance of a dead robot as growing while it came nearer, and sped up.
 #[test]
-fn nobody_creeps_into_one_that_died() {
+fn no_robot_creeps_into_one_that_died() {
     let report = run(103, "kill=random");
     assert_eq!((report.contacts, report.dropouts), (0, 1), "{:?}", report.issues);
 }
@@ -63,7 +63,7 @@ fn nobody_creeps_into_one_that_died() {
 /// because the distance hardly changed. Or it did that because one of two sensors lost sight of the dead robot. Or it
 /// crept on until nothing seemed to block it, and drove into the dead robot.
 #[test]
-fn who_brakes_for_one_that_died_beside_its_way_does_not_go_on() {
+fn a_robot_that_brakes_for_one_that_died_beside_its_path_does_not_go_on() {
     for number in [39, 561, 367] {
         let report = rehearsed(&scene::pair(number, 200), number, "kill=random");
         assert_eq!((report.contacts, report.dropouts), (0, 1), "pair {number}: {:?}", report.issues);

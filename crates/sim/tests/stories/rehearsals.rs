@@ -132,7 +132,7 @@ fn an_ideal_world_is_met_to_the_millimetre() {
 }
 
 #[test]
-fn who_crawls_while_another_drives_far_keeps_to_its_way() {
+fn a_robot_that_crawls_while_another_drives_far_keeps_to_its_path() {
     // Below 20 mm/s a robot once did not steer, and drifted off its path in a minute, in a show of a thousand robots.
     let frame = |x: [f64; 2]| Frame {
         pixels: (0..2)
@@ -249,7 +249,7 @@ fn the_report_has_the_keys_scripts_rely_on() {
 }
 
 #[test]
-fn who_is_bound_to_a_pixel_takes_part() {
+fn a_robot_bound_to_a_pixel_takes_part() {
     let mut show = show(12);
     for (frame, pins) in [(0, [(0, "anna"), (11, "bert")]), (1, [(6, "anna"), (3, "carl")])] {
         for (pixel, name) in pins {
@@ -269,7 +269,7 @@ fn a_show_with_more_starts_than_pixels_has_spare_robots() {
 }
 
 #[test]
-fn a_frame_with_fixed_identity_among_others_keeps_who_showed_its_pixels() {
+fn a_frame_with_fixed_identity_among_others_keeps_the_robots_of_its_pixels() {
     let mut show = show(12);
     let mirrored = |pixel: &Pixel| Pixel { at: -pixel.at, ..pixel.clone() };
     let ring = show.frames[1].clone();

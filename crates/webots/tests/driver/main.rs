@@ -168,7 +168,7 @@ fn ends_well(driver: &mut Running) {
 
 /// The driver passes sensor readings to the core, so the robot does not drive into one in its path.
 #[test]
-fn a_driver_sees_who_stands_in_its_way() {
+fn a_driver_sees_a_robot_in_its_way() {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = tempfile("way");
     let socket = folder.join("floor");

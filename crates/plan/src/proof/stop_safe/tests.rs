@@ -21,7 +21,7 @@ fn queue(gaps_m: &[f64]) -> Vec<Path> {
 }
 
 #[test]
-fn who_follows_beyond_the_stopping_distance_is_safe_and_nearer_is_not() {
+fn following_beyond_the_stopping_distance_is_safe_and_nearer_is_not() {
     let stopping_m = stopping_m(0.27);
     for (gap_m, is_safe) in
         [(stopping_m + 0.004, true), (stopping_m + 0.0025, false), (0.010, false), (0.2, true)]
@@ -36,7 +36,7 @@ fn who_follows_beyond_the_stopping_distance_is_safe_and_nearer_is_not() {
 }
 
 #[test]
-fn who_can_stop_but_is_followed_too_closely_is_unsafe_in_turn() {
+fn a_robot_that_can_stop_but_is_followed_too_closely_is_unsafe_in_turn() {
     let found = stop_safety(&queue(&[0.03, 0.03, 0.008]), &LIMITS);
     let at = Span::from_millis(500);
     assert_eq!([0, 1, 2, 3].map(|robot| found.is_safe(robot, at)), [false, false, false, true]);

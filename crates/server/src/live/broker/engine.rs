@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_this_machine_somebody_must_be_named() {
+    fn beyond_this_machine_users_or_client_certificates_are_required() {
         let refused = |options| Engine::start(options).unwrap_err();
         assert_eq!(refused(options("0.0.0.0:0")).code, 2);
         let tls = |client_ca: Option<&str>| TlsOptions {

@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn roles_say_who_a_client_may_be() {
+    fn roles_say_what_a_client_may_be() {
         let of = |role, user, id| Who::of(role, user, id);
         assert_eq!(of(Role::ByClientId, "", "BotControl/x"), Ok(Who::Controller));
         assert_eq!(of(Role::ByClientId, "", "mosq-1"), Ok(Who::Shared));
