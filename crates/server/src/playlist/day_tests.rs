@@ -1,6 +1,7 @@
 //! Tests of days of a playlist: midnight, weekdays, clocks that are put forward and back, overlap, failures.
 
 use chrono::{FixedOffset, NaiveDateTime, NaiveTime};
+use lightbots_api::PlaylistResult;
 
 use super::*;
 
@@ -262,4 +263,32 @@ fn the_next_start_is_said_with_its_day() {
         view::today(&list, &log, now("2026-05-07T12:00:00"))[0].result,
         lightbots_api::PlaylistResult::NotToday
     );
+}
+
+/// What became of each entry today, with its time.
+fn today(list: &[PlaylistTurn], log: &DayLog, now: &str) -> Vec<(PlaylistResult, Option<String>)> {
+    let said = crate::playlist::view::today(list, log, (at(now), &Berlin));
+    said.into_iter().map(|entry| (entry.result, entry.time)).collect()
+}
+
+#[test]
+fn entries_of_yesterdays_chain_are_shown_while_they_are_to_come() {
+    use PlaylistResult::{NotToday, Playing, Waiting};
+    // 4 May 2026 is a Monday, the only day of the chain.
+    let mut days = [false; 7];
+    days[0] = true;
+    let list = [on_days(1, "23:50", days), after(2, 20, true), after(3, 10, false)];
+    let mut log = on_since("2026-05-04T10:00:00");
+    log.note(key(1, "2026-05-04"), TurnStage::Playing, at("2026-05-04T23:50:00"), None);
+    let time = |text: &str| Some(text.to_owned());
+    let seen = today(&list, &log, "2026-05-05T00:01:00");
+    assert_eq!(seen, [(Playing, time("23:50")), (Waiting, None), (Waiting, None)]);
+    log.note(key(1, "2026-05-04"), TurnStage::Played, at("2026-05-05T00:05:00"), None);
+    let seen = today(&list, &log, "2026-05-05T00:06:00");
+    assert_eq!(seen, [(NotToday, None), (Waiting, time("00:25")), (Waiting, None)]);
+    log.note(key(2, "2026-05-04"), TurnStage::Played, at("2026-05-05T00:40:00"), None);
+    let seen = today(&list, &log, "2026-05-05T00:41:00");
+    assert_eq!(seen, [(NotToday, None), (NotToday, None), (Waiting, time("00:50"))]);
+    let late = today(&list, &log, "2026-05-05T00:56:00");
+    assert_eq!(late[2], (NotToday, None), "it was to begin by 00:55");
 }

@@ -10,7 +10,8 @@ use super::times::{clock_text, date_of, day_text};
 /// Number of days ahead in which the next start is searched: each weekday once, that of today twice.
 const AHEAD: u64 = 7;
 
-/// Returns what became of each entry today. An entry of yesterday's chain is reported as playing while it still plays.
+/// Returns what became of each entry today. An entry of yesterday's chain that still plays, or is still to come, is
+/// reported as that.
 pub fn today<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
@@ -20,20 +21,38 @@ pub fn today<Z: TimeZone>(
     let date = date_of(zone, now_s);
     let yesterday = date.pred_opt().unwrap_or(date);
     let of_today = places(list, log, (date, zone), on_since_s);
-    let of_yesterday = places(list, log, (yesterday, zone), on_since_s);
+    let of_yesterday = going_on(places(list, log, (yesterday, zone), on_since_s), now_s);
     list.iter()
         .map(|turn| {
             let of = |places: &[(&PlaylistTurn, TurnPlace<'_>)]| {
                 places.iter().find(|(other, _)| other.id == turn.id).map(|(_, place)| said(*place, zone))
             };
-            let late = of(&of_yesterday).filter(|said| said.result == PlaylistResult::Playing);
-            late.or_else(|| of(&of_today)).unwrap_or(PlaylistToday {
+            of(&of_yesterday).or_else(|| of(&of_today)).unwrap_or(PlaylistToday {
                 result: PlaylistResult::NotToday,
                 time: None,
                 line: None,
             })
         })
         .collect()
+}
+
+/// Keeps the turns that play at `now_s` or are still to come. A turn without a known start is to come if the turn before
+/// it plays or is to come.
+fn going_on<'a>(
+    places: Vec<(&'a PlaylistTurn, TurnPlace<'a>)>,
+    now_s: i64,
+) -> Vec<(&'a PlaylistTurn, TurnPlace<'a>)> {
+    let mut goes_on = false;
+    let mut is_kept = |place: &TurnPlace<'_>| {
+        goes_on = match place {
+            TurnPlace::Begun(record) => record.stage == TurnStage::Playing,
+            TurnPlace::Due { at_s, .. } => at_s + LATE_S >= now_s,
+            TurnPlace::Unknown => goes_on,
+            TurnPlace::Past => false,
+        };
+        goes_on
+    };
+    places.into_iter().filter(|(_, place)| is_kept(place)).collect()
 }
 
 fn said<Z: TimeZone>(place: TurnPlace<'_>, zone: &Z) -> PlaylistToday {
