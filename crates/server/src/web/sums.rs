@@ -1,5 +1,6 @@
 //! Sums of equal events of many robots, so that a fleet of any size fills a bounded number of lines.
 
+use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
 use std::time::{Duration, Instant};
 
@@ -21,8 +22,10 @@ pub struct Sum {
     /// Number of the sum's line in the log; `None` if the line is not written yet.
     pub line: Option<u32>,
     first: EventKind,
-    robots: Vec<RobotId>,
-    count: usize,
+    /// All robots with such events. The controller bounds their number.
+    robots: BTreeSet<RobotId>,
+    /// The first of them, at most [`NAMED`], in the order of their events.
+    named: Vec<RobotId>,
     grown: bool,
     began: Instant,
     last: Instant,
@@ -38,17 +41,10 @@ impl Sums {
         let Some(robot) = robot_of(kind) else { return false };
         self.0.retain(|sum| sum.grown || now - sum.last < QUIET && now - sum.began < LONGEST);
         match self.0.iter_mut().find(|sum| key(&sum.first) == key(kind)) {
-            Some(sum) => {
-                sum.count += 1;
-                (sum.grown, sum.last) = (true, now);
-                if sum.robots.len() < NAMED {
-                    sum.robots.push(robot);
-                }
-            }
+            Some(sum) => sum.add(now, robot),
             None => {
-                let first = kind.clone();
-                let (count, robots) = (1, vec![robot]);
-                self.0.push(Sum { line: None, first, robots, count, grown: true, began: now, last: now });
+                let (first, robots, named) = (kind.clone(), [robot].into(), vec![robot]);
+                self.0.push(Sum { line: None, first, robots, named, grown: true, began: now, last: now });
             }
         }
         true
@@ -69,25 +65,36 @@ impl Sums {
 }
 
 impl Sum {
+    /// Adds an event of a robot. A further event of the same robot changes nothing but the time of the last event.
+    fn add(&mut self, now: Instant, robot: RobotId) {
+        self.last = now;
+        if self.robots.insert(robot) {
+            self.grown = true;
+            if self.named.len() < NAMED {
+                self.named.push(robot);
+            }
+        }
+    }
+
     /// Severity of the sum's events.
     pub fn severity(&self) -> Severity {
         self.first.severity()
     }
 
-    /// Number of events, or 0 for a single one, whose robot the line names.
+    /// Number of robots, or 0 for a single one, which the line names.
     pub fn count(&self) -> usize {
-        if self.count > 1 { self.count } else { 0 }
+        if self.robots.len() > 1 { self.robots.len() } else { 0 }
     }
 
     /// Names of the robots, at most `NAMED`. Empty for a single one, which the line names.
     pub fn names(&self) -> Vec<String> {
-        let named = if self.count > 1 { self.robots.as_slice() } else { &[] };
+        let named = if self.robots.len() > 1 { self.named.as_slice() } else { &[] };
         named.iter().map(ToString::to_string).collect()
     }
 
     /// The line for people.
     pub fn text(&self) -> String {
-        let count = self.count;
+        let count = self.robots.len();
         if count == 1 {
             return self.first.to_string();
         }
@@ -133,4 +140,40 @@ fn key(kind: &EventKind) -> (Discriminant<EventKind>, Option<Trouble>) {
 fn is_presence(kind: &EventKind) -> bool {
     use EventKind::*;
     matches!(kind, RobotFound(_) | RobotRestarted(_) | RobotStale(_) | RobotGone(_) | RobotBack(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn robot(number: usize) -> RobotId {
+        RobotId::new(&format!("r{number}")).unwrap()
+    }
+
+    fn lines(sums: &mut Sums) -> Vec<(usize, usize, String)> {
+        let mut lines = Vec::new();
+        sums.each_grown(|sum| lines.push((sum.count(), sum.names().len(), sum.text())));
+        lines
+    }
+
+    #[test]
+    fn a_sum_counts_robots_and_not_their_events() {
+        let (mut sums, now) = (Sums::default(), Instant::now());
+        for _ in 0..3 {
+            assert!(sums.take(now, &EventKind::RobotStale(robot(1))));
+        }
+        let one = EventKind::RobotStale(robot(1)).to_string();
+        assert_eq!(lines(&mut sums), [(0, 0, one)]);
+        sums.take(now, &EventKind::RobotStale(robot(1)));
+        assert!(lines(&mut sums).is_empty(), "nothing new");
+        for number in [2, 1, 2] {
+            sums.take(now, &EventKind::RobotStale(robot(number)));
+        }
+        assert_eq!(lines(&mut sums), [(2, 2, "2 robots have not reported lately.".to_owned())]);
+        for number in 0..500 {
+            sums.take(now, &EventKind::RobotStale(robot(number)));
+        }
+        let line = "500 robots have not reported lately.".to_owned();
+        assert_eq!(lines(&mut sums), [(500, NAMED, line)]);
+    }
 }
