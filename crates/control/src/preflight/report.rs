@@ -53,6 +53,8 @@ pub enum PreflightFinding {
     },
     /// It did not stop when it was told to, or not where it should.
     DidNotStop,
+    /// Whether it stops on its way could not be tested: the link is too slow, or the stop came too late.
+    StopNotTested,
     /// It could not take part, or not to the end.
     Failed(Trouble),
     /// There is no room around it to drive.
@@ -90,6 +92,7 @@ impl PreflightFinding {
             Self::OffHeading { .. } => "Look whether one wheel is bent, worn or blocked.",
             Self::DrivesAskew { .. } => "Turn its marker straight, and look whether one wheel is bent.",
             Self::DidNotStop => "Keep it off the floor until its firmware is updated or replaced.",
+            Self::StopNotTested => "Look at the network, then run the preflight again.",
             Self::Failed(Trouble::Silent | Trouble::Deaf | Trouble::Cut | Trouble::Clock) => {
                 "Charge it, switch it off and on, and look at the network."
             }
@@ -123,6 +126,7 @@ impl fmt::Display for PreflightFinding {
                 )
             }
             Self::DidNotStop => f.write_str("did not stop when it was told to"),
+            Self::StopNotTested => f.write_str("was not tested for Stop, because the link is too slow"),
             Self::Failed(why) => write!(f, "{why}"),
             Self::NoRoom => f.write_str("has no room to drive 50 mm in any direction"),
             Self::Unfinished => f.write_str("was not tested, because the preflight ended before"),

@@ -63,6 +63,11 @@ impl LinkEstimate {
         self.measured.clamp(HOLD_LEAD, HOLD_LEAD_MAX)
     }
 
+    /// Whether robots may receive HOLD after its moment, because the link is slower than it may be stated ahead.
+    pub fn hold_may_be_late(&self) -> bool {
+        self.measured > self.hold_lead()
+    }
+
     /// How long before its moment RESUME is sent, so that all receive it in time.
     pub fn resume_lead(&self) -> Span {
         self.round_trip.max(HOLD_LEAD)
@@ -128,8 +133,10 @@ mod tests {
         link.measure(Span::from_millis(250));
         (0..20).for_each(|_| link.widen());
         assert_eq!((link.resume_lead(), link.hold_lead()), (ROUND_TRIP_MAX, Span::from_millis(250)));
+        assert!(!link.hold_may_be_late());
         link.measure(Span::from_millis(30_000));
         assert_eq!((link.resume_lead(), link.hold_lead()), (MEASURED_MAX, HOLD_LEAD_MAX));
+        assert!(link.hold_may_be_late());
     }
 
     #[test]

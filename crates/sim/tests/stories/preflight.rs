@@ -9,7 +9,7 @@ use lightbots_sim::{Conditions, Fleet, FleetConfig, STEP};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Delay of every message.
+/// Usual delay of every message.
 const DELAY: Span = Span::from_millis(15);
 
 /// An undelivered message: to a robot, or from a robot to the controller.
@@ -28,6 +28,8 @@ struct Hall {
     now: Instant,
     letters: VecDeque<Letter>,
     events: Vec<EventKind>,
+    /// Delay of every message.
+    delay: Span,
     /// Share of messages lost, percent.
     loss: u64,
     dice: u64,
@@ -49,6 +51,7 @@ impl Hall {
             now: Instant::ZERO,
             letters: VecDeque::new(),
             events: Vec::new(),
+            delay: DELAY,
             loss: 0,
             dice: seed,
             headstrong: Vec::new(),
@@ -68,7 +71,7 @@ impl Hall {
 
     fn post(&mut self, robot: Option<usize>, topic: String, payload: Vec<u8>) {
         if !self.is_lost() {
-            self.letters.push_back(Letter { due: self.now + DELAY, robot, topic, payload });
+            self.letters.push_back(Letter { due: self.now + self.delay, robot, topic, payload });
         }
     }
 
@@ -308,5 +311,33 @@ fn stop_ends_a_preflight_and_it_is_refused_in_a_run() {
     assert!((0..9).all(|robot| hall.findings(&report, robot) == [PreflightFinding::Unfinished]));
     for (pose, before) in hall.fleet.poses().iter().zip(&before) {
         assert!(pose.at.distance(*before) < 0.01);
+    }
+}
+
+#[test]
+fn on_slow_links_robots_are_stopped_at_the_same_place_and_those_that_drive_on_are_named() {
+    for ms in [100, 200] {
+        let mut hall = hall(Conditions::default());
+        hall.delay = Span::from_millis(ms);
+        hall.run(5.0);
+        hall.headstrong = vec![4];
+        let report = hall.preflight();
+        assert_eq!(hall.findings(&report, 4), [PreflightFinding::DidNotStop], "{ms} ms: {}", hall.story());
+        hall.assert_others_pass(&report, &[4]);
+    }
+}
+
+#[test]
+fn robots_that_could_not_receive_a_stop_in_time_are_untested_and_not_faulty() {
+    for ms in [1_000, 1_400] {
+        let mut hall = hall(Conditions::default());
+        hall.delay = Span::from_millis(ms);
+        hall.run(20.0);
+        let report = hall.preflight();
+        for robot in 0..9 {
+            let found = hall.findings(&report, robot);
+            assert!(found.contains(&PreflightFinding::StopNotTested), "{ms} ms, {robot}: {report:#?}");
+            assert!(!found.contains(&PreflightFinding::DidNotStop), "{ms} ms, {robot}: {report:#?}");
+        }
     }
 }

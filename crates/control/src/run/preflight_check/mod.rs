@@ -19,9 +19,13 @@ use lightbots_wire::{Blink, Command, Details, RobotState, Route, Topic};
 use robot_test::{RobotTest, untested};
 use std::collections::BTreeMap;
 
-/// Distance to the end of the way out at which robots are stopped, metres. A robot that does not stop drives on by
-/// this distance, which its reports show. At this distance all robots are still fast.
-const STOP_LEFT_M: f64 = 0.033;
+/// Distance to the end of the way out at which robots are to stand after the stop, metres, on fast and slow links. A
+/// robot that does not stop drives on by this distance, which its reports show. While they slow down for it, all robots
+/// are still fast.
+const STOP_LEFT_M: f64 = 0.02;
+/// Least such distance, metres, at which a robot that stands at its goal is told from one that stopped before: its place
+/// is off by [`OFF_M`] and by as much again for its noise.
+const TOLD_APART_M: f64 = 2.0 * OFF_M;
 /// How long after it should stand a robot may take to report that it does; two round trips come on top. R40 asks for
 /// that report at once. On a lossy link the robot has to be asked again.
 const STOPS_WITHIN: Span = Span::from_millis(1_000);
@@ -67,8 +71,9 @@ pub(crate) struct PreflightCheck {
 struct StopTest {
     /// When robots should stand by the protocol.
     stand_at: Instant,
-    /// Where robots should stand then, stage metres: participants and places.
-    due: Vec<(usize, Vec2)>,
+    /// Participants, and where their robots should stand then, stage metres. `None`: so near the goal that a robot that
+    /// drives on could not be told from one that stops, because the stop began late.
+    due: Vec<(usize, Option<Vec2>)>,
     /// `[participant]`: when the robot first reported after `stand_at` that it stands.
     stood: Vec<Option<Instant>>,
 }
@@ -200,22 +205,20 @@ impl PreflightCheck {
         let place = |participant: usize, time: Span| {
             leg.path(participant).map(|path| path.as_ref().at(time).position)
         };
-        let time = drive.clock.path_time(now);
-        let is_near = |&one: &usize| {
-            place(one, time).is_some_and(|at| at.distance(leg.robots[one].goal) <= STOP_LEFT_M)
-        };
+        let hold_at = now + cx.link.hold_lead();
+        let stands = drive.clock.path_time(hold_at) + Route::EASE / 2;
+        let left_m = |one: usize, at: Vec2| at.distance(leg.robots[one].goal);
+        let is_near = |&one: &usize| place(one, stands).is_some_and(|at| left_m(one, at) <= STOP_LEFT_M);
         if !movers.iter().any(is_near) {
             return Next::Stay;
         }
-        let hold_at = now + cx.link.hold_lead();
-        let stand_at = hold_at + Route::EASE;
-        // On a slow link the drive is over before all can be stopped. Then only that robots stand is tested.
-        let is_on_the_way = hold_at + Route::EASE < drive.clock.ends;
-        let stands = drive.clock.path_time(hold_at) + Route::EASE / 2;
-        let due = movers.iter().filter_map(|&one| Some((one, place(one, stands)?)));
+        let due = movers.iter().map(|&one| {
+            let place = place(one, stands).filter(|at| left_m(one, *at) >= TOLD_APART_M);
+            (one, place)
+        });
         self.stop = Some(StopTest {
-            stand_at,
-            due: if is_on_the_way { due.collect() } else { Vec::new() },
+            stand_at: hold_at + Route::EASE,
+            due: due.collect(),
             stood: vec![None; cx.roster.len()],
         });
         self.stopped = round + 1;
@@ -223,7 +226,8 @@ impl PreflightCheck {
     }
 
     /// Checks the places and times of robots that were told to stop. Returns participants that stand elsewhere or
-    /// reported too late; they are to drop out.
+    /// reported too late; they are to drop out. On a link so slow that HOLD may have come late, a robot that stands
+    /// elsewhere has not been tested, and stays.
     fn judge_stop(&mut self, cx: &RunContext) -> Vec<usize> {
         let Some(stop) = self.stop.take() else { return Vec::new() };
         let within = STOPS_WITHIN + cx.link.round_trip * 2;
@@ -233,9 +237,14 @@ impl PreflightCheck {
                 continue;
             }
             let robot = cx.robot(participant);
-            let is_there = robot.reported.at.is_some_and(|at| at.distance(place) <= OFF_M);
+            let is_at = |place: Vec2| robot.reported.at.is_some_and(|at| at.distance(place) <= OFF_M);
             let is_in_time = stop.stood[participant].is_some_and(|at| at - stop.stand_at <= within);
-            if !is_there || !is_in_time {
+            if is_in_time && place.is_some_and(is_at) {
+                continue;
+            }
+            if is_in_time && (place.is_none() || cx.link.hold_may_be_late()) {
+                self.tests[participant].find(PreflightFinding::StopNotTested);
+            } else {
                 self.tests[participant].find(PreflightFinding::DidNotStop);
                 failed.push(participant);
             }
