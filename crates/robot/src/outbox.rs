@@ -11,6 +11,9 @@ const CALM: Span = Span::from_millis(2000);
 /// Distance from its route, or of a robot that stands from where it last reported, beyond which it reports at once,
 /// metres. Below, ordinary tracking errors are reported.
 const OFF_M: f64 = 0.008;
+/// Standard deviations of a reported place within which a robot that stands was not moved: the place of one that was
+/// just switched on still settles.
+const SURE: f64 = 3.0;
 /// Distance within which a robot is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
 const BACK_M: f64 = 0.006;
 /// Growth of the reported distance from the route, as a factor, at which it is reported again. Braking for a neighbour
@@ -55,8 +58,9 @@ pub(crate) struct Outbox {
     question: bool,
     next_status: Instant,
     state: RobotState,
-    /// Where the robot was at the last status report, stage metres.
-    reported_at: Option<Vec2>,
+    /// Where the robot was at the last status report, stage metres, and the distance from there beyond which it was
+    /// moved, metres.
+    reported_at: Option<(Vec2, f64)>,
     /// The last reported distance from the route, metres; 0: on the route.
     reported_off_m: f64,
     /// The last reported error of the place while fixes stay away, metres.
@@ -109,8 +113,8 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Decides after a step whether an introduction or a status report is due. `at`: where the robot is, stage metres;
-    /// `None` if it does not know. `off_m`: distance from the route, metres. `err_m`: error of the place, metres; `None`
+    /// Decides after a step whether an introduction or a status report is due. `at`: where the robot is, stage metres, and
+    /// the error of that, metres, 1 sigma; `None` if it does not know. `off_m`: distance from the route, metres. `err_m`: error of the place, metres; `None`
     /// unless fixes are overdue.
     pub(crate) fn notice(
         &mut self,
@@ -118,7 +122,7 @@ impl Outbox {
         state: RobotState,
         off_m: Option<f64>,
         err_m: Option<f64>,
-        at: Option<Vec2>,
+        at: Option<(Vec2, f64)>,
     ) {
         let knows_place = at.is_some();
         if self.newcomer.is_some_and(|since| knows_place || now - since > POWER_ON) {
@@ -139,22 +143,23 @@ impl Outbox {
             self.reported_err_m = err_m;
         }
         let strays = is_off != was_off || is_off && off_m > farther_m;
-        let busy = matches!(state, RobotState::Driving | RobotState::Held);
-        let is_moved = !busy && self.is_moved(at);
-        if unsure || state != self.state || strays || is_moved || now >= self.next_status {
+        if unsure || state != self.state || strays || now >= self.next_status {
             self.status = true;
             self.state = state;
         }
         if self.status {
-            self.reported_at = at;
+            self.reported_at = at.map(|(at, error_m)| (at, OFF_M + SURE * error_m));
             self.reported_off_m = if is_off { off_m } else { 0.0 };
+            let busy = matches!(state, RobotState::Driving | RobotState::Held);
             self.next_status = now + if busy { BUSY } else { CALM };
         }
     }
 
-    /// Whether a robot that stands is elsewhere than at its last report: it was lifted or pushed.
-    fn is_moved(&self, at: Option<Vec2>) -> bool {
-        at.zip(self.reported_at).is_some_and(|(at, reported)| at.distance(reported) > OFF_M)
+    /// Notes where a robot is that has nothing to drive and stands, stage metres. A status report is due if the robot
+    /// is elsewhere than at its last one: it was lifted or pushed.
+    pub(crate) fn notice_place(&mut self, at: Option<Vec2>) {
+        let is_off = |(at, (reported, most_m)): (Vec2, (Vec2, f64))| at.distance(reported) > most_m;
+        self.status |= at.zip(self.reported_at).is_some_and(is_off);
     }
 
     /// Notes the direction of an obstacle, radians in the stage; `None`: there is none.
@@ -201,7 +206,7 @@ mod tests {
     fn statuses(outbox: &mut Outbox, seconds: u64, state: RobotState) -> usize {
         let mut count = 0;
         for step in 0..seconds * 1000 / 16 {
-            outbox.notice(Instant(step * 16_000), state, None, None, Some(Vec2::ZERO));
+            outbox.notice(Instant(step * 16_000), state, None, None, Some((Vec2::ZERO, 0.0)));
             count += usize::from(outbox.take(true, true) == Some(MessageKind::Status));
         }
         count
@@ -216,23 +221,22 @@ mod tests {
     #[test]
     fn a_robot_that_stands_says_at_once_that_it_was_moved() {
         let mut outbox = Outbox::new(Span::ZERO);
-        let mut says = |x_m, state| {
-            outbox.notice(Instant(1), state, None, None, Some(Vec2::new(x_m, 0.0)));
+        let mut says = |x_m| {
+            let at = Vec2::new(x_m, 0.0);
+            outbox.notice_place(Some(at));
+            outbox.notice(Instant(1), RobotState::Idle, None, None, Some((at, 0.0)));
             outbox.take(true, true) == Some(MessageKind::Status)
         };
-        assert!(says(0.0, RobotState::Idle), "the first report");
-        assert!(
-            !says(0.007, RobotState::Idle) && says(0.009, RobotState::Idle) && !says(0.009, RobotState::Idle)
-        );
-        assert!(!says(0.016, RobotState::Idle) && says(0.018, RobotState::Idle), "pushed slowly");
-        assert!(says(0.018, RobotState::Driving) && !says(0.1, RobotState::Driving), "it drives");
+        assert!(says(0.0), "the first report");
+        assert!(!says(0.007) && says(0.009) && !says(0.009), "lifted");
+        assert!(!says(0.016) && says(0.018), "pushed slowly");
     }
 
     #[test]
     fn leaving_the_route_is_said_again_when_it_gets_worse_and_coming_back_too() {
         let mut outbox = Outbox::new(Span::ZERO);
         let mut said = |off| {
-            outbox.notice(Instant(1), RobotState::Lost, Some(off), None, Some(Vec2::ZERO));
+            outbox.notice(Instant(1), RobotState::Lost, Some(off), None, Some((Vec2::ZERO, 0.0)));
             outbox.take(true, true).is_some()
         };
         assert!(!said(0.007) && said(0.009) && !said(0.007) && said(0.005) && !said(0.007));
@@ -243,7 +247,7 @@ mod tests {
     fn want_of_fixes_is_said_at_once_again_when_it_gets_worse_and_when_it_is_over() {
         let mut outbox = Outbox::new(Span::ZERO);
         let mut said = |err| {
-            outbox.notice(Instant(1), RobotState::Lost, None, err, Some(Vec2::ZERO));
+            outbox.notice(Instant(1), RobotState::Lost, None, err, Some((Vec2::ZERO, 0.0)));
             outbox.take(true, true).is_some()
         };
         assert!(!said(None) && said(Some(0.004)) && !said(Some(0.005)) && said(Some(0.006)));
@@ -266,7 +270,7 @@ mod tests {
         let mut outbox = Outbox::new(Span::ZERO);
         outbox.arrive_new(Instant(0));
         let mut introduced = |at, knows: bool| {
-            outbox.notice(Instant(at), RobotState::Lost, None, None, knows.then_some(Vec2::ZERO));
+            outbox.notice(Instant(at), RobotState::Lost, None, None, knows.then_some((Vec2::ZERO, 0.0)));
             core::iter::from_fn(|| outbox.take(knows, false)).any(|fact| fact == MessageKind::Introduction)
         };
         assert!(!introduced(100_000, false));

@@ -63,10 +63,16 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             hot.outbox.ask_time();
         }
         let knows_place = hot.state != RobotState::Lost && !self.is_lost_now();
-        let at = knows_place.then(|| self.hot.estimate.at());
         let is_blind = self.hot.routes.under_way() && self.hot.quality.blind;
         let err_m = is_blind.then(|| self.err_m());
         let off_m = self.hot.routes.due_off_m();
+        let rests = matches!(self.hot.state, RobotState::Idle | RobotState::Ready) && self.hot.drive.stands();
+        let error_m = if rests { self.hot.estimate.error_m() } else { 0.0 };
+        let at = knows_place.then(|| (self.hot.estimate.at(), error_m));
+        // In a silence the report would be lost, and the robot says where it is once it hears a message.
+        if rests && !self.hot.supervisor.is_silent(now) {
+            self.hot.outbox.notice_place(at.map(|(at, _)| at));
+        }
         self.hot.outbox.notice(now, self.hot.state, off_m, err_m, at);
         let towards = if self.hot.is_wary { self.blocked().map(|blocked| blocked.towards) } else { None };
         self.hot.outbox.notice_block(towards);
