@@ -114,8 +114,8 @@ impl Outbox {
     }
 
     /// Decides after a step whether an introduction or a status report is due. `at`: where the robot is, stage metres, and
-    /// the error of that, metres, 1 sigma; `None` if it does not know. `off_m`: distance from the route, metres. `err_m`: error of the place, metres; `None`
-    /// unless fixes are overdue.
+    /// the error of that, metres, 1 sigma; `None` if it does not know. `off_m`: distance from the route, metres. `err_m`:
+    /// error of the place to be reported, metres; `None` unless fixes are overdue.
     pub(crate) fn notice(
         &mut self,
         now: Instant,

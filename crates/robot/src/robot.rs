@@ -16,15 +16,12 @@ use crate::light_piece::LightPiece;
 use crate::storage::RouteStorage;
 use crate::supervise::Drives;
 pub use reports::Message;
-use sense::LONGEST_STEP;
+use sense::{AWAY_M, LONGEST_STEP};
 pub use state::Robot;
 
 /// Distance from its route beyond which a robot abandons the route, metres: it is stuck, or was never where the route
 /// starts. Below, robots abandon routes that they can still follow. Above, they drive far outside what the plan proved.
 const GIVE_UP_M: f64 = 0.3;
-/// Distance by which a robot was moved beyond which it does not drive the route that it has, metres: about a robot's size.
-/// Below, a robot that was pushed aside does not go back on its route. Above, one that was lifted drives through others.
-const AWAY_M: f64 = 0.05;
 /// Distance from its route within which a robot that the safety layer slowed has caught up, metres. Below, the error of
 /// following a route counts as being behind.
 const CAUGHT_UP_M: f64 = 0.02;

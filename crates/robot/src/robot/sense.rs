@@ -4,13 +4,15 @@ use core::borrow::BorrowMut;
 
 use lightbots_base::{Instant, Span};
 
-use super::AWAY_M;
 use super::state::Robot;
 use crate::config::{Inputs, SENSORS};
 use crate::drive::BodyPose;
 use crate::routes::InSight;
 use crate::storage::RouteStorage;
 
+/// Distance by which a robot was moved beyond which it does not drive the route that it has, metres: about a robot's size.
+/// Below, a robot that was pushed aside does not go back on its route. Above, one that was lifted drives through others.
+pub(super) const AWAY_M: f64 = 0.05;
 /// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
 /// its wheels. Below, a board that skips a few steps would fall behind its route.
 pub(super) const LONGEST_STEP: Span = Span::from_millis(100);
