@@ -12,12 +12,23 @@ const RING: u32 = 6;
 /// Discs that are closer together than this count as one, metres: places of a silent robot are 10 mm apart.
 const SAME_M: f64 = 0.004;
 
+/// Least clearance between a disc and a robot at rest with which the planner can start, metres.
+const BEGIN_M: f64 = 0.001;
+/// Largest number of inferred places for which discs are added: each of up to six discs for a place is compared with all
+/// starts and goals, and planned around.
+const PLACES_MAX: usize = 256;
+
 /// The problem with the discs around inferred places as well. A disc in which a robot starts or ends is left out, because
-/// robots that stopped at an obstacle have to get away from it. `None` without any such disc.
+/// robots that stopped at an obstacle have to get away from it. `None` without any such disc, and with more than
+/// [`PLACES_MAX`] places.
 pub(crate) fn kept_away_from(problem: &TransitionProblem, inferred: &[Vec2]) -> Option<TransitionProblem> {
+    if inferred.len() > PLACES_MAX {
+        return None;
+    }
     let contact_m = problem.limits.contact_m();
-    let is_free =
-        |at: Vec2| !problem.starts.iter().chain(&problem.goals).any(|robot| robot.distance(at) < contact_m);
+    let is_free = |at: Vec2| {
+        !problem.starts.iter().chain(&problem.goals).any(|robot| robot.distance(at) < contact_m + BEGIN_M)
+    };
     let mut discs: Vec<Vec2> = Vec::new();
     for at in inferred.iter().flat_map(|&place| ring(place)) {
         if is_free(at) && !discs.iter().any(|disc| disc.distance(at) < SAME_M) {

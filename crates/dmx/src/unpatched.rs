@@ -44,6 +44,8 @@ impl UnpatchedUniverses {
     /// Notes that robots were added at `now`. `is_patched`: whether a universe has robots.
     pub fn robots_added(&mut self, now: Instant, is_patched: impl Fn(u16) -> bool) {
         self.waiting.retain(|&universe| !is_patched(universe));
+        // Packets that come until the universes are named tell whether there are still more.
+        self.has_more = self.is_more_told;
         self.since = now;
     }
 

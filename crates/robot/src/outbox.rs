@@ -11,6 +11,8 @@ const CALM: Span = Span::from_millis(2000);
 /// Distance from its route, or of a robot that stands from where it last reported, beyond which it reports at once,
 /// metres. Below, ordinary tracking errors are reported.
 const OFF_M: f64 = 0.008;
+/// Least time between two reports of a robot that is carried. Below, it floods the broker.
+const MOVED_AGAIN: Span = Span::from_millis(200);
 /// Standard deviations of a reported place within which a robot that stands was not moved: the place of one that was
 /// just switched on still settles.
 const SURE: f64 = 3.0;
@@ -157,7 +159,10 @@ impl Outbox {
 
     /// Notes where a robot is that has nothing to drive and stands, stage metres. A status report is due if the robot
     /// is elsewhere than at its last one: it was lifted or pushed.
-    pub(crate) fn notice_place(&mut self, at: Option<Vec2>) {
+    pub(crate) fn notice_place(&mut self, now: Instant, at: Option<Vec2>) {
+        if self.next_status - now > CALM - MOVED_AGAIN {
+            return;
+        }
         let is_off = |(at, (reported, most_m)): (Vec2, (Vec2, f64))| at.distance(reported) > most_m;
         self.status |= at.zip(self.reported_at).is_some_and(is_off);
     }
@@ -221,10 +226,12 @@ mod tests {
     #[test]
     fn a_robot_that_stands_says_at_once_that_it_was_moved() {
         let mut outbox = Outbox::new(Span::ZERO);
+        let mut millis = 0;
         let mut says = |x_m| {
             let at = Vec2::new(x_m, 0.0);
-            outbox.notice_place(Some(at));
-            outbox.notice(Instant(1), RobotState::Idle, None, None, Some((at, 0.0)));
+            millis += 250;
+            outbox.notice_place(Instant(millis * 1_000), Some(at));
+            outbox.notice(Instant(millis * 1_000), RobotState::Idle, None, None, Some((at, 0.0)));
             outbox.take(true, true) == Some(MessageKind::Status)
         };
         assert!(says(0.0), "the first report");

@@ -126,7 +126,9 @@ impl fmt::Display for PreflightFinding {
                 )
             }
             Self::DidNotStop => f.write_str("did not stop when it was told to"),
-            Self::StopNotTested => f.write_str("was not tested for Stop, because the link is too slow"),
+            Self::StopNotTested => f.write_str(
+                "was not tested for Stop, because the link is too slow, or the stop came too late",
+            ),
             Self::Failed(why) => write!(f, "{why}"),
             Self::NoRoom => f.write_str("has no room to drive 50 mm in any direction"),
             Self::Unfinished => f.write_str("was not tested, because the preflight ended before"),

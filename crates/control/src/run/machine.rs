@@ -226,10 +226,6 @@ impl Run {
                 let places = robot.namesakes.places();
                 Whereabouts { possible: places.clone(), likely: places }
             }
-            // A robot that does not acknowledge and is silent may have begun a drive after its last report.
-            _ if self.is_lost_by_silence(io, now, (participant, why)) => {
-                self.whereabouts_on_path(io, now, participant)
-            }
             // The robot does not know where it is. It stopped at once on its path, or had not yet left the place
             // where it last stood.
             _ if reported.is_none() && !Mutant::ForgetLostRobot.is_planted() => {
@@ -237,6 +233,10 @@ impl Run {
                 places.possible.extend(last);
                 places.likely.extend(last);
                 places
+            }
+            // A robot that does not acknowledge and is silent may have begun a drive after its last report.
+            _ if self.is_lost_by_silence(io, now, (participant, why)) => {
+                self.whereabouts_on_path(io, now, participant)
             }
             _ => Whereabouts::default(),
         }

@@ -5,37 +5,49 @@ use crate::run::driving::is_there;
 use crate::run::next::Next;
 use crate::run::run_context::RunContext;
 use lightbots_base::Vec2;
-use lightbots_wire::{Details, RobotState};
+use lightbots_wire::RobotState;
 
-/// Largest number of times that all is planned again because one robot stands elsewhere; then it drops out. A robot
-/// that is somewhere else each time must not hold up the show.
-const REPLANS_MAX: u8 = 5;
+/// Distance from where a robot may have arrived to where it counts as moved, metres. Below, the noise of fixes moves
+/// robots that arrived at the limit of the tolerance.
+const SLACK_M: f64 = 0.005;
 
-/// Compares the status report of a robot that stands with the plan; see [`check`].
-pub(crate) fn check_status(cx: &mut RunContext, participant: usize, details: &Details) -> Next {
-    match details.state {
-        RobotState::Idle | RobotState::Ready => check(cx, participant, 0.0),
-        _ => Next::Stay,
-    }
+/// What to do instead of a START because a robot stands elsewhere, by its last report; `None` if none does. All is planned
+/// again also if the robot moved on since it caused the last plan.
+pub(crate) fn prevents_start(cx: &mut RunContext) -> Option<Next> {
+    let stands = |&one: &usize| is_at_rest(cx, one) && off(cx, one, 0.0).is_some();
+    let misplaced = cx.roster.active().map(|(participant, _)| participant).find(stands)?;
+    Some(check(cx, misplaced, 0.0).or_else(|| Next::Regather))
+}
+
+/// Compares the last status report of a robot that stands with the plan; see [`check`].
+pub(crate) fn check_status(cx: &mut RunContext, participant: usize) -> Next {
+    if is_at_rest(cx, participant) { check(cx, participant, 0.0) } else { Next::Stay }
+}
+
+fn is_at_rest(cx: &RunContext, participant: usize) -> bool {
+    matches!(cx.robot(participant).reported.state, Some(RobotState::Idle | RobotState::Ready))
 }
 
 /// Compares the reported place of a robot that stands with the plan. If the robot stands elsewhere, all is planned
 /// again; if that happens too often, the robot drops out. `noise_m`: error of the reported place, metres.
 pub(crate) fn check(cx: &mut RunContext, participant: usize, noise_m: f64) -> Next {
-    let (at, expected) = (cx.robot(participant).reported.at, expected(cx, participant));
-    let Some((at, expected)) = at.zip(expected) else { return Next::Stay };
-    if is_there(at, expected, cx.io.config.arrival_tolerance_m + noise_m) {
-        return Next::Stay;
+    let Some(off_m) = off(cx, participant, noise_m) else { return Next::Stay };
+    match cx.roster.participants[participant].misplaced.count(cx.now) {
+        None => return Next::Stay,
+        Some(false) => return Next::drop(participant, Trouble::Missed),
+        Some(true) => {}
     }
-    let known = &mut cx.roster.participants[participant];
-    if known.misplaced >= REPLANS_MAX {
-        return Next::drop(participant, Trouble::Missed);
-    }
-    known.misplaced += 1;
     let robot = cx.robot(participant).id;
     cx.io.unexpected += 1;
-    cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m: at.distance(expected) });
+    cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m });
     Next::Regather
+}
+
+/// How far from where the plan has it a robot stands, metres; `None` if it is there.
+fn off(cx: &RunContext, participant: usize, noise_m: f64) -> Option<f64> {
+    let (at, expected) = cx.robot(participant).reported.at.zip(expected(cx, participant))?;
+    let is_there = is_there(at, expected, cx.io.config.arrival_tolerance_m + SLACK_M + noise_m);
+    (!is_there).then(|| at.distance(expected))
 }
 
 /// Where the plan has a robot that stands, stage metres: where its next drive begins. `None` if all is about to be
@@ -43,6 +55,7 @@ pub(crate) fn check(cx: &mut RunContext, participant: usize, noise_m: f64) -> Ne
 fn expected(cx: &RunContext, participant: usize) -> Option<Vec2> {
     match cx.pipeline.queue.front() {
         Some(leg) => leg.begin(participant),
+        // With an empty queue, the drive that is planned next begins where robots stand now.
         None => cx.pipeline.planning.from.get(participant).copied(),
     }
 }

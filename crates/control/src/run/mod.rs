@@ -20,6 +20,7 @@ mod looping;
 mod machine;
 mod membership;
 mod misplaced;
+mod misplacements;
 mod music_time;
 mod next;
 mod obstacles;

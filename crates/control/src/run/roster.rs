@@ -3,6 +3,7 @@
 use crate::context::Context;
 use crate::robot::KnownRobot;
 use crate::run::membership::{Membership, Probation};
+use crate::run::misplacements::Misplacements;
 use lightbots_base::{Instant, Vec2};
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +40,7 @@ pub(crate) struct Participant {
     /// How often an obstacle in the robot's path led to a new plan.
     pub replans: u8,
     /// How often all was planned again because the robot stood elsewhere than the plan had it.
-    pub misplaced: u8,
+    pub misplaced: Misplacements,
     /// What the robot has cost since it dropped out.
     pub bystander: Bystander,
 }
@@ -67,7 +68,7 @@ impl Participant {
             probation: Probation::None,
             last_seen: Whereabouts::default(),
             replans: 0,
-            misplaced: 0,
+            misplaced: Misplacements::default(),
             bystander: Bystander::default(),
         }
     }
@@ -147,6 +148,7 @@ impl Roster {
                 known.membership.excluded = false;
                 known.last_seen = Whereabouts::default();
                 known.bystander = Bystander::default();
+                known.misplaced = Misplacements::default();
             }
             None => {
                 context.fleet.robot_mut(robot).participant = Some(self.participants.len() as u32);

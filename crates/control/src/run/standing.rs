@@ -64,7 +64,7 @@ impl Standing {
         if next.stays() && restarted {
             return cx.upload_again(participant);
         }
-        next.or_else(|| misplaced::check_status(cx, participant, details))
+        next.or_else(|| misplaced::check_status(cx, participant))
     }
 
     /// Does what is due: checks the link, plans, uploads, and leaves the frame.
@@ -115,7 +115,7 @@ impl Standing {
                 if bystanders::obstruct_next(cx) {
                     Next::Regather
                 } else {
-                    Next::Start(until)
+                    misplaced::prevents_start(cx).unwrap_or(Next::Start(until))
                 }
             }
             None if planning.pending.is_none() && planning.next.is_none() && cx.now >= until => end(cx),

@@ -110,7 +110,9 @@ impl Starting {
         if restarted {
             self.confirmed[participant] = None;
         }
-        next.or_else(|| misplaced::check_status(cx, participant, details))
+        // The drive may be over before this controller wakes up.
+        let may_have_driven = details.state == RobotState::Idle && cx.now >= self.at;
+        next.or_else(|| if may_have_driven { Next::Stay } else { misplaced::check_status(cx, participant) })
     }
 
     /// Handles the arrival of a participant. If it started alone, all stop and are planned again.

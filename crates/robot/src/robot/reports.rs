@@ -71,7 +71,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let at = knows_place.then(|| (self.hot.estimate.at(), error_m));
         // In a silence the report would be lost, and the robot says where it is once it hears a message.
         if rests && !self.hot.supervisor.is_silent(now) {
-            self.hot.outbox.notice_place(at.map(|(at, _)| at));
+            self.hot.outbox.notice_place(now, at.map(|(at, _)| at));
         }
         self.hot.outbox.notice(now, self.hot.state, off_m, err_m, at);
         let towards = if self.hot.is_wary { self.blocked().map(|blocked| blocked.towards) } else { None };

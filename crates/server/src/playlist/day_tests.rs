@@ -254,15 +254,9 @@ fn the_next_start_is_said_with_its_day() {
         (2, "19:30")
     );
     let today = view::today(&list, &log, now("2026-05-06T19:11:00"));
-    assert_eq!(today[0].result, lightbots_api::PlaylistResult::Played);
-    assert_eq!(
-        (today[1].result, today[1].time.as_deref()),
-        (lightbots_api::PlaylistResult::Waiting, Some("19:30"))
-    );
-    assert_eq!(
-        view::today(&list, &log, now("2026-05-07T12:00:00"))[0].result,
-        lightbots_api::PlaylistResult::NotToday
-    );
+    assert_eq!(today[0].result, PlaylistResult::Played);
+    assert_eq!((today[1].result, today[1].time.as_deref()), (PlaylistResult::Waiting, Some("19:30")));
+    assert_eq!(view::today(&list, &log, now("2026-05-07T12:00:00"))[0].result, PlaylistResult::NotToday);
 }
 
 /// What became of each entry today, with its time.

@@ -161,9 +161,12 @@ impl Driving {
         let at = cx.robot(participant).reported.at;
         let there = at.is_some_and(|at| is_there(at, goal, cx.io.config.arrival_tolerance_m));
         let waits = details.state == RobotState::Ready && has_route;
-        if there && (cx.now + EARLY >= self.clock.ends || rested) && !waits {
+        let is_over = cx.now + EARLY >= self.clock.ends;
+        // A robot that was lifted at the end of its route has given it up.
+        let gave_up = details.state == RobotState::Idle && !has_route && !there;
+        if there && (is_over || rested) && !waits {
             self.arrive(cx, participant)
-        } else if cx.now + EARLY < self.clock.ends && cx.now > self.clock.began + OLD_REPORTS {
+        } else if (!is_over || gave_up) && cx.now > self.clock.began + OLD_REPORTS {
             cx.replan_with(participant)
         } else {
             Next::Stay
