@@ -179,8 +179,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if self.hot.routes.begin_due(time, self.storage.borrow()) {
             self.hot.seek = None;
             self.reflex.begin_route();
-            let at = self.place();
-            if self.hot.routes.due().zip(at).is_some_and(|(begin, at)| begin.distance(at) > AWAY_M) {
+            let off_m = self.hot.routes.due().zip(self.place()).map(|(begin, at)| begin.distance(at));
+            if off_m.is_some_and(|off_m| off_m > AWAY_M && off_m <= GIVE_UP_M) {
                 self.hot.routes.abandon();
             }
         }

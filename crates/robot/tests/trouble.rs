@@ -338,7 +338,7 @@ fn lifted_before_its_start_it_does_not_begin_the_route() {
     send(&mut plant, 9, FAR, 1_000);
     plant.run(0.5);
     plant.said.clear();
-    plant.at += Vec2::new(0.1, 0.3);
+    plant.at += Vec2::new(0.1, 0.2);
     let put = plant.at;
     plant.run(0.4);
     let told = plant.heard(Topic::Status).last().and_then(|report| report.at);
