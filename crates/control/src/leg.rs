@@ -116,7 +116,7 @@ impl Leg {
         let robot = self.robots.get(participant)?;
         match &robot.task {
             Task::Stay => Some(robot.goal),
-            Task::Path(path) => Some(path.as_ref().at(Span::ZERO).position),
+            Task::Path(path) => Some(path.start),
             Task::Drives => {
                 self.drives.iter().find(|drive| drive.robot == participant).map(|drive| drive.from)
             }

@@ -7,7 +7,7 @@ use crate::mapping::Roles;
 use crate::plan_request::{PlanProblem, PlanRequest, PlanResult};
 use crate::separation;
 use crate::surroundings::{Surroundings, surroundings};
-use crate::unsure_places;
+use crate::unsure_places::{self, REST_CLEARANCE_M};
 use lightbots_base::{Span, Vec2};
 use lightbots_plan::unsynchronised::{self, DriveStage, FreeSpace, StraightDrive, UnsynchronisedProblem};
 use lightbots_plan::{
@@ -18,10 +18,8 @@ use lightbots_wire::MAX_PIECES;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Least clearance between a goal and a disc that does not move, metres; closer goals cannot be reached.
-const BLOCKED_MARGIN_M: f64 = 0.001;
-/// The same clearance for discs whose places are inferred, metres.
-const INFERRED_MARGIN_M: f64 = unsure_places::OFF_M + BLOCKED_MARGIN_M;
+/// Least clearance between a goal and a disc whose place is inferred, metres.
+const INFERRED_MARGIN_M: f64 = unsure_places::OFF_M + REST_CLEARANCE_M;
 /// Number of attempts to plan a frame, with fewer pixels each time, before planning it fails.
 const LENIENT_TRIES: usize = 8;
 
@@ -113,7 +111,7 @@ impl<'a> PlanBuilder<'a> {
         };
         let PlanProblem { standing, inferred, .. } = self.problem;
         let blocked = |pixel: &Pixel| {
-            near(standing, pixel, BLOCKED_MARGIN_M) || near(inferred, pixel, INFERRED_MARGIN_M)
+            near(standing, pixel, REST_CLEARANCE_M) || near(inferred, pixel, INFERRED_MARGIN_M)
         };
         let apart = self.separate();
         let mut bound = self.roles.bind(frame, identity, &self.places, blocked);

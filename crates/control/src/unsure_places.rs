@@ -11,9 +11,9 @@ pub(crate) const OFF_M: f64 = 0.008;
 const RING: u32 = 6;
 /// Discs that are closer together than this count as one, metres: places of a silent robot are 10 mm apart.
 const SAME_M: f64 = 0.004;
-
-/// Least clearance between a disc and a robot at rest with which the planner can start, metres.
-const BEGIN_M: f64 = 0.001;
+/// Least clearance between a disc that does not move and where a robot starts or ends, metres. With less there is no
+/// plan.
+pub(crate) const REST_CLEARANCE_M: f64 = 0.001;
 /// Largest number of inferred places for which discs are added: each of up to six discs for a place is compared with all
 /// starts and goals, and planned around.
 const PLACES_MAX: usize = 256;
@@ -27,7 +27,11 @@ pub(crate) fn kept_away_from(problem: &TransitionProblem, inferred: &[Vec2]) -> 
     }
     let contact_m = problem.limits.contact_m();
     let is_free = |at: Vec2| {
-        !problem.starts.iter().chain(&problem.goals).any(|robot| robot.distance(at) < contact_m + BEGIN_M)
+        !problem
+            .starts
+            .iter()
+            .chain(&problem.goals)
+            .any(|robot| robot.distance(at) < contact_m + REST_CLEARANCE_M)
     };
     let mut discs: Vec<Vec2> = Vec::new();
     for at in inferred.iter().flat_map(|&place| ring(place)) {

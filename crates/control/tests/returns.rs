@@ -9,12 +9,18 @@ use lightbots_show::{Identity, Show};
 
 const CONTACT_M: f64 = 0.054;
 
+/// A run of `count` robots, the last `originals` of which are original ones, with a journal.
+fn journalled(count: usize, originals: usize, show: Show) -> World {
+    let mut world = World::ready(count, originals, show);
+    world.controller.keep_journal();
+    world.play();
+    world
+}
+
 /// A run whose controller is killed after `after_s`, and is then absent for `away_s`.
 fn killed(show: Show, after_s: f64, away_s: f64) -> World {
     let count = show.frames[0].pixels.len();
-    let mut world = World::ready(count, 0, show);
-    world.controller.keep_journal();
-    world.play();
+    let mut world = journalled(count, 0, show);
     world.run_for(after_s);
     world.kill_controller();
     world.run_for(away_s);
@@ -141,9 +147,7 @@ fn robots_that_died_meanwhile_drop_out_and_are_driven_around() {
 
 #[test]
 fn a_drive_that_did_not_begin_has_brought_none_to_its_goal() {
-    let mut world = World::ready(6, 0, show(3, 6, 0.5));
-    world.controller.keep_journal();
-    world.play();
+    let mut world = journalled(6, 0, show(3, 6, 0.5));
     while !world.robots.iter().all(|robot| robot.kept.is_some()) {
         world.step();
     }
@@ -158,9 +162,7 @@ fn a_drive_that_did_not_begin_has_brought_none_to_its_goal() {
 
 #[test]
 fn a_drive_that_was_broken_off_has_brought_none_to_its_goal() {
-    let mut world = World::ready(7, 0, show(3, 6, 0.5));
-    world.controller.keep_journal();
-    world.play();
+    let mut world = journalled(7, 0, show(3, 6, 0.5));
     world.run_until(20.0, started);
     world.run_for(0.8);
     world.robots[2].dead = true;
@@ -193,9 +195,7 @@ fn are_where_they_stand(world: &World) {
 /// leg says where they stand now.
 #[test]
 fn robots_that_wait_for_originals_are_where_the_leg_has_them() {
-    let mut world = World::ready(6, 2, show(3, 6, 0.5));
-    world.controller.keep_journal();
-    world.play();
+    let mut world = journalled(6, 2, show(3, 6, 0.5));
     world.run_until(30.0, reached(0));
     world.run_until(30.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
     while world.robots.iter().all(|robot| robot.target.is_none()) {
@@ -215,9 +215,7 @@ fn robots_that_wait_for_originals_are_where_the_leg_has_them() {
 #[test]
 fn an_original_that_died_meanwhile_is_anywhere_on_its_drives() {
     for dies in 4..8 {
-        let mut world = World::ready(8, 4, show(3, 8, 0.5));
-        world.controller.keep_journal();
-        world.play();
+        let mut world = journalled(8, 4, show(3, 8, 0.5));
         world.run_until(60.0, reached(0));
         while world.robots[dies].target.is_none() {
             world.step();
@@ -238,9 +236,7 @@ fn an_original_that_died_meanwhile_is_anywhere_on_its_drives() {
 #[test]
 fn a_robot_that_died_where_no_journal_has_it_is_looked_for_at_the_free_place_of_a_frame() {
     for dies in 0..9 {
-        let mut world = World::ready(9, 0, show(4, 9, 0.5));
-        world.controller.keep_journal();
-        world.play();
+        let mut world = journalled(9, 0, show(4, 9, 0.5));
         world.run_until(30.0, reached(0));
         world.run_until(30.0, started);
         world.run_for(0.5);
@@ -279,9 +275,7 @@ fn a_robot_that_began_alone_and_is_silent_is_not_where_it_reported() {
 
 #[test]
 fn originals_stand_before_the_run_goes_on() {
-    let mut world = World::ready(6, 2, show(3, 6, 0.5));
-    world.controller.keep_journal();
-    world.play();
+    let mut world = journalled(6, 2, show(3, 6, 0.5));
     world.run_until(30.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
     world.run_for(1.5);
     world.kill_controller();
@@ -315,9 +309,7 @@ fn a_preview_and_a_loop_are_taken_up_as_they_were() {
 /// Some robots may have stopped by themselves by then. If the others only held, they would drive into those robots.
 #[test]
 fn robots_that_still_drive_stop_at_once_where_others_may_have_stopped() {
-    let mut world = World::ready(9, 0, show(3, 9, 0.6));
-    world.controller.keep_journal();
-    world.play();
+    let mut world = journalled(9, 0, show(3, 9, 0.6));
     world.run_until(10.0, started);
     world.run_for(1.0);
     world.kill_controller();

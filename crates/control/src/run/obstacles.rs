@@ -6,6 +6,7 @@ use crate::robot::KnownRobot;
 use crate::run::roster::{Participant, Whereabouts};
 use crate::run::run_context::RunContext;
 use crate::snapshot::Age;
+use crate::unsure_places::REST_CLEARANCE_M;
 use lightbots_base::Vec2;
 
 /// Share of the contact distance below which two places cannot both hold a robot: one of them is out of date.
@@ -15,14 +16,12 @@ const SAME_PLACE: f64 = 0.9;
 struct Displacement {
     /// Farthest that a disc is moved, metres. Inferred places are off by 20 mm.
     most_m: f64,
-    /// Clearance between disc and robot after the move, metres. The planner can start with it.
-    clearance_m: f64,
     /// Number of sweeps over the robots around the disc, which lies between three at most.
     sweeps: usize,
 }
 
 /// A disc that is not moved makes the plan infeasible; one that is moved farther hides a dead robot.
-const DISPLACEMENT: Displacement = Displacement { most_m: 0.03, clearance_m: 0.001, sweeps: 10 };
+const DISPLACEMENT: Displacement = Displacement { most_m: 0.03, sweeps: 10 };
 
 /// Discs that do not move during a drive, stage metres.
 pub(crate) struct Discs {
@@ -111,7 +110,7 @@ fn displaced(place: Vec2, starts: &[Vec2], contact_m: f64) -> Vec2 {
     let mut at = place;
     for _ in 0..DISPLACEMENT.sweeps {
         for start in &near {
-            let missing_m = contact_m + DISPLACEMENT.clearance_m - start.distance(at);
+            let missing_m = contact_m + REST_CLEARANCE_M - start.distance(at);
             if missing_m > 0.0 {
                 at += (at - *start).normalized().unwrap_or(Vec2::new(1.0, 0.0)) * missing_m;
             }

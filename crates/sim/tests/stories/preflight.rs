@@ -64,6 +64,14 @@ impl Hall {
         hall
     }
 
+    /// Checks that robot 4, which hears no HOLD and no STOP, is found in a preflight, and that all others pass.
+    fn assert_headstrong_is_named(&mut self, case: &str) {
+        self.headstrong = vec![4];
+        let report = self.preflight();
+        assert_eq!(self.findings(&report, 4), [PreflightFinding::DidNotStop], "{case}: {}", self.story());
+        self.assert_others_pass(&report, &[4]);
+    }
+
     fn is_lost(&mut self) -> bool {
         self.dice = self.dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.dice >> 33) % 100 < self.loss
@@ -224,10 +232,7 @@ fn a_wheel_that_does_not_grip_is_named() {
 fn a_robot_that_ignores_stop_is_named_and_driven_no_more() {
     for seed in 1..=5 {
         let mut hall = Hall::new(Stage::default(), grid(3, 0.12), Conditions::default(), seed);
-        hall.headstrong = vec![4];
-        let report = hall.preflight();
-        assert_eq!(hall.findings(&report, 4), [PreflightFinding::DidNotStop], "{}", hall.story());
-        hall.assert_others_pass(&report, &[4]);
+        hall.assert_headstrong_is_named(&format!("seed {seed}"));
     }
 }
 
@@ -320,10 +325,7 @@ fn on_slow_links_robots_are_stopped_at_the_same_place_and_those_that_drive_on_ar
         let mut hall = hall(Conditions::default());
         hall.delay = Span::from_millis(ms);
         hall.run(5.0);
-        hall.headstrong = vec![4];
-        let report = hall.preflight();
-        assert_eq!(hall.findings(&report, 4), [PreflightFinding::DidNotStop], "{ms} ms: {}", hall.story());
-        hall.assert_others_pass(&report, &[4]);
+        hall.assert_headstrong_is_named(&format!("{ms} ms"));
     }
 }
 
