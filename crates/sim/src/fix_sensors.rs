@@ -76,7 +76,9 @@ impl FixSensors {
         }
         let pose = self.delayed(robot, pose);
         let staggered = self.step + robot as u64;
-        if !staggered.is_multiple_of(u64::from(self.conditions.every.max(1))) || self.is_dark(robot) {
+        // In every step, so that drop-outs are as frequent however rarely there are fixes.
+        let is_dark = self.is_dark(robot);
+        if is_dark || !staggered.is_multiple_of(u64::from(self.conditions.every.max(1))) {
             return None;
         }
         let draw = self.dice.bits();

@@ -1,10 +1,10 @@
-//! Neighbour list (Verlet, 1967): pairs of discs that may touch, found anew only when a disc has moved far enough to
-//! matter.
+//! Neighbour list (Verlet, 1967): pairs of discs that may see each other or touch. It is made anew only when a disc has
+//! moved so far that a pair could be missing.
 
 use lightbots_base::Vec2;
 
-/// Gap up to which a pair is on the list, metres. The list holds until a disc has moved half of it. A smaller gap makes
-/// the list outdated more often. A larger one adds pairs to compare in every step.
+/// How much farther apart than needed a pair may be to get on the list, metres. The list is valid until a disc has moved
+/// half of this. A smaller value makes new lists more often. A larger value adds pairs to compare in every step.
 const MARGIN_M: f64 = 0.08;
 
 /// The list of near pairs.
@@ -24,14 +24,14 @@ pub(crate) struct NeighbourList {
 }
 
 impl NeighbourList {
-    /// An empty list for discs that touch if their centres are closer than `contact_m`.
-    pub fn new(contact_m: f64) -> Self {
-        let reach_m = contact_m + MARGIN_M;
+    /// An empty list that will hold every pair of discs whose centres are closer than `near_m`, metres.
+    pub fn new(near_m: f64) -> Self {
+        let reach_m = near_m + MARGIN_M;
         let (then, pairs) = (Vec::new(), Vec::new());
         Self { reach_m, then, pairs, cells: Vec::new(), order: Vec::new(), cell_of: Vec::new() }
     }
 
-    /// Pairs that may touch. Every pair that touches is among them.
+    /// The pairs on the list, among them every pair closer than `near_m` of [`Self::new`].
     pub fn pairs(&self) -> &[(u32, u32)] {
         &self.pairs
     }
@@ -188,7 +188,7 @@ mod tests {
         let mut near = NeighbourList::new(0.054);
         assert!(near.outdated_by(0, Vec2::ZERO));
         near.rebuild(&[Vec2::ZERO]);
-        assert!(!near.outdated_by(0, Vec2::new(0.039, 0.0)));
-        assert!(near.outdated_by(0, Vec2::new(0.041, 0.0)));
+        assert!(!near.outdated_by(0, Vec2::new(0.5 * MARGIN_M - 0.001, 0.0)));
+        assert!(near.outdated_by(0, Vec2::new(0.5 * MARGIN_M + 0.001, 0.0)));
     }
 }

@@ -84,13 +84,14 @@ impl World {
         };
         let axle =
             |start: &Pose| Axle { commanded: [0.0; 2], wheels: [0.0; 2], heading: wrap(start.heading) };
-        let contact_m = stage.limits.contact_m();
+        let (contact_m, sight_m) =
+            (stage.limits.contact_m(), ProximityReadings::sight_m(stage.limits.radius_m));
         let bodies = starts.iter().map(body).collect();
         Self {
             contact_states: starts.iter().map(|start| ContactState::new(Vec2::unit(start.heading))).collect(),
             floor,
-            near: NeighbourList::new(contact_m),
-            contacts: Contacts::new(contact_m, ProximityReadings::sight_m(stage.limits.radius_m)),
+            near: NeighbourList::new(sight_m),
+            contacts: Contacts::new(contact_m, sight_m),
             proximity: ProximityReadings::new(starts.len(), stage.limits.radius_m, seed),
             bumps: Bumps::default(),
             places,

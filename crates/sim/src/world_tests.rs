@@ -51,6 +51,22 @@ fn head_on_both_stop_dead() {
     assert!(world.contacts().closest_m().unwrap() > 0.054 - 2.0 * 0.0044);
 }
 
+/// A list of pairs that is valid for contacts only hides robots that come near each other from their sensors.
+#[test]
+fn robots_that_come_near_each_other_are_in_sight_wherever_they_began() {
+    for apart_mm in 90..200 {
+        let half_m = f64::from(apart_mm) / 2000.0;
+        let mut world = world(&[pose(-half_m, 0.0, 0.0), pose(half_m, 0.0, std::f64::consts::PI)]);
+        (0..2).for_each(|robot| world.command(robot, [60.0; 2]));
+        while world.contacts().count() == 0 {
+            world.step();
+            let gap_m = world.pose(0).at.distance(world.pose(1).at) - 0.054;
+            let sees = world.contacts().in_sight() == [(0, 1)];
+            assert!(sees || gap_m >= 0.03, "begun {apart_mm} mm apart, {gap_m} m left");
+        }
+    }
+}
+
 #[test]
 fn a_standing_robot_is_pushed_a_centimetre_along_its_wheels() {
     let mut world = world(&[pose(-0.2, 0.0, 0.0), FRONT]);
