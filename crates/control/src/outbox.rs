@@ -37,6 +37,8 @@ pub(crate) struct SendQueue {
     #[serde(skip)]
     waiting: VecDeque<Send>,
     repeats: Vec<Repeat>,
+    /// Latest moment of the show clock that a HOLD was sent for.
+    last_hold: Instant,
     #[serde(skip)]
     text: String,
     linked: bool,
@@ -103,12 +105,20 @@ impl SendQueue {
 
     /// Queues a broadcast now and another `times − 1` times, at intervals of `every`.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
+        if let Command::Hold { at } = command {
+            self.last_hold = self.last_hold.max(at);
+        }
         let commands = std::slice::from_ref(&command);
         self.send(Topic::Broadcast, commands);
         if times > 1 && self.linked && self.repeats.len() < REPEATS_MAX && self.write(commands).is_ok() {
             let payload = self.text.as_bytes().to_vec();
             self.repeats.push(Repeat { payload, next: now + every, every, left: times - 1 });
         }
+    }
+
+    /// Earliest moment of a START that no HOLD sent before stops: robots keep a HOLD for later, also across STOP (R39).
+    pub fn start_after_holds(&self) -> Instant {
+        self.last_hold + Span(1)
     }
 
     /// Ends all repetitions.

@@ -40,6 +40,29 @@ fn a_broker_that_freezes_while_a_frame_stands_or_a_start_is_stated_costs_no_robo
     }
 }
 
+/// Robots are then told to hold at a moment after the end of the drive, and the next START could come before it.
+#[test]
+fn a_broker_lost_for_a_moment_at_any_time_of_a_short_drive_costs_no_robot() {
+    let mut show = show(3, 10, 0.3);
+    let first = show.frames[0].clone();
+    for (number, frame) in show.frames.iter_mut().enumerate() {
+        frame.pixels.clone_from(&first.pixels);
+        frame.pixels.iter_mut().for_each(|pixel| pixel.at.y += 0.1 * number as f64);
+    }
+    for (tenths, gap_s) in (0..10).flat_map(|tenths| [0.05, 0.15, 0.3].map(|gap_s| (tenths, gap_s))) {
+        let mut world = World::ready(10, 0, show.clone());
+        world.play();
+        world.run_until(20.0, |kind| matches!(kind, EventKind::FrameReached { .. }));
+        world.run_until(10.0, started);
+        world.run_for(f64::from(tenths) / 10.0);
+        world.link(false);
+        world.run_for(gap_s);
+        world.link(true);
+        let ended = world.run_to_end(90.0);
+        assert_eq!(ended, (RunOutcome::Finished, 3, 0), "{tenths}, {gap_s} s\n{}", world.story());
+    }
+}
+
 /// Robots that set their clocks anew would be waited for until 15 s after the link was back.
 #[test]
 fn a_broker_that_freezes_while_robots_set_their_clocks_costs_no_robot() {

@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 const MAGIC: &[u8; 8] = b"LBotsLog";
 /// The format of logs. Raise it with every change of a type that is written: `Controller`, `Show`, `Record`,
 /// and with the version of journals.
-const VERSION: u16 = 25;
+const VERSION: u16 = 26;
 
 /// The first block of a log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -239,7 +239,9 @@ impl Robot {
         if let Some((route, Some(at))) = self.kept.take_if(|(_, starts)| starts.is_some_and(|at| at <= show))
         {
             self.running = Some((route, at));
-            (self.held, self.hold_since, self.resumed_at) = (Span::ZERO, None, None);
+            // A hold for later counts for this route as well (R39).
+            let hold_since = self.hold_since.filter(|&since| since >= at);
+            (self.held, self.hold_since, self.resumed_at) = (Span::ZERO, hold_since, None);
         }
         if self.stops_at.is_some_and(|at| at <= show) {
             self.halt();

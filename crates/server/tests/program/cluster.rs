@@ -38,7 +38,7 @@ fn a_show_goes_on_when_a_node_of_the_broker_dies() {
     cluster.kill(nodes[0]);
     let code = play.end();
     let report: Value = serde_json::from_str(&play.out()).unwrap_or_default();
-    assert_eq!((code, report["ok"].as_bool()), (0, Some(true)), "{report}");
+    assert_eq!((code, report["ok"].as_bool()), (0, Some(true)), "{report}\n{}", play.err());
     assert_eq!(
         (report["frames_played"].as_u64(), report["dropouts"].as_u64()),
         (Some(4), Some(0)),
