@@ -103,9 +103,9 @@ pub struct AccountEntry {
 pub struct MadeToken {
     /// Name of the token.
     pub name: String,
-    /// What the token may do. It never allows more than the present role of the person that made it.
+    /// What the token may do. A token never allows more than the present role of the person that made the token.
     pub role: AccountRole,
-    /// The token, for `Authorization: Bearer TOKEN`. The server keeps its hash only.
+    /// The token itself, for the header `Authorization: Bearer TOKEN`. The server keeps only a hash of it.
     pub token: String,
 }
 

@@ -23,13 +23,13 @@ pub struct ShowDocument {
     pub name: Option<String>,
     /// The floor and the robots on it.
     pub stage: Option<DocumentStage>,
-    /// Whether pixel n is the same robot in every frame.
+    /// Whether pixels with equal ids in different frames are shown by one robot.
     pub identity: Option<DocumentIdentity>,
     /// Places of the robots before the first frame; if absent, rows along the front edge.
     pub starts: Option<Vec<DocumentPlace>>,
     /// File name of the music.
     pub music: Option<String>,
-    /// Number of robots beyond those with pixels. Each waits to replace a robot that fails.
+    /// Number of spare robots. They have no pixels, and wait to replace robots that fail.
     pub spares: Option<u32>,
     /// Files that belong to the show, by their SHA-256.
     pub assets: Option<BTreeMap<String, DocumentAsset>>,
@@ -103,7 +103,7 @@ pub struct DocumentRobot {
 pub enum DocumentIdentity {
     /// Any robot may show any pixel.
     Any,
-    /// Pixel n is the same robot in every frame.
+    /// Pixels with equal ids in different frames are shown by one robot.
     Fixed,
 }
 
@@ -165,7 +165,7 @@ pub struct DocumentCue {
     pub frame: Option<String>,
     /// Moment at which the show waits, seconds from the start of the first frame's air time.
     pub at_s: Option<f64>,
-    /// Id of the first of the frames that repeat until GO; `frame` is the last of them.
+    /// Id of the first frame of those that repeat until GO. The last one is `frame`.
     pub loop_from: Option<String>,
 }
 
@@ -177,9 +177,9 @@ pub struct DocumentLayer {
     pub kind: String,
     /// Name for people.
     pub name: Option<String>,
-    /// Ids of the first and the last frame in which it shines.
+    /// Ids of the first and the last frame in which the layer shines.
     pub frames: Option<[String; 2]>,
-    /// The part of each frame's time in which it shines.
+    /// The part of each frame's time in which the layer shines.
     pub phase: Option<DocumentPhase>,
     /// Start, seconds from the start of the first frame's air time.
     pub from_s: Option<f64>,
@@ -235,7 +235,7 @@ pub struct DocumentFrame {
     pub transition_s: Option<f64>,
     /// How robots speed up and slow down.
     pub easing: Option<DocumentEasing>,
-    /// How the picture of the frame before moves as one to this frame.
+    /// How the previous frame's picture moves as one formation to this frame.
     pub motion: Option<DocumentMotion>,
     /// Overrides the show's `identity`.
     pub identity: Option<DocumentIdentity>,
@@ -255,7 +255,7 @@ pub enum DocumentEasing {
     Gentle,
 }
 
-/// How a picture moves as one. Its further fields depend on its kind.
+/// How a picture moves as one formation. The other fields of a motion depend on `kind`.
 #[derive(JsonSchema)]
 pub struct DocumentMotion {
     /// The kind.

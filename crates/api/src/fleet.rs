@@ -41,7 +41,7 @@ pub struct FleetRow {
     pub called: Option<String>,
     /// Whether the robot may take part in runs.
     pub admitted: bool,
-    /// Whether the robot reports that it is simulated. A robot that does not report it counts as real.
+    /// Whether the robot reports that it is simulated. Without such a report, the robot counts as real.
     pub simulated: bool,
     /// Result of the last preflight for the robot; null: the robot was not tested, or a preflight is under way.
     pub preflight: Option<PreflightResult>,
@@ -50,11 +50,11 @@ pub struct FleetRow {
 /// The result of a preflight for one robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct PreflightResult {
-    /// What is wrong with the robot; empty: it passed.
+    /// What is wrong with the robot; empty: the robot passed.
     pub faults: Vec<PreflightFault>,
     /// Largest distance between the robot and its planned places, millimetres; null: not measured.
     pub off_mm: Option<f64>,
-    /// Largest error of its heading, degrees; null: not measured.
+    /// Largest error of the robot's heading, degrees; null: not measured.
     pub off_deg: Option<f64>,
     /// Whether Stop, heading and blinking were not tested, because the robot understands only the commands TARGET and
     /// COLOR.
@@ -64,13 +64,13 @@ pub struct PreflightResult {
 /// Something wrong with a robot.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct PreflightFault {
-    /// What it is, for people: a sentence whose subject is the robot, without a full stop.
+    /// The fault, for people: a sentence whose subject is the robot, without a full stop.
     pub cause: String,
     /// What to do about it: a sentence.
     pub remedy: String,
 }
 
-/// What a robot does. `Robots.status` holds the index in this order, from 0.
+/// What a robot does. A number in `Robots.status` is an index into these values, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum RobotStatus {

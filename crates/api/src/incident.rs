@@ -13,15 +13,15 @@ pub struct Incidents {
 /// Something that went wrong, what the program did about it, and what people can do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Incident {
-    /// Number of the incident. It stays the same when further events are added.
+    /// Number of the incident. It does not change when further events are added to the incident.
     pub id: u32,
-    /// Time of its first event, milliseconds since 1970.
+    /// Time of the incident's first event, milliseconds since 1970.
     pub time_ms: u64,
     /// How much it matters.
     pub tone: IncidentTone,
     /// What happened: robot, frame, cause. One sentence.
     pub title: String,
-    /// What the program did about it; may be empty.
+    /// What the program did about the incident; may be empty.
     pub done: String,
     /// What people can do.
     pub advice: String,
@@ -29,7 +29,7 @@ pub struct Incident {
     pub robots: Vec<String>,
     /// Number of all robots concerned.
     pub count: usize,
-    /// Whether its robots are not admitted yet; the operation `list` admits them.
+    /// Whether the robots concerned are not admitted to runs yet; the operation `list` admits them.
     pub wants_to_join: bool,
     /// Whether the incident is over.
     pub over: bool,

@@ -46,9 +46,10 @@ pub struct ShowEntry {
     /// Where the show comes from.
     pub origin: ShowOrigin,
     /// Why the show cannot be saved under its name, for people: its file holds fields that this version does not know.
-    /// null: it can be saved, or it is read-only because of its origin.
+    /// null: the show can be saved, or is read-only because of `origin`.
     pub read_only: Option<String>,
-    /// Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
+    /// Origin of the read-only show of which this new entry is a copy. Only in the answer to a save of a read-only show;
+    /// otherwise null.
     pub copy_of: Option<ShowOrigin>,
     /// Issues found in the file, such as contents that a show cannot hold. Only in the answer to a save.
     pub issues: Vec<Issue>,
@@ -67,7 +68,7 @@ pub struct ShowState {
     pub frames: usize,
     /// Number of pixels of the largest frame.
     pub pixels: usize,
-    /// Version of the file, with its quotes. States with the same version have the same content.
+    /// Version of the file, with its quotes. States with equal versions have equal content.
     pub etag: String,
 }
 

@@ -6,8 +6,8 @@ use ts_rs::TS;
 /// A request to make a frame from its source.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeRequest {
-    /// A show in the format `lightbots`, of which only the stage and the first frame are used. The frame holds the
-    /// source; its pixels that were moved by hand keep their places.
+    /// A show in the format `lightbots`. Only its stage and its first frame, which has the source, are used. Pixels of that
+    /// frame that were moved by hand keep their places.
     #[ts(type = "unknown")]
     pub show: serde_json::Value,
     /// Number of robots.
@@ -61,10 +61,11 @@ pub struct MadePixel {
     pub part: Option<String>,
 }
 
-/// How well lights show what they are made from.
+/// How well the lights of a frame show the frame's source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MadeReadability {
-    /// Normalised cross-correlation of the blurred lights with the source, 0 to 1. Of several parts, the lowest value.
+    /// Normalised cross-correlation of the blurred lights with the source, 0 to 1. A source of several parts, such as
+    /// letters, gets the lowest value of its parts.
     pub correlation: f64,
     /// Share of the lights that have a mirror image, 0 to 1, if the source is mirror-symmetric; 1 for other sources.
     pub symmetry: f64,
@@ -88,9 +89,9 @@ pub struct FilmAnswer {
     pub frames: Vec<FilmPicture>,
     /// Factor by which the animation is slowed down, so that robots have time to move; 1: it is not slowed down.
     pub slowdown: f64,
-    /// What is missing, or different from the animation.
+    /// What is missing from the frames, or differs from the animation.
     pub notes: Vec<MakeRemark>,
-    /// Why there are no frames; null: there are.
+    /// Why there are no frames; null: there are frames.
     pub error: Option<MakeRemark>,
 }
 
@@ -111,7 +112,7 @@ pub struct FitAnswer {
     /// The show in the format `lightbots`; null if there is an error.
     #[ts(type = "unknown")]
     pub show: Option<serde_json::Value>,
-    /// Differences from what might be expected of the fitted show.
+    /// Changes to the show that people may not expect, such as lost starting places.
     pub notes: Vec<MakeRemark>,
     /// Why there is no show; null: there is one.
     pub error: Option<MakeRemark>,
@@ -137,7 +138,7 @@ pub struct MakeShape {
     pub count: usize,
     /// Turns of a spiral, or periods of a wave.
     pub turns: f64,
-    /// Inner radius as a share of the outer one.
+    /// Inner radius as a share of the outer radius.
     pub inner: f64,
     /// Angle of an arc, radians.
     pub span: f64,
@@ -155,12 +156,12 @@ pub struct MakeFont {
 /// A file that was dropped or chosen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct MakeFile {
-    /// SHA-256 of its bytes as 64 hexadecimal digits.
+    /// SHA-256 of the file's bytes as 64 hexadecimal digits.
     pub hash: String,
-    /// `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a
-    /// show; `music`: it is the music of a show; null: the file cannot be used.
+    /// What the file can be used for. `svg`, `picture`, `list` or `animation`: source of a frame; `font`: font of words;
+    /// `show`: a show; `music`: music of a show; null: the file cannot be used.
     pub kind: Option<String>,
-    /// Why the file cannot be used, and what to do; null: it can be.
+    /// Why the file cannot be used, and what to do; null: the file can be used.
     pub error: Option<MakeRemark>,
 }
 
@@ -192,6 +193,6 @@ pub struct BeatsAnswer {
     pub offset_s: Option<f64>,
     /// Times of all beats, seconds from the start of the music file, increasing; empty if the tempo is constant.
     pub times_s: Vec<f64>,
-    /// Why no beats were found, and what to do; null: they were.
+    /// Why no beats were found, and what to do; null: beats were found.
     pub error: Option<MakeRemark>,
 }

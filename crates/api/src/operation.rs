@@ -14,7 +14,7 @@ use ts_rs::TS;
 pub enum FromScreen {
     /// Carry out an operation.
     Operate(Request),
-    /// Acknowledges the oldest `state` that was not yet acknowledged: the screen has drawn it.
+    /// Acknowledges the oldest unacknowledged `state`: the screen has drawn it.
     Took,
 }
 
@@ -53,20 +53,21 @@ pub enum Operation {
     Resume,
     /// Show the next frame, then pause.
     Step,
-    /// GO: leave the frame that waits for GO. Frames that repeat until GO are left at the end of their round.
+    /// GO: go on from the frame that waits for GO. If frames repeat until GO, go on at the end of the present round.
     Go,
-    /// Drive to a frame in place of the next one, and play on from there. Only while `Playback.may_jump`.
+    /// Drive to the given frame instead of the next frame, and play on from there. Only while `Playback.may_jump`.
     GoTo {
         /// The frame.
         frame: usize,
     },
     /// Leave out the frame that comes next; no robot moves. Only while `Playback.may_jump`.
     Skip,
-    /// Put a layer of light over the show that plays, until it is taken off or the show ends; robots follow within 0.3 s.
+    /// Put a layer of light over the show that plays. It stays until a `live_light` without a layer takes it off, or
+    /// until the show ends. Robots follow within 0.3 s.
     LiveLight {
-        /// Name of the layer. A layer of the same name is replaced.
+        /// Name of the layer. A layer that already has this name is replaced.
         name: String,
-        /// The layer, as in a show file (docs/light.md); its span of time is ignored. Null: take the layer off.
+        /// The layer, as in a show file (docs/light.md); the layer's span of time is ignored. Null: take the layer off.
         #[ts(type = "Record<string, unknown> | null")]
         layer: Option<serde_json::Value>,
     },
@@ -82,16 +83,16 @@ pub enum Operation {
     },
     /// Drive all robots to their starting places.
     Home,
-    /// Test all robots: each drives 50 mm out and back, is stopped on its way, and blinks. `Playback.preflight` has the
-    /// progress, `FleetRow.preflight` what was found.
+    /// Test all robots: each robot drives 50 mm out and back, is stopped on the way, and blinks. `Playback.preflight` has
+    /// the progress, `FleetRow.preflight` the result for each robot.
     Preflight,
     /// End the run. Robots stop at their places.
     Abort,
     /// Stop every robot, in any phase. Robots on a drive first come to rest together, within 0.5 s on a fast link. A
     /// second `stop_all` in that time stops all wheels at once.
     StopAll,
-    /// Continue a show whose robots were out of reach, without the robots that do not report. Also lets a playlist
-    /// continue that was held.
+    /// Continue a show whose robots were out of reach, without the robots that do not report. If the playlist is held,
+    /// let it continue.
     GoOn,
     /// Clear `Playback.failure` and `Playback.stopped_in` on every screen, because the operator has read it.
     DismissFailure,
@@ -119,12 +120,12 @@ pub enum Operation {
         /// The name, at most 40 characters; empty: take the name away.
         called: String,
     },
-    /// Set whether only listed robots take part in runs. Switching this on lists all present robots.
+    /// Set whether only listed robots take part in runs. Switching the rule on lists all present robots.
     OnlyListed {
         /// Whether only listed robots take part.
         on: bool,
     },
-    /// Put robots on the list of those that take part, or take them off it.
+    /// Put robots on the list of robots that take part in runs, or take robots off that list.
     List {
         /// Names of the robots in messages.
         robots: Vec<String>,
@@ -151,7 +152,8 @@ pub enum Operation {
         /// User name; null: the user in the address, if there is one.
         #[ts(optional = nullable)]
         user: Option<String>,
-        /// Password; null: the password in the address, else the kept one if address and user are the kept ones.
+        /// Password; null: the password in the address. If the address has none: the kept password, provided that
+        /// address and user are the kept ones.
         #[ts(optional = nullable)]
         password: Option<String>,
         /// Certificate authority to trust: PEM text or the path of a file on the server; null: those of the system.
@@ -162,8 +164,8 @@ pub enum Operation {
         #[serde(default)]
         #[ts(optional = nullable)]
         client_cert: Option<String>,
-        /// Key of the client certificate: PEM text or the path of a file on the server; null: the kept key if the
-        /// certificate is the kept one.
+        /// Key of the client certificate: PEM text or the path of a file on the server; null: the kept key, provided
+        /// that `client_cert` is the kept certificate.
         #[serde(default)]
         #[ts(optional = nullable)]
         client_key: Option<String>,
@@ -190,7 +192,7 @@ pub struct Answer {
     pub id: u32,
     /// Whether the operation was carried out.
     pub ok: bool,
-    /// Why it was refused: one line for people with cause and remedy; null if `ok`.
+    /// Why the operation was refused: one line for people with cause and remedy; null if `ok`.
     pub error: Option<String>,
     /// Another operation that the server would carry out instead; null: none.
     pub choice: Option<Choice>,
@@ -199,7 +201,7 @@ pub struct Answer {
 /// The refusal of an operation that came over HTTP.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct RefusedOperation {
-    /// Why it was refused: one line for people with cause and remedy.
+    /// Why the operation was refused: one line for people with cause and remedy.
     pub error: String,
     /// Another operation that the server would carry out instead; null: none.
     pub choice: Option<Choice>,

@@ -11,7 +11,7 @@ use crate::{MakeQuality, MakeRemark};
 pub struct Plan {
     /// Revision of the open show that was planned; 0 for a check of another document.
     pub revision: u32,
-    /// Whether the server is still planning that revision. If it is, the fields below are empty.
+    /// Whether the server is still planning that revision. While it is planning, the fields below are empty.
     pub planning: bool,
     /// Whether the show can be played.
     pub ok: bool,
@@ -37,7 +37,8 @@ pub struct PlanningRequest {
     /// A show in the format `lightbots`.
     #[ts(type = "unknown")]
     pub show: serde_json::Value,
-    /// `quick` neither improves stop-safety nor measures it. The paths are proven with either quality.
+    /// With `quick`, stop-safety is neither improved nor measured. Paths are proven to be free of contact with either
+    /// quality.
     pub quality: MakeQuality,
 }
 
@@ -56,7 +57,7 @@ pub struct LightRequest {
     /// A show in the format `lightbots`.
     #[ts(type = "unknown")]
     pub show: serde_json::Value,
-    /// The drives to the frames of the show, with paths. In a frame without a drive, robots stand on its pixels.
+    /// The drives to the frames of the show, with paths. In a frame without a drive, robots stand on the frame's pixels.
     pub transitions: Vec<Transition>,
 }
 
@@ -65,7 +66,7 @@ pub struct LightRequest {
 pub struct LightAnswer {
     /// Number of robots that colours are given for.
     pub robots: usize,
-    /// Why there are no colours; null: there are.
+    /// Why there are no colours; null: there are colours.
     pub error: Option<MakeRemark>,
 }
 
@@ -86,10 +87,11 @@ pub struct Transition {
     pub closest_m: Option<f64>,
     /// Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact.
     pub stop_safe: f64,
-    /// `pixels[robot]` is the id of the pixel that the robot shows afterwards; null: the robot stands by. Empty on the
-    /// WebSocket; HTTP has it.
+    /// `pixels[robot]` is the id of the pixel that the robot shows after the transition; null: the robot stands by. The
+    /// list is empty in messages on the WebSocket; answers over HTTP have it.
     pub pixels: Vec<Option<u32>>,
-    /// `paths[robot]`, each lasting `duration_s`. Empty on the WebSocket; HTTP has it.
+    /// `paths[robot]` is the path of the robot, which lasts `duration_s`. The list is empty in messages on the WebSocket;
+    /// answers over HTTP have it.
     pub paths: Vec<Path>,
 }
 
@@ -114,7 +116,7 @@ pub struct Issue {
     pub frame: Option<usize>,
     /// Ids of the pixels concerned; may be empty.
     pub pixels: Vec<u32>,
-    /// One line for people with place, cause and remedy. Frames are counted from 1 there.
+    /// One line for people with place, cause and remedy. The text counts frames from 1.
     pub message: String,
 }
 

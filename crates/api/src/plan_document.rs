@@ -38,8 +38,8 @@ impl From<&show::Issue> for Issue {
     }
 }
 
-/// Returns a plan as the screen and scripts read it. `found` has the issues from reading and validating the show,
-/// `plan_ms` is the duration of planning, milliseconds.
+/// Converts the planner's result into the form that the screen and scripts read. `found` has the issues from reading and
+/// validating the show. `plan_ms` is the duration of planning, milliseconds.
 pub fn plan_document(plan: &ShowPlan, found: &Issues, plan_ms: f64) -> Plan {
     let issues = merge(found, &plan.issues);
     let transitions = plan.transitions.iter().enumerate();
@@ -57,7 +57,7 @@ pub fn plan_document(plan: &ShowPlan, found: &Issues, plan_ms: f64) -> Plan {
     }
 }
 
-/// Rounds a share of moments down to 5 decimals, so that 1 means all of them.
+/// Rounds a share of moments, 0 to 1, down to 5 decimals, so that only a share of all moments becomes 1.
 fn share(share: f64) -> f64 {
     (share * 1e5 + 1e-6).floor() / 1e5
 }
@@ -88,8 +88,9 @@ fn path(path: &lightbots_plan::Path) -> Path {
     }
 }
 
-/// Returns the issues found before planning, then those of planning that are new. An issue of planning is left out if
-/// it was found before. It is also left out after an error about the same frame and one of its pixels.
+/// Returns the issues `found` before planning, then those of `planned`, the issues of planning, that are new. An issue of
+/// planning is not new if `found` contains it. Nor is it new if `found` has an error about its frame, and about one of its
+/// pixels if it names pixels.
 fn merge(found: &Issues, planned: &Issues) -> Issues {
     let known = |issue: &show::Issue| {
         found.contains(issue)
@@ -103,7 +104,7 @@ fn merge(found: &Issues, planned: &Issues) -> Issues {
     found.iter().chain(planned.iter().filter(|issue| !known(issue))).cloned().collect()
 }
 
-/// Rounds a number to `decimals`, so that JSON stays readable. Infinities and NaN are returned unchanged.
+/// Rounds a number to `decimals` decimal places, so that JSON stays readable. Returns infinities and NaN unchanged.
 pub fn rounded(value: f64, decimals: i32) -> f64 {
     let factor = 10_f64.powi(decimals);
     let rounded = (value * factor).round() / factor + 0.0;

@@ -15,15 +15,15 @@ use ts_rs::TS;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct PlaylistChange {
-    /// `PlaylistState.revision` of the playlist that this one replaces.
+    /// `PlaylistState.revision` of the playlist that this new playlist replaces.
     pub revision: u64,
-    /// Whether shows start by themselves. It survives a restart of the program.
+    /// Whether shows start by themselves. The server keeps the setting over restarts of the program.
     pub on: bool,
     /// The entries in order.
     pub entries: Vec<PlaylistEntry>,
 }
 
-/// A show of a playlist. It has a time of day (`at`) or follows the entry before it (`pause_min`).
+/// A show of a playlist. Either it starts at a time of day (`at`), or `pause_min` after the previous entry has ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct PlaylistEntry {
@@ -33,7 +33,7 @@ pub struct PlaylistEntry {
     pub id: u32,
     /// Name of the show in the library.
     pub show: String,
-    /// Local time of day of the server, `HH:MM`; null: it follows the entry before it.
+    /// Time of day at which the entry starts, `HH:MM`, local time of the server; null: it follows the previous entry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional = nullable)]
     pub at: Option<String>,
@@ -41,7 +41,7 @@ pub struct PlaylistEntry {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[ts(as = "Option<Vec<PlaylistDay>>", optional)]
     pub weekdays: Vec<PlaylistDay>,
-    /// Minutes between the end of the entry before it and the start of this one; null: it has a time of day.
+    /// Minutes from the end of the previous entry to the start of this entry; null: this entry has a time of day.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional = nullable)]
     pub pause_min: Option<u32>,
@@ -49,7 +49,7 @@ pub struct PlaylistEntry {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[ts(as = "Option<bool>", optional)]
     pub home: bool,
-    /// Speed of drives, percent of the usual one.
+    /// Speed of drives, percent of the usual speed.
     pub speed_percent: u32,
 }
 
@@ -82,15 +82,16 @@ pub struct PlaylistState {
     pub on: bool,
     /// The entries in order.
     pub entries: Vec<PlaylistEntry>,
-    /// What became of each entry today, in their order.
+    /// What became of each entry today, in the order of `entries`.
     pub today: Vec<PlaylistToday>,
     /// The entry that starts next; null: none within a week, or none until the present entry is over. If the playlist
     /// is off: the entry that would start next if it were switched on.
     pub next: Option<PlaylistNext>,
-    /// Why the playlist starts no show after a person stopped robots, one sentence; null: it is not held. The operation
-    /// `go_on` lets it continue.
+    /// Why the playlist is held and starts no show, one sentence: a person stopped robots. null: the playlist is not
+    /// held. The operation `go_on` lets it continue.
     pub held: Option<String>,
-    /// Why the playlist cannot be read, with file, place and remedy; null: it can. Nothing is played meanwhile.
+    /// Why the playlist's file cannot be read, with file, place and remedy: nothing is played meanwhile. null: the file can
+    /// be read.
     pub fault: Option<String>,
     /// Local time of day of the server, `HH:MM`.
     pub now: String,
@@ -101,7 +102,7 @@ pub struct PlaylistState {
 pub struct PlaylistToday {
     /// What became of the entry.
     pub result: PlaylistResult,
-    /// Local time of day, `HH:MM`, at which the entry starts, began or ended; null: not known yet.
+    /// Local time of day of the server, `HH:MM`, at which the entry starts, began or ended; null: not known yet.
     pub time: Option<String>,
     /// Why the entry failed or was skipped, with a remedy: one line; null: neither happened.
     pub line: Option<String>,
@@ -111,19 +112,19 @@ pub struct PlaylistToday {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaylistResult {
-    /// It is not played on this day of the week.
+    /// The entry is not played on this day of the week.
     NotToday,
-    /// Its time has not come, or the entry before it is not over.
+    /// The entry's time has not come, or the previous entry is not over.
     Waiting,
-    /// Its time had passed before the playlist was switched on.
+    /// The entry's time of day had passed before the playlist was switched on.
     Past,
-    /// It plays.
+    /// The entry plays.
     Playing,
-    /// It was played to its end.
+    /// The entry was played to its end.
     Played,
-    /// It did not begin, or did not end as it should.
+    /// The entry did not begin, or did not end as it should.
     Failed,
-    /// It could not begin in time.
+    /// The entry could not begin in time.
     Skipped,
 }
 

@@ -20,11 +20,11 @@ pub struct RunEntry {
     pub show: String,
     /// When it began, milliseconds since 1970.
     pub began_ms: u64,
-    /// When it ended, milliseconds since 1970; null: the run is still on, or the program ended before it.
+    /// When the run ended, milliseconds since 1970; null: the run is still on, or the program ended before the run did.
     pub ended_ms: Option<u64>,
     /// Whether all frames were shown and no robot was lost for good.
     pub ok: bool,
-    /// How the run ended, in one sentence; null: it is still on, or the program ended before it.
+    /// How the run ended, in one sentence; null: the run is still on, or the program ended before the run did.
     pub outcome: Option<String>,
     /// Whether the report of the run can be made.
     pub has_report: bool,

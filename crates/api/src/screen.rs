@@ -5,9 +5,9 @@ use ts_rs::TS;
 
 use crate::{Answer, Fleet, Incidents, Plan, State};
 
-/// A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is
-/// sent again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen
-/// acknowledges each `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
+/// A message to a screen. `hello` is followed by `show`, `plan`, `incidents`, `fleet` and the last lines of the log. Each
+/// of these is sent again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A
+/// screen acknowledges each `state` with `took`. While a screen has not acknowledged several, it gets no more.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
 // A message is made, sent and dropped at once, so that its size does not matter.
@@ -40,7 +40,8 @@ pub struct Hello {
     pub screen: u32,
     /// Number of simulated robots that this server runs.
     pub simulated: usize,
-    /// Whether the network can reach the server without TLS (`--plain-http`): passwords can be read on the way.
+    /// Whether the network can reach the server without TLS (`--plain-http`), so that others on the network can read
+    /// passwords.
     pub plain_http: bool,
 }
 
@@ -53,7 +54,8 @@ pub struct OpenShow {
     pub name: Option<String>,
     /// Version of the show in the library, for `If-Match`.
     pub etag: Option<String>,
-    /// Why the show cannot be saved under its name, for people: its file holds more than the document. null: it can.
+    /// Why the show cannot be saved under its name, for people: its file holds fields that the document lacks. null: the
+    /// show can be saved.
     pub read_only: Option<String>,
     /// The document in the format `lightbots`; null: no show is open.
     #[ts(type = "unknown")]

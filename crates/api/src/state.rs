@@ -8,7 +8,7 @@ use ts_rs::TS;
 pub struct State {
     /// The show clock, milliseconds.
     pub at_ms: f64,
-    /// Rate of the show clock: 1 is real time. Less if the machine is too slow for its simulated robots.
+    /// Rate of the show clock: 1 is real time. Less than 1 if the machine is too slow for its simulated robots.
     pub pace: f64,
     /// `Fleet.revision` of the fleet table that names the robots of the preceding binary message.
     pub fleet: u32,
@@ -20,13 +20,13 @@ pub struct State {
     pub show_time: Option<ShowTime>,
 }
 
-/// Position on the timeline: that of the music, or of the show if it has no music.
+/// Position of the show on its timeline. In a show with music, this is the position of the music.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ShowTime {
-    /// Seconds from the start of the first frame's air time; negative during the drive there.
+    /// Seconds from the start of the first frame's air time; negative during the drive to the first frame.
     pub show_s: f64,
-    /// Whether the position advances with the show clock. With music, it stands during a pause and while the show waits
-    /// for GO. Without music, it also stands while robots are held or waited for.
+    /// Whether the position advances with the show clock. With music, the position stands still during a pause and while
+    /// the show waits for GO. Without music, it also stands still while robots are held or waited for.
     pub runs: bool,
 }
 
@@ -67,8 +67,8 @@ pub struct Playback {
     pub phase: Phase,
     /// What the run does, for people, such as `driving`; null: there is no run.
     pub doing: Option<String>,
-    /// Index of the frame that is shown or driven to, counted from 0; null: none, or robots drive to their
-    /// starting places.
+    /// Index of the frame that robots show or drive to, counted from 0; null: none, or robots drive to their starting
+    /// places.
     pub frame: Option<usize>,
     /// Index of the frame after `frame`; null: none, the run ends after `frame`.
     pub next: Option<usize>,
@@ -82,7 +82,7 @@ pub struct Playback {
     pub left_s: Option<f64>,
     /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
     pub failure: Option<String>,
-    /// Index of the frame in which the last run of the show ended before its end; null: it was played to its end, or
+    /// Index of the frame in which the last run of the show ended early, counted from 0. null: the run reached its end, or
     /// `dismiss_failure` cleared the index.
     pub stopped_in: Option<usize>,
     /// The preflight that is under way, or the last one since the server's start; null: there was none.
@@ -93,9 +93,9 @@ pub struct Playback {
     pub live_light: Vec<String>,
     /// The frames that repeat until `go`; null: no frames repeat at the moment.
     pub repeats: Option<Repeats>,
-    /// Whether `go_on` can continue a show whose robots were out of reach: some of them report again.
+    /// Whether `go_on` can continue a show whose robots were out of reach, because some of its robots report again.
     pub may_go_on: bool,
-    /// Speed of drives, percent of the usual one.
+    /// Speed of drives, percent of the usual speed.
     pub speed_percent: u32,
     /// Whether the present robots have never played the open show to its end. The screen then offers a slow first run.
     pub first_run: bool,
@@ -110,7 +110,7 @@ pub struct Playback {
 pub struct PreflightState {
     /// What robots do, for people, such as `driving out`; null: the preflight is over.
     pub doing: Option<String>,
-    /// The round under way, counted from 1. Robots in each other's way take turns.
+    /// The round under way, counted from 1. Robots that would be in each other's way are tested in different rounds.
     pub round: usize,
     /// Number of rounds.
     pub rounds: usize,
@@ -153,6 +153,6 @@ pub enum Phase {
     Preview,
     /// Robots stop after an abort.
     Aborting,
-    /// The show stands still, because its robots are out of reach, or because they were and `go_on` has not been sent.
+    /// The show stands still, because its robots are or were out of reach. It goes on after `go_on`.
     LinkLost,
 }

@@ -17,7 +17,7 @@ pub fn wrap(angle: f64) -> f64 {
     }
 }
 
-/// The shortest turn that leads from `from` to `to`, in (−π, π].
+/// The shortest turn that leads from the angle `from` to the angle `to`, in (−π, π]; positive is counter-clockwise.
 pub fn difference(to: f64, from: f64) -> f64 {
     wrap(to - from)
 }

@@ -3,9 +3,9 @@
 //! The proof reads [`REACTION_S`] and [`GRIP_MPS2`] and keeps a formula of its own.
 
 /// Time from the moment a robot stops dead until the robot behind it has detected that: three steps of 16 ms. Within
-/// them, 97 of 100 robots detect the death of the robot ahead and do not touch it (`reflex/death_tests.rs`, measured on
-/// 2026-11-24). Below: the planner relies on one noisy reading. Above: robots that follow each other are planned farther
-/// apart than necessary.
+/// this time, 97 of 100 robots detect the death of the robot ahead and do not touch it (`reflex/death_tests.rs`,
+/// measured on 2026-11-24). With a shorter time, the planner relies on one noisy reading. With a longer one, robots
+/// that follow each other are planned farther apart than necessary.
 pub const DETECTION_S: f64 = 0.048;
 /// Time from a command to the wheels until the wheels obey: one step of the Elisa-3's motors, measured in Webots R2023b
 /// on 2026-11-21.
@@ -15,8 +15,8 @@ pub const REACTION_S: f64 = DETECTION_S + ACTUATION_S;
 /// Grip limit of the tyres: the Elisa-3 loses 0.188 m/s in a step of 16 ms, measured in Webots R2023b on 2026-11-21.
 pub const GRIP_MPS2: f64 = 11.75;
 
-/// Distance in metres that a robot at `speed_mps` drives while its wheels brake at the grip limit. An upper bound: an
-/// Elisa-3 at 0.27 m/s needs 1.3 mm of the 3.1 mm, because its speed falls at the beginning of a step.
+/// Distance in metres that a robot at `speed_mps` drives while its wheels brake at the grip limit. This is an upper
+/// bound: an Elisa-3 at 0.27 m/s needs 1.3 mm instead of 3.1 mm, because its speed falls at the beginning of a step.
 pub const fn braking_m(speed_mps: f64) -> f64 {
     speed_mps * speed_mps / (2.0 * GRIP_MPS2)
 }

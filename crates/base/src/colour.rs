@@ -23,7 +23,7 @@ impl Rgb {
         Self { r, g, b }
     }
 
-    /// From R·65536 + G·256 + B; `None` above 16777215.
+    /// The colour whose number is R·65536 + G·256 + B; `None` for numbers above 16777215.
     pub const fn from_number(n: u32) -> Option<Self> {
         if n > 0xff_ffff {
             return None;
@@ -36,7 +36,7 @@ impl Rgb {
         (self.r as u32) << 16 | (self.g as u32) << 8 | self.b as u32
     }
 
-    /// From text such as `#ffa500`; `None` for any other text.
+    /// The colour in a text like `#ffa500`; `None` for any other text.
     pub fn from_hex(text: &str) -> Option<Self> {
         let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'))?;
         Self::from_number(u32::from_str_radix(digits, 16).ok()?)
@@ -56,7 +56,7 @@ pub fn srgb_decoded(share: f64) -> f64 {
     if share <= 0.04045 { share / 12.92 } else { libm::pow((share + 0.055) / 1.055, 2.4) }
 }
 
-/// Writes the colour in hexadecimal, such as `#ffa500`.
+/// Writes the colour in hexadecimal, for example `#ffa500`.
 impl fmt::Display for Rgb {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "#{:06x}", self.number())

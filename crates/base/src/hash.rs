@@ -1,6 +1,7 @@
-//! The state hash: rehearsals with equal hashes are taken to be the same to the last bit.
+//! The state hash: two rehearsals whose states have equal hashes are taken to agree in every bit.
 
-/// A 64-bit hash of a sequence of words: multiply and xor as in FNV-1a, but a word at a time, and mixed at the end.
+/// A 64-bit hash of a sequence of 64-bit words. It multiplies and xors as FNV-1a does, but a word at a time, and mixes
+/// the bits at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateHash(u64);
 

@@ -30,7 +30,8 @@ impl RobotId {
         Some(Self { bytes, len: text.len() as u8 })
     }
 
-    /// A random (version 4) UUID of 128 random bits.
+    /// A name in the form of a random (version 4) UUID, made of 128 random bits. Six of these bits are replaced by
+    /// those that mark version 4.
     pub fn from_random(bits: u128) -> Self {
         let bits = bits & !(0xf000 << 64) & !(0xc << 60) | 0x4000 << 64 | 0x8 << 60;
         let mut bytes = [b'-'; Self::MAX_LEN];

@@ -3,13 +3,14 @@
 use crate::light_track::{LightRecord, LightTrack};
 use crate::{Rgb, Span};
 
-/// A position in a track. It keeps the current record, so that a step costs the same however long the track is.
+/// A position in a light track. It remembers the current record, so that a step takes the same time in long and short
+/// tracks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightCursor {
     record: usize,
-    /// How many repetitions of the current block have begun; 0 outside of repetitions.
+    /// How many repetitions of the current block of records have begun; 0 if no repeat is under way.
     repeats: u32,
-    /// Begin of the current record, microseconds after the start of the track.
+    /// Beginning of the current record, microseconds after the start of the track.
     began_us: u64,
     /// The colour with which the current record begins.
     before: Rgb,
@@ -17,8 +18,9 @@ pub struct LightCursor {
 }
 
 impl LightCursor {
-    /// Returns the colour at `elapsed` after the start of the track; after its end, the last colour. For a time before
-    /// the current record, the search begins again at the start. A repeat of more records than precede it is skipped.
+    /// Returns the colour at `elapsed` after the start of the track; after the track's end, its last colour. For a time
+    /// before the current record, the search begins again at the start of the track. A repeat of more records than
+    /// precede it is skipped.
     pub fn at(&mut self, track: LightTrack<'_>, elapsed: Span) -> Rgb {
         let elapsed_us = self.seek(track, elapsed);
         let Some(&record) = track.records.get(self.record) else { return self.before };
@@ -48,8 +50,8 @@ impl LightCursor {
         elapsed_us
     }
 
-    /// Returns the current record as a straight line of sRGB codes: begin after the start of the track, duration, first
-    /// and last colour. `None` if the track is over.
+    /// Returns the current record as a straight line in sRGB codes: its beginning after the start of the track, its
+    /// duration, and its first and last colour. `None` if the track is over.
     #[inline]
     pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, (Rgb, Rgb))> {
         let record = *track.records.get(self.record)?;
@@ -66,8 +68,9 @@ impl LightCursor {
         self.record >= track.records.len()
     }
 
-    /// At a repeat, goes back to the beginning of its block, or on to the record behind the repeat. Repetitions that
-    /// are over already are skipped at once, because a repeat may stand for millions.
+    /// At a repeat, goes back to the beginning of the repeated records, or on to the record behind the repeat.
+    /// Repetitions that are already over at `elapsed_us` are skipped in one step, because a repeat may stand for
+    /// millions.
     fn repeat(&mut self, track: LightTrack<'_>, (records, times): (usize, u32), elapsed_us: u64) {
         let block_us = match self.record.checked_sub(records) {
             Some(first) => track.records[first..self.record].iter().map(|record| record.duration_us()).sum(),

@@ -1,8 +1,8 @@
-//! Light tracks: a robot's colour over time as records.
+//! Light tracks: a robot's colour over time, as records.
 //!
-//! A track is a start colour and a list of records. A line fades from the colour before it to its own, linearly in sRGB
-//! codes. A step keeps the colour before it and switches to its own at its end. A repeat runs the records before it
-//! again.
+//! A track is a start colour and a list of records. A line fades from the colour before it to its own colour, linearly
+//! in sRGB codes. A step keeps the colour before it and switches to its own colour at its end. A repeat runs the
+//! records before it again.
 
 use crate::{Rgb, Span};
 
@@ -20,21 +20,21 @@ const VARINT_BYTES_MAX: usize = 4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LightRecord {
-    /// A fade from the colour before to `to`, linear in sRGB codes.
+    /// A fade from the colour before the record to `to`, linear in sRGB codes.
     Line {
         /// Duration in `TICK`s, 1 to `TICKS_MAX`.
         ticks: u32,
         /// The colour at its end.
         to: Rgb,
     },
-    /// The colour before for the whole duration, then `to`.
+    /// Keeps the colour before the record for the whole duration, then switches to `to`.
     Step {
         /// Duration in `TICK`s, 1 to `TICKS_MAX`.
         ticks: u32,
         /// The colour at its end.
         to: Rgb,
     },
-    /// Runs the records before it again. None of them is a repeat.
+    /// Runs the last `records` records before it again, `times` times. None of them is a repeat.
     Repeat {
         /// Number of records, 1 to `TICKS_MAX`.
         records: u32,
@@ -48,12 +48,12 @@ pub enum LightRecord {
 pub enum LightTrackError {
     /// The bytes end within the start colour or a record.
     Truncated,
-    /// A varint has more than four bytes, or a last byte that it does not need. Also a number in a repeat above
+    /// A varint has more than four bytes, or a last byte that it does not need. Also if a number in a repeat is above
     /// `TICKS_MAX`.
     LongVarint,
     /// A duration, a number of records or a number of repetitions is 0.
     Zero,
-    /// A repeat has too few records before it, or a repeat among them.
+    /// A repeat has fewer records before it than it repeats, or there is a repeat among them.
     BadRepeat,
     /// The buffer has no room for all records.
     TooMany,
@@ -77,7 +77,8 @@ impl LightRecord {
         }
     }
 
-    /// The colour at a share of the record's duration, 0 to less than 1. `before`: the colour with which it begins.
+    /// The colour at `share` of the record's duration, 0 to less than 1. `before` is the colour with which the record
+    /// begins.
     pub(crate) fn within(self, before: Rgb, share: f64) -> Rgb {
         match self {
             Self::Line { to, .. } => before.mixed(to, share),

@@ -1,7 +1,7 @@
 //! Measures and limits of a robot's body.
 
-/// Measures and limits of one kind of robot. The default is the GCtronic Elisa-3 as measured in Webots R2023b
-/// on 2026-11-21. It follows ramps of 1 m/s² within 5 mm/s and stops from 4.5 rad/s within 1°.
+/// Measures and limits of one kind of robot. The default is the GCtronic Elisa-3, measured in Webots R2023b on
+/// 2026-11-21. Its speed follows ramps of 1 m/s² within 5 mm/s, and it stops from a turn of 4.5 rad/s within 1°.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
@@ -17,7 +17,7 @@ pub struct Limits {
     pub wheel_radps: f64,
     /// Radius of a wheel, metres.
     pub wheel_radius_m: f64,
-    /// Effective distance between the wheels, metres.
+    /// Effective distance between the two wheels (track width), metres.
     pub track_m: f64,
 }
 
@@ -33,7 +33,7 @@ impl Limits {
         track_m: 0.0402,
     };
 
-    /// Distance of two centres below which the robots touch, metres.
+    /// Distance between the centres of two robots below which their rims touch, metres.
     pub const fn contact_m(&self) -> f64 {
         2.0 * self.radius_m
     }

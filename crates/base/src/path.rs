@@ -27,7 +27,8 @@ pub struct Motion {
     pub acceleration: Vec2,
 }
 
-/// A path: its start and its pieces in order. It rests at `start` before it begins, and at its end afterwards.
+/// A path: its start and its pieces in order. The robot rests at `start` before the path begins, and at the path's end
+/// afterwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathRef<'a> {
     /// First place, stage metres.
@@ -47,13 +48,13 @@ impl Piece {
         Self { duration, c1: at, c2: at, end: at }
     }
 
-    /// The cubic with the given positions and velocities (m/s) at both ends.
+    /// The cubic piece with the given places (metres) and velocities (m/s) at both ends.
     pub fn hermite(start: Vec2, v0: Vec2, end: Vec2, v1: Vec2, duration: Span) -> Self {
         let third = duration.as_secs() / 3.0;
         Self { duration, c1: start + v0 * third, c2: end - v1 * third, end }
     }
 
-    /// The motion `t` after the piece began at `start`; `t` in 0..=duration.
+    /// The motion at `t` after the beginning of the piece, which begins at the place `start`. `t` is in 0..=duration.
     pub fn at(&self, start: Vec2, t: Span) -> Motion {
         let seconds = self.duration.as_secs();
         if seconds <= 0.0 {
@@ -99,7 +100,7 @@ impl<'a> PathRef<'a> {
         self.timed().all(|(_, _, piece)| piece.is_rest(self.start))
     }
 
-    /// The motion `t` after the path's start. Takes time linear in the number of pieces.
+    /// The motion at `t` after the beginning of the path. Takes time linear in the number of pieces.
     pub fn at(&self, t: Span) -> Motion {
         let mut start = self.start;
         let mut left = t;

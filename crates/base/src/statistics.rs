@@ -1,7 +1,7 @@
 //! Summaries of many numbers.
 
-/// The nearest-rank percentile: the rank, counted from 1, of the number that `percent` % of `count` sorted numbers do
-/// not exceed. 0 if `count` or `percent` is 0.
+/// The rank, counted from 1, of the nearest-rank percentile: in `count` sorted numbers, at least `percent` % do not
+/// exceed the number with this rank. 0 if `count` or `percent` is 0.
 pub fn nearest_rank(count: usize, percent: usize) -> usize {
     (count * percent).div_ceil(100)
 }

@@ -41,7 +41,7 @@ impl Vec2 {
         self.x * other.x + self.y * other.y
     }
 
-    /// z component of the vector product: positive where `other` points to the left of `self`.
+    /// z component of the vector product; positive if the direction `other` is to the left of `self`.
     pub fn cross(self, other: Self) -> f64 {
         self.x * other.y - self.y * other.x
     }
@@ -71,7 +71,7 @@ impl Vec2 {
         Self::new(-self.y, self.x)
     }
 
-    /// The place `share` of the way to `other`.
+    /// The point at `share` of the straight line from this place to `other`: 0 is this place, 1 is `other`.
     pub fn lerp(self, other: Self, share: f64) -> Self {
         self + (other - self) * share
     }

@@ -18,17 +18,17 @@ pub(crate) fn request<T: DeserializeOwned>(request: &str) -> Result<T, MakeRemar
         .map_err(|error| MakeRemark { code: "bad-request".to_owned(), message: error.to_string() })
 }
 
-/// Converts an error of drawing.
+/// Converts an error of `lightbots_draw` into a value for an answer.
 pub(crate) fn drawing(error: DrawError) -> MakeRemark {
     MakeRemark { code: error.code.to_owned(), message: error.message }
 }
 
-/// Converts an error of reading a show.
+/// Converts an error of reading a show file into a value for an answer.
 pub(crate) fn reading(error: &ReadError) -> MakeRemark {
     MakeRemark { code: error.code.to_owned(), message: error.to_string() }
 }
 
-/// Converts notes of drawing.
+/// Converts notes of `lightbots_draw` into values for an answer.
 pub(crate) fn notes(notes: &[Note]) -> Vec<MakeRemark> {
     let remark = |note: &Note| MakeRemark { code: note.code.to_owned(), message: note.message.clone() };
     notes.iter().map(remark).collect()

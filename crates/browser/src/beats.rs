@@ -3,8 +3,8 @@
 use lightbots_api::{BeatsAnswer, MakeRemark};
 use lightbots_music::{NoBeats, Sound, find_beats, steady};
 
-/// Finds the beats of `samples` (one channel, 1 is full scale) at `rate_hz` samples a second. For a steady
-/// tempo the answer has the offset of the beats, else their times.
+/// Finds the beats of music. `samples` are those of one channel, where 1 is full scale, `rate_hz` of them per second. If
+/// the tempo is steady, the answer has the time of the first beat, else the times of all beats.
 pub fn beats_answer(samples: &[f32], rate_hz: f64) -> BeatsAnswer {
     match Sound::new(samples, rate_hz).and_then(|sound| find_beats(&sound)) {
         Ok(found) => {

@@ -11,7 +11,7 @@ use crate::answer;
 /// First bytes of fonts: OpenType, TrueType, TrueType of Apple, collections, and the two web formats.
 const FONTS: [&[u8]; 6] = [b"OTTO", b"\0\x01\0\0", b"true", b"ttcf", b"wOFF", b"wOF2"];
 
-/// Returns the kind of a file, found from its bytes, and its hash, which identifies it in shows. Hashing is done here
+/// Identifies a file by its bytes. Returns its kind, and the hash by which shows name the file. The hash is computed here
 /// because browsers offer no hash function to pages without encryption.
 pub fn file(bytes: &[u8]) -> MakeFile {
     let hash = lightbots_exchange::hash_of(bytes).to_string();
@@ -44,7 +44,7 @@ fn kind_of(bytes: &[u8]) -> Result<&'static str, DrawError> {
     Err(unsupported(bytes))
 }
 
-/// Whether a file begins like music. Only the browser's decoder can tell whether it can be played.
+/// Whether a file begins like music of a known format. Only the browser's decoder can tell whether it can be played.
 fn is_music(bytes: &[u8]) -> bool {
     match bytes {
         [b'I', b'D', b'3', 0..=9, ..] => true,

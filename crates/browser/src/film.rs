@@ -7,8 +7,8 @@ use lightbots_make::{FilmFrame, Recipe, film, make_frame_from};
 use crate::answer;
 use crate::make::{FrameWish, full, readability, remark};
 
-/// Makes the frames of an animation. `request` is a `MakeRequest` as JSON whose frame has the animation as its source;
-/// `bytes` are the file.
+/// Makes the frames of an animation. `request` is a `MakeRequest` as JSON, and the source of its frame is the animation.
+/// `bytes` are those of the animation's file.
 pub fn film_answer(request: &str, bytes: &[u8]) -> FilmAnswer {
     made(request, bytes).unwrap_or_else(|error| FilmAnswer { error: Some(error), ..FilmAnswer::default() })
 }

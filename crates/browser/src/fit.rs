@@ -5,7 +5,7 @@ use lightbots_exchange::LIGHTBOTS;
 
 use crate::answer;
 
-/// Fits all frames of a show to a number of robots. `show` has the bytes of a show file in any format.
+/// Fits all frames of a show to the number `robots` of robots. `show` has the bytes of a show file in any format.
 pub fn fit_answer(show: &[u8], robots: usize) -> FitAnswer {
     fitted(show, robots).unwrap_or_else(|error| FitAnswer { error: Some(error), ..FitAnswer::default() })
 }

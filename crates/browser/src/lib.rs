@@ -35,8 +35,8 @@ pub use moved::moved_answer;
 pub use plan::plan_answer;
 pub use show_film::FilmPainter;
 
-/// Makes a frame. Takes a `MakeRequest` as JSON and the bytes of the source's file, empty if it has none. Returns a
-/// `MakeAnswer` as JSON.
+/// Makes a frame from its source. Takes a `MakeRequest` as JSON and the bytes of the source's file; no bytes: the source
+/// has no file. Returns a `MakeAnswer` as JSON.
 #[wasm_bindgen]
 pub fn make(request: &str, asset: &[u8]) -> String {
     answer::text(&make_answer(request, (!asset.is_empty()).then_some(asset)))
@@ -49,7 +49,8 @@ pub fn film(request: &str, bytes: &[u8]) -> String {
     answer::text(&film_answer(request, bytes))
 }
 
-/// Fits a show to a number of robots. Takes a show file of any format. Returns a `FitAnswer` as JSON.
+/// Fits a show to the number `robots` of robots. Takes the bytes of a show file of any format. Returns a `FitAnswer` as
+/// JSON.
 #[wasm_bindgen]
 pub fn fit(show: &[u8], robots: usize) -> String {
     answer::text(&fit_answer(show, robots))
@@ -61,8 +62,8 @@ pub fn plan(request: &str) -> String {
     answer::text(&plan_answer(request))
 }
 
-/// Moves a picture as a whole. Takes a show file of two frames, the second of which has the motion. Returns a
-/// `MovedAnswer` as JSON.
+/// Moves a picture as a whole. Takes the bytes of a show file with two frames: the first has the picture, the second has
+/// the motion. Returns a `MovedAnswer` as JSON.
 #[wasm_bindgen]
 pub fn moved(show: &[u8]) -> String {
     answer::text(&moved_answer(show))
@@ -80,7 +81,8 @@ pub fn look(bytes: &[u8]) -> String {
     answer::text(&file(bytes))
 }
 
-/// Finds the beats of music. Takes samples of one channel and their number per second. Returns a `BeatsAnswer` as JSON.
+/// Finds the beats of music. Takes samples of one channel, from -1 to 1, and the number of samples per second. Returns a
+/// `BeatsAnswer` as JSON.
 #[wasm_bindgen]
 pub fn beats(samples: &[f32], rate_hz: f64) -> String {
     answer::text(&beats_answer(samples, rate_hz))

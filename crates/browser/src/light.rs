@@ -11,10 +11,12 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answer;
 
-/// Largest number of colours in one answer. If a request exceeds it, the answer has fewer moments.
+/// Largest number of colours in one answer, one for each robot and moment. If a request needs more, the answer has fewer
+/// moments than requested.
 const COLOURS_MAX: usize = 2_000_000;
 
-/// Decoded pictures that layers project on the floor. Untrusted files are decoded here, in a worker of the browser.
+/// Decoded pictures that layers project on the floor. Untrusted files are decoded in a worker of the browser, never in the
+/// program that plays a show.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct LightPictures {
@@ -30,8 +32,8 @@ impl LightPictures {
         Self::default()
     }
 
-    /// Decodes a file and keeps its picture under `hash`. Returns a `LightAnswer` as JSON, whose error says what is
-    /// wrong with the file.
+    /// Decodes a file and keeps its picture under `hash`. Returns a `LightAnswer` as JSON; its error says what is wrong with
+    /// the file.
     pub fn add(&mut self, hash: &str, file: &[u8]) -> String {
         let decoded = if lightbots_exchange::is_sequence(file) {
             let remark = |message| MakeRemark { code: "bad-sequence".into(), message };
@@ -58,7 +60,7 @@ impl LightPictures {
     }
 }
 
-/// The light of a planned show, which returns colours at any moments.
+/// The light of a planned show. It gives the colours of all robots at any moments.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct PlannedLight {
@@ -79,7 +81,7 @@ struct Drive {
 
 #[wasm_bindgen]
 impl PlannedLight {
-    /// Reads a `LightRequest` as JSON. An error is kept for [`Self::answer`].
+    /// Reads a `LightRequest` as JSON. If reading fails, [`Self::answer`] returns the error.
     #[wasm_bindgen(constructor)]
     pub fn new(request: &str, pictures: &LightPictures) -> PlannedLight {
         Self::read(request, pictures).unwrap_or_else(|error| Self { error: Some(error), ..Self::default() })
@@ -90,8 +92,8 @@ impl PlannedLight {
         answer::text(&LightAnswer { robots: self.robots, error: self.error.clone() })
     }
 
-    /// Replaces the layers by those of another show in our format as JSON. Nothing else of that show is used, and it
-    /// may have no pixels. Returns a `LightAnswer` as JSON.
+    /// Replaces the layers of the show by those of `document`, a show in the format `lightbots`. Nothing else of `document`
+    /// is used, and it may have no pixels. Returns a `LightAnswer` as JSON.
     pub fn relight(&mut self, document: &str, pictures: &LightPictures) -> String {
         match shown(document) {
             Ok(other) => {
@@ -103,9 +105,9 @@ impl PlannedLight {
         }
     }
 
-    /// Returns colours at moments `step_s` apart: red, green and blue of each robot, moment by moment. There are
-    /// `count` moments, or fewer if the answer would be too long. `from_s` is the first moment, seconds from the start
-    /// of the drive to the first frame. Robots that are not in a frame are dark.
+    /// Returns the colours of all robots at `count` moments, or at fewer if the answer would be too long. For each moment,
+    /// the result has red, green and blue of each robot. `from_s` is the first moment, seconds from the start of the drive
+    /// to the first frame; moments are `step_s` apart. Robots that are not in a frame are dark.
     pub fn colours(&self, from_s: f64, step_s: f64, count: usize) -> Vec<u8> {
         self.with_planned(|planned| {
             let (mut scenes, mut scene, mut bytes) = (planned.scenes(), Vec::new(), Vec::new());
@@ -135,7 +137,7 @@ impl PlannedLight {
         Ok(Self { show, light, drives, robots, error: None })
     }
 
-    /// Calls `of` with the show and its drives.
+    /// Calls `of` with the planned show and returns its result.
     pub(crate) fn with_planned<T>(&self, of: impl FnOnce(&PlannedShow<'_>) -> T) -> T {
         let drives = self.drives.iter().map(Drive::as_planned).collect();
         of(&PlannedShow::of_drives(&self.show, drives, &self.light))
@@ -174,7 +176,7 @@ impl Drive {
         Self { pixels, paths, duration: Span::from_secs(way.duration_s) }
     }
 
-    /// Returns a drive without a plan: robots stand on the pixels.
+    /// Returns the drive to a frame without a plan: it takes no time, and robots stand on the frame's pixels.
     fn standing(frame: &Frame) -> Self {
         let pixels = frame.pixels.iter().map(|pixel| Some(pixel.id)).collect();
         Self { pixels, paths: Vec::new(), duration: Span::ZERO }

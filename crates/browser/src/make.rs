@@ -7,7 +7,8 @@ use lightbots_show::{Frame, Pixel};
 
 use crate::answer;
 
-/// Makes a frame. `request` is a `MakeRequest` as JSON; `asset` has the bytes of the source's file, if it has one.
+/// Makes a frame from its source. `request` is a `MakeRequest` as JSON. `asset` has the bytes of the source's file; `None`:
+/// the source has no file.
 pub fn make_answer(request: &str, asset: Option<&[u8]>) -> MakeAnswer {
     made(request, asset).unwrap_or_else(|error| MakeAnswer { error: Some(error), ..MakeAnswer::default() })
 }
@@ -22,7 +23,7 @@ pub(crate) struct FrameWish {
 }
 
 impl FrameWish {
-    /// Reads a `MakeRequest` as JSON and takes the first frame of its show.
+    /// Reads a `MakeRequest` as JSON. The frame is the first frame of the request's show.
     pub(crate) fn read(request: &str) -> Result<Self, MakeRemark> {
         let request: MakeRequest = answer::request(request)?;
         let document = request.show.to_string();
@@ -49,7 +50,7 @@ fn made(request: &str, asset: Option<&[u8]>) -> Result<MakeAnswer, MakeRemark> {
     Ok(full(&made, readability, enough))
 }
 
-/// Returns how well the lights show the source. `None` if the source is an arrangement of lights.
+/// Returns how well the lights show the source. `None` if the source is itself an arrangement of lights, such as a grid.
 pub(crate) fn readability(made: &MadeFrame) -> Option<MadeReadability> {
     made.readability.map(|read| MadeReadability {
         correlation: read.correlation,
@@ -58,7 +59,7 @@ pub(crate) fn readability(made: &MadeFrame) -> Option<MadeReadability> {
     })
 }
 
-/// Returns the answer with the pixels of a frame.
+/// Returns the answer for a made frame. `enough` is the number of robots with which the source would be readable, if known.
 pub(crate) fn full(
     made: &MadeFrame,
     readability: Option<MadeReadability>,
@@ -75,8 +76,8 @@ pub(crate) fn full(
     }
 }
 
-/// Returns the number of robots that would make the source readable. Errors cannot occur, because the frame was made
-/// before.
+/// Returns the number of robots with which the frame's first source would be readable; `None`: unknown. Errors are ignored,
+/// because the frame was already made from the source.
 fn enough(frame: &Frame, asset: Option<&[u8]>) -> Option<usize> {
     enough_for(frame.sources.first()?, asset).ok().flatten()
 }

@@ -4,7 +4,8 @@ use lightbots_api::{MakeRemark, MovedAnswer, MovedPixel};
 
 use crate::answer;
 
-/// Returns the places of the first frame's pixels after the motion of the second frame.
+/// Returns the places of the first frame's pixels after the motion of the second frame. `show` has the bytes of a show file
+/// with two frames.
 pub fn moved_answer(show: &[u8]) -> MovedAnswer {
     match moved(show) {
         Ok(pixels) => MovedAnswer { pixels, error: None },

@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::light::PlannedLight;
 
-/// Largest side of a picture, pixels.
+/// Largest width or height of a picture, pixels.
 const SIDE_MAX: u32 = 4096;
 
 /// Paints the pictures of a film, one after another.
@@ -19,8 +19,8 @@ pub struct FilmPainter {
 
 #[wasm_bindgen]
 impl FilmPainter {
-    /// Prepares a film of a show, as seen from seats before the front edge or from above. Sides are at least 16 and
-    /// at most 4,096 pixels.
+    /// Prepares a film of a show with `fps` pictures per second. `from_front`: the show is seen from seats before the front
+    /// edge, otherwise from above. Width and height are limited to 16 to 4,096 pixels.
     #[wasm_bindgen(constructor)]
     pub fn new(light: &PlannedLight, from_front: bool, width: u32, height: u32, fps: f64) -> FilmPainter {
         let view = if from_front { FilmView::Front } else { FilmView::Above };
@@ -34,13 +34,13 @@ impl FilmPainter {
         self.times.pictures
     }
 
-    /// Delay of the music after the start of the film, seconds.
+    /// Time from the start of the film to the start of the music, seconds.
     pub fn music_begins_s(&self) -> f64 {
         self.times.music_begins_s
     }
 
-    /// Paints the picture of a number, counted from 0. Returns red, green, blue and 255 for each pixel, row by row from
-    /// the top left.
+    /// Paints the picture with the index `number`, counted from 0. Returns four bytes for each pixel: red, green, blue and
+    /// the opacity 255, row by row from the top left.
     pub fn picture(&mut self, light: &PlannedLight, number: usize) -> Vec<u8> {
         let at_s = self.times.begins_s + number as f64 / self.fps;
         let mut scene = Vec::new();

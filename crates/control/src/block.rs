@@ -1,12 +1,13 @@
-//! Blocks: bytes with their length and a checksum, one after the other. Input logs and journals consist of blocks.
+//! Blocks: pieces of a file, each with its length and a checksum. Input logs and journals consist of a head and blocks.
 //!
-//! A block is the length of its content (4 bytes, little-endian), the CRC-32 of that length and the content (4 bytes),
-//! and the content. For a reader, a file ends before its first block that is cut off or was changed.
+//! A block has three parts: the length of its content (4 bytes, little-endian), a CRC-32 (4 bytes, little-endian), and
+//! the content. The CRC-32 covers length and content. A reader takes the first block that is cut off or was changed as
+//! the end of the file.
 
-/// Number of bytes before the content of a block.
+/// Number of bytes of a block before its content: length and checksum.
 const HEAD: usize = 8;
 
-/// Appends a block.
+/// Appends a block with this content to `bytes`.
 ///
 /// # Panics
 /// If the content has 4 GiB or more.
@@ -32,12 +33,13 @@ pub(crate) struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    /// Reads blocks from the byte `at` on.
+    /// Reads blocks from the offset `at` of `bytes` on.
     pub fn new(bytes: &'a [u8], at: usize) -> Self {
         Self { bytes, at }
     }
 
-    /// Returns the offset at which the next block begins, bytes. After the last whole block: the end of that block.
+    /// Returns the offset in bytes at which the next block begins. After the last whole block: the offset at which that
+    /// block ends.
     pub fn at(&self) -> usize {
         self.at
     }

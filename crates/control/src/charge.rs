@@ -1,31 +1,31 @@
 //! Estimates how long a battery lasts from the slope of the charge that its robot reports.
 //!
-//! Robots report whole percents. The moment at which the number falls says more than the number, so the slope is a
-//! least-squares line through these moments.
+//! Robots report whole percents. The moment at which the reported number falls is more precise than the number. So the
+//! slope is that of a least-squares line through the falls.
 
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// Number of falls of the charge that are kept: a quarter of a battery. More: a slope that changes is learnt late.
-/// Fewer: the slope is less certain.
+/// Number of falls of the charge (by 1 % each) that are kept: a quarter of a battery. With more, a change of the slope
+/// is noticed late. With fewer, the slope is less certain.
 const FALLS: usize = 24;
-/// Least number of falls that give a slope.
+/// Least number of falls from which a slope is computed.
 const FALLS_LEAST: usize = 3;
-/// Rise of the charge, percent, from which the battery was charged or changed; a smaller rise is noise.
+/// Least rise of the charge that means that the battery was charged or changed, percent. A smaller rise is noise.
 const CHARGED: u8 = 2;
 
 /// The charge of one robot over time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ChargeTrend {
-    /// When the reported charge first fell to each value, and that value in percent. The first report is no fall,
-    /// because nothing was known before.
+    /// When the reported charge fell to a new least value, show clock, and that value in percent. The first report is
+    /// no fall, because no value was known before.
     falls: Vec<(Instant, u8)>,
-    /// The least reported charge, percent.
+    /// Least reported charge since the battery was charged, percent; `None` before the first report.
     least: Option<u8>,
 }
 
 impl ChargeTrend {
-    /// Takes in a reported charge, percent.
+    /// Adds a reported charge, percent.
     pub fn report(&mut self, now: Instant, percent: u8) {
         let Some(least) = self.least else {
             self.least = Some(percent);
@@ -42,8 +42,8 @@ impl ChargeTrend {
         }
     }
 
-    /// Returns the time from `now` until the battery is empty at the measured slope; `None` if no falling slope is
-    /// known.
+    /// Returns the time from `now` until the battery is empty, if its charge falls on as measured. `None` while too few
+    /// falls are known, or if the charge does not fall.
     pub fn left(&self, now: Instant) -> Option<Span> {
         let (first, last) = (self.falls.first()?.0, self.falls.last()?);
         if self.falls.len() < FALLS_LEAST {

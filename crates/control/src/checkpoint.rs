@@ -1,6 +1,6 @@
-//! A controller at rest as bytes: there is no run, and nothing waits to be sent.
+//! A checkpoint: a controller at rest as bytes. At rest there is no run, and all outputs were taken.
 //!
-//! A log of a run begins with these bytes, so that a run is replayed without the hours before it.
+//! An input log begins with these bytes, so that a run is replayed without the hours before it.
 
 use crate::controller::Controller;
 use crate::robot::KnownRobot;
@@ -16,12 +16,13 @@ impl Controller {
             && self.context.log.is_drained()
     }
 
-    /// Returns the controller as bytes; `None` unless it is at rest.
+    /// Returns the controller as bytes; `None` if it is not at rest.
     pub(crate) fn checkpoint(&self) -> Option<Vec<u8>> {
         if self.is_at_rest() { postcard::to_allocvec(self).ok() } else { None }
     }
 
-    /// Restores the controller of a checkpoint; `None` if the bytes are not valid. They are untrusted input.
+    /// Restores the controller of a checkpoint; `None` if the bytes are not valid. `bytes` may be anything: this is
+    /// checked.
     pub(crate) fn from_checkpoint(bytes: &[u8]) -> Option<Self> {
         let mut controller: Self = postcard::from_bytes(bytes).ok()?;
         if !controller.context.fleet.reindex() {
@@ -34,7 +35,8 @@ impl Controller {
     }
 }
 
-/// Removes what a controller at rest does not hold of a robot: a participant number, and places that are not finite.
+/// Removes from a robot what a controller at rest cannot hold: a participant number, and places that are not finite
+/// numbers.
 fn check(robot: &mut KnownRobot) {
     let is_finite = |at: &Vec2| at.x.is_finite() && at.y.is_finite();
     robot.participant = None;

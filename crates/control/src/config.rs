@@ -8,43 +8,45 @@ use std::collections::BTreeSet;
 /// Bounds and tolerances of a controller. The server starts with the default values, except for `seq_base` and `lamp`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Config {
-    /// Number of the first route; the following routes count up. A restarted controller must not reuse numbers, so
-    /// derive it from the time of day (seconds since 1970 times 8 will do).
+    /// Number of the first route; the numbers of later routes count up from it. A restarted controller must not reuse
+    /// numbers. So derive this one from the time of day (8 times the seconds since 1970 will do).
     pub seq_base: u32,
     /// Largest distance between a robot and its goal, along x and along y, at which the robot counts as arrived,
     /// metres.
     pub arrival_tolerance_m: f64,
-    /// Largest number of robots that are remembered. Reports of further robots are counted and dropped.
+    /// Largest number of robots in the fleet. Reports of further robots are counted and dropped.
     pub robots_max: usize,
-    /// Names of the robots that may take part in runs; `None` admits any. Other robots on the floor are driven around.
+    /// Names of the robots that may take part in runs; `None` admits all robots. Plans drive around all other robots on
+    /// the floor.
     pub admitted: Option<BTreeSet<RobotId>>,
     /// Durations of silence after which robots are stale, and gone.
     pub ageing: Ageing,
-    /// Least time between sending a START and its moment. It grows by 20 µs a robot, on slow links, and after lost
-    /// answers.
+    /// Least time between sending a START and the moment at which robots start. The controller adds 20 µs per robot,
+    /// and more on slow links and after lost answers.
     pub start_lead: Span,
     /// Limits for sending routes.
     pub upload: UploadLimits,
-    /// Time without reports after which a robot that should report drops out. Round trips of the link come on top.
+    /// Time without reports after which a robot that should report drops out of the run. The controller adds round
+    /// trips of the link.
     pub silence: Span,
-    /// Bounds for robots that are behind their paths.
+    /// Bounds for robots that are behind the planned places on their paths.
     pub late: LateBounds,
     /// Longest times for which a run waits.
     pub waits: WaitBounds,
-    /// Largest deviation of robots' lights from the colours of layers.
+    /// Largest deviation of a robot's light from the colour that the layers give it.
     pub light_tolerance: Tolerance,
     /// Correction for the fleet's lamps, applied to colours that are sent to robots. Other colours, such as those of
     /// snapshots, are not corrected.
     pub lamp: LampSettings,
 }
 
-/// Bounds for robots that are behind their paths.
+/// Bounds for robots that are behind the planned places on their paths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LateBounds {
-    /// Distance from its path at which a robot makes all robots wait, metres. In legs with more clearance the distance
-    /// may be larger.
+    /// Distance from its planned place above which a late robot makes all robots wait, metres. In legs with much
+    /// clearance the bound is larger.
     pub off_m: f64,
-    /// How long all robots wait for a late robot. Then it drops out, and the others are planned around it.
+    /// How long all robots wait for a late robot. Then the late robot drops out, and the others are planned around it.
     pub wait: Span,
 }
 
@@ -53,7 +55,8 @@ pub struct LateBounds {
 pub struct WaitBounds {
     /// Longest wait for a plan; then the run fails.
     pub plan: Span,
-    /// Longest wait for the broker, for silent robots, or for any acknowledgement of a route; then the run fails.
+    /// Longest wait for the broker, for silent robots, or for the first acknowledgement of any sent route; then the run
+    /// fails.
     pub outage: Span,
     /// Longest interruption after which a run goes on by itself. After a longer one the operator has to agree, because
     /// people may have stepped on the floor.
@@ -63,18 +66,18 @@ pub struct WaitBounds {
 /// Durations of silence after which robots are stale, and gone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ageing {
-    /// Silence after which a robot is stale: it takes no part in a new run, but is driven around.
+    /// Silence after which a robot is stale: it takes no part in a new run, but plans drive around it.
     pub stale_after: Span,
-    /// Silence after which a robot is gone: it is not driven around any more.
+    /// Silence after which a robot is gone: plans no longer drive around it.
     pub gone_after: Span,
 }
 
 /// Limits for sending routes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UploadLimits {
-    /// Time without acknowledgement after which a route is sent again; longer on slow links.
+    /// Time without acknowledgement after which a route is sent again; on slow links the time is longer.
     pub resend_after: Span,
-    /// How often a route is sent without acknowledgement before its robot drops out.
+    /// How many times a route is sent without acknowledgement before its robot drops out.
     pub tries: u32,
     /// Largest number of routes that are sent and not yet acknowledged.
     pub window: usize,

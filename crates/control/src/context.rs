@@ -1,4 +1,4 @@
-//! The state that runs use and that outlives them: settings, fleet, messages, events and mapping.
+//! The state that a run uses and that outlives the run: settings, fleet, messages, events and mapping.
 
 use crate::config::Config;
 use crate::event::EventKind;
@@ -12,7 +12,7 @@ use lightbots_base::{Instant, Rgb};
 use lightbots_wire::{Command, Report, Topic};
 use serde::{Deserialize, Serialize};
 
-/// The state that runs use and that outlives them.
+/// The state that a run uses and that outlives the run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Context {
     /// Bounds and tolerances.
@@ -25,21 +25,22 @@ pub(crate) struct Context {
     pub log: EventQueue,
     /// Which robot shows which pixel.
     pub mapping: Mapping,
-    /// The plan request that was not taken yet; a newer one replaces an older one.
+    /// The plan request that the caller has not taken yet. A newer request replaces it.
     #[serde(skip)]
     pub plan_request: Option<PlanRequest>,
     /// Number of the last plan request.
     pub plan_number: u64,
     /// Number of the next route.
     next_route: u32,
-    /// Number of arrivals reported by robots that were sent nowhere.
+    /// Number of arrivals reported by robots that were sent nowhere, and of robots found standing away from their
+    /// planned places.
     pub unexpected: u64,
     /// Number of times that a route was sent again.
     pub resent: u64,
 }
 
 impl Context {
-    /// Returns the state of a controller that knows no robot yet.
+    /// Returns the state of a new controller, which knows no robot yet.
     pub fn new(config: Config) -> Self {
         Self {
             next_route: config.seq_base.max(1),
@@ -55,20 +56,20 @@ impl Context {
         }
     }
 
-    /// Returns the number for the next route; never 0. After the largest number it begins again at 1.
+    /// Returns the number for the next route, which is never 0. After the largest number, numbers begin again at 1.
     pub fn number_route(&mut self) -> u32 {
         let number = self.next_route;
         self.next_route = number.checked_add(1).unwrap_or(1);
         number
     }
 
-    /// Sends commands to a robot of the fleet.
+    /// Sends commands in one message to a robot. `robot`: index into the fleet.
     pub fn send(&mut self, robot: usize, commands: &[Command]) {
         self.outbox.send(Topic::Robot(self.fleet.robot(robot).id), commands);
     }
 
-    /// Notes the colour that a robot is told to show from now on. Returns `false` if the robot shows it already for
-    /// certain.
+    /// Notes the colour that a robot is told to show from now on. `robot`: index into the fleet. Returns `false` if the
+    /// robot certainly shows this colour already.
     pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
         let robot = self.fleet.robot_mut(robot);
         let is_other = !robot.shows(color);
@@ -76,7 +77,7 @@ impl Context {
         is_other
     }
 
-    /// Counts an arrival of a robot that was sent nowhere, and records it as an event at a bounded rate.
+    /// Counts a reported arrival of a robot that was sent nowhere, and records an event at a bounded rate.
     pub fn report_unexpected(&mut self, now: Instant, report: &Report) {
         self.unexpected += 1;
         self.log.record_limited(now, EventKind::UnexpectedArrival(report.id));

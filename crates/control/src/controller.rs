@@ -18,24 +18,25 @@ use lightbots_wire::{Command, Report, TimeQuestion, Topic};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How often the ages of a slice of the fleet are updated.
+/// Time between two updates of report ages. Each update covers one slice of the fleet.
 const PATROL: Span = Span::from_millis(250);
-/// Number of slices: the age of each robot is updated every 2 s.
+/// Number of slices of the fleet: the age of each robot's last report is updated every 2 s.
 const ROUNDS: usize = 8;
-/// How often all robots are asked to report between runs, if some have the original firmware. The first report of such
-/// a robot may be lost, and it would be driven into.
+/// Time between two requests to all robots to report, between runs, if some robots have the original firmware. Without
+/// repeated requests a robot whose first report is lost stays unknown, and others would drive into it.
 const ASK_ALL: Span = Span::from_millis(600);
 /// Time added to [`ASK_ALL`] for each robot, because all answers share one link.
 const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
-/// Divisor of [`Ageing::stale_after`](crate::Ageing::stale_after): a robot with the original firmware is asked to
-/// report after that time of silence.
+/// A robot with the original firmware is asked to report after a silence of
+/// [`Ageing::stale_after`](crate::Ageing::stale_after) divided by this number.
 const ASK_AFTER: i64 = 2;
 
 /// The controller of one fleet. Its inputs are [`message`](Self::message), [`operate`](Self::operate),
 /// [`connected`](Self::connected), [`disconnected`](Self::disconnected), [`wake`](Self::wake) and
-/// [`planned`](Self::planned). Each takes `now`, which *is* the show clock and never goes back. After each input drain
-/// [`next_send`](Self::next_send), [`next_event`](Self::next_event) and [`next_plan_request`](Self::next_plan_request).
-/// Call `wake` at [`wake_at`](Self::wake_at).
+/// [`planned`](Self::planned). Each input takes `now`, which *is* the show clock and must never go back. After each
+/// input, call [`next_send`](Self::next_send), [`next_event`](Self::next_event) and
+/// [`next_plan_request`](Self::next_plan_request) until each returns `None`. Call `wake` at the moment that
+/// [`wake_at`](Self::wake_at) returns.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Controller {
     pub(crate) context: Context,
@@ -48,13 +49,14 @@ pub struct Controller {
     pub(crate) run: Option<Run>,
     #[serde(skip)]
     pub(crate) stopping: Option<Stopping>,
-    /// Where and why the last run failed, for people. Kept until the operator dismisses it or begins another run.
-    pub(crate) failure: Option<String>,
-    /// The frame in which the last run of a show ended early. Kept until the operator dismisses it or begins another
+    /// Where and why the last run failed, for people. Kept until the operator dismisses the message or begins another
     /// run.
+    pub(crate) failure: Option<String>,
+    /// The frame in which the last run of a show failed or was aborted, counted from 0. Kept until the operator
+    /// dismisses the message, begins another run, or opens a show of another name.
     pub(crate) stopped_in: Option<usize>,
-    /// Whether robots are to be stopped once the broker is connected. Their run was cut off and does not go on, or the
-    /// broker was lost while they were being stopped.
+    /// Whether all robots are to be stopped once the broker is connected. Either the broker was lost while robots were
+    /// being stopped, or the run of a journal does not go on.
     pub(crate) stops_when_connected: bool,
     /// What the last preflight found.
     #[serde(skip)]
@@ -93,8 +95,8 @@ impl Controller {
         }
     }
 
-    /// Handles that the broker is connected. The topics `T/LightBot/UUID`, `Arrival`, `Status` and `Time` must be
-    /// subscribed. Asks all robots to report.
+    /// Handles that the broker is connected, and asks all robots to report. The caller must have subscribed to `UUID`,
+    /// `Arrival`, `Status` and `Time` under `T/LightBot/`.
     pub fn connected(&mut self, now: Instant) {
         if self.context.outbox.linked() {
             return;
@@ -147,7 +149,7 @@ impl Controller {
         }
     }
 
-    /// Whether a message of a robot counts. Messages beyond the allowed rate do not.
+    /// Whether a message of a robot is to be handled. Messages above the allowed rate are ignored.
     fn counts(&mut self, now: Instant, id: RobotId) -> bool {
         self.context.fleet.counts(now, id, &mut self.context.log)
     }
@@ -179,7 +181,7 @@ impl Controller {
         self.context.outbox.broadcast(now, Command::Uuid, 2, every);
     }
 
-    /// Does what is due at `now`.
+    /// Does all timed work that is due at `now`.
     pub fn wake(&mut self, now: Instant) {
         self.woken = now;
         self.context.outbox.tick(now);
@@ -199,8 +201,8 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// Updates the ages of the next slice of robots. Asks robots with the original firmware to report, because they do
-    /// not report by themselves.
+    /// Updates the report ages of the next slice of the fleet. Asks silent robots with the original firmware to report,
+    /// because they do not report by themselves.
     fn patrol(&mut self, now: Instant) {
         let context = &mut self.context;
         let slice = context.fleet.patrol(now, ROUNDS, &context.config, &mut context.log);
@@ -221,7 +223,7 @@ impl Controller {
         }
     }
 
-    /// Handles the result of a plan request. Results of withdrawn requests are dropped.
+    /// Handles the result of a plan request. The result of a request that is no longer wanted is dropped.
     pub fn planned(&mut self, now: Instant, result: PlanResult) {
         if let Some(run) = &mut self.run {
             run.on_plan(&mut self.context, now, result);
@@ -229,7 +231,8 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// Ends a run that is over, writes the journal, and records the state of the controller if that changed.
+    /// Concludes an input: ends a run that is over, notes changes for the journal, and records an event if the
+    /// controller's state changed.
     pub(crate) fn conclude(&mut self, now: Instant) {
         if let Some(Run { phase: RunPhase::Over(outcome, frame), .. }) = &self.run {
             let (outcome, frame) = (outcome.clone(), *frame);
@@ -245,7 +248,8 @@ impl Controller {
         }
     }
 
-    /// Ends the run, which is over at frame `frame` with this outcome. If the run failed, robots are stopped.
+    /// Removes the run, which is over at `frame` (counted from 0) with this outcome. If the run failed, all robots are
+    /// stopped.
     fn end(&mut self, now: Instant, outcome: RunOutcome, frame: usize) {
         let Some(mut run) = self.run.take() else { return };
         if outcome == RunOutcome::Finished {
@@ -293,7 +297,7 @@ impl Controller {
         }
     }
 
-    /// Writes runs into a journal from now on; see [`take_journal`](Self::take_journal).
+    /// Keeps a journal of each run from now on; see [`take_journal`](Self::take_journal).
     pub fn keep_journal(&mut self) {
         self.journal.keep();
     }
@@ -304,12 +308,12 @@ impl Controller {
         self.journal.take(wall_us)
     }
 
-    /// Makes the next piece a whole journal, because an earlier piece was lost.
+    /// Makes the next piece of the journal a whole journal. Call this if an earlier piece was lost.
     pub fn begin_journal_again(&mut self) {
         self.journal.begin_again();
     }
 
-    /// Returns the next message to publish (QoS 0, not retained).
+    /// Takes the next message to publish (QoS 0, not retained); `None` if none waits.
     pub fn next_send(&mut self) -> Option<Send> {
         self.context.outbox.next()
     }
@@ -319,12 +323,13 @@ impl Controller {
         self.context.log.next()
     }
 
-    /// Returns the next plan request. At most one plan is wanted at a time; a newer request replaces an older one.
+    /// Takes the next plan request; `None` if there is none. At most one plan is wanted at a time: a newer request
+    /// replaces an older one.
     pub fn next_plan_request(&mut self) -> Option<PlanRequest> {
         self.context.plan_request.take()
     }
 
-    /// Returns when to call [`wake`](Self::wake) next: always later than the last call.
+    /// Returns when to call [`wake`](Self::wake) next, show clock; always later than the last call of `wake`.
     pub fn wake_at(&self) -> Option<Instant> {
         let run = self.run.as_ref().map(|run| run.due(&self.context, self.woken));
         let stopping = self.stopping.as_ref().map(Stopping::due);
@@ -332,17 +337,18 @@ impl Controller {
         Some(due.unwrap_or(Instant::FAR).min(self.patrol_at).max(self.woken + Span::from_millis(1)))
     }
 
-    /// Whether there is a run, or robots are being stopped.
+    /// Whether a run is under way, or robots are being stopped after a run.
     pub fn has_run(&self) -> bool {
         self.run.is_some() || self.stopping.is_some()
     }
 
-    /// Whether the air time of a frame is over and the run waits for GO.
+    /// Whether the run waits for GO, and the air time of the frame that has the cue is over.
     pub fn is_at_cue(&self, now: Instant) -> bool {
         self.run.as_ref().is_some_and(|run| run.is_at_cue(now))
     }
 
-    /// Whether the operator can let an interrupted run go on.
+    /// Whether the run is interrupted and the operator can let it go on now: the broker is connected, and a robot
+    /// reports again.
     pub fn may_go_on(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.may_go_on(&self.context))
     }

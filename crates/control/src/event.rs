@@ -7,7 +7,7 @@ use lightbots_show::Severity;
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// When, show clock.
+    /// When it happened, show clock.
     pub at: Instant,
     /// What.
     pub kind: EventKind,
@@ -27,7 +27,7 @@ pub enum EventKind {
     /// A robot that is not in [`Config::admitted`](crate::Config::admitted) reported for the first time: it may not
     /// take part.
     WantsToJoin(RobotId),
-    /// A report shows that its robot was restarted.
+    /// A report shows that the reporting robot was restarted.
     RobotRestarted(RobotId),
     /// A robot has become stale: it has not reported for [`Ageing::stale_after`](crate::Ageing::stale_after).
     RobotStale(RobotId),
@@ -35,8 +35,8 @@ pub enum EventKind {
     RobotGone(RobotId),
     /// A stale or gone robot reports again.
     RobotBack(RobotId),
-    /// Two robots share a name. Their reports come from places between which no robot can have driven, or their time
-    /// questions follow two clocks.
+    /// Two robots share a name. Either reports alternate between places, and no robot can have driven between these in
+    /// the time. Or time questions follow two clocks.
     NameShared {
         /// The name.
         robot: RobotId,
@@ -45,9 +45,9 @@ pub enum EventKind {
     },
     /// A name that two robots shared belongs to one robot again.
     NameUnique(RobotId),
-    /// A robot sends too many messages; the excess does not count.
+    /// A robot sends too many messages; the controller ignores those above the allowed rate.
     Flooding(RobotId),
-    /// A robot reported that cannot be remembered, because there are too many. Recorded once.
+    /// A new robot reported and was ignored, because the fleet already has the largest number of robots. Recorded once.
     FleetFull,
     /// A show was opened.
     ShowOpened {
@@ -60,7 +60,7 @@ pub enum EventKind {
     RunBegun {
         /// First frame, counted from 0.
         from: usize,
-        /// Robots that take part, spares included.
+        /// Number of robots that take part, spares included.
         robots: usize,
     },
     /// A plan was made.
@@ -75,11 +75,11 @@ pub enum EventKind {
         /// Why.
         message: String,
     },
-    /// Pixels of a frame stay dark.
+    /// Pixels of a frame stay dark because no robot shows them.
     LeftOut {
         /// Counted from 0.
         frame: usize,
-        /// Ids of the pixels, at most 16.
+        /// Ids of the first dark pixels, at most 16.
         pixels: Vec<u32>,
         /// Number of all dark pixels.
         count: usize,
@@ -88,7 +88,7 @@ pub enum EventKind {
     TransitionStarted {
         /// Counted from 0.
         frame: usize,
-        /// When they leave, show clock.
+        /// When robots leave, show clock.
         starts: Instant,
         /// How long the drive is planned to take.
         duration: Span,
@@ -97,9 +97,9 @@ pub enum EventKind {
     FrameReached {
         /// Counted from 0.
         frame: usize,
-        /// Time from the first to the last arrival at a place of this frame, over all legs to it.
+        /// Time from the first to the last arrival of a robot at its place in this frame.
         spread: Span,
-        /// Time from the planned end of the drive until the frame was reached.
+        /// Time by which the frame was reached after the planned end of the drive; 0 if it was reached earlier.
         wait: Span,
     },
     /// Robots began to drive to their starting places.
@@ -118,7 +118,7 @@ pub enum EventKind {
         /// Name of the cue; may be empty.
         name: String,
     },
-    /// The operator sends robots to another frame than the next one.
+    /// The operator sends robots to a frame of choice, in place of the next one.
     GoesTo {
         /// Counted from 0.
         frame: usize,
@@ -128,14 +128,15 @@ pub enum EventKind {
         /// Counted from 0.
         frame: usize,
     },
-    /// The next frame is left out, because robots are late for the music.
+    /// The next frame is left out, because the show is behind the music.
     LeftOutForMusic {
         /// Counted from 0.
         frame: usize,
-        /// How late robots are.
+        /// How far the show is behind the music.
         late: Span,
     },
-    /// No plan leads to the frame that the operator chose: the show stays where it is.
+    /// No plan leads to the frame that a GoTo, a Skip or a left-out frame made the next frame. The change is undone:
+    /// the run goes on to the frame that was next before.
     JumpGivenUp {
         /// Counted from 0.
         frame: usize,
@@ -149,38 +150,38 @@ pub enum EventKind {
     },
     /// Robots report, but none acknowledges its route: messages do not reach them.
     Undelivered,
-    /// Many robots of a run fell silent at once: the run stands still until they report again.
+    /// Many robots of a run fell silent at once: the run stands still until these robots report again.
     LinkLost {
         /// Number of silent robots.
         silent: usize,
-        /// Robots of the run.
+        /// Number of robots of the run.
         robots: usize,
     },
     /// Robots of an interrupted run report again.
     LinkBack {
         /// Number of robots that report again.
         reported: usize,
-        /// Robots of the run.
+        /// Number of robots of the run.
         robots: usize,
-        /// Time since the run was interrupted.
+        /// Time from the interruption of the run until now.
         after: Span,
-        /// Whether the run goes on only once the operator says so; otherwise it goes on by itself.
+        /// Whether the run goes on only once the operator agrees. Otherwise the run goes on by itself.
         asks_operator: bool,
     },
     /// This controller took up a run that was cut off when its former controller ended.
     TakenUp {
-        /// The frame that was to be reached next, counted from 0.
+        /// The frame that robots were to reach next, counted from 0.
         frame: usize,
-        /// Robots of the run.
+        /// Number of robots of the run.
         robots: usize,
-        /// How long there was no controller.
+        /// Time from the last journal entry of the former controller until now.
         away: Span,
-        /// Whether the run goes on once its robots report; otherwise robots are told to stop, and the run is over.
+        /// Whether the run is to go on once its robots report. Otherwise robots are told to stop, and the run is over.
         goes_on: bool,
     },
     /// The drive goes on after a hold.
     Resumed,
-    /// A robot drops out of the run; the others go on without it.
+    /// A robot drops out of the run; the other robots go on without it.
     Dropout {
         /// The robot.
         robot: RobotId,
@@ -189,21 +190,21 @@ pub enum EventKind {
     },
     /// A robot that dropped out takes part again, or a new robot joins the run.
     Rejoined(RobotId),
-    /// The rest of the run is planned again, from where robots are.
+    /// The drives that remain are planned again, from the places where robots are.
     Replanning {
-        /// The frame they were heading for, counted from 0.
+        /// The frame that robots reach next, counted from 0.
         frame: usize,
     },
-    /// A robot that was to arrive stands away from its goal.
+    /// A robot stands away from the place where it should stand by plan.
     Misaligned {
         /// The robot.
         robot: RobotId,
-        /// Distance from the goal, metres.
+        /// Distance from that place, metres.
         off_m: f64,
     },
-    /// A robot that was sent nowhere, or that is unknown, reports an arrival.
+    /// A robot reports an arrival, although it was sent nowhere or was unknown before.
     UnexpectedArrival(RobotId),
-    /// This number of events was not recorded, because there were too many.
+    /// Too many events came at once; this number of them was not recorded.
     Suppressed(u64),
     /// Every robot was told to stop.
     StoppedAll,
@@ -211,12 +212,12 @@ pub enum EventKind {
     RunEnded {
         /// How the run ended.
         outcome: RunOutcome,
-        /// Number of frames reached.
+        /// Number of frames that robots reached.
         frames_played: usize,
         /// Number of dropouts; a robot that dropped out twice counts twice.
         dropouts: usize,
     },
-    /// Robots have reached the first frame of a loop: its frames repeat until the operator gives GO.
+    /// Robots have reached the first frame of a loop. The frames of the loop repeat until the operator gives GO.
     LoopBegun {
         /// First frame of the loop, counted from 0.
         first: usize,
@@ -230,14 +231,14 @@ pub enum EventKind {
     },
     /// A preflight began.
     PreflightBegun {
-        /// Robots that take part.
+        /// Number of robots that take part.
         robots: usize,
     },
     /// A preflight is over.
     PreflightEnded {
-        /// Robots that passed.
+        /// Number of robots that passed.
         passed: usize,
-        /// Robots that were to be tested.
+        /// Number of robots that were to be tested.
         robots: usize,
     },
 }
@@ -253,11 +254,11 @@ pub enum Trouble {
     Deaf,
     /// It does not know where it is.
     Lost,
-    /// It is not sure enough of its place to pass others.
+    /// It reports that its place is too uncertain to pass other robots.
     Unsure,
     /// It reports a fault.
     Faulty,
-    /// It lost its link on a drive or was restarted, and stands.
+    /// It stands, because it lost its link on a drive or was restarted.
     Cut,
     /// It did not reach its goal in time.
     Missed,
@@ -276,7 +277,7 @@ pub enum RunOutcome {
     Finished,
     /// The operator ended it.
     Aborted,
-    /// It could not go on. The text says where and why, for people, without a full stop.
+    /// The run could not go on. The text says where and why, for people, without a full stop at its end.
     Failed(String),
 }
 

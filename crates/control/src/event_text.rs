@@ -31,7 +31,7 @@ impl fmt::Display for RunOutcome {
     }
 }
 
-/// A number and a noun, which gets an `s` unless the number is 1.
+/// A number and a noun. `Display` writes both, and adds an `s` to the noun unless the number is 1.
 struct Count<'a>(usize, &'a str);
 
 impl fmt::Display for Count<'_> {
@@ -40,7 +40,7 @@ impl fmt::Display for Count<'_> {
     }
 }
 
-/// Writes the line of a frame with `count` pixels that stay dark, of which `pixels` are listed.
+/// Writes the line for a frame with `count` dark pixels. `pixels`: the ids that the line lists.
 fn write_dark(f: &mut fmt::Formatter<'_>, (frame, count): (usize, usize), pixels: &[u32]) -> fmt::Result {
     let more = if count > pixels.len() { " and more" } else { "" };
     let dark = if count == 1 { "1 pixel stays dark" } else { &format!("{count} pixels stay dark") };
@@ -48,7 +48,7 @@ fn write_dark(f: &mut fmt::Formatter<'_>, (frame, count): (usize, usize), pixels
 }
 
 impl EventKind {
-    /// Returns what the line says of the robot, if the event is about one robot alone; otherwise nothing.
+    /// Returns the text that follows the robot's name, if the event is only about one robot; otherwise an empty text.
     fn of_robot(&self) -> &'static str {
         match self {
             Self::RobotFound(_) => "is here",
@@ -62,7 +62,7 @@ impl EventKind {
         }
     }
 
-    /// Writes the line of an event of a preflight.
+    /// Writes the line for people if the event is about a preflight.
     fn write_preflight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::PreflightBegun { robots } => write!(f, "Preflight of {}.", Count(*robots, "robot")),
@@ -73,7 +73,8 @@ impl EventKind {
         }
     }
 
-    /// Writes the line of an event of the drive home, or of a frame that waits for GO.
+    /// Writes the line for people if the event is about the drive to the starting places, or about a frame that waits
+    /// for GO.
     fn write_stand(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GoingHome { robots } => write!(f, "{} to the starting places.", Count(*robots, "robot")),
@@ -86,7 +87,7 @@ impl EventKind {
         }
     }
 
-    /// Writes the line of an event of jumps, skipped frames or loops.
+    /// Writes the line for people if the event is about another frame than the next one, a skipped frame, or a loop.
     fn write_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GoesTo { frame } => write!(f, "Going to frame {}.", frame + 1),
@@ -115,7 +116,7 @@ impl EventKind {
         }
     }
 
-    /// Writes the line of a link that is lost or back, or of a run that was taken up.
+    /// Writes the line for people if the event is about a link that is lost or back, or about a run that was taken up.
     fn write_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::LinkLost { silent, robots } => write!(

@@ -1,4 +1,4 @@
-//! All known robots. They are found by any report, and age from active to stale to gone.
+//! All known robots. The first report of a robot adds it; a silent robot becomes stale, and later gone.
 
 use crate::config::Config;
 use crate::event::EventKind;
@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
-/// Bound of a plausible position, metres from the stage's centre along x and along y.
+/// A reported position is implausible and ignored from this distance on from the stage's centre, along x or along y,
+/// metres.
 const PLACE_MAX_M: f64 = 1_000.0;
 
 /// What a report changed.
@@ -22,21 +23,21 @@ pub(crate) struct FleetUpdate {
     pub index: usize,
     /// Whether the robot was not known before.
     pub found: bool,
-    /// Whether the report shows that the robot was switched off and on.
+    /// Whether the report shows that the robot was restarted.
     pub restarted: bool,
 }
 
-/// All known robots. Indices are stable until a robot is forgotten, which is refused during a run.
+/// All known robots. Indices into the fleet are stable until a robot is forgotten, which is refused during a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct KnownRobots {
     robots: Vec<KnownRobot>,
-    /// Index of each robot in `robots`, by name. Never iterated; the hasher has fixed keys, so that it is the same
-    /// everywhere.
+    /// Index of each robot in `robots`, by name. The map is never iterated, and its hasher has fixed keys: its
+    /// behaviour is the same everywhere.
     #[serde(skip)]
     index_of: HashMap<RobotId, u32, BuildHasherDefault<DefaultHasher>>,
-    /// Index of the robot at which the next patrol begins.
+    /// Index of the robot at which the next call of [`patrol`](Self::patrol) begins.
     patrolled: usize,
-    /// Number of reports that were dropped because no further robot can be remembered.
+    /// Number of reports of unknown robots that were dropped, because the fleet has the largest number of robots.
     pub overflow: u64,
     /// Number of messages that were ignored because their robots sent too many.
     pub flooded: u64,
@@ -63,8 +64,8 @@ impl KnownRobots {
         self.index_of.get(&id).map(|&index| index as usize)
     }
 
-    /// Counts a message of a robot, and returns whether it is within the allowed rate. An event names a robot that
-    /// sends too many. The first message of an unknown robot counts.
+    /// Counts a message of a robot, and returns whether the message is within the allowed rate. An event names a robot
+    /// that sends too many. A message of an unknown robot is always within the rate.
     pub fn counts(&mut self, now: Instant, id: RobotId, log: &mut EventQueue) -> bool {
         let Some(index) = self.find(id) else { return true };
         let counted = self.robots[index].rate.count(now);
@@ -75,7 +76,8 @@ impl KnownRobots {
         counted == Counted::Yes
     }
 
-    /// Takes over a report, and adds its robot if it is new. `None` if no further robot can be remembered.
+    /// Stores what a report says, and adds its robot if that is unknown. `None` if the robot is unknown and the fleet
+    /// has the largest number of robots.
     pub fn receive(
         &mut self,
         now: Instant,
@@ -103,8 +105,8 @@ impl KnownRobots {
         Some(FleetUpdate { index, found, restarted })
     }
 
-    /// Checks by a time question, which holds the robot's own clock, whether two robots share the name. If that is new,
-    /// records an event.
+    /// Checks by a time question, which holds the robot's own clock, whether two robots share the name. Records an
+    /// event at the first sign.
     pub fn observe_clock(&mut self, now: Instant, question: TimeQuestion, log: &mut EventQueue) {
         if let Some(index) = self.find(question.id) {
             let robot = &mut self.robots[index];
@@ -133,15 +135,15 @@ impl KnownRobots {
         Some(index)
     }
 
-    /// Updates which robots may take part in runs, because `config` has changed.
+    /// Updates which robots may take part in runs, after `config.admitted` has changed.
     pub fn admit(&mut self, config: &Config) {
         for robot in &mut self.robots {
             robot.is_admitted = config.admits(robot.id);
         }
     }
 
-    /// Returns the index of a participant of a run that is taken up. A robot that is not known is added, as last
-    /// received at `heard`.
+    /// Returns the index of a robot of a run that is taken up. An unknown robot is added, as if its last report came at
+    /// `heard` (show clock).
     pub fn expect(&mut self, id: RobotId, heard: Instant, config: &Config) -> usize {
         if let Some(index) = self.find(id) {
             return index;
@@ -155,14 +157,15 @@ impl KnownRobots {
         index
     }
 
-    /// Rebuilds the index by name, after the list was read from bytes. Returns `false` if two robots have one name.
+    /// Rebuilds `index_of` after the list of robots was read from bytes. Returns `false` if two robots have the same
+    /// name.
     pub fn reindex(&mut self) -> bool {
         let names = self.robots.iter().enumerate().map(|(index, robot)| (robot.id, index as u32));
         self.index_of = names.collect();
         self.index_of.len() == self.robots.len()
     }
 
-    /// Forgets a robot; the indices of the robots after it decrease by one.
+    /// Removes the robot at `index`; the indices of all later robots decrease by one.
     pub fn forget(&mut self, index: usize) {
         let robot = self.robots.remove(index);
         self.index_of.remove(&robot.id);
@@ -171,7 +174,8 @@ impl KnownRobots {
         }
     }
 
-    /// Updates the ages of the next slice of robots and returns their indices. `rounds` calls cover all robots.
+    /// Updates the report ages of the next slice of robots, and returns their indices. At most `rounds` calls cover the
+    /// whole fleet.
     pub fn patrol(
         &mut self,
         now: Instant,

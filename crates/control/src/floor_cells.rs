@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 /// Robots and standing discs, sorted into the squares of a grid.
 pub(crate) struct FloorCells {
-    /// Centres of robots first, then of standing discs, stage metres.
+    /// Centres of all robots, then of all standing discs, stage metres.
     pub all: Vec<Vec2>,
     side_m: f64,
     cells: BTreeMap<(i64, i64), Vec<usize>>,
@@ -22,7 +22,8 @@ impl FloorCells {
         Self { all, side_m, cells }
     }
 
-    /// Returns the indices of all others in the square of `index` and in the eight squares around it.
+    /// Returns the indices into `all` of what is in the square of `index` or in the eight squares around it, except
+    /// `index` itself.
     pub fn near(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
         let (x, y) = cell(self.all[index], self.side_m);
         (y - 1..=y + 1)

@@ -1,4 +1,5 @@
-//! One leg of a run: what each robot drives between two moments at which all stand.
+//! One leg of a run: what each robot drives between two moments at which all robots stand. A participant is a robot of
+//! the run; its participant number is its index in the run's list of participants.
 
 use crate::frame_cursor::FrameCursor;
 use lightbots_base::{Rgb, Span, Vec2};
@@ -7,32 +8,33 @@ use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Neighbours;
 use std::sync::Arc;
 
-/// The drives of all robots between two moments at which all stand. A frame takes one leg, or several if TARGET-only
-/// robots and others have to go one after the other. TARGET-only robots have the original firmware, which understands
-/// TARGET and COLOR but no routes.
+/// The drives of all robots between two moments at which all robots stand. Robots reach a frame in one leg, or in
+/// several. Several are needed if TARGET-only robots and others drive in turn, or if close robots are first moved
+/// apart. TARGET-only robots have the original firmware, which understands TARGET and COLOR but no routes.
 #[derive(Clone, Debug)]
 pub(crate) struct Leg {
-    /// The frame it leads to, counted from 0.
+    /// The frame that the leg leads to, counted from 0.
     pub frame: usize,
-    /// How many times the show started again before that frame.
+    /// How many times the whole show started again before that frame.
     pub round: u32,
-    /// How many times the frames of its loop were played before; 0 outside of loops.
+    /// How many times the loop that contains the frame was played before; 0 if no loop contains the frame.
     pub pass: u32,
-    /// Number of the routes of this leg; 0 until the leg is queued.
+    /// Route number of this leg, which all its routes have; 0 until the leg is queued.
     pub seq: u32,
     /// Whether robots drive routes or by TARGET.
     pub kind: LegKind,
     /// What each robot does, by participant number; participants that joined later have no entry.
     pub robots: Vec<RobotLeg>,
-    /// The straight drives of TARGET-only robots. Each yields to earlier ones in the list only; see [`StraightDrive`].
+    /// The straight drives of TARGET-only robots. A drive yields only to drives that are earlier in the list; see
+    /// [`StraightDrive`].
     pub drives: Vec<StraightDrive>,
-    /// Number of robots that have to arrive.
+    /// Number of robots that drive in this leg, and have to arrive before it ends.
     pub drivers: usize,
-    /// Time from the START to the planned end.
+    /// Planned time from the start of the drive to its end.
     pub duration: Span,
-    /// Whether the frame is reached at the end of this leg.
+    /// Whether robots have reached the frame at the end of this leg; `false` if a further leg to it follows.
     pub reaches_frame: bool,
-    /// Planned clearance of the closest two robots, metres; 0 if it is not known.
+    /// Least planned clearance between any two robots in this leg, metres; 0 if it is not known.
     pub room_m: f64,
     /// Places at which the plan had robots that dropped out, stage metres.
     pub around: Arc<[Vec2]>,
@@ -43,7 +45,7 @@ pub(crate) struct Leg {
 pub(crate) enum LegKind {
     /// Robots drive timed paths after a common START.
     Routes,
-    /// Robots get TARGETs one after the other, so that no robot is in another's way at any speed.
+    /// Robots get TARGETs one after the other, so that robots of any speed do not meet.
     Targets,
 }
 
@@ -52,17 +54,17 @@ pub(crate) enum LegKind {
 pub(crate) struct RobotLeg {
     /// What the robot does.
     pub task: Task,
-    /// Planned clearance of the robot, metres; infinite if no other comes near.
+    /// Least planned clearance of the robot to others, metres; infinite if none comes near.
     pub room_m: f64,
-    /// The neighbours that come into sight on its path; `None` if they were not computed.
+    /// The neighbours that come into sight on the robot's path; `None` if they were not computed.
     pub neighbours: Option<Arc<Neighbours>>,
     /// Where the robot stands after the leg, stage metres.
     pub goal: Vec2,
-    /// Whether the robot's place in the frame is this goal, and not reached by a later leg.
+    /// Whether `goal` is the robot's place in the frame. `false` if a later leg takes the robot to that place.
     pub settles: bool,
-    /// The pixel that the robot shows in the leg's frame.
+    /// Id of the pixel that the robot shows in the leg's frame; `None` for a spare robot.
     pub pixel: Option<u32>,
-    /// The light of that pixel; black for spares.
+    /// The colour of that pixel; black for a spare robot.
     pub color: Rgb,
 }
 
@@ -73,12 +75,12 @@ pub(crate) enum Task {
     Stay,
     /// It drives a timed path.
     Path(Path),
-    /// It drives its straight drives in [`Leg::drives`].
+    /// It drives the entries of [`Leg::drives`] that have its participant number.
     Drives,
 }
 
 impl RobotLeg {
-    /// Returns the part of a robot that stands at a place, dark.
+    /// Returns the part of a dark robot that stands at `at`, stage metres.
     pub fn stay(at: Vec2) -> Self {
         Self {
             task: Task::Stay,
@@ -98,7 +100,7 @@ impl Leg {
         FrameCursor { frame: self.frame, round: self.round, pass: self.pass }
     }
 
-    /// Returns the path of a participant; `None` if it drives none.
+    /// Returns the path of a participant; `None` if the participant drives no path in this leg.
     pub fn path(&self, participant: usize) -> Option<&Path> {
         match self.robots.get(participant).map(|robot| &robot.task) {
             Some(Task::Path(path)) => Some(path),
@@ -111,7 +113,7 @@ impl Leg {
         self.robots.get(participant).is_some_and(|robot| !matches!(robot.task, Task::Stay))
     }
 
-    /// Returns where a participant stands at the begin, stage metres; `None` if it joined later.
+    /// Returns where a participant stands when the leg begins, stage metres; `None` if it joined later.
     pub fn begin(&self, participant: usize) -> Option<Vec2> {
         let robot = self.robots.get(participant)?;
         match &robot.task {
@@ -123,7 +125,7 @@ impl Leg {
         }
     }
 
-    /// Returns where a participant stands at the end, stage metres; `None` if it joined later.
+    /// Returns where a participant stands when the leg ends, stage metres; `None` if it joined later.
     pub fn goal(&self, participant: usize) -> Option<Vec2> {
         self.robots.get(participant).map(|robot| robot.goal)
     }

@@ -1,8 +1,7 @@
 //! The controller core: fleet, show clock, mapping of pixels to robots, playback, recovery.
 //!
 //! Sans-IO and deterministic: messages, operations and time come in as values; messages, events and plan requests go
-//! out.
-//! It knows nothing of sockets, brokers, files or screens.
+//! out. This crate uses no sockets, broker connections, files or screens.
 //!
 //! Read [`Controller`] first, then [`Operation`], [`Snapshot`] and [`Event`].
 //!

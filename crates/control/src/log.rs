@@ -1,4 +1,5 @@
-//! Events waiting to be read; the frequent kinds are limited so that no robot can flood the screen.
+//! Events waiting to be read. Events that robots can cause at any rate are limited, so that no robot can flood the
+//! screen.
 
 use crate::event::{Event, EventKind};
 use lightbots_base::{Instant, Span};
@@ -7,9 +8,9 @@ use std::collections::VecDeque;
 
 /// Largest number of waiting events.
 const WAITING_MAX: usize = 50_000;
-/// Largest number of events of the frequent kinds in one [`PERIOD`].
+/// Largest number of limited events that are recorded in one [`PERIOD`].
 const FREQUENT_MAX: u32 = 10;
-/// Time over which events of the frequent kinds are counted.
+/// Time over which limited events are counted.
 const PERIOD: Span = Span::from_millis(1_000);
 
 /// The queue of events.
@@ -32,8 +33,8 @@ impl EventQueue {
         }
     }
 
-    /// Queues an event of a frequent kind, which any robot can cause at any rate. Above [`FREQUENT_MAX`] the event is
-    /// counted as suppressed.
+    /// Queues an event of a kind that robots can cause at any rate. If [`FREQUENT_MAX`] of them were queued in this
+    /// period, the event is only counted as suppressed.
     pub fn record_limited(&mut self, at: Instant, kind: EventKind) {
         self.tick(at);
         if self.said < FREQUENT_MAX {
@@ -44,7 +45,7 @@ impl EventQueue {
         }
     }
 
-    /// Once a period is over, begins the next one and records how many events were suppressed.
+    /// Once the period is over, begins the next period and records how many events were suppressed.
     pub fn tick(&mut self, now: Instant) {
         if now - self.period_began < PERIOD {
             return;

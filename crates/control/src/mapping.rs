@@ -1,4 +1,4 @@
-//! Which robot shows which pixel: what is kept of it from plan to plan, and from run to run.
+//! Which robot shows which pixel, as far as this is kept from plan to plan and from run to run.
 
 use lightbots_base::{RobotId, Vec2};
 use lightbots_plan::{Bindings, BoundFrame, Claims};
@@ -6,21 +6,22 @@ use lightbots_show::{Frame, Identity, Pixel};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Bindings of pixel ids to robots that outlive a run.
+/// Bindings of pixel ids to robots, which outlive a plan.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Mapping {
     /// Pixels that the operator bound to robots.
     pub pins: BTreeMap<u32, RobotId>,
-    /// Which robot showed a pixel in frames with fixed identity, and shows it in later ones.
+    /// Which robot showed a pixel in frames with fixed identity. The robot shows the pixel in later frames with fixed
+    /// identity, too.
     #[serde(with = "claims")]
     pub owners: Claims<RobotId>,
-    /// Which robot showed a pixel last in the planned frames of this run, whatever their identity. A frame with fixed
-    /// identity keeps to these robots.
+    /// Which robot was last to show a pixel in the planned frames of this run, whether with fixed identity or not. A
+    /// frame with fixed identity keeps these robots.
     #[serde(with = "claims")]
     pub shown: Claims<RobotId>,
 }
 
-/// Claims as bytes: the pairs of pixel and robot, the oldest claim first.
+/// Serialises claims as pairs of pixel and robot, the oldest claim first.
 mod claims {
     use lightbots_base::RobotId;
     use lightbots_plan::Claims;
@@ -40,7 +41,7 @@ mod claims {
 }
 
 impl Mapping {
-    /// Forgets a robot.
+    /// Removes all bindings of a robot.
     pub fn forget(&mut self, id: RobotId) {
         self.pins.retain(|_, robot| *robot != id);
         self.owners.forget(id);
@@ -48,7 +49,7 @@ impl Mapping {
     }
 }
 
-/// The mapping while a plan is made, in which robots are indices into a list.
+/// The mapping while a plan is made. Here robots are indices into a list of names.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Roles {
     /// Names of the robots, by index.
@@ -76,7 +77,8 @@ impl Roles {
         Self { names, mapping, bindings }
     }
 
-    /// Binds the pixels of a frame to robots at `places`, stage metres. Pixels for which `blocked` holds stay dark.
+    /// Binds the pixels of a frame to robots. `places[robot]`: where the robot stands, stage metres. Pixels for which
+    /// `blocked` returns `true` stay dark.
     pub fn bind<'a>(
         &self,
         frame: &'a Frame,
@@ -87,7 +89,8 @@ impl Roles {
         self.bindings.bind(&frame.pixels, identity, places, blocked)
     }
 
-    /// Notes which robot shows which pixel; `goal_of[robot]` is an index into the bound pixels.
+    /// Notes which robot shows which pixel. `goal_of[robot]`: index into `bound.pixels`; `None` if the robot shows
+    /// none.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, identity: Identity, goal_of: &[Option<usize>]) {
         self.bindings.remember(bound, goal_of);
         for (&name, goal) in self.names.iter().zip(goal_of) {

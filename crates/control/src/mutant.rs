@@ -1,4 +1,5 @@
-//! Mistakes made on purpose, to see whether the fault campaign finds them. Without the feature `mutants` there are none.
+//! Mutants for mutation testing: mistakes made on purpose, to see whether the fault campaign (`cargo xtask simulate`) finds
+//! them. Without the feature `mutants` no mistake is made.
 
 /// A mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,21 +9,21 @@ pub enum Mutant {
     SkipHold = 1,
     /// The acknowledgement of the seventh participant is overlooked.
     DropAcknowledgement,
-    /// A replay is a microsecond late in each wake-up.
+    /// A replay adds a microsecond to the show clock at each wake-up.
     ReplayOffByOne,
-    /// Robots that dropped out are not driven around.
+    /// Plans do not drive around robots that dropped out.
     ForgetDeadRobot,
-    /// A run that is taken up goes on with a later frame.
+    /// A run that is taken up from a journal skips the next frame.
     WrongFrameAfterRestart,
     /// Each STOP is sent once instead of several times.
     StopOnce,
-    /// Silent robots drop out, even if many fall silent at once.
+    /// Silent robots drop out even if many fall silent at once, although then the link is lost.
     LinkLossIsDeath,
-    /// Robots that do not answer are waited for without a bound.
+    /// The controller waits for ever for robots that do not answer.
     WaitForEver,
-    /// Robots that do not know their place are not driven around.
+    /// Plans do not drive around robots that do not know their place.
     ForgetLostRobot,
-    /// The changes of about a fifth of the journal's entries are lost.
+    /// About a fifth of the journal's entries are written without their changes.
     LoseJournalEntries,
 }
 
@@ -41,13 +42,13 @@ impl Mutant {
         ("lose-journal-entries", Self::LoseJournalEntries),
     ];
 
-    /// Makes this mistake from now on, in the whole process; `None`: none.
+    /// Makes only this mistake from now on, in the whole process; `None`: no mistake.
     #[cfg(feature = "mutants")]
     pub fn plant(mutant: Option<Self>) {
         PLANTED.store(mutant.map_or(0, |mutant| mutant as u8), core::sync::atomic::Ordering::Relaxed);
     }
 
-    /// Whether this mistake is made.
+    /// Whether this mistake is being made.
     #[cfg(feature = "mutants")]
     pub(crate) fn is_planted(self) -> bool {
         PLANTED.load(core::sync::atomic::Ordering::Relaxed) == self as u8

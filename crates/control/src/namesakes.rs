@@ -1,45 +1,47 @@
-//! Detects that two robots share a name. Either reports come in turn from two places between which no robot can have
-//! driven, or time questions follow two clocks.
+//! Detects that two robots share a name. Sign one: reports alternate between two places, and no robot can have driven
+//! between these in the time. Sign two: time questions follow two clocks.
 
 use crate::own_clocks::OwnClocks;
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Speed that no robot of a fleet exceeds, metres per second. It is three times the usual speed limit, because reports
-/// come late and together.
+/// Largest speed between two reported places that counts as driven, metres per second. It is three times the usual
+/// speed limit, because delayed reports arrive together.
 const SPEED_MPS: f64 = 0.8;
-/// Distance between two reports that is never a jump, metres: noise of fixes, or a robot moved by hand.
+/// Distance added to what a robot can have driven between two reports, metres: noise of position fixes, or a robot
+/// moved by hand. Only a larger distance is a jump.
 const SLACK_M: f64 = 0.3;
-/// Number of jumps back and forth that show two robots. One jump is a robot that was put elsewhere; two are a robot
-/// that was put back.
+/// Number of jumps back and forth that show two robots. One jump can be a robot that was put elsewhere, and two jumps a
+/// robot that was put back.
 const JUMPS: u8 = 3;
 /// Time within which the jumps are counted.
 const WITHIN: Span = Span::from_millis(10_000);
-/// Time without a jump or a second clock after which one robot has the name again, if it also sent [`CLEAR_MESSAGES`].
+/// Time without a sign of two robots after which the name counts as unique again, if also [`CLEAR_MESSAGES`] messages
+/// came.
 const CLEAR_AFTER: Span = Span::from_millis(30_000);
-/// Least number of messages since the last sign of two robots. Each robot asks for the time every 3 s (R28 of
-/// docs/protocol.md).
+/// Number of messages since the last sign of two robots that must have come before the name counts as unique again.
+/// Each robot asks for the time every 3 s (R28 of docs/protocol.md).
 const CLEAR_MESSAGES: u32 = 12;
-/// Largest distance between two reported places of a robot that stands, metres: noise of fixes.
+/// Two reported places closer than this are of one standing robot, metres: noise of position fixes.
 const SAME_PLACE_M: f64 = 0.03;
-/// Largest age of the older of two places for which both count as present. A robot that stands reports every 2 s (R41),
-/// and one of two reports may be lost.
+/// A place counts as occupied if it was reported less than this time before the newest place of the name. A robot that
+/// stands reports every 2 s (R41), and one of two reports may be lost.
 const REPORTED_WITHIN: Span = Span::from_millis(4_500);
 
-/// When a place was reported, and the place, stage metres.
+/// When a place was reported (show clock), and the place (stage metres).
 type Sighting = (Instant, Vec2);
 
-/// What the messages of one name show about how many robots have it.
+/// What the messages under one name show about whether two robots share the name.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Namesakes {
     last: Option<Sighting>,
-    /// The place before the last jump, where the other robot of the name would be.
+    /// The place before the last jump: where the other robot of this name would be.
     other: Option<Sighting>,
     jumps: u8,
     first_jump: Instant,
     last_jump: Instant,
     clocks: OwnClocks,
-    /// The last two places of the name that are not the same: where its robots stand.
+    /// The last two distinct places that were reported under the name: where its robots stand.
     standing: [Option<Sighting>; 2],
     /// Number of messages since the last sign of two robots.
     messages: u32,
@@ -52,21 +54,21 @@ impl Namesakes {
         self.are_there
     }
 
-    /// Returns the places from which robots of this name reported last, stage metres.
+    /// Returns the one or two places from which robots of this name reported lately, stage metres.
     pub fn places(&self) -> Vec<Vec2> {
         let newest = self.standing.iter().flatten().map(|(at, _)| *at).max();
         let is_recent = |at: Instant| newest.is_some_and(|newest| newest - at < REPORTED_WITHIN);
         self.standing.iter().flatten().filter(|(at, _)| is_recent(*at)).map(|(_, place)| *place).collect()
     }
 
-    /// Handles a time question; `asked`: what the robot's own clock showed. Returns whether it shows, for the first
-    /// time, that two robots share the name.
+    /// Handles a time question; `asked`: moment of the question on the robot's own clock. Returns whether the question
+    /// shows, for the first time, that two robots share the name.
     pub fn observe_clock(&mut self, now: Instant, asked: Instant) -> bool {
         self.messages = self.messages.saturating_add(1);
         self.clocks.observe(now, asked) && self.show(now)
     }
 
-    /// Notes a sign of two robots. Returns whether it is the first one.
+    /// Notes a sign of two robots. Returns `false` if it was known before that two robots share the name.
     fn show(&mut self, now: Instant) -> bool {
         (self.last_jump, self.messages) = (now, 0);
         !std::mem::replace(&mut self.are_there, true)
@@ -81,8 +83,8 @@ impl Namesakes {
         self.standing[index] = Some((now, at));
     }
 
-    /// Handles a reported place, stage metres. Returns whether it shows, for the first time, that two robots share the
-    /// name.
+    /// Handles a reported place, stage metres. Returns whether the place shows, for the first time, that two robots
+    /// share the name.
     pub fn observe(&mut self, now: Instant, at: Vec2) -> bool {
         self.messages = self.messages.saturating_add(1);
         self.stand(now, at);
@@ -98,7 +100,7 @@ impl Namesakes {
         self.jumps >= JUMPS && self.show(now)
     }
 
-    /// Returns whether one robot has the name again; all signs of two robots are forgotten then.
+    /// Returns whether the name has just become unique again. If so, all signs of two robots are forgotten.
     pub fn are_gone(&mut self, now: Instant) -> bool {
         let is_long = now - self.last_jump > CLEAR_AFTER && self.messages >= CLEAR_MESSAGES;
         let is_over = self.are_there && is_long;

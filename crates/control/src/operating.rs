@@ -16,9 +16,9 @@ use lightbots_show::{Issue, Layer, SPEED_MIN_PERCENT, Show, slowed, validate};
 use lightbots_wire::{Blink, Command, Topic};
 use std::sync::Arc;
 
-/// How long a robot flashes so that people find it.
+/// How long a robot flashes after [`Operation::Identify`], so that people find it.
 const BLINK: Span = Span::from_millis(5_000);
-/// Largest number of pixels that a refusal lists.
+/// Largest number of pixels that [`Refusal::PinnedMissing`] lists.
 const LISTED: usize = 16;
 
 impl Controller {
@@ -131,8 +131,8 @@ impl Controller {
         Ok(())
     }
 
-    /// Begins a drive of all robots that can take part to the starting places of the open show, which need not be
-    /// valid.
+    /// Begins a run in which all robots that can take part drive to the starting places of the open show. The show need
+    /// not be valid.
     fn go_home(&mut self, now: Instant) -> Result<(), Refusal> {
         self.linked()?;
         self.idle()?;
@@ -146,7 +146,8 @@ impl Controller {
         Ok(())
     }
 
-    /// Begins a preflight of all robots that can take part, where they stand, on the floor of the open show.
+    /// Begins a preflight of all robots that can take part, from the places where they stand, on the stage of the open
+    /// show.
     fn begin_preflight(&mut self, now: Instant) -> Result<(), Refusal> {
         self.linked()?;
         self.idle()?;
@@ -195,8 +196,8 @@ impl Controller {
         self.run = Some(Run::begin(&mut self.context, now, playback));
     }
 
-    /// Checks that there are robots for all pixels of these frames; with [`MissingPolicy::LeaveOut`], that there is one
-    /// robot.
+    /// Checks that there are robots for all pixels of these frames. With [`MissingPolicy::LeaveOut`] one robot is
+    /// enough.
     fn enough(
         &self,
         show: &Show,
@@ -274,7 +275,8 @@ impl Controller {
         if run.go_on(&mut self.context, now) { Ok(()) } else { Err(Refusal::NothingToGoOn) }
     }
 
-    /// Returns the run if it plays a show and its robots stand or are held; otherwise the reason for a refusal.
+    /// Returns the run, if it plays a show and its robots stand or are held. Otherwise returns the reason why the
+    /// operation is refused.
     fn standing_show(&mut self) -> Result<(&mut Run, &mut Context), Refusal> {
         self.linked()?;
         let state = self.state();

@@ -12,29 +12,31 @@ use std::sync::Arc;
 pub enum Operation {
     /// Open a show. Refused during a run.
     Open(#[serde(with = "crate::shared_show")] Arc<Show>),
-    /// Play from a frame (counted from 0) to the end. It begins with the drive to that frame from where robots are.
+    /// Play the show from a frame (counted from 0) to the end. The run begins with the drive to that frame from where
+    /// robots are.
     Play {
         /// The first frame played.
         from: usize,
         /// What happens to pixels no robot can show.
         missing: MissingPolicy,
     },
-    /// Drive to one frame (counted from 0), and stay there.
+    /// Drive to one frame (counted from 0). The run ends when robots have reached the frame.
     Preview {
         /// The frame.
         frame: usize,
         /// What happens to pixels no robot can show.
         missing: MissingPolicy,
     },
-    /// Pause the run: robots on a drive slow down together and stand. In a frame, the air time stops.
+    /// Pause the run: robots on a drive slow down together and stand. While robots stand in a frame, its air time
+    /// stops.
     Pause,
     /// Go on after a pause.
     Resume,
-    /// Go on after a pause, and pause again at the next frame.
+    /// Go on after a pause, and pause again when the next frame is reached.
     Step,
     /// End the run. Robots on a drive come to rest together, then all wheels stop.
     Abort,
-    /// Stop every robot, also robots that take no part in the run. Robots on a drive come to rest together first; a
+    /// Stop every robot, also robots that take no part in the run. Robots on a drive first come to rest together; a
     /// second StopAll stops them at once. Refused only without a broker.
     StopAll,
     /// Remove the message that the last run failed or was stopped, because the operator has read it.
@@ -43,44 +45,44 @@ pub enum Operation {
     Refresh,
     /// Make a robot flash for five seconds. A robot that does not support BLINK is asked to report.
     Identify(RobotId),
-    /// Forget a robot. Refused during a run.
+    /// Remove a robot from the fleet, with its pixel bindings, until it reports again. Refused during a run.
     Forget(RobotId),
-    /// Set whether a show starts again after its last frame.
+    /// Set whether the show starts again after its last frame.
     Loop(bool),
-    /// Bind a pixel id to a robot in all frames, or free it.
+    /// Bind the pixels with an id to one robot in all frames, or free them.
     Pin {
         /// The pixel's id.
         pixel: u32,
-        /// The only robot that may show it; `None`: any.
+        /// The only robot that may show the pixel; `None` frees the pixel for any robot.
         robot: Option<RobotId>,
     },
     /// Let an interrupted run go on from where robots stand, without robots that do not report.
     GoOn,
-    /// GO: leave the frame that waits at its cue, at once and even before its air time is over. In a loop: go on after
-    /// its last frame.
+    /// GO: leave at once the frame that has a cue, even before its air time is over. In a loop of frames: go on after
+    /// the last frame of the loop.
     Go,
     /// Set the speed of drives of the next run, percent of the usual speed. Refused during a run.
     Speed(u32),
-    /// Drive all robots that can take part to the starting places of the open show, and stay there.
+    /// Drive all robots that can take part to the starting places of the open show. The run ends there.
     Home,
-    /// Set which robots may take part in runs that begin from now on; `None` admits any.
+    /// Set the names of the robots that may take part in runs; `None` admits all robots. A robot that takes part in a
+    /// run goes on with it.
     Admit(Option<BTreeSet<RobotId>>),
-    /// Drive to this frame (counted from 0) in place of the next one, and play on from there. Ends a pause or a wait
-    /// for GO. Refused while robots drive and are not held.
+    /// Drive to this frame (counted from 0) instead of the next one, and play on from it. Ends a pause or a wait for
+    /// GO. Refused while robots drive and are not held.
     GoTo(usize),
-    /// Leave out the frame that comes next. No robot moves for this: at the usual time the show goes on to the frame
-    /// after that one.
+    /// Leave out the frame that comes next. Robots stay where they are until the usual time, and then drive to the
+    /// frame after the one that is left out.
     Skip,
-    /// Put a layer of light over the show that plays, in place of a layer of the same name. `None` takes that layer
-    /// off.
+    /// Put a layer of live light over the light of the show that plays. It replaces the live layer of the same name.
     LiveLight {
         /// Name of the layer.
         name: String,
-        /// The layer; its span does not count.
+        /// The layer, whose span is ignored; `None` takes the layer of this name off.
         layer: Option<Layer>,
     },
     /// Test all robots that can take part: each drives 50 mm out and back, is stopped on its way, and blinks. Refused
-    /// during a run, and while a failed or stopped run is not dismissed.
+    /// during a run. Also refused until the operator dismisses the message about a failed or stopped run.
     Preflight,
 }
 
@@ -106,17 +108,17 @@ pub enum ControllerState {
     Preparing,
     /// A show plays.
     Playing,
-    /// A run waits for the operator.
+    /// A run is paused until the operator resumes it.
     Paused,
-    /// Robots drive to one frame.
+    /// Robots drive to one frame (preview), to their starting places, or in a preflight.
     Preview,
     /// Robots are being stopped.
     Aborting,
-    /// A run stands still because its robots are out of reach, or because the operator has to let it go on.
+    /// A run is interrupted: its robots or the broker are out of reach, or the operator has to let the run go on.
     LinkLost,
 }
 
-/// Why an operation was refused. Its text tells people the reason and what they can do.
+/// Why an operation was refused. `Display` tells people the reason and what they can do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// There is no broker.
@@ -125,7 +127,7 @@ pub enum Refusal {
     NoShow,
     /// The show cannot be played.
     Unfit {
-        /// What is wrong with it and what to do: the first error that validation finds, one line.
+        /// What is wrong with the show and what to do: the first error that validation finds, one line.
         issue: String,
     },
     /// The show has no such frame.
@@ -149,17 +151,17 @@ pub enum Refusal {
     NoCue,
     /// The run is paused.
     Paused,
-    /// The run is not interrupted, or none of its robots has reported since.
+    /// The run is not interrupted, or none of its robots has reported since the interruption.
     NothingToGoOn,
     /// Robots drive. They can be sent to another frame once they stand or are held.
     Driving,
     /// No frame comes next.
     NothingToSkip,
-    /// No show plays that live light could be put over.
+    /// No show is being played, so that live light has nothing to cover.
     NoShowPlays,
     /// The layer of live light is wrong.
     WrongLayer {
-        /// What is wrong with it and what to do, one line.
+        /// What is wrong with the layer and what to do, one line.
         issue: String,
     },
     /// There are too many layers of live light.
@@ -167,7 +169,7 @@ pub enum Refusal {
         /// Largest number of layers of live light.
         most: usize,
     },
-    /// There are not enough robots; [`MissingPolicy::LeaveOut`] plays without the missing ones.
+    /// There are not enough robots for all pixels. With [`MissingPolicy::LeaveOut`] one robot is enough.
     TooFewRobots {
         /// Number of pixels of the largest frame.
         pixels: usize,
@@ -178,18 +180,18 @@ pub enum Refusal {
         /// Number of other known robots that cannot take part, for example because they are silent or report a fault.
         unfit: usize,
     },
-    /// Pixels are bound to robots that cannot take part.
+    /// The show or the operator bound pixels to robots that cannot take part.
     PinnedMissing {
         /// The pixels' ids, at most 16.
         pixels: Vec<u32>,
     },
     /// No robot of that name is known.
     UnknownRobot(RobotId),
-    /// The robot cannot be forgotten while there is a run.
+    /// No robot can be forgotten during a run. Holds the robot that was to be forgotten.
     TakesPart(RobotId),
-    /// The last run failed or was stopped, and the operator has not read it.
+    /// The last run failed or was stopped, and the operator has not dismissed the message about it.
     NotDismissed,
-    /// A preflight is not possible: no robot has room to drive out.
+    /// A preflight is not possible: no robot has enough free floor around it for its test drive.
     NoRoom,
 }
 

@@ -1,4 +1,4 @@
-//! Messages waiting to be sent, and broadcasts that are sent several times because links lose some.
+//! Messages waiting to be sent, and broadcasts that are sent several times because links lose some messages.
 
 use lightbots_base::{Instant, Span};
 use lightbots_lighting::LampSettings;
@@ -6,9 +6,9 @@ use lightbots_wire::{Command, Fade, Topic, encode};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// Largest number of waiting messages; further ones are counted and dropped.
+/// Largest number of waiting messages; further messages are dropped and counted.
 const WAITING_MAX: usize = 200_000;
-/// Largest number of broadcasts that are repeated at the same time.
+/// Largest number of broadcasts that are being repeated; a further broadcast is sent only once.
 const REPEATS_MAX: usize = 8;
 
 /// One message to publish.
@@ -20,7 +20,7 @@ pub struct Send {
     pub payload: Vec<u8>,
 }
 
-/// A broadcast that is sent again.
+/// A broadcast that is to be sent again.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Repeat {
     payload: Vec<u8>,
@@ -29,7 +29,7 @@ struct Repeat {
     left: u32,
 }
 
-/// The queue of messages.
+/// The queue of messages to the broker.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct SendQueue {
     /// Correction for the lamps of the robots.
@@ -42,19 +42,20 @@ pub(crate) struct SendQueue {
     #[serde(skip)]
     text: String,
     linked: bool,
-    /// Number of messages that were taken.
+    /// Number of messages that were taken to be published.
     pub sent: u64,
-    /// Number of messages that were dropped.
+    /// Number of messages that were dropped, because the queue was full or the broker was not connected.
     pub unsent: u64,
 }
 
 impl SendQueue {
-    /// Returns a queue to robots with these lamps; the broker is not connected yet.
+    /// Returns an empty queue; the broker is not connected yet. `lamp`: correction for the lamps of the robots.
     pub fn new(lamp: LampSettings) -> Self {
         Self { lamp, ..Self::default() }
     }
 
-    /// Notes whether the broker is connected. If it is lost, drops all that waits, because that would come too late.
+    /// Notes whether the broker is connected. When the broker is lost, drops all waiting messages and repetitions,
+    /// because they would come too late.
     pub fn link(&mut self, up: bool) {
         self.linked = up;
         if !up {
@@ -69,13 +70,13 @@ impl SendQueue {
         self.linked
     }
 
-    /// Whether nothing waits to be published.
+    /// Whether no message waits to be published.
     pub fn is_drained(&self) -> bool {
         self.waiting.is_empty()
     }
 
-    /// Queues commands in one payload to one topic. Corrects the colours of COLOR and FADE for the lamps; the colours
-    /// of stretches of light are corrected earlier, before they are fitted.
+    /// Queues commands as one message on one topic. Corrects the colours of COLOR and FADE for the lamps. The colours
+    /// in LIGHT commands are corrected earlier, before stretches of light are fitted.
     pub fn send(&mut self, topic: Topic, commands: &[Command]) {
         if self.linked && self.write(commands).is_err() {
             self.unsent += 1;
@@ -84,7 +85,7 @@ impl SendQueue {
         self.push(topic, self.text.as_bytes().to_vec());
     }
 
-    /// Writes commands to `text`, with colours corrected for the lamps.
+    /// Replaces `self.text` by the text of the commands, with colours corrected for the lamps.
     fn write(&mut self, commands: &[Command]) -> core::fmt::Result {
         self.text.clear();
         let Self { lamp, text, .. } = self;
@@ -103,7 +104,7 @@ impl SendQueue {
         self.waiting.push_back(Send { topic, payload });
     }
 
-    /// Queues a broadcast now and another `times − 1` times, at intervals of `every`.
+    /// Queues a broadcast `times` times in all: now, and then at intervals of `every`.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
         if let Command::Hold { at } = command {
             self.last_hold = self.last_hold.max(at);
@@ -121,12 +122,12 @@ impl SendQueue {
         self.last_hold + Span(1)
     }
 
-    /// Ends all repetitions.
+    /// Ends all repetitions of broadcasts.
     pub fn stop_repeating(&mut self) {
         self.repeats.clear();
     }
 
-    /// Queues each repeated message that is due.
+    /// Queues each broadcast whose repetition is due at `now`.
     pub fn tick(&mut self, now: Instant) {
         if self.repeats.is_empty() {
             return;
@@ -143,7 +144,7 @@ impl SendQueue {
         self.repeats = repeats;
     }
 
-    /// Returns when the next repetition is due; `None` if there is none.
+    /// Returns when the next repetition is due, show clock; `None` if there is none.
     pub fn due(&self) -> Option<Instant> {
         self.repeats.iter().map(|repeat| repeat.next).min()
     }

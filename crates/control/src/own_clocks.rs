@@ -1,42 +1,44 @@
-//! Detects by robots' own clocks that two robots share a name. The time questions of one robot (R25 of
-//! docs/protocol.md) follow one clock.
+//! Detects by robots' own clocks that two robots share a name. A robot reads its own clock into each time question (R25 of
+//! docs/protocol.md). The questions of one robot follow one clock.
 //!
-//! The clock of a robot that restarts goes back once. If two robots ask in turn, the clock goes back, forward, and back
-//! again to what the lower clock shows by then. Reported places show two robots later, or never on a small floor.
+//! The clock of a robot that restarts goes back once. If two robots ask in turn, the clock in the questions goes back and
+//! forward. After each step back it follows the lower clock. Reported places reveal two robots later than this, or never on
+//! a small floor.
 
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// Largest step back between two questions of one robot: one message overtook the other. Two robots that were switched
-/// on within this time look like one.
+/// Largest step back of the clock between two questions of one robot, if one message overtook the other. Two robots that
+/// were switched on within this time of each other are not told apart.
 const OVERTAKEN: Span = Span::from_millis(500);
-/// Largest difference between the delays of two questions of one robot. The clock of a robot that restarts again and
-/// again begins low each time, and so lags by the time between two starts.
+/// Largest difference between the delays of two questions of one robot. A robot that restarts repeatedly differs by more:
+/// its clock begins low each time, and lags by the time between two starts.
 const LATE: Span = Span::from_millis(1_000);
-/// Number of steps back to the same lower clock that show two robots. One step back is a robot that restarted.
+/// Number of steps back to the same lower clock that show two robots. A single step back can be a robot that restarted.
 const STEPS_BACK: u8 = 2;
-/// Time within which the steps back are counted. A robot asks every 3 s (R28).
+/// Time within which the steps back must come to show two robots. A robot asks every 3 s (R28).
 const WITHIN: Span = Span::from_millis(15_000);
 
-/// A time question: when it was received, and what the robot's own clock showed when it was sent.
+/// A time question: when it was received (show clock), and when it was sent (the robot's own clock).
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Question {
     received: Instant,
     asked: Instant,
 }
 
-/// What questions showed about the clocks behind one name.
+/// What the time questions under one name show about the clocks of its robots.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct OwnClocks {
     last: Option<Question>,
-    /// The last question whose clock was lower than that of the question before.
+    /// The last question at which the clock stepped back from the question before.
     lower: Option<Question>,
     steps_back: u8,
     first_step: Instant,
 }
 
 impl OwnClocks {
-    /// Handles a time question; `asked`: what the robot's own clock showed. Returns whether two robots share the name.
+    /// Handles a time question; `asked`: moment of the question on the robot's own clock. Returns whether this question
+    /// shows that two robots share the name.
     pub fn observe(&mut self, now: Instant, asked: Instant) -> bool {
         let question = Question { received: now, asked };
         let Some(last) = self.last.replace(question) else { return false };
@@ -53,7 +55,7 @@ impl OwnClocks {
 }
 
 impl Question {
-    /// Whether both questions may be of one clock that went on between them.
+    /// Whether this question and an earlier one may come from one clock that ran on between them.
     fn is_of_clock(self, earlier: Self) -> bool {
         let behind = (self.received - earlier.received) - (self.asked - earlier.asked);
         (-LATE..=LATE).contains(&behind)

@@ -1,5 +1,5 @@
-//! Builds a plan: legs of timed paths, and straight drives of TARGET-only robots, which understand TARGET and COLOR but
-//! no routes.
+//! Builds a plan, which consists of legs. In a leg, robots follow timed paths, or TARGET-only robots make straight
+//! drives. TARGET-only robots understand TARGET and COLOR but no routes.
 
 use crate::frame_cursor::FrameCursor;
 use crate::leg::{Leg, LegKind, RobotLeg, Task};
@@ -18,20 +18,21 @@ use lightbots_wire::MAX_PIECES;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Least clearance between a goal and a disc whose place is inferred, metres.
+/// Least clearance between a pixel and a disc whose place is inferred, metres; otherwise the pixel stays dark.
 const INFERRED_MARGIN_M: f64 = unsure_places::OFF_M + REST_CLEARANCE_M;
-/// Number of attempts to plan a frame, with fewer pixels each time, before planning it fails.
+/// Largest number of attempts to plan a frame, each with fewer pixels than the last. Then planning of the frame fails.
 const LENIENT_TRIES: usize = 8;
 
 impl PlanRequest {
-    /// Makes the plan without a bound on its duration: milliseconds for small fleets, seconds for the largest. It never
+    /// Makes the plan, however long planning takes: milliseconds for small fleets, seconds for the largest. It never
     /// panics.
     pub fn run(self) -> PlanResult {
         self.run_unless(&|| false)
     }
 
-    /// Like [`run`](Self::run), but cancelled once `is_over` returns true, which it must do from then on. The planner
-    /// calls it about every tenth of a second. Frames that were planned before count.
+    /// Like [`run`](Self::run), but planning is cancelled once `is_over` returns `true`. From then on `is_over` must
+    /// always return `true`. The planner calls it about every tenth of a second. The result keeps the frames that were
+    /// planned before.
     pub fn run_unless(self, is_over: &dyn Fn() -> bool) -> PlanResult {
         let questions = Questions { is_over, asked: Cell::new(0), cancelled_at: Cell::new(None) };
         let is_over = || questions.ask();
@@ -56,8 +57,8 @@ impl PlanRequest {
     }
 }
 
-/// Counts the planner's checks whether it is cancelled. For the same problem it checks at the same points of its work,
-/// so that the number of a check identifies the point.
+/// Counts the planner's checks for cancellation. For equal problems the planner checks at the same points of its work,
+/// so the number of a check identifies the point.
 struct Questions<'a> {
     is_over: &'a dyn Fn() -> bool,
     asked: Cell<u64>,
@@ -100,7 +101,7 @@ impl<'a> PlanBuilder<'a> {
         }
     }
 
-    /// Plans one frame and adds the legs to it.
+    /// Plans the drive to one frame, and adds its legs to the plan. `Err` holds the reason for a failure, for people.
     fn frame(&mut self, FrameCursor { frame: index, round, pass }: FrameCursor) -> Result<(), String> {
         let show = &self.problem.show;
         let frame = show.frames.get(index).ok_or_else(|| "there is no such frame".to_string())?;
@@ -137,8 +138,8 @@ impl<'a> PlanBuilder<'a> {
         Ok(())
     }
 
-    /// Plans a drive that moves robots apart if they were stopped too close to each other; `None` if no drive is needed
-    /// or possible. The frame is then planned from the end of this drive.
+    /// Plans a drive that moves robots apart which were stopped too close to each other. `None` if no drive is needed
+    /// or possible. After this drive, the frame is planned from the goals of the drive.
     fn separate(&mut self) -> Option<Transition> {
         let PlanProblem { standing, stopped, .. } = self.problem;
         let problem = TransitionProblem::on_stage(&self.problem.show.stage);
@@ -166,8 +167,8 @@ impl<'a> PlanBuilder<'a> {
         Some(apart)
     }
 
-    /// Plans the transition to a frame. If the problem allows it, leaves out pixels that make the transition
-    /// infeasible.
+    /// Plans the transition to the frame at `index`. If [`PlanProblem::lenient`] is set, removes pixels from `bound`
+    /// that make the transition infeasible.
     fn solve(&self, index: usize, bound: &mut BoundFrame<'_>) -> Result<Transition, String> {
         let mut tries = LENIENT_TRIES;
         loop {
@@ -197,8 +198,8 @@ impl<'a> PlanBuilder<'a> {
         }
     }
 
-    /// Plans a transition that keeps away from inferred places by as much as they may be off, or else one that does
-    /// not.
+    /// Plans a transition that keeps away from inferred places by as much as these may be wrong. If there is none,
+    /// plans one without that margin.
     fn planned(&self, problem: &TransitionProblem) -> Result<Result<Transition, Infeasible>, String> {
         if let Some(wide) = unsure_places::kept_away_from(problem, &self.problem.inferred)
             && let Ok(plan) = self.prescribed_or_ordinary(&wide)?
@@ -208,8 +209,8 @@ impl<'a> PlanBuilder<'a> {
         self.prescribed_or_ordinary(problem)
     }
 
-    /// Plans the transition that the show prescribes. If that is not possible, for example because failed robots are in
-    /// its way, plans an ordinary one.
+    /// Plans the transition with the paths that the show prescribes, if any. If that is infeasible, for example because
+    /// of failed robots, plans the transition without prescribed paths.
     fn prescribed_or_ordinary(
         &self,
         problem: &TransitionProblem,
@@ -222,7 +223,7 @@ impl<'a> PlanBuilder<'a> {
         planned_unless(&ordinary, self.is_over).map_err(given_up)
     }
 
-    /// Returns for each robot where it stands when the frame is reached, and its light.
+    /// Returns for each robot of the plan where it stands when the frame is reached, and its pixel and light.
     fn rests(&self, bound: &BoundFrame<'_>, plan: &Transition) -> Vec<RobotLeg> {
         let rest = |robot: usize| match plan.goal_of.get(robot).copied().flatten() {
             Some(goal) => {
@@ -241,7 +242,7 @@ impl<'a> PlanBuilder<'a> {
         (0..self.places.len()).map(rest).collect()
     }
 
-    /// Plans the legs of a frame in which TARGET-only robots take part.
+    /// Plans the legs to a frame if TARGET-only robots take part: legs of TARGETs and legs of routes.
     fn staged(&self, frame: &Frame, rests: &[RobotLeg]) -> Result<Vec<Leg>, String> {
         let stage = &self.problem.show.stage;
         let goals: Vec<Vec2> = rests.iter().map(|rest| rest.goal).collect();
@@ -288,7 +289,8 @@ impl<'a> PlanBuilder<'a> {
         Ok(legs)
     }
 
-    /// Plans the paths of `drivers`, the robots that follow paths, while TARGET-only robots stand.
+    /// Plans the paths of `drivers`, the robots that follow routes, while TARGET-only robots stand. `None` if there is
+    /// no plan.
     fn drive(
         &self,
         frame: &Frame,

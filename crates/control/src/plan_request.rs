@@ -7,14 +7,14 @@ use lightbots_base::{RobotId, Span, StateHash, Vec2};
 use lightbots_show::Show;
 use std::sync::Arc;
 
-/// Longest duration of planning while robots wait, for up to [`FEW`] robots: the promise is 1 s for 100 robots.
+/// Longest duration of planning while robots wait, for up to [`FEW`] robots. After it the plan is cancelled.
 const BUDGET: Span = Span::from_millis(1_000);
-/// Time added to [`BUDGET`] for each robot above [`FEW`]: 5 s in all for 1,000 robots.
+/// Time added to [`BUDGET`] for each robot above [`FEW`]; it makes 5 s in all for 1,000 robots.
 const BUDGET_PER_ROBOT: Span = Span(4_445);
 /// Number of robots up to which [`BUDGET`] is enough.
 const FEW: usize = 100;
 
-/// A request for a plan. Equal requests give equal results on any thread, unless they are cancelled.
+/// A request for a plan. Equal requests give equal results on any thread, unless planning is cancelled.
 #[derive(Clone, Debug)]
 pub struct PlanRequest {
     pub(crate) number: u64,
@@ -25,19 +25,21 @@ pub struct PlanRequest {
 #[derive(Clone, Debug)]
 pub(crate) struct PlanProblem {
     pub show: Arc<Show>,
-    /// Frames in the order they are played.
+    /// Frames to plan, in the order in which they are played.
     pub frames: Vec<FrameCursor>,
     pub robots: Vec<PlannedRobot>,
-    /// Number of participants, planned or not.
+    /// Number of participants of the run, including those without a part in this plan.
     pub participants: usize,
-    /// Centres of discs that do not move, stage metres.
+    /// Centres of all discs that stand during the plan and must be avoided, stage metres.
     pub standing: Vec<Vec2>,
-    /// Those discs of `standing` whose places no robot reported: silent robots, and obstacles that blocked robots.
+    /// The centres in `standing` that no robot reported: assumed places of silent robots, and obstacles that blocked
+    /// robots. Stage metres.
     pub inferred: Vec<Vec2>,
     pub mapping: Mapping,
-    /// Whether pixels that conflict may be left out. Otherwise planning their frame fails.
+    /// Whether pixels that make a frame infeasible may be left out. Otherwise planning of the frame fails.
     pub lenient: bool,
-    /// Whether robots were stopped on their paths, perhaps closer to each other than is ever planned.
+    /// Whether the plan begins where robots were stopped on their paths, perhaps closer to each other than any plan has
+    /// them.
     pub stopped: bool,
 }
 
@@ -53,7 +55,7 @@ impl PlanProblem {
 pub(crate) struct PlannedRobot {
     pub participant: usize,
     pub id: RobotId,
-    /// Where it starts, stage metres.
+    /// Where the robot stands when the plan begins, stage metres.
     pub at: Vec2,
     pub original: bool,
 }
@@ -62,17 +64,17 @@ pub(crate) struct PlannedRobot {
 #[derive(Clone, Debug)]
 pub struct PlanResult {
     pub(crate) number: u64,
-    /// Number of the planner's check at which it was cancelled, counted from 1; `None` if it was not. A replay cancels
-    /// at the same check.
+    /// Number of the planner's check at which planning was cancelled, counted from 1; `None` if it was not. A replay
+    /// cancels at the same check.
     pub(crate) cancelled_at: Option<u64>,
     pub(crate) legs: Vec<Leg>,
     /// Whether the plan begins where robots were stopped on their paths.
     pub(crate) stopped: bool,
     /// Number of planned frames.
     pub(crate) frames: usize,
-    /// Frames, counted from 0, and the ids of their pixels that stay dark.
+    /// Frames, counted from 0, with the ids of their pixels that no robot shows.
     pub(crate) dark: Vec<(usize, Vec<u32>)>,
-    /// The first frame without a plan, counted from 0, and the reason.
+    /// The first frame without a plan, counted from 0, and the reason for people; `None` if all frames were planned.
     pub(crate) failed: Option<(usize, String)>,
     pub(crate) mapping: Mapping,
 }
@@ -94,7 +96,7 @@ impl PlanResult {
 }
 
 impl PlanRequest {
-    /// Adds everything to a hash that the plan depends on, except the show and the pins.
+    /// Adds everything that the plan depends on to a hash, except the show and the pins.
     pub(crate) fn imprint(&self, hash: &mut StateHash) {
         let PlanProblem {
             frames, robots, participants, standing, inferred, mapping, lenient, stopped, ..
@@ -120,8 +122,9 @@ impl PlanRequest {
         }
     }
 
-    /// Returns the longest time that the plan may take while robots wait for it; `None` if they do not wait. The caller
-    /// measures the time, because a core reads no clock, and cancels the plan by [`run_unless`](Self::run_unless).
+    /// Returns the longest time that planning may take while stopped robots wait for it; `None` if no robots wait. The
+    /// caller measures the time, because this crate reads no clock. After it, the caller cancels planning by
+    /// [`run_unless`](Self::run_unless).
     pub fn budget(&self) -> Option<Span> {
         let more = self.problem.robots.len().saturating_sub(FEW);
         self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)

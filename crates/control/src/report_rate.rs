@@ -1,43 +1,45 @@
-//! Limits the messages of each robot: messages beyond a rate do not count, and an event names the robot.
+//! Limits the messages of each robot: messages above a rate are ignored, and an event names the robot.
 //!
-//! A broker that is not ours may pass on everything. A robot that sends too many messages must not take the time that
+//! An external broker may pass on any number of messages. A robot that sends too many must not use up the time that the
 //! reports of other robots need.
 
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// How many messages of one robot count.
+/// The allowed rate of the messages of one robot.
 struct Rate {
-    /// Time between two messages in the long run: ten times as often as a robot of ours reports.
+    /// Least mean time between two messages in the long run. It allows ten times the rate at which the project's robots
+    /// report.
     every: Span,
-    /// Number of messages that count at once, before the rate limits them. A robot that comes back to a long show
+    /// Number of messages that may come at once, before the rate limits them. A robot that comes back to a long show
     /// acknowledges 100 parts of routes.
     burst: i64,
 }
 
-/// The embedded broker has the same bound for a robot. Lower: acknowledgements are lost. Higher: one robot delays the
-/// messages of others.
+/// The embedded broker has the same bound for a robot. With a lower rate or burst, acknowledgements are lost. With a
+/// higher one, a robot can delay the messages of others.
 const RATE: Rate = Rate { every: Span::from_millis(10), burst: 1_000 };
 /// Least time between two events that name the same robot.
 const NAMED_EVERY: Span = Span::from_millis(60_000);
 
-/// Whether a message counts.
+/// Whether a message is within the rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counted {
-    /// It does.
+    /// It is within the rate.
     Yes,
-    /// It does not, and an event has to name the sender.
+    /// It is above the rate, and an event has to name the sender.
     FloodToName,
-    /// It does not; the sender was named lately.
+    /// It is above the rate; an event named the sender within [`NAMED_EVERY`].
     Flood,
 }
 
-/// How often a robot has sent messages (generic cell rate algorithm, ITU-T I.371).
+/// Limits the message rate of one robot (generic cell rate algorithm, ITU-T I.371).
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct ReportRate {
-    /// When all counted messages would have been sent at the allowed rate.
+    /// The algorithm's theoretical arrival time: when all messages within the rate would have been sent at the mean
+    /// rate, show clock.
     paid_until: Instant,
-    /// When an event last named the robot.
+    /// When an event last named the robot, show clock.
     named_at: Option<Instant>,
 }
 

@@ -10,22 +10,24 @@ use lightbots_base::{Instant, Rgb, RobotId, Vec2};
 use lightbots_wire::{Details, Report, RobotState};
 use serde::{Deserialize, Serialize};
 
-/// Places closer to each other than this count as the same place, metres, because fixes are noisy.
+/// Two reported places closer to each other than this count as the same place, metres, because position fixes are
+/// noisy.
 const SAME_PLACE_M: f64 = 0.012;
 
-/// How far before its target a robot with the original firmware comes to rest.
+/// Bounds of the estimate how far before its target a robot with the original firmware comes to rest.
 struct StopsShort {
-    /// First estimate, metres.
+    /// Estimate before the first arrival, metres.
     first_m: f64,
-    /// Largest estimate, metres: the robot's tolerance at its target.
+    /// Largest estimate, metres: the distance from its target at which the robot counts itself as arrived.
     most_m: f64,
-    /// Distance that it rolls on after it has reported its arrival, metres.
+    /// Distance that the robot rolls on after it has reported its arrival, metres.
     rolls_on_m: f64,
-    /// Share by which each arrival corrects the estimate.
+    /// Share of the deviation by which each arrival corrects the estimate, 0 to 1.
     gain: f64,
 }
 
-/// A larger first estimate sends a robot past its goal; a larger gain follows the noise of its fixes.
+/// With a larger `first_m` a robot is sent past its goal. With a larger `gain` the estimate follows the noise of
+/// position fixes.
 const STOPS_SHORT: StopsShort = StopsShort { first_m: 0.012, most_m: 0.02, rolls_on_m: 0.006, gain: 0.5 };
 
 const _: () = assert!(STOPS_SHORT.first_m <= STOPS_SHORT.most_m && STOPS_SHORT.gain < 1.0);
@@ -39,32 +41,32 @@ pub(crate) struct KnownRobot {
     pub reported: Reported,
     /// When it was found and reported last.
     pub contact: LastContact,
-    /// How its charge falls.
+    /// How the charge of its battery falls over time.
     pub charge: ChargeTrend,
-    /// How often it sends messages, to detect a flood.
+    /// How often the robot sends messages, to detect a flood.
     pub rate: ReportRate,
-    /// Since when it reports the same place.
+    /// Where it has stood according to its reports, and since when.
     pub standstill: Standstill,
-    /// What is known of it if it has the original firmware, which understands TARGET and COLOR but no routes.
+    /// What is known of the robot if it has the original firmware, which understands TARGET and COLOR but no routes.
     pub original: OriginalRobot,
-    /// The colour that it was told to show.
+    /// The colour that the robot was told to show last.
     pub light: ToldLight,
     /// Whether it may take part in runs.
     pub is_admitted: bool,
-    /// Whether another robot has the same name.
+    /// Signs that two robots share this name.
     pub namesakes: Namesakes,
-    /// Its participant number in the run; `None` if it has none.
+    /// The robot's participant number in the present run; `None` if it has none.
     pub participant: Option<u32>,
-    /// What is still known from its last run.
+    /// What is still known from the last run that the robot took part in.
     pub last_run: LastRun,
 }
 
 /// What is known of a robot with the original firmware.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct OriginalRobot {
-    /// When it was last asked for a report, because it had been silent.
+    /// When the robot was last asked for a report because of its silence, show clock.
     pub asked: Instant,
-    /// Estimate of how far before its target it comes to rest, metres.
+    /// Estimate of how far before its target the robot comes to rest, metres.
     pub short_m: f64,
 }
 
@@ -73,7 +75,7 @@ pub(crate) struct OriginalRobot {
 pub(crate) struct ToldLight {
     /// The colour.
     pub color: Rgb,
-    /// Whether it is certain that the robot shows this colour.
+    /// Whether it is certain that the robot shows `color`.
     pub is_sure: bool,
 }
 
@@ -85,9 +87,9 @@ impl ToldLight {
 /// What is still known from the last run that a robot took part in.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct LastRun {
-    /// Whether the robot may keep a route of that run: it has not reported the contrary since.
+    /// Whether the robot may still keep a route of that run, because it has not reported that it keeps none.
     pub may_keep_route: bool,
-    /// When STOP was sent to the robot after that run.
+    /// When STOP was last sent to the robot after that run, show clock; `None` if it was not.
     pub stop_sent: Option<Instant>,
     /// Id of the pixel that the robot showed when the run ended.
     pub pixel: Option<u32>,
@@ -98,16 +100,16 @@ pub(crate) struct LastRun {
 /// How long a robot has reported the same place.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Standstill {
-    /// Moment since when it has reported this place, show clock.
+    /// When the robot first reported the place `at`, show clock.
     pub since: Instant,
-    /// The place as it was reported first, stage metres. A report without a place does not change it.
+    /// The last reported place, as it was first reported, stage metres. A report without a place does not change it.
     pub at: Option<Vec2>,
     /// When the robot last reported a place, show clock.
     pub placed: Instant,
 }
 
 impl KnownRobot {
-    /// Returns the state of a robot that is found at `now`.
+    /// Returns what is known of a robot that reports for the first time, at `now`.
     pub fn new(id: RobotId, now: Instant) -> Self {
         Self {
             id,
@@ -125,17 +127,17 @@ impl KnownRobot {
         }
     }
 
-    /// Whether it has the original firmware, which understands TARGET and COLOR but no routes.
+    /// Whether the robot has the original firmware, which understands TARGET and COLOR but no routes.
     pub fn is_original(&self) -> bool {
         !self.reported.abilities.route
     }
 
-    /// Whether it is certain that the robot shows this colour.
+    /// Whether it is certain that the robot shows the colour `color`.
     pub fn shows(&self, color: Rgb) -> bool {
         self.light.is_sure && self.light.color == color
     }
 
-    /// Whether it reported lately, and neither a fault nor that it is lost.
+    /// Whether the robot is not stale, and its last report names neither a fault nor a lost position.
     pub fn is_fit(&self) -> bool {
         self.contact.age == Age::Active
             && !matches!(self.reported.state, Some(RobotState::Faulty | RobotState::Lost))
@@ -146,7 +148,7 @@ impl KnownRobot {
         self.contact.age == Age::Active
     }
 
-    /// Returns what a screen shows of the robot outside a run.
+    /// Returns the view of the robot for screens, without what the present run knows of the robot.
     pub fn view(&self) -> RobotView {
         RobotView {
             id: self.id,
@@ -162,18 +164,18 @@ impl KnownRobot {
         }
     }
 
-    /// Whether it could take part in a run now.
+    /// Whether the robot could take part in a run that begins now.
     pub fn can_take_part(&self) -> bool {
         self.is_fit() && self.reported.at.is_some() && self.is_admitted && !self.namesakes.are_there()
     }
 
-    /// Whether it drives by its last report.
+    /// Whether the robot's last report says that it drives.
     pub fn may_move(&self) -> bool {
         matches!(self.reported.state, Some(RobotState::Driving))
     }
 
-    /// Corrects the estimate of how far before its target the robot comes to rest. It was sent from `from` to `target`
-    /// and arrived at `at`; all are stage metres.
+    /// Corrects the estimate of how far before its target the robot comes to rest. The robot was sent from `from` to
+    /// `target` and reported its arrival at `at`; all are stage metres.
     pub fn learn_short(&mut self, from: Vec2, target: Vec2, at: Vec2) {
         let Some(towards) = (target - from).normalized() else { return };
         let StopsShort { most_m, rolls_on_m, gain, .. } = STOPS_SHORT;
@@ -186,8 +188,8 @@ impl KnownRobot {
         log.record(now, EventKind::NameShared { robot: self.id, places: self.namesakes.places() });
     }
 
-    /// Takes over a report; `place` is its position if that is plausible. Returns whether the report shows that the
-    /// robot was restarted.
+    /// Stores what a report says. `place`: the reported position if it is plausible, stage metres; otherwise `None`.
+    /// Returns whether the report shows that the robot was restarted.
     pub fn receive(&mut self, now: Instant, report: &Report, place: Option<Vec2>) -> bool {
         self.contact.heard = now;
         let same = |(at, place): (Vec2, Vec2)| at.distance(place) < SAME_PLACE_M;
@@ -212,7 +214,8 @@ impl KnownRobot {
         restarted
     }
 
-    /// Takes over details. Returns whether they show that the robot was restarted.
+    /// Stores the details of a report. Returns whether they show that the robot was restarted: it has lost its
+    /// synchronised clock and its routes.
     fn take_over(&mut self, details: &Details) -> bool {
         let known = &mut self.reported;
         let restarted = known.clock_us.is_some() && details.clock_us.is_none() && details.route == 0;

@@ -1,25 +1,26 @@
-//! Moves robots apart that stand too close for a plan, each by a short distance.
+//! Moves robots apart that stand too close to each other for a plan, each by a short distance.
 //!
-//! Two robots that begin a drive close to each other may stay that close all the way. The proof demands no more
-//! clearance of them than they have at the start. After a robot fails in a queue, whole rows stand rim to rim and would
-//! touch again and again.
+//! Two robots that begin a drive close to each other may stay that close on the whole drive: the proof demands only
+//! their clearance at the start. After a robot fails in a queue, rows of robots stand rim to rim. Without this module
+//! they would touch again and again.
 
 use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-/// Clearance to which robots are moved apart, metres: the 8 mm that the planner keeps if there is space, and the error
-/// of two fixes. Less: the next drive is planned with less clearance than necessary. More: robots are moved in crowds
+/// Clearance to which robots are moved apart, metres: the 8 mm that the planner keeps if there is space, plus the
+/// errors of two position fixes. With less, the next drive has too little clearance. With more, dense robots are moved
 /// without need.
 pub(crate) const CLEARANCE_M: f64 = 0.010;
-/// Clearance below which robots are moved apart by a drive, metres. It is the 3 mm that the planner keeps at least, and
-/// the errors of two fixes.
+/// Clearance below which a drive moves robots apart, metres. It is the least clearance that the planner keeps, 3 mm,
+/// plus the errors of two position fixes.
 const TOO_CLOSE_M: f64 = 0.006;
-/// Largest number of sweeps over all pairs. A row of twenty robots rim to rim takes a hundred.
+/// Largest number of sweeps over all pairs of close robots. A row of twenty robots rim to rim takes a hundred sweeps.
 const SWEEPS: usize = 400;
-/// Moves shorter than this are left out, metres: a robot follows its path within 2 mm.
+/// A robot that would be moved by less than this stays where it is, metres. A robot follows its path only within 2 mm.
 const SHORT_M: f64 = 0.001;
-/// Added to the wanted clearance, metres, so that it is reached in finitely many sweeps.
+/// Added to [`CLEARANCE_M`] in the sweeps, metres. Sweeps approach their aim only gradually, and with this addition
+/// they reach [`CLEARANCE_M`] after finitely many.
 const SLACK_M: f64 = 0.000_2;
 
 /// The floor on which robots are moved apart, and what stands on it.
@@ -34,8 +35,9 @@ pub(crate) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// Returns places near `robots`, in the same order, that leave about [`CLEARANCE_M`] between robots. `None` if no
-    /// two robots are too close, or if two still were afterwards.
+    /// Returns places near the places in `robots`, in the same order, with a clearance of about [`CLEARANCE_M`] between
+    /// robots. `None` if no robot is closer than [`TOO_CLOSE_M`] to another robot or to a standing disc. Also `None` if
+    /// a robot still would be.
     pub fn separated(&self, robots: &[Vec2]) -> Option<Vec<Vec2>> {
         if !self.has_pair_within(robots, self.contact_m + TOO_CLOSE_M) {
             return None;
@@ -65,8 +67,8 @@ impl Place<'_> {
         (0..robots.len()).any(|robot| cells.near(robot).any(|other| close((robot, other))))
     }
 
-    /// Moves each pair whose centres are closer than `apart_m` apart, once, along the line between the centres. Returns
-    /// whether any pair was.
+    /// Moves the robots of each pair with centres closer than `apart_m` away from each other, once, along the line
+    /// between the centres. Standing discs do not move. Returns whether any robot was moved.
     fn push_apart(&self, robots: &mut [Vec2], apart_m: f64) -> bool {
         let mut cells = FloorCells::new(robots, self.standing, apart_m);
         let mut pushed = false;
@@ -93,7 +95,8 @@ impl Place<'_> {
         pushed
     }
 
-    /// Returns the place, or the nearest one on the floor; `from` if that is in an obstacle.
+    /// Returns `place`, moved onto the floor if it is outside. If the result is in an obstacle: returns `from`, the
+    /// place before.
     fn inside(&self, place: Vec2, from: Vec2) -> Vec2 {
         if place == from {
             return place;

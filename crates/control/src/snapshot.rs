@@ -7,7 +7,7 @@ use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Everything that a screen shows, at one moment. [`crate::Event`]s say what happened.
+/// Everything that a screen shows of the controller at one moment. [`crate::Event`]s say what happened before.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// Moment of the snapshot, show clock.
@@ -18,18 +18,19 @@ pub struct Snapshot {
     pub connected: bool,
     /// Name of the open show; `None` if no show is open.
     pub show: Option<String>,
-    /// Whether a show starts again after its last frame.
+    /// Whether the show is to start again after its last frame.
     pub looping: bool,
     /// Speed of drives of the next run, percent of the usual speed.
     pub speed_percent: u32,
     /// The run; `None` if there is none.
     pub run: Option<RunView>,
-    /// Where and why the last run failed: a sentence for people. It stays until the operator dismisses it or starts again.
+    /// Where and why the last run failed: a sentence for people. `None` if no run failed, and once the operator dismisses it
+    /// or begins another run.
     pub failure: Option<String>,
-    /// Frame in which the last run of a show ended early, counted from 0. `None` once the operator dismisses that,
-    /// begins a run, or opens a show of another name.
+    /// Frame in which the last run of a show failed or was aborted, counted from 0. `None` if it did not, and once the
+    /// operator dismisses the message, begins a run, or opens a show of another name.
     pub stopped_in: Option<usize>,
-    /// What the last preflight found; `None`: there was none since the controller's start, or one is under way.
+    /// What the last preflight found. `None` if the controller has made none since its start, and while one is under way.
     pub preflight: Option<Arc<PreflightReport>>,
     /// All known robots, in the order in which they were found.
     pub robots: Vec<RobotView>,
@@ -40,10 +41,10 @@ pub struct Snapshot {
 /// Where a run is on the timeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShowPosition {
-    /// Position on the timeline, seconds from the start of the first frame's air time; negative during the drive to
-    /// that frame.
+    /// Position on the timeline, seconds since the air time of the first frame began; negative during the drive to that
+    /// frame.
     pub show_s: f64,
-    /// Whether the position moves on with the show clock. It stands during a pause and while the run waits for GO.
+    /// Whether the position moves on with the show clock. The position stands during a pause and while the run waits for GO.
     /// Without music it also stands during holds and while robots are late.
     pub runs: bool,
 }
@@ -51,38 +52,38 @@ pub struct ShowPosition {
 /// A run at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunView {
-    /// The frame that robots drive to or have reached, counted from 0.
+    /// The frame that robots drive to or stand in, counted from 0.
     pub frame: usize,
-    /// The frame after `frame`, counted from 0; `None` if the run ends with `frame`.
+    /// The frame that follows `frame`, counted from 0; `None` if the run ends with `frame`.
     pub next: Option<usize>,
-    /// Whether the operator can send robots to another frame or skip the next one: a show is played, and robots stand
-    /// or are held.
+    /// Whether the operator can now send robots to another frame or skip the next one. `true` if a show is played, and
+    /// robots stand or are held.
     pub may_jump: bool,
-    /// Whether robots drive to their starting places; `frame` has no meaning then.
+    /// Whether this run is the drive to the starting places. If so, `frame` has no meaning.
     pub home: bool,
-    /// Progress of the preflight; `frame` has no meaning then. `None` if the run is no preflight.
+    /// Progress of the preflight; `None` if the run is no preflight. During a preflight `frame` has no meaning.
     pub preflight: Option<PreflightProgress>,
     /// What the run is doing, for people: `planning`, `uploading routes`, `driving`, `holding`, `showing`, …
     pub doing: &'static str,
     /// Progress of the drive or of the air time.
     pub progress: LegProgress,
-    /// Position on the timeline; `None` if no show is played or its first drive has not begun.
+    /// Position on the timeline. `None` if no show is played, and before the first drive of the show begins.
     pub position: Option<ShowPosition>,
     /// What the run waits for.
     pub wait: RunWait,
     /// Names of the layers of live light that are on.
     pub live_light: Vec<String>,
-    /// The frames that repeat until GO; `None` if no loop is under way.
+    /// The loop under way: the frames that repeat until GO; `None` if no frames repeat.
     pub repeats: Option<RepeatView>,
-    /// Number of dropouts.
+    /// Number of dropouts in this run; a robot that dropped out twice counts twice.
     pub dropouts: usize,
 }
 
 /// Progress of a drive or of an air time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegProgress {
-    /// Share of the drive or of the air time that is over, 0 to 1. If robots drive by TARGET: share of the length of
-    /// their paths.
+    /// Share of the drive's or air time's duration that is over, 0 to 1. If robots drive by TARGET: share of the length of
+    /// their paths that they have driven.
     pub share: f64,
     /// Planned duration of the drive, seconds.
     pub drive_s: f64,
@@ -93,17 +94,17 @@ pub struct LegProgress {
 pub struct RunWait {
     /// Name of the cue at which the run waits for GO; it may be empty. `None` if the run does not wait for GO.
     pub cue: Option<String>,
-    /// Whether the operator can let an interrupted run go on without the robots that do not report.
+    /// Whether the run is interrupted and the operator can let it go on now, without the robots that do not report.
     pub may_go_on: bool,
-    /// Robots for which the others wait, because they make no progress, are silent, or are not ready to leave; at most
-    /// 20.
+    /// Robots for which the other robots wait; at most 20. Such a robot makes no progress, is silent, or is not ready to
+    /// leave.
     pub robots: Vec<RobotId>,
 }
 
 /// A preflight at one moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PreflightProgress {
-    /// The round under way, counted from 0. Robots in each other's way take turns.
+    /// The round under way, counted from 0. Robots whose test drives would meet drive in different rounds.
     pub round: usize,
     /// Number of rounds.
     pub rounds: usize,
@@ -118,9 +119,9 @@ pub struct RepeatView {
     pub first: usize,
     /// Last of these frames, counted from 0.
     pub last: usize,
-    /// Number of the present pass through these frames, counted from 1.
+    /// Number of the pass through these frames that is under way, counted from 1.
     pub round: u32,
-    /// Whether GO was given, so that the show goes on after the last of these frames.
+    /// Whether the operator gave GO. If so, the show goes on after the last of these frames.
     pub leaves: bool,
 }
 
@@ -131,21 +132,23 @@ pub struct RobotView {
     pub id: RobotId,
     /// What its last report said.
     pub reported: Reported,
-    /// When the robot was found and reported last, and how long ago that is.
+    /// When the robot was found, when it reported last, and the age of that report.
     pub contact: LastContact,
-    /// Place where its path has the robot at this moment, stage metres; `None` while it drives no path.
+    /// Planned place of the robot on its path at this moment, stage metres; `None` while it drives no path.
     pub planned: Option<Vec2>,
-    /// Goal of its drive, or where it stands after the drive, stage metres. After a run: the last goal of that run.
+    /// Where the robot is to stand after the drive that is under way or ended last, stage metres. Outside a run: the place
+    /// after the last drive of the robot's last run. `None` if there was none.
     pub goal: Option<Vec2>,
-    /// Id of the pixel that it shows in the run, or showed at the end of its last run.
+    /// Id of the pixel that the robot shows in the run, or showed at the end of its last run. `None` if it showed none.
     pub pixel: Option<u32>,
     /// Colour that the robot should show.
     pub light: Rgb,
-    /// Time from its last report until its battery is empty at the measured slope; `None`: no slope is known yet.
+    /// Time from the robot's last report until its battery is empty, if the charge falls on as measured. `None` if no fall
+    /// has been measured yet.
     pub battery_left: Option<Span>,
-    /// Whether it takes part in the run.
+    /// Whether the robot takes part in the run that is under way.
     pub takes_part: bool,
-    /// Whether it may take part in runs.
+    /// Whether the operator admits the robot to runs (see [`Config::admitted`](crate::Config::admitted)).
     pub is_admitted: bool,
 }
 
@@ -158,15 +161,16 @@ pub struct Reported {
     pub heading: Option<f64>,
     /// Its battery, percent.
     pub battery: Option<u8>,
-    /// State of the robot; `None` for the original firmware, which does not report it.
+    /// State of the robot; `None` for the original firmware, which does not report its state.
     pub state: Option<RobotState>,
-    /// Distance from its planned place, metres; `None` if no route is under way.
+    /// Distance between the robot and its planned place, metres; `None` if no route is under way.
     pub off_m: Option<f64>,
-    /// Obstacle for which it stands or brakes.
+    /// Obstacle in sight, for which the robot stands or brakes; `None` if there is none.
     pub blocked: Option<Blocked>,
-    /// Uncertainty of its show clock, microseconds; `None` if the clock is not synchronised.
+    /// Error of the robot's show clock, 2 sigma, microseconds; `None` if the clock is not synchronised.
     pub clock_us: Option<u32>,
-    /// Number of the route that it keeps, else of the one that it drives or finished last; 0 if there is none.
+    /// Number of a route: of the one that the robot keeps for later, else of the one that it drives, else of the one that it
+    /// finished last. 0 if there is none.
     pub route: u32,
     /// Name and version of its firmware; may be empty.
     pub firmware: Firmware,
@@ -176,7 +180,7 @@ pub struct Reported {
     pub simulated: bool,
 }
 
-/// When a robot was found and reported last.
+/// When a robot was found, and when it reported last.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LastContact {
     /// When the robot was found, show clock.
@@ -193,7 +197,8 @@ pub enum Age {
     /// Younger than [`Ageing::stale_after`](crate::Ageing::stale_after).
     #[default]
     Active,
-    /// At least that old.
+    /// At least as old as [`Ageing::stale_after`](crate::Ageing::stale_after), and younger than
+    /// [`Ageing::gone_after`](crate::Ageing::gone_after).
     Stale,
     /// At least as old as [`Ageing::gone_after`](crate::Ageing::gone_after).
     Gone,
@@ -212,10 +217,11 @@ pub struct Counters {
     pub resent: u64,
     /// Messages not sent because the queue was full or there was no broker.
     pub unsent: u64,
-    /// Reports that were dropped because no further robot can be remembered.
+    /// Reports of unknown robots that were dropped, because the fleet already has the largest number of robots.
     pub overflow: u64,
     /// Messages that were ignored because their robots sent too many.
     pub flooded: u64,
-    /// Arrivals reported by robots that were sent nowhere.
+    /// Arrivals reported by robots that were sent nowhere. Also counts how many times a robot was found standing away from
+    /// its planned place.
     pub unexpected: u64,
 }

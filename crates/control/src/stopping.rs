@@ -1,6 +1,7 @@
-//! Stops all robots. Robots that drive routes get STOP. TARGET-only robots (original firmware: TARGET and COLOR, no
-//! routes) get a target where they are. Robots on a drive come to rest together first: STOP reaches some robots later
-//! than others, so that robots that halt at once may touch.
+//! Stops all robots. Robots that drive routes get STOP. TARGET-only robots (original firmware: TARGET and COLOR, no routes)
+//! get their present place as target. Robots on a drive first come to rest together: the command `StopFrom` names the moment
+//! at which all of them begin to slow down. STOP alone reaches some robots later than others, and robots that halt at
+//! different moments may touch.
 
 use crate::context::Context;
 use crate::mutant::Mutant;
@@ -10,22 +11,22 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Command, RobotState, Route};
 use std::collections::BTreeMap;
 
-/// Number of copies of STOP, and the time between two copies.
+/// Number of copies of each STOP or `StopFrom` broadcast, and the time between two copies.
 const COPIES: (u32, Span) = (6, Span::from_millis(50));
-/// Least time from STOP until stopping can be over, so that reports from before STOP do not count.
+/// Least time from STOP until stopping can end: time for the reports that answer STOP.
 const LEAST: Span = Span::from_millis(300);
-/// Longest time from STOP until stopping ends, even if a robot may still drive.
+/// Largest time from STOP until stopping ends, even if a robot may still drive then.
 const MOST: Span = Span::from_millis(3_000);
-/// Least time between two STOPs to a robot that answers STOP but does not say whether it keeps a route.
+/// Least time between two STOPs to a robot whose state (such as `Lost` or `Faulty`) does not say whether it keeps a route.
 const STOP_AGAIN: Span = Span::from_millis(1_000);
 /// Time between two checks of the robots.
 const CHECK: Span = Span::from_millis(100);
-/// A TARGET-only robot that has moved this far since it got a target to stop at gets another one, metres.
+/// A TARGET-only robot gets a new target to stop at once it is this far from the last one, metres.
 const MOVED_M: f64 = 0.01;
 
-/// Sends STOP to a robot that reports and may keep a route of a run that is over. Ends when the robot reports that it
-/// keeps none: it is `Idle`, or names no route. A `Lost` or `Faulty` robot may keep one, and would turn towards it once it
-/// has recovered.
+/// Handles a report between runs of the robot at `index` in the fleet. Sends STOP while the robot may keep a route of the
+/// last run. No STOP is needed any more once the robot reports that it is `Idle`, or names no route. A `Lost` or `Faulty`
+/// robot may keep a route, and would turn towards it after its recovery.
 pub(crate) fn stop_late_comer(context: &mut Context, now: Instant, index: usize) {
     let robot = context.fleet.robot_mut(index);
     let last_run = &mut robot.last_run;
@@ -38,8 +39,8 @@ pub(crate) fn stop_late_comer(context: &mut Context, now: Instant, index: usize)
     }
 }
 
-/// Whether a robot in this state drives or may keep a route. A `Cut` robot has aborted the route under way and may keep
-/// the next one (R43 of docs/protocol.md).
+/// Whether a robot that reports this state drives or may keep a route. A `Cut` robot has aborted the route under way, and
+/// may keep the next route (R43 of docs/protocol.md).
 fn keeps_route(state: RobotState) -> bool {
     matches!(state, RobotState::Driving | RobotState::Held | RobotState::Ready | RobotState::Cut)
 }
@@ -47,18 +48,19 @@ fn keeps_route(state: RobotState) -> bool {
 /// The stopping of all robots, while it is under way.
 #[derive(Clone, Debug)]
 pub(crate) struct Stopping {
-    /// When STOP is sent to all robots. Robots on a drive rest by then; STOP is for those that missed `StopFrom`.
-    /// `None` once it is sent.
+    /// When STOP will be sent to all robots. Robots on a drive rest by then; STOP is for robots that missed `StopFrom`.
+    /// `None` once STOP was sent.
     stop_at: Option<Instant>,
-    /// When stopping began; once STOP is sent, when it was sent.
+    /// When STOP was sent; before that, when stopping began.
     since: Instant,
     check_at: Instant,
-    /// The target at which each TARGET-only robot was told to stop, stage metres; by index into the fleet.
+    /// The last target to stop at of each TARGET-only robot, stage metres. The key is the robot's index in the fleet.
     halted: BTreeMap<usize, Vec2>,
 }
 
 impl Stopping {
-    /// Begins to stop all robots. `held_from`: when robots on a drive begin to slow down; `None` if all stop at once.
+    /// Begins to stop all robots. `held_from`: when robots on a drive are to begin to slow down, show clock. With `None`,
+    /// STOP is sent at once.
     pub fn begin(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
         context.outbox.stop_repeating();
         let stop_at = held_from.map(|at| at + Route::EASE);
@@ -74,7 +76,8 @@ impl Stopping {
         stopping
     }
 
-    /// Handles a report. A TARGET-only robot that still moves gets another target, where it is now.
+    /// Handles a report of the robot at `index` in the fleet. A TARGET-only robot that has moved on gets its present place
+    /// as target.
     pub fn on_report(&mut self, context: &mut Context, index: usize) {
         self.halt(context, index);
     }
@@ -89,7 +92,8 @@ impl Stopping {
         context.send(index, &[Command::Target(at), Command::Uuid]);
     }
 
-    /// Whether a robot may still drive, now or later: it may keep a route, or has not reported since STOP.
+    /// Whether a robot may still drive, now or later: it may keep a route, or has not reported since STOP. `false` for
+    /// robots that are gone and for TARGET-only robots.
     fn may_go_on(&self, robot: &KnownRobot) -> bool {
         if robot.contact.age == Age::Gone {
             return false;
@@ -106,8 +110,8 @@ impl Stopping {
         self.check_at
     }
 
-    /// Does what is due, and returns whether stopping is over. Robots that may keep a route get STOP on their own
-    /// topics: a link that was lost may have lost all copies.
+    /// Does what is due at `now`, and returns whether stopping is over. Robots that may keep a route get STOP on their own
+    /// topics, too: they may have missed all copies of the broadcast.
     pub fn tick(&mut self, context: &mut Context, now: Instant) -> bool {
         if now < self.check_at {
             return false;

@@ -1,4 +1,5 @@
-//! What a plan leaves around each robot: how near others come, and which of them come into sight, where and when.
+//! What is around each robot on its planned path: how near others come, and which of them come into sight, where and
+//! when.
 
 use std::sync::Arc;
 
@@ -6,36 +7,38 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::Path;
 use lightbots_wire::{Knot, Neighbours};
 
-/// Time between two samples of the paths. Between two samples, two robots that pass at full speed come closer by 1 mm.
+/// Time between two samples of the paths. When two robots pass at full speed, their clearance between samples is about
+/// 1 mm less than at the samples.
 const STEP: Span = Span::from_millis(40);
-/// Largest number of steps; longer paths are sampled less often.
+/// Largest number of steps from sample to sample; the steps of longer paths are longer.
 const MOST_STEPS: i64 = 30_000;
-/// Clearance above which more makes no difference, metres: the range of proximity sensors plus the distances of robots
-/// from their paths.
+/// Largest clearance that is computed, metres: the range of proximity sensors plus the distances of robots from their
+/// paths. More clearance makes no difference to a robot.
 const AMPLE_M: f64 = 0.04;
-/// Distance between rims within which a neighbour is in sight, metres.
+/// A neighbour counts as in sight if the gap between its rim and the robot's rim is less than this, metres.
 const SIGHT_M: f64 = 0.034;
-/// Largest number of robots whose surroundings are computed one by one. In larger fleets this would take too long, and
-/// each robot gets the least clearance of all.
+/// Largest number of paths for which surroundings are computed robot by robot. With more, that would take too long, and
+/// each robot gets the least clearance of the whole plan.
 const MOST: usize = 1000;
-/// Two sightings of a neighbour that are at most this number of steps apart count as one.
+/// A neighbour that is out of range for less than this number of steps stays in the same sighting.
 const PAUSE_STEPS: i64 = 3;
 /// Largest distance between a neighbour's path and the spline through its knots, metres.
 const KNOT_ERROR_M: f64 = 0.001;
-/// A stretch between two knots that is shorter than this is not divided any further, even if the spline is less exact
-/// there.
+/// A stretch between two knots that is shorter than this is not divided any further, even if its spline misses
+/// [`KNOT_ERROR_M`].
 const KNOT_EVERY: Span = Span::from_millis(60);
 
-/// What is around one robot on its path.
+/// What one robot meets on its path: its least clearance, and its neighbours.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Surroundings {
-    /// Least planned distance from its rim to all others, metres; infinite if more than 40 mm.
+    /// Least planned clearance to all other robots and discs, metres; infinite above [`AMPLE_M`]. With more than
+    /// [`MOST`] paths: the least clearance of the whole plan, or 0 if that is not known.
     pub room_m: f64,
-    /// The neighbours that come into sight; `None` if they were not computed.
+    /// The neighbours that come into sight of the robot on its path; `None` if they were not computed.
     pub neighbours: Option<Arc<Neighbours>>,
 }
 
-/// One stretch of time in which a neighbour is near.
+/// A stretch of time in which a neighbour is within [`AMPLE_M`] of a robot.
 #[derive(Clone, Copy, Debug)]
 struct Sighting {
     /// Index of the neighbour's path. For a disc that stands: the number of paths plus the index of the disc.
@@ -45,8 +48,9 @@ struct Sighting {
     least_m: f64,
 }
 
-/// Returns what is around each path. `standing`: centres of discs that do not move. `least_m`: clearance of the closest
-/// two of the plan; `None` if not known. `contact_m`: distance between centres at contact.
+/// Returns what is around each robot, in the order of `paths`. `standing`: centres of discs that do not move, stage
+/// metres. `least_m`: least clearance in the whole plan; `None` if it is not known. `contact_m`: distance between two
+/// centres at contact.
 pub(crate) fn surroundings(
     paths: &[(usize, Path)],
     standing: &[Vec2],
@@ -77,7 +81,8 @@ pub(crate) fn surroundings(
     sightings.into_iter().map(of_one).collect()
 }
 
-/// Returns for each path which robots and discs come near it, and when.
+/// Returns for each path which robots and discs come near its robot, and when. `longest`: duration of the longest path;
+/// `every`: time between two steps.
 fn sight(
     paths: &[(usize, Path)],
     standing: &[Vec2],
@@ -112,7 +117,7 @@ fn sight(
     sightings
 }
 
-/// Notes that `other` is near `one` at a step, with this gap between rims, metres.
+/// Notes that `other` is near `one` at a step, with the gap `gap_m` between their rims.
 fn note(sightings: &mut [Vec<Sighting>], one: usize, other: usize, step: i64, gap_m: f64) {
     let Some(known) = sightings.get_mut(one) else { return };
     let goes_on = |sighting: &&mut Sighting| sighting.other == other && step - sighting.last <= PAUSE_STEPS;
@@ -122,7 +127,8 @@ fn note(sightings: &mut [Vec<Sighting>], one: usize, other: usize, step: i64, ga
     }
 }
 
-/// Returns knots for the neighbour of a sighting, from a step before it to a step after it.
+/// Returns knots (time, place, velocity) of the neighbour of a sighting, from one step before the sighting to one step
+/// after it. A standing neighbour has a single knot.
 fn knots_of(
     one: &Sighting,
     paths: &[(usize, Path)],
@@ -146,7 +152,8 @@ fn knots_of(
     }
 }
 
-/// Adds knots after `from` up to `to`, as many as the spline needs to follow the path.
+/// Adds knots after `from` up to and including `to`. Their number is such that the spline through them keeps within
+/// [`KNOT_ERROR_M`] of the path.
 fn divide(path: &Path, from: Span, to: Span, knots: &mut Vec<Knot>) {
     let ends = [from, to].map(|at| path.as_ref().at(at));
     let over_s = (to - from).as_secs();

@@ -1,26 +1,26 @@
-//! Discs around inferred places, so that plans keep away from places that may be off.
+//! Adds discs around inferred places, so that plans keep away from them by as much as these places may be wrong. A place is
+//! inferred if no robot reported it as its own.
 
 use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 
-/// How far a place may be off that other robots have seen or that was calculated, metres. Measured: 5 mm where others
-/// measure a failed robot. Below, robots pass what they see at 6 mm by plan and touch it. Above, there is no plan
-/// through gaps that are wide enough.
+/// Assumed error of an inferred place, metres. Measured: 5 mm if other robots see a failed robot. With less, robots that
+/// pass an obstacle at 6 mm by plan touch it. With more, there is no plan through gaps that are wide enough.
 pub(crate) const OFF_M: f64 = 0.008;
-/// Number of discs on a circle around an inferred place: together they cover the disc grown by 6.8 mm at the least.
+/// Number of discs on a circle around an inferred place. Together they cover the disc at the place, grown by at least 6.8
+/// mm.
 const RING: u32 = 6;
-/// Discs that are closer together than this count as one, metres: places of a silent robot are 10 mm apart.
+/// Discs whose centres are closer than this count as one, metres. The possible places of a silent robot are 10 mm apart.
 const SAME_M: f64 = 0.004;
-/// Least clearance between a disc that does not move and where a robot starts or ends, metres. With less there is no
-/// plan.
+/// Least clearance between a standing disc and a robot at the start or end of its drive, metres. With less there is no plan.
 pub(crate) const REST_CLEARANCE_M: f64 = 0.001;
-/// Largest number of inferred places for which discs are added: each of up to six discs for a place is compared with all
-/// starts and goals, and planned around.
+/// Largest number of inferred places for which discs are added. It bounds the time: each of up to six discs for a place is
+/// compared with all starts and goals, and planned around.
 const PLACES_MAX: usize = 256;
 
-/// The problem with the discs around inferred places as well. A disc in which a robot starts or ends is left out, because
-/// robots that stopped at an obstacle have to get away from it. `None` without any such disc, and with more than
-/// [`PLACES_MAX`] places.
+/// Returns the problem with added standing discs around the inferred places, stage metres. A disc with less clearance than
+/// [`REST_CLEARANCE_M`] to a robot's start or goal is left out. Robots that stopped at an obstacle must be able to leave.
+/// `None` if there is no disc to add, or more than [`PLACES_MAX`] places.
 pub(crate) fn kept_away_from(problem: &TransitionProblem, inferred: &[Vec2]) -> Option<TransitionProblem> {
     if inferred.len() > PLACES_MAX {
         return None;

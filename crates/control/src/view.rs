@@ -1,4 +1,4 @@
-//! How a run looks from outside: what the controller is doing, and views of the run and its robots.
+//! Views for screens: what the controller is doing, the run, its robots and their paths.
 
 use crate::context::Context;
 use crate::controller::Controller;
@@ -9,22 +9,23 @@ use crate::snapshot::{LegProgress, PreflightProgress, RobotView, RunView, RunWai
 use lightbots_base::{Instant, Rgb, RobotId, Span, Vec2};
 use lightbots_plan::Path;
 
-/// Largest number of awaited robots in a view of a run.
+/// Largest number of robots in [`RunWait::robots`].
 const WAITING_MAX: usize = 20;
 
-/// The paths of the drive under way or about to begin.
+/// The paths of the drive that is under way or about to begin.
 #[derive(Clone, Debug)]
 pub struct PathsView<'a> {
     /// The frame to which the paths lead, counted from 0.
     pub frame: usize,
-    /// When the drive began or begins, show clock. Holds delay robots on their paths.
+    /// When the drive began or will begin, show clock. Holds delay robots on their paths, which this moment does not
+    /// show.
     pub began: Instant,
     /// The robots that drive, and their paths.
     pub paths: Vec<(RobotId, &'a Path)>,
 }
 
 impl Run {
-    /// Returns what the controller is doing, as people see it.
+    /// Returns the controller's state during this run.
     pub fn state(&self) -> ControllerState {
         match self.phase {
             RunPhase::Interrupted(_) => ControllerState::LinkLost,
@@ -73,7 +74,7 @@ impl Run {
         self.playback.waits_for_go.then(|| self.playback.cue(frame).unwrap_or_default())
     }
 
-    /// Whether the air time of a frame is over and the run waits for GO.
+    /// Whether the run waits for GO, and the air time of the frame that has the cue is over.
     pub fn is_at_cue(&self, now: Instant) -> bool {
         let RunPhase::Standing(standing) = &self.phase else { return false };
         self.playback.waits_for_go && !self.playback.paused && now >= standing.air.until
@@ -140,7 +141,7 @@ impl Run {
         late.map(|(_, known)| id(known.robot)).collect()
     }
 
-    /// Adds to a robot's view what the run knows of it.
+    /// Adds to the view of a robot what the run knows of this robot. `participant`: its participant number.
     pub fn complete(&self, view: &mut RobotView, participant: usize, now: Instant) {
         let Some(known) = self.roster.participants.get(participant) else { return };
         view.takes_part = !known.is_excluded();
@@ -160,7 +161,8 @@ impl Run {
 }
 
 impl Controller {
-    /// Returns the state of controller, run and fleet. Takes time in proportion to the fleet.
+    /// Returns the state of controller, run and fleet at `now`. The call takes time in proportion to the size of the
+    /// fleet.
     pub fn snapshot(&self, now: Instant) -> Snapshot {
         Snapshot {
             at: now,
@@ -189,7 +191,8 @@ impl Controller {
         self.context.fleet.robots().iter().map(view).collect()
     }
 
-    /// Returns the paths of the drive under way or about to begin, for drawing; `None` if there are none.
+    /// Returns the paths of the drive that is under way or about to begin, for drawing. `None` if there is none, or if
+    /// robots drive by TARGET.
     pub fn paths(&self) -> Option<PathsView<'_>> {
         let run = self.run.as_ref()?;
         let (leg, began) = run.driven_paths()?;
@@ -198,15 +201,15 @@ impl Controller {
         Some(PathsView { frame: leg.frame, began, paths })
     }
 
-    /// Returns the number of the present pass through a loop, counted from 1. `None` if no frames repeat, or GO was
-    /// given.
+    /// Returns the number of the pass through a loop of frames that is under way, counted from 1. `None` if no loop is
+    /// under way, or the operator gave GO.
     pub fn loop_round(&self) -> Option<u32> {
         let repeats = self.run.as_ref()?.repeats()?;
         (!repeats.leaves).then_some(repeats.round)
     }
 
-    /// Returns the colours that layers give at `now` to robots that support LIGHT. Empty if no show with layers is
-    /// played, or while lights blend to other colours.
+    /// Returns the colours that the show's layers of light give at `now` to robots that support LIGHT. Empty if no show
+    /// with layers is played, and while robots blend from one light to another.
     pub fn layered_lights(&self, now: Instant) -> Vec<(RobotId, Rgb)> {
         let Some(Run { pipeline, roster, phase, .. }) = &self.run else { return Vec::new() };
         let plays = matches!(phase, RunPhase::Driving(_) | RunPhase::Standing(_) | RunPhase::Starting(_));
@@ -222,7 +225,8 @@ impl Controller {
         roster.active().filter_map(colour).collect()
     }
 
-    /// Returns where robots are by the paths of the drive under way, stage metres. Empty if no path is driven.
+    /// Returns the planned places of robots at `now` on the paths of the drive under way, stage metres. Empty if no
+    /// routes are being driven.
     pub fn planned_places(&self, now: Instant) -> Vec<(RobotId, Vec2)> {
         let Some(Run { phase: RunPhase::Driving(drive), pipeline, roster, .. }) = &self.run else {
             return Vec::new();

@@ -6,11 +6,12 @@ use artnet_protocol::ArtCommand;
 
 use crate::packet::{CHANNELS, DmxPacket, DmxSource};
 
-/// Priority of Art-Net sources, which have none of their own, among sources of sACN: the usual one of ANSI E1.31-2018,
-/// table 4-1.
+/// Priority of sources of Art-Net. Their packets have no priority, so they get the usual one of sACN (ANSI E1.31-2018,
+/// table 4-1).
 const PRIORITY: u8 = 100;
 
-/// Decodes the payload of a UDP packet that came from `from`. `None` if it is no valid packet with values of channels.
+/// Decodes the payload of a UDP packet that came from `from`. `None` if it is no valid Art-Net packet with values of
+/// channels.
 pub fn decode_artnet(from: IpAddr, bytes: &[u8]) -> Option<DmxPacket> {
     let ArtCommand::Output(output) = ArtCommand::from_buffer(bytes).ok()? else { return None };
     let sent = output.data.as_ref();

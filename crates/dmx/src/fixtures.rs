@@ -10,24 +10,24 @@ use crate::universe::Universe;
 
 /// Largest number of robots that are kept: the size of the largest fleet. Further robots are ignored.
 const ROBOTS_MAX: usize = 20_000;
-/// Time after which SLOT is sent again to a robot that does not report its slot. A shorter time makes needless copies
-/// on slow networks. With a longer time, a robot that was just switched on waits longer for the light of the desk.
+/// Time after which SLOT is sent again to a robot that does not report its slot. With a shorter time, SLOT is sent
+/// needlessly on slow networks. With a longer time, a robot that was just switched on waits longer for the desk's light.
 const AGAIN: Span = Span::from_millis(1_000);
-/// Time without a report after which SLOT is not sent to a robot. Robots report every 2 s (R41).
+/// Time without a report after which no SLOT is sent to a robot. Robots report at least every 2 s (R41).
 const GONE: Span = Span::from_millis(10_000);
-/// Largest number of SLOT messages that are sent at once. More would delay other messages.
+/// Largest number of SLOT messages that are sent at one moment. More messages would delay others.
 const TOLD_AT_ONCE: usize = 50;
-/// Number of times that RELEASE is sent to a robot. With 5 % of messages lost, one robot of 8,000 receives none of
-/// three, and shows its own light 2.5 s later (R61).
+/// Number of times that RELEASE is sent to a robot, because messages may be lost. If 5 % are lost, one robot of 8,000
+/// receives none of the three. It shows its own light 2.5 s later (R61).
 const RELEASES: u8 = 3;
 
-/// A robot as a lighting desk sees it.
+/// A robot whose light a lighting desk may control.
 #[derive(Debug)]
 struct Fixture {
     id: RobotId,
-    /// Whether it understands live light.
+    /// Whether the robot understands live light.
     knows_live: bool,
-    /// The slot that it reported last.
+    /// The slot that the robot reported last; `None`: it reported none.
     reported: Option<u16>,
     heard: Instant,
     told: Option<Instant>,
@@ -38,17 +38,17 @@ struct Fixture {
     releases: u8,
 }
 
-/// All robots that have reported. A robot's slot is its place in the order of first reports, from 0.
+/// All robots that have reported. A robot's slot is its index in the order of the robots' first reports, from 0.
 #[derive(Debug, Default)]
 pub(crate) struct Fixtures {
     by_slot: Vec<Fixture>,
     by_name: BTreeMap<RobotId, u16>,
-    /// Whether robots were added since channels were last assigned.
+    /// Whether robots were added after channels were assigned.
     are_new: bool,
 }
 
 impl Fixtures {
-    /// Receives the report of a robot, and adds the robot if it is new.
+    /// Receives the report of a robot, and adds the robot if it has not reported before.
     pub fn receive(&mut self, now: Instant, report: &Report) {
         let details = report.details.as_ref();
         let knows_live = details.is_some_and(|details| details.abilities.live);
@@ -81,13 +81,13 @@ impl Fixtures {
         slot
     }
 
-    /// Number of robots.
+    /// Number of robots that have reported.
     pub fn len(&self) -> usize {
         self.by_slot.len()
     }
 
-    /// Assigns channels to all robots if robots were added, and returns the universes that they need. `None` if none
-    /// were added.
+    /// If robots were added, assigns channels to all robots, and returns the universes of these channels. `None` if no
+    /// robots were added.
     pub fn patch(&mut self, table: &PatchTable) -> Option<BTreeSet<u16>> {
         if !std::mem::take(&mut self.are_new) {
             return None;
@@ -98,7 +98,7 @@ impl Fixtures {
         Some(self.by_slot.iter().filter_map(|fixture| fixture.address).map(|at| at.universe).collect())
     }
 
-    /// Returns the robots to which SLOT is to be sent now, with their slots, and notes that it was sent.
+    /// Returns the robots to which SLOT must be sent now, with their slots, at most [`TOLD_AT_ONCE`]. Notes that it is sent.
     pub fn next_slots(&mut self, now: Instant) -> Vec<(RobotId, u16)> {
         let due = (0u16..).zip(&mut self.by_slot).filter(|(slot, fixture)| {
             let was_told = fixture.told.is_some_and(|told| now - told < AGAIN);
@@ -112,12 +112,13 @@ impl Fixtures {
             .collect()
     }
 
-    /// Whether robots wait for channels or slots.
+    /// Whether robots wait for channels or for their slots.
     pub fn need_something(&self, now: Instant) -> bool {
         self.are_new || (0u16..).zip(&self.by_slot).any(|(slot, fixture)| fixture.needs_slot(slot, now))
     }
 
-    /// Updates the colours of all robots from the universes. Returns whether any has changed.
+    /// Updates the desk's colours of all robots from the values of the universes. A robot that no longer has a colour will
+    /// be released. Returns whether any colour has changed.
     pub fn take_colours(&mut self, universes: &BTreeMap<u16, Universe>) -> bool {
         let mut has_changed = false;
         for (slot, fixture) in (0u16..).zip(&mut self.by_slot) {
@@ -133,22 +134,22 @@ impl Fixtures {
         has_changed
     }
 
-    /// Colours from the desk, by slot.
+    /// Slots of the robots that have a colour from a desk, with the colours, in order of slots.
     pub fn colours(&self) -> impl Iterator<Item = (u16, Rgb)> {
         (0u16..).zip(&self.by_slot).filter_map(|(slot, fixture)| Some((slot, fixture.colour?)))
     }
 
-    /// Colours from the desk, by robot.
+    /// Names of the robots that have a colour from a desk, with the colours.
     pub fn lights(&self) -> impl Iterator<Item = (RobotId, Rgb)> {
         self.by_slot.iter().filter_map(|fixture| Some((fixture.id, fixture.colour?)))
     }
 
-    /// Slots to which RELEASE is still to be sent, in order.
+    /// Slots of the robots to which RELEASE must still be sent, in order.
     pub fn released(&self) -> impl Iterator<Item = u16> {
         (0u16..).zip(&self.by_slot).filter(|(_, fixture)| fixture.releases > 0).map(|(slot, _)| slot)
     }
 
-    /// Notes that RELEASE was sent once more to all robots that are being released.
+    /// Notes that RELEASE was sent once more to all robots of [`Self::released`].
     pub fn note_release(&mut self) {
         for fixture in &mut self.by_slot {
             fixture.releases = fixture.releases.saturating_sub(1);
@@ -157,7 +158,7 @@ impl Fixtures {
 }
 
 impl Fixture {
-    /// Whether the robot shows colours that are sent for this slot.
+    /// Whether the robot shows colours that are sent for `slot`: it understands live light and has reported this slot.
     fn is_ready(&self, slot: u16) -> bool {
         self.knows_live && self.reported == Some(slot)
     }

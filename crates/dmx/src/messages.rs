@@ -3,15 +3,15 @@
 use lightbots_base::Rgb;
 use lightbots_wire::{Command, LiveColours, LiveRelease, MAX_LIVE_COLOURS, MAX_PAYLOAD, encode};
 
-/// Payloads of one moment: those that are full, and the text of the last one.
+/// Payloads of one moment of live light: the full ones, and the text of the one that is being filled.
 #[derive(Debug)]
 struct Payloads {
     full: Vec<Vec<u8>>,
     text: String,
 }
 
-/// Writes payloads with the colours of the moment with this `number`, and with the slots that are released. Colours and
-/// released slots must be in order of slots. Fewer gaps between slots make the payloads shorter.
+/// Writes the payloads of the moment of live light with this `number`: colours by slot, and the slots of released robots.
+/// Both must be in order of slots. The fewer gaps between slots, the shorter the payloads.
 pub(crate) fn write_moment(
     number: u32,
     colours: impl Iterator<Item = (u16, Rgb)>,

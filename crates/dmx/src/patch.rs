@@ -7,20 +7,21 @@ use lightbots_base::RobotId;
 
 use crate::packet::CHANNELS;
 
-/// Number of robots in a universe without gaps: each has three channels.
+/// Largest number of robots in a universe: each has three channels.
 const ROBOTS: u32 = (CHANNELS / 3) as u32;
-/// Highest channel at which a colour begins.
+/// Highest channel, counted from 1, at which a colour of three channels may begin.
 const CHANNEL_MAX: u16 = (CHANNELS - 2) as u16;
-/// Highest number of a universe, that of sACN (ANSI E1.31-2018, 6.2.7). Art-Net ends at 32767.
+/// Highest number of a universe in a table: the highest of sACN (ANSI E1.31-2018, 6.2.7). In Art-Net, the highest is 32767.
 const UNIVERSE_MAX: u16 = 63_999;
 /// Largest number of robots in a table: the size of the largest fleet.
 const ROBOTS_MAX: usize = 20_000;
-/// Largest number of universes in a table. Each takes up to 2 KB of values. The largest fleet without gaps fills 118.
+/// Largest number of universes in a table. A universe takes up to 2 KB of memory for values. The largest fleet fills 118 if
+/// there are no gaps between robots' channels.
 const UNIVERSES_MAX: usize = 512;
-/// The word for robots that no line names.
+/// The word with which a line begins that is for all robots without a line of their own.
 const OTHERS: &str = "others";
 
-/// Place of a robot's colour: red, green and blue on three channels in a row.
+/// Where a desk sends a robot's colour: red, green and blue on three successive channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DmxAddress {
     /// Number of the universe.
@@ -32,10 +33,10 @@ pub struct DmxAddress {
 /// Which channels belong to which robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PatchTable {
-    /// Channels of the robots that have a line. The key is a robot's name, or its number written as digits.
+    /// Channels of the robots that have a line. The key is the robot's name, or its number in decimal digits.
     listed: BTreeMap<RobotId, DmxAddress>,
-    /// Universe of the robot with number 0, from which robots without a line are counted. `None`: they have no
-    /// channels.
+    /// Universe of the robot with the number 0 if it has no line of its own. Robots with higher numbers follow without
+    /// gaps, also in further universes. `None`: robots without a line have no channels.
     others: Option<u16>,
 }
 
@@ -44,7 +45,7 @@ pub struct PatchTable {
 pub struct PatchError {
     /// Number of the line, counted from 1.
     pub line: usize,
-    /// What is wrong, and what to do.
+    /// What is wrong with the line, and what to do.
     pub what: String,
 }
 
@@ -55,15 +56,16 @@ impl fmt::Display for PatchError {
 }
 
 impl Default for PatchTable {
-    /// No lines: robot n has universe 1 + n/170, rounded down, and the channels from 3·(n mod 170) + 1 on.
+    /// A table without lines for single robots. The robot with the number n, from 0, has universe 1 + n/170, rounded down,
+    /// and three channels from 3·(n mod 170) + 1 on.
     fn default() -> Self {
         Self { listed: BTreeMap::new(), others: Some(1) }
     }
 }
 
 impl PatchTable {
-    /// Reads lines `robot universe channel` and `others universe`. Text after `#` is a comment. `robot` is a name or a
-    /// number.
+    /// Reads lines `ROBOT UNIVERSE CHANNEL` and at most one line `others UNIVERSE`. ROBOT is a robot's name, or its number
+    /// counted from 0. Text after `#` is a comment.
     pub fn read(text: &str) -> Result<Self, PatchError> {
         let mut table = Self { listed: BTreeMap::new(), others: None };
         let mut universes = BTreeSet::new();
@@ -101,14 +103,14 @@ impl PatchTable {
         Ok(table)
     }
 
-    /// Returns the channels of a robot, if it has any. `number` is its place among all robots in the order of their
-    /// names, from 0. A line for the robot's name has precedence over one for its number.
+    /// Returns the channels of a robot; `None`: it has none. `number` is the robot's index among all robots in the order of
+    /// their names, from 0. A line for the robot's name counts before a line for its number.
     pub fn address(&self, robot: RobotId, number: u32) -> Option<DmxAddress> {
         let by_number = || RobotId::new(&number.to_string()).and_then(|number| self.listed.get(&number));
         self.listed.get(&robot).or_else(by_number).copied().or_else(|| self.following(number))
     }
 
-    /// Returns the channels of a robot without a line, if `others` gives it any.
+    /// Returns the channels that a robot with this number has by the line `others`; `None`: none.
     fn following(&self, number: u32) -> Option<DmxAddress> {
         let universe = u32::from(self.others?) + number / ROBOTS;
         let universe = u16::try_from(universe).ok().filter(|&universe| universe <= UNIVERSE_MAX)?;

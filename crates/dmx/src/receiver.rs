@@ -13,89 +13,91 @@ use crate::patch::PatchTable;
 use crate::universe::{Taken, Universe};
 use crate::unpatched::UnpatchedUniverses;
 
-/// Time between two moments of live light without robots. `PERIOD_PER_ROBOT` is added for each robot, up to
-/// `PERIOD_MAX`: 20 moments a second for few robots, 10 from 1,000 robots on. Each robot receives the colours of all,
-/// four bytes each: with 1,000 robots 40 KB a second.
+/// Shortest time between two moments of live light, at which the colours of all robots are sent. For each robot,
+/// `PERIOD_PER_ROBOT` is added, up to `PERIOD_MAX`: there are 20 moments a second for few robots, and 10 from 1,000 robots
+/// on. Each robot receives the colours of all robots, four bytes each: with 1,000 robots, 40 KB a second.
 const PERIOD: Span = Span::from_millis(50);
-/// Time that each robot adds to `PERIOD`: 50 µs.
+/// Time that each robot adds to the time between two moments of live light: 50 µs.
 const PERIOD_PER_ROBOT: Span = Span(50);
-/// Longest time between two moments of live light while colours change, see `PERIOD`.
+/// Longest time between two moments of live light while colours change. `PERIOD` is the shortest.
 const PERIOD_MAX: Span = Span::from_millis(100);
-/// Time after which unchanged colours are sent again. A robot shows its own light after 2.5 s without a message (R61),
-/// so four messages in a row may be lost.
+/// Time after which unchanged colours are sent again. A robot shows its own light after 2.5 s without colours (R61), so that
+/// it can miss four successive messages.
 const AGAIN: Span = Span::from_millis(500);
-/// Number of further moments in which changed colours are sent again, for robots that did not receive them.
+/// Number of moments after a change of colours at which they are sent again, because some robots may have missed them.
 const REPEATS: u32 = 2;
 
-/// Time for which the number of robots must not change before it is reported to people, because robots come one by one.
+/// How long the number of robots with a desk's colours must be unchanged before people are told it, because robots get
+/// colours one by one.
 const SETTLED: Span = Span::from_millis(1_000);
 
-/// A message to publish at QoS 0, not retained.
+/// An MQTT message to publish at QoS 0, not retained.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LivePublish {
     /// Topic.
     pub topic: Topic,
-    /// UTF-8 text.
+    /// Payload: UTF-8 text.
     pub payload: Vec<u8>,
 }
 
-/// Events that are reported to people.
+/// Events that people should be told.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DeskNews {
-    /// A desk took over the lights of robots. Reported when their number has settled.
+    /// Desks took over the lights of robots. The event comes when the number of these robots has not changed for a second.
     Began {
-        /// Number of these robots.
+        /// Number of robots that show a desk's colours.
         robots: usize,
     },
     /// All robots show their own lights again.
     Ended,
-    /// Desks send universes without robots. Each universe is reported once.
+    /// Desks send universes in which no robot has channels. Each universe is reported once.
     Unpatched {
         /// Numbers of the universes, in order.
         universes: Vec<u16>,
-        /// Whether there are more, which are never named, because their number is bounded.
+        /// Whether there are further universes without robots. They are never named, to keep the list short.
         has_more: bool,
     },
 }
 
-/// Numbers of packets with values since the start.
+/// Numbers of packets with values that were received since the receiver was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PacketCounts {
-    /// Packets with the newest values of their source, or with the end of its stream.
+    /// Number of packets with the newest values of their source, or with the end of their source's stream.
     pub newest: u64,
-    /// Packets that were overtaken by later ones.
+    /// Number of packets that came after a later packet of their source, and were ignored.
     pub old: u64,
-    /// Packets for universes without robots, counted while any robot is known.
+    /// Number of packets for universes without robots. Packets that came before the first robot are not counted.
     pub unpatched: u64,
-    /// Packets of sources beyond the number that a universe may have.
+    /// Number of packets that were ignored because their universe had too many sources.
     pub crowded: u64,
 }
 
-/// Receives what lighting desks send. Inputs are [`packet`](Self::packet), [`report`](Self::report) and
-/// [`wake`](Self::wake), each with `now`, which never goes back. After each input, call `wake` at the time of
-/// [`wake_at`](Self::wake_at). Then drain [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
+/// Receives packets of lighting desks and reports of robots, and makes messages of live light. Inputs are
+/// [`packet`](Self::packet), [`report`](Self::report) and [`wake`](Self::wake), each with the time `now`, which must not
+/// decrease. After each input, ask [`wake_at`](Self::wake_at) when to call `wake`. After each `wake`, take all results of
+/// [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
 ///
-/// A desk controls the light of the robots whose three channels it sends. The show controls the light of all others.
+/// A desk controls the light of the robots whose three channels it sends. The show controls the light of all other robots.
 #[derive(Debug)]
 pub struct DeskReceiver {
     patch: PatchTable,
-    /// Settings of the robots' lamps. Colours in messages are corrected by them.
+    /// Settings of the robots' lamps, by which colours in messages are corrected.
     lamp: LampSettings,
-    /// The universes that have robots, by number. Packets of other universes are not kept.
+    /// The universes in which robots have channels, by number. Packets of other universes are not kept.
     universes: BTreeMap<u16, Universe>,
     fixtures: Fixtures,
     /// Number of the next moment of live light.
     number: u32,
     /// When the next moment may be sent.
     moment_at: Instant,
-    /// When colours were sent last.
+    /// When colours were last sent.
     sent_at: Instant,
-    /// Number of further moments in which the colours are sent even if they do not change.
+    /// Number of next moments at which the colours are sent even if they do not change.
     repeats: u32,
     is_lit: bool,
-    /// Number of robots that show colours of a desk, and when it last changed.
+    /// Number of robots that have a desk's colour, and when this number last changed.
     counted: (usize, Instant),
-    /// Whether people were told that a desk took over lights, and not yet that this has ended.
+    /// Whether the last event of these two was [`DeskNews::Began`], and not [`DeskNews::Ended`].
     is_told: bool,
     unpatched: UnpatchedUniverses,
     publishes: VecDeque<LivePublish>,
@@ -104,8 +106,8 @@ pub struct DeskReceiver {
 }
 
 impl DeskReceiver {
-    /// Makes a receiver that knows no robot yet. `number` is that of the first moment of live light, higher than any
-    /// sent before.
+    /// Makes a receiver that knows no robots. `number` is the number of the first moment of live light. It must be higher
+    /// than all numbers that were sent before, because robots ignore old numbers (R60).
     pub fn new(patch: PatchTable, number: u32, lamp: LampSettings) -> Self {
         Self {
             patch,
@@ -149,7 +151,7 @@ impl DeskReceiver {
         self.fixtures.receive(now, report);
     }
 
-    /// Queues messages and news that are due at `now`. Does nothing before the next moment is due.
+    /// Queues the messages and events that are due at `now`. Does nothing if the next moment of live light is not due yet.
     pub fn wake(&mut self, now: Instant) {
         if now < self.moment_at {
             return;
@@ -171,7 +173,7 @@ impl DeskReceiver {
         self.tell(now);
     }
 
-    /// When to call [`wake`](Self::wake) next; `None`: after the next packet or report.
+    /// When to call [`wake`](Self::wake) next; `None`: it need not be called before the next packet or report.
     pub fn wake_at(&self, now: Instant) -> Option<Instant> {
         let is_lit = self.is_lit || self.universes.values().any(Universe::is_lit);
         let is_released = self.fixtures.released().next().is_some();
@@ -180,32 +182,32 @@ impl DeskReceiver {
         is_busy.then_some(self.moment_at)
     }
 
-    /// The next message to publish.
+    /// Takes the next message to publish; `None`: there are no more.
     pub fn next_publish(&mut self) -> Option<LivePublish> {
         self.publishes.pop_front()
     }
 
-    /// The next event to report to people.
+    /// Takes the next event that people should be told; `None`: there are no more.
     pub fn next_news(&mut self) -> Option<DeskNews> {
         self.news.pop_front()
     }
 
-    /// The colours that desks give to robots.
+    /// The robots that have a desk's colour, with the colours before the correction for lamps.
     pub fn lights(&self) -> impl Iterator<Item = (RobotId, Rgb)> {
         self.fixtures.lights()
     }
 
-    /// Universes with robots, in order.
+    /// Numbers of the universes in which robots have channels, in order.
     pub fn universes(&self) -> impl Iterator<Item = u16> {
         self.universes.keys().copied()
     }
 
-    /// Numbers of packets since the start.
+    /// Numbers of packets that were received since the receiver was made.
     pub fn counts(&self) -> PacketCounts {
         self.counts
     }
 
-    /// Assigns channels if robots were added. Then keeps exactly the universes that have robots.
+    /// If robots were added, assigns channels to all robots, and then keeps exactly the universes of these channels.
     fn give_channels(&mut self, now: Instant) {
         let Some(needed) = self.fixtures.patch(&self.patch) else { return };
         self.unpatched.robots_added(now, |universe| needed.contains(&universe));
@@ -215,7 +217,7 @@ impl DeskReceiver {
         }
     }
 
-    /// Queues the messages of a moment if colours have changed, are due again, or robots are to be released.
+    /// Queues the messages of a moment of live light if colours have changed, are due again, or robots must be released.
     fn send(&mut self, now: Instant) {
         let is_lit = self.fixtures.colours().next().is_some();
         let is_due = is_lit && (self.repeats > 0 || now - self.sent_at >= AGAIN);

@@ -5,9 +5,9 @@
 
 use crate::packet::{CHANNELS, DmxPacket, DmxSource};
 
-/// Preamble, postamble and the identifier of ACN packets.
+/// First bytes of a packet: size of the preamble, size of the postamble, and the identifier of ACN packets.
 const ROOT: [u8; 16] = *b"\x00\x10\x00\x00ASC-E1.17\x00\x00\x00";
-/// Fields of data packets that always have the same value: byte offset and bytes.
+/// Fields that have a fixed value in data packets with values of channels: byte offset and bytes.
 const FIXED: [(usize, &[u8]); 6] = [
     (18, &[0, 0, 0, 4]),  // root layer: VECTOR_ROOT_E131_DATA
     (40, &[0, 0, 0, 2]),  // framing layer: VECTOR_E131_DATA_PACKET
@@ -16,9 +16,9 @@ const FIXED: [(usize, &[u8]); 6] = [
     (119, &[0, 0, 0, 1]), // first property address, address increment
     (125, &[0]),          // start code of DMX512-A: values of channels
 ];
-/// Byte offsets of the flags: the upper four bits of the two bytes that hold a length.
+/// Byte offsets of the three fields of flags and length. The upper four bits of a field are the flags, which must be 7.
 const FLAGS: [usize; 3] = [16, 38, 115];
-/// Byte offset of the source's identifier.
+/// Byte offset of the component identifier (CID) of the source.
 const CID: usize = 22;
 /// Byte offset of the priority.
 const PRIORITY: usize = 108;
@@ -28,21 +28,21 @@ const PRIORITY_MAX: u8 = 200;
 const SEQUENCE: usize = 111;
 /// Byte offset of the options.
 const OPTIONS: usize = 112;
-/// Option: the values are for a preview, not for lamps (6.2.6).
+/// Bit of the options: the values are for a preview and not for lamps (6.2.6).
 const PREVIEW: u8 = 0x80;
-/// Option: the source sends no more (6.2.6).
+/// Bit of the options: the source ends its stream (6.2.6).
 const TERMINATED: u8 = 0x40;
 /// Byte offset of the universe.
 const UNIVERSE: usize = 113;
 /// Highest number of a universe (6.2.7).
 const UNIVERSE_MAX: u16 = 63_999;
-/// Byte offset of the number of values, the start code included.
+/// Byte offset of the number of values, which includes the start code.
 const COUNT: usize = 123;
 /// Byte offset of the value of channel 1.
 const VALUES: usize = 126;
 
-/// Decodes the payload of a UDP packet. `None` if it is no valid data packet, or has no values for lamps: a preview, or
-/// another start code.
+/// Decodes the payload of a UDP packet. `None` if it is no valid data packet, or its values are for a preview. Also `None`
+/// for a start code other than that of values of channels.
 pub fn decode_sacn(bytes: &[u8]) -> Option<DmxPacket> {
     let header: &[u8; VALUES] = bytes.first_chunk()?;
     let has_flags = FLAGS.iter().all(|&at| header[at] >> 4 == 7);

@@ -4,27 +4,27 @@ use lightbots_base::{Instant, Rgb, Span};
 
 use crate::packet::{DmxPacket, DmxSource};
 
-/// Time without a packet after which a source of sACN is lost: network data loss of ANSI E1.31-2018, 6.7.1.
+/// Time without a packet after which a source of sACN counts as lost: "network data loss" in ANSI E1.31-2018, 6.7.1.
 const SACN_LOSS: Span = Span::from_millis(2_500);
-/// Time without a packet after which a source of Art-Net is lost. It is two repetitions and a reserve, because
-/// unchanged values may be repeated only every 4 s. Below 4 s, robots would switch between the light of desk and show.
-/// A longer time lets a desk that is gone keep robots for longer.
+/// Time without a packet after which a source of Art-Net counts as lost. Sources may repeat unchanged values only every 4 s;
+/// this is two repetitions and a reserve. With less than 4 s, robots would switch between the light of desk and show. With a
+/// longer time, a desk that was switched off would keep its robots for longer.
 const ARTNET_LOSS: Span = Span::from_millis(10_000);
-/// Largest number of sources in a universe. More sources are conflicting desks or untrusted senders. If all places are
-/// taken, a new source replaces one of the lowest priority, if its own priority is higher.
+/// Largest number of sources in a universe. More sources mean conflicting desks or untrusted senders. A further source
+/// replaces the source of the lowest priority if its own priority is higher, and is ignored otherwise.
 const SOURCES_MAX: usize = 4;
-/// A packet is old if its sequence number equals the last one, or is below it by less than this (ANSI E1.31-2018,
-/// 6.7.2).
+/// A packet is old if its sequence number equals the last one of its source, or is below that number by less than this.
+/// Numbers count modulo 256 (ANSI E1.31-2018, 6.7.2).
 const OLD_NUMBERS: i8 = 20;
 
 /// What happened with a received packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
-    /// It has the newest values of its source, or ended the stream of its source.
+    /// The packet has the newest values of its source, or ended the stream of its source.
     Newest,
-    /// It was ignored, because a later packet had overtaken it.
+    /// The packet was ignored, because a later packet of its source had come before.
     Old,
-    /// It was ignored, because the universe has too many sources.
+    /// The packet was ignored, because the universe has too many sources.
     Crowded,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct Universe {
 }
 
 impl Universe {
-    /// Receives a packet of this universe, and keeps its values if they count.
+    /// Receives a packet of this universe, and keeps its values unless it is ignored. Removes lost sources first.
     pub fn receive(&mut self, now: Instant, packet: DmxPacket) -> Taken {
         self.expire(now);
         let place = self.sources.iter().position(|source| source.id == packet.source);
@@ -69,18 +69,19 @@ impl Universe {
         Taken::Newest
     }
 
-    /// Removes sources that are lost.
+    /// Removes the sources that are lost at `now`.
     pub fn expire(&mut self, now: Instant) {
         self.sources.retain(|source| now - source.heard < loss(source.id));
     }
 
-    /// Whether there is a source that sends.
+    /// Whether the universe has a source that is not lost.
     pub fn is_lit(&self) -> bool {
         !self.sources.is_empty()
     }
 
-    /// Returns the colour on three channels, of which `channel`, counted from 1, is the first. It has the highest value
-    /// of each channel among the sources of the highest priority. `None` if none of these sends all three channels.
+    /// Returns the colour on three successive channels; `channel`, counted from 1, is the first. Only sources of the highest
+    /// priority that send all three channels count; of several, each channel takes the highest value. `None` if there are
+    /// none.
     pub fn colour(&self, channel: u16) -> Option<Rgb> {
         let highest = self.sources.iter().map(|source| source.priority).max()?;
         let from = usize::from(channel).checked_sub(1)?;

@@ -4,24 +4,24 @@ use std::collections::BTreeSet;
 
 use lightbots_base::{Instant, Span};
 
-/// Largest number of universes that are named to people, which bounds memory and the length of messages. Packets may
-/// come from any program on the network.
+/// Largest number of universes that are named to people. Bounds memory and the length of messages, because packets may come
+/// from any program on the network.
 const NAMED_MAX: usize = 16;
-/// Time for which universes are collected before they are named, after the first packet and after robots were added.
-/// A desk sends all its universes within 1 s (ANSI E1.31-2018, 6.6.2: each 0.8 to 1 s).
+/// How long universes are collected before they are named, from the first packet or from when robots were last added. A
+/// desk sends all its universes within this time (ANSI E1.31-2018, 6.6.2: each of them every 0.8 to 1 s).
 const COLLECTED: Span = Span::from_millis(1_000);
 
-/// The universes without robots of which packets came.
+/// The universes that desks send although no robot has channels in them.
 #[derive(Debug, Default)]
 pub(crate) struct UnpatchedUniverses {
-    /// Universes that are not named to people yet.
+    /// Universes that were not named to people yet.
     waiting: BTreeSet<u16>,
-    /// Universes that were named.
+    /// Universes that were named to people.
     named: BTreeSet<u16>,
-    /// Whether a universe came beyond [`NAMED_MAX`], and whether people were told so.
+    /// Whether packets of more than [`NAMED_MAX`] universes came. The next field: whether people were told so.
     has_more: bool,
     is_more_told: bool,
-    /// When the time of collecting began.
+    /// When collecting began; see [`COLLECTED`].
     since: Instant,
 }
 
@@ -41,7 +41,8 @@ impl UnpatchedUniverses {
         self.waiting.insert(universe);
     }
 
-    /// Notes that robots were added at `now`. `is_patched`: whether a universe has robots.
+    /// Notes that robots were added at `now`. `is_patched` returns whether robots now have channels in a universe.
+    /// Collecting begins again.
     pub fn robots_added(&mut self, now: Instant, is_patched: impl Fn(u16) -> bool) {
         self.waiting.retain(|&universe| !is_patched(universe));
         // Packets that come until the universes are named tell whether there are still more.
@@ -49,12 +50,13 @@ impl UnpatchedUniverses {
         self.since = now;
     }
 
-    /// Whether universes wait to be named.
+    /// Whether people must still be told something: a universe, or that there are more than are named.
     pub fn is_waiting(&self) -> bool {
         !self.waiting.is_empty() || self.has_more && !self.is_more_told
     }
 
-    /// Takes the universes that are to be named at `now`, in order, and whether there are more than are named.
+    /// Takes the universes that people should be told at `now`, in order, and whether there are more than are named. `None`
+    /// if there is nothing to tell, or collecting is not over.
     pub fn take(&mut self, now: Instant) -> Option<(Vec<u16>, bool)> {
         if !self.is_waiting() || now - self.since < COLLECTED {
             return None;

@@ -4,16 +4,17 @@ use crate::geometry::hexagonal_count;
 use crate::ground::Ground;
 use crate::layout::Style;
 
-/// What a part needs.
+/// The claim of one part of a drawing to robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
-    /// Weight of the part: robots are allotted in proportion to it.
+    /// Weight of the part. The robots beyond `least` are allotted in proportion to it.
     pub demand: f64,
-    /// Number of robots that it gets in any case.
+    /// Number of robots that the part gets in any case.
     pub least: usize,
 }
 
-/// Returns the demand of each part in robots, at the spacing at which all parts together take `count` robots.
+/// Returns for each part the number of robots that it takes (may be fractional), all parts at one spacing. The spacing
+/// is chosen so that the sum is `count`.
 pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f64> {
     let at = |spacing: f64| grounds.iter().map(|ground| demand(ground, style, spacing)).collect::<Vec<f64>>();
     let size = grounds.iter().map(|ground| ground.size).fold(0.0, f64::max);
@@ -25,7 +26,7 @@ pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f6
     at(high)
 }
 
-/// Number of robots that a part takes at a spacing; may be fractional.
+/// Number of robots that a part takes at a spacing between robots; may be fractional.
 fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     let filling = |area: f64| hexagonal_count(area, spacing);
     let (lines, edge) = (ground.lines.length(), ground.outline.length());
@@ -38,9 +39,9 @@ fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     }
 }
 
-/// Allots `count` robots in proportion to the demands. Each next robot goes to the part with the greatest demand per
-/// robot that it has. Every part with a demand gets a first robot before any part gets a second one, the part of
-/// greatest demand first.
+/// Allots `count` robots to parts, in proportion to their demands, and returns the number of robots for each part. One
+/// robot after the other goes to the part with the greatest demand per robot. A part without robots comes before parts
+/// with robots, if it has a demand.
 pub(crate) fn allot(shares: &[Share], count: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = shares.iter().map(|share| share.least).collect();
     let given: usize = counts.iter().sum();

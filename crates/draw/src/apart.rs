@@ -1,5 +1,5 @@
-//! Pushes places apart that are nearer than wanted. The closest pair sets the size of a picture on the floor, because
-//! robots need their spacing there.
+//! Pushes places apart that are closer than wanted. The closest pair sets the size of a picture on the floor, because
+//! it must be enlarged until even these two robots have room.
 
 use lightbots_base::Vec2;
 
@@ -7,7 +7,7 @@ use crate::buckets::Buckets;
 use crate::lines::LineSet;
 use crate::symmetry::Pairing;
 
-/// Largest number of rounds.
+/// Largest number of rounds in which all close pairs are pushed.
 const ROUNDS: usize = 150;
 
 /// How a place may move.
@@ -21,11 +21,11 @@ pub(crate) enum Freedom {
     Fixed,
 }
 
-/// Where places may go.
+/// Where the places of one part may go.
 pub(crate) struct Room<'a> {
     /// Buckets of `points`.
     pub inside: &'a Buckets<'a>,
-    /// Places of the samples inside the drawing, close together.
+    /// Sample points that fill the inside of the drawing densely.
     pub points: &'a [Vec2],
     /// A free place farther than this from every point is outside the drawing and moves to the nearest point.
     pub slack: f64,
@@ -33,11 +33,12 @@ pub(crate) struct Room<'a> {
     pub track: &'a LineSet,
     /// Buckets of the points of `track`.
     pub on_track: &'a Buckets<'a>,
-    /// Which places are mirror images of each other, if they are to stay symmetric.
+    /// Which places are mirror images of each other. `None` if places need not stay symmetric.
     pub pairing: Option<&'a Pairing>,
 }
 
-/// Moves places until no pair is nearer than `distance`, or the rounds are over.
+/// Moves places until no pair is closer than `distance`, or [`ROUNDS`] are over. `holds[i]` says how place `i` may
+/// move.
 pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, room: &Room<'_>) {
     for _ in 0..ROUNDS {
         if !push_once(places, holds, distance, |_| room) {
@@ -49,8 +50,8 @@ pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, 
     }
 }
 
-/// Moves places of several parts until no pair is nearer than `distance`, or the rounds are over. `rooms` has an entry
-/// for each part; `owners` has the part of each place.
+/// Moves places of several parts until no pair is closer than `distance`, or [`ROUNDS`] are over. `rooms` has an entry
+/// for each part; `owners` has the index of the part of each place.
 pub(crate) fn push_parts_apart(
     places: &mut [Vec2],
     holds: &[Freedom],
@@ -65,7 +66,7 @@ pub(crate) fn push_parts_apart(
     }
 }
 
-/// Runs one round and returns whether any pair was too near.
+/// Pushes all close pairs apart once. Returns whether any pair was closer than `distance`.
 fn push_once<'r, 'b: 'r>(
     places: &mut [Vec2],
     holds: &[Freedom],
@@ -90,7 +91,8 @@ fn push_once<'r, 'b: 'r>(
     close
 }
 
-/// Returns the shares of the missing distance by which two places move.
+/// Two places that are too close move apart by the distance that is missing. Returns the share of it that each of them
+/// moves.
 fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
     match (a, b) {
         (Freedom::Fixed, Freedom::Fixed) => (0.0, 0.0),
@@ -103,7 +105,7 @@ fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
 }
 
 impl Room<'_> {
-    /// Returns the place nearest to `at` that `hold` allows.
+    /// Returns where a place goes that was pushed to `at`: to the point nearest to `at` that `hold` allows.
     fn nearest(&self, at: Vec2, hold: &Freedom) -> Vec2 {
         match hold {
             Freedom::Fixed => at,

@@ -13,27 +13,28 @@ use crate::layout::{Layout, LayoutTask, Style, separate};
 use crate::settings::{PlaceSettings, PlacedLight};
 use crate::thick::{BandLoad, thickened};
 
-/// Areas wider than this number of spacings on average get an edge and a filling. In narrower areas such a filling
-/// would zigzag.
+/// Areas that are wider than this number of spacings, on average, get robots along the edge and a filling. In narrower
+/// areas that filling would zigzag.
 const WIDE: f64 = 2.0;
 
-/// Up to this number of robots for each part with areas, no edge is drawn, because it leaves too few robots for the
-/// filling. Six shapes of 30 robots are read at 0.86 to 0.96 with an edge, at 0.99 to 1.00 without. With 60 robots they
-/// are read at 0.96 to 0.98, and the edge is crisper (`make --style`).
+/// Up to this number of robots for each part with areas, no robots stand along the edge. Too few would be left for the
+/// filling. Six shapes of 30 robots reach a readability of 0.86 to 0.96 with an edge, and of 0.99 to 1.00 without. With
+/// 60 robots they reach 0.96 to 0.98, and the edge is crisper (`make --style`).
 const FEW_FOR_EDGES: usize = 50;
 
-/// Up to this number of robots for each part with areas, a filling is read better than strokes (measured with 36 signs:
-/// 12 to 13).
+/// Up to this number of robots for each part with areas, a filling is read better than strokes. Measured with 36 signs:
+/// the limit is 12 to 13.
 const FEW_FOR_LINES: usize = 13;
 
-/// A part of a drawing that has only areas or only lines, and its index in the drawing.
+/// A piece of a drawing: a part, or only the areas or only the lines of a part that has both. `number`: index of the
+/// part.
 struct Piece {
     number: usize,
     part: DrawingPart,
     ground: Ground,
 }
 
-/// Places lights on a drawing that is in stage metres already.
+/// Places lights on a drawing whose coordinates are stage metres already.
 ///
 /// # Errors
 /// No part of the drawing is on the floor and outside no-go areas.
@@ -70,7 +71,7 @@ pub(crate) fn arrange(
     Ok(lights)
 }
 
-/// Makes pieces of all parts; areas and strokes of one part become two pieces.
+/// Splits all parts into pieces. A part with both areas and strokes gives two pieces.
 fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Vec<Piece> {
     let allowed = |at: Vec2| floor.allows(at);
     let each = settings.robots / drawing.parts.len().max(1) + 1;
@@ -90,7 +91,7 @@ fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> 
     pieces
 }
 
-/// Widens lines to bands if the lines have no room for all robots.
+/// Replaces lines by bands of some width if the lines have no room for all robots.
 fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings) {
     let is_line = |piece: &Piece| piece.ground.samples.is_empty();
     let sum = |lines: bool, of: fn(&Ground) -> f64, pieces: &[Piece]| -> f64 {
@@ -110,7 +111,7 @@ fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings)
     }
 }
 
-/// Chooses the style of the areas. It is the same for all of them, which makes the letters of a word look alike.
+/// Chooses the style of the areas. All areas get the same style, so that the letters of a word look alike.
 fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     if settings.style != Style::Auto {
         return settings.style;
@@ -133,7 +134,7 @@ fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     }
 }
 
-/// Kept places, grouped by the piece to which each is nearest.
+/// `[piece]`: the kept places that are nearer to this piece than to any other.
 fn kept_by_piece(grounds: &[&Ground], settings: &PlaceSettings) -> Vec<Vec<Vec2>> {
     let mut kept = vec![Vec::new(); grounds.len()];
     for light in &settings.kept {

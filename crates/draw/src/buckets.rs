@@ -1,17 +1,18 @@
-//! Sorts points into square buckets, to find the nearest point and all near pairs.
+//! Sorts points into square buckets of a grid, to find the nearest point and all near pairs quickly.
 
 use lightbots_base::Vec2;
 
-/// Largest number of buckets. A thin drawing would otherwise have many buckets, most of them empty.
+/// Largest number of buckets along an axis and, about, in total. Without this bound a thin drawing would have many
+/// empty buckets.
 const MOST: f64 = 4e6;
 
 #[cfg(test)]
 thread_local! {
-    /// Number of buckets and points that searches of this thread have looked at. Tests limit the work by it.
+    /// Number of buckets and points that searches of this thread have visited. Tests bound the work by it.
     pub(crate) static LOOKED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
 }
 
-/// Points in buckets. Indices are those of the list of points that it was made from.
+/// Points in buckets. Point indices refer to the list that the buckets were made from.
 pub(crate) struct Buckets<'a> {
     points: &'a [Vec2],
     min: Vec2,
@@ -23,7 +24,7 @@ pub(crate) struct Buckets<'a> {
 }
 
 impl<'a> Buckets<'a> {
-    /// Sorts points, which must be finite, into buckets of side `pitch` or larger.
+    /// Sorts points into buckets of side `pitch`, or larger if there would be too many. All coordinates must be finite.
     pub fn new(points: &'a [Vec2], pitch: f64) -> Self {
         let mut min = points.first().copied().unwrap_or_default();
         let mut max = min;
@@ -67,7 +68,7 @@ impl<'a> Buckets<'a> {
         (index(at.x - self.min.x, self.columns), index(at.y - self.min.y, self.rows))
     }
 
-    /// Returns the index of the nearest point and the square of its distance. `None` if there are no points.
+    /// Returns the index of the point nearest to `at`, and the square of its distance. `None` if there are no points.
     pub fn nearest(&self, at: Vec2) -> Option<(usize, f64)> {
         let (column, row) = self.bucket(at);
         let mut best: Option<(usize, f64)> = None;
@@ -86,8 +87,9 @@ impl<'a> Buckets<'a> {
         best
     }
 
-    /// Returns a lower bound of the squared distance from `at` to points in the buckets of a ring or beyond. It is
-    /// infinite if there are no such buckets.
+    /// Returns a lower bound of the squared distance from `at` to points in far buckets. Far buckets have a Chebyshev
+    /// distance of `ring` or more from the bucket (`column`, `row`). The bound is infinite if there are no such
+    /// buckets.
     fn square_to_ring(&self, at: Vec2, column: i64, row: i64, ring: i64) -> f64 {
         let gap = |value: f64, index: i64, count: i64| {
             let low = value - (index - ring + 1) as f64 * self.pitch;
@@ -103,7 +105,8 @@ impl<'a> Buckets<'a> {
         (x * x + out_y * out_y).min(y * y + out_x * out_x)
     }
 
-    /// Calls `found` for all points in the buckets at Chebyshev distance `ring` from a bucket.
+    /// Calls `found` with the index of each point in the buckets at Chebyshev distance `ring` from the bucket
+    /// (`column`, `row`).
     fn ring(&self, column: i64, row: i64, ring: i64, found: &mut impl FnMut(usize)) {
         let (first, last) = ((column - ring).max(0), (column + ring).min(self.columns - 1));
         for y in (row - ring).max(0)..=(row + ring).min(self.rows - 1) {
@@ -129,7 +132,8 @@ impl<'a> Buckets<'a> {
         }
     }
 
-    /// Calls `found` for each pair nearer than `distance`: both indices, the smaller first, and the distance.
+    /// Calls `found` for each pair of points closer than `distance`: both indices, the smaller first, and their
+    /// distance.
     pub fn pairs(&self, distance: f64, mut found: impl FnMut(usize, usize, f64)) {
         let reach = (distance / self.pitch).ceil() as i64;
         for (index, point) in self.points.iter().enumerate() {
@@ -147,7 +151,8 @@ impl<'a> Buckets<'a> {
     }
 }
 
-/// Distances of points from their nearest other point; infinite for a single point. `pitch` is the first search radius.
+/// `[point]`: distance to the nearest other point; infinite for a single point. `pitch` is the first search radius; the
+/// result does not depend on it.
 pub(crate) fn nearest_distances(points: &[Vec2], pitch: f64) -> Vec<f64> {
     let mut distances = vec![f64::INFINITY; points.len()];
     let buckets = Buckets::new(points, pitch);
@@ -162,7 +167,7 @@ pub(crate) fn nearest_distances(points: &[Vec2], pitch: f64) -> Vec<f64> {
     distances
 }
 
-/// Distance of the closest pair of points; infinite for fewer than two.
+/// Distance of the closest pair of points; infinite for fewer than two points.
 pub fn closest_distance(points: &[Vec2]) -> f64 {
     nearest_distances(points, 0.1).into_iter().fold(f64::INFINITY, f64::min)
 }

@@ -6,10 +6,10 @@ use lightbots_base::{Rgb, Vec2};
 use crate::drawing::{Area, DrawingPart, Stroke};
 use crate::geometry::{contains, edges};
 
-/// Colours of a part.
+/// Finds the colours of one part of a drawing.
 pub(crate) struct Paint<'a> {
     part: &'a DrawingPart,
-    /// The colour, if the whole part has only one.
+    /// The colour of the whole part; `None` if the part has several colours.
     single: Option<Rgb>,
 }
 
@@ -24,8 +24,8 @@ impl<'a> Paint<'a> {
         Self { part, single }
     }
 
-    /// Returns the colour at a place: that of the picture, else of the last area that covers the place. Outside all
-    /// areas the nearest area or line counts.
+    /// Returns the colour at a place. A picture comes first, then the last area that covers the place. Outside all
+    /// areas it is the colour of the nearest area or line.
     pub fn at(&self, at: Vec2) -> Rgb {
         if let Some(color) = self.single {
             return color;

@@ -1,24 +1,25 @@
-//! Computes the share of each cell of a grid that an area covers, as weighted samples for the relaxation.
+//! Computes which share of each cell of a grid an area covers. The cells become weighted samples for the relaxation.
 
 use lightbots_base::Vec2;
 
 use crate::drawing::{Area, DrawingPart, FillRule, Raster};
 use crate::geometry::bounds;
 
-/// Number of scan lines in a cell on which its covered share is measured. Along each line the share is exact.
+/// Number of scan lines in a cell, on which the covered share of the cell is measured. Along each line the share is
+/// exact.
 const LINES: usize = 4;
 
-/// A cell of the grid where something is drawn.
+/// What is drawn in a cell of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sample {
     /// Centroid of what is drawn in the cell.
     pub at: Vec2,
-    /// Area of what is drawn in the cell, times the square of its weight.
+    /// Area of what is drawn in the cell, times the square of the drawing's weight there.
     pub mass: f64,
 }
 
-/// What is drawn in a cell: the covered share times the square of the weight, and its first moments about the cell's
-/// lower left corner.
+/// What is drawn in a cell: the covered share times the square of the weight. `x` and `y`: its first moments about the
+/// cell's lower left corner, in cells.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     share: f64,
@@ -34,8 +35,8 @@ struct Grid {
     cells: Vec<Cell>,
 }
 
-/// Returns samples of a part's areas, or of its picture if there are no areas, from cells of side `pitch`. Later areas
-/// cover earlier ones.
+/// Returns samples of a part's areas, or of its picture if it has no areas, one for each drawn cell of side `pitch`.
+/// Where areas overlap, the later area counts.
 pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     if part.areas.is_empty() {
         return part.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
@@ -49,8 +50,8 @@ pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     grid.samples()
 }
 
-/// Returns samples of a picture. Point density grows with the square root of the mass in a centroidal tessellation
-/// (Gersho 1979). The mass is therefore the square of the weight.
+/// Returns samples of a picture. The density of relaxed points grows with the square root of the mass (Gersho 1979).
+/// Therefore the mass is the square of the weight, and the density grows with the weight.
 fn of_raster(raster: &Raster, pitch: f64) -> Vec<Sample> {
     let size = raster.max - raster.min;
     let columns = (size.x / pitch).ceil().max(1.0) as usize;
@@ -77,7 +78,7 @@ impl Grid {
         Self { min, pitch, columns, rows, cells: vec![Cell::default(); columns * rows] }
     }
 
-    /// Draws an area over the areas drawn before.
+    /// Draws an area into the grid, over the areas drawn before.
     fn cover(&mut self, area: &Area) {
         let mut shares = vec![Cell::default(); self.cells.len()];
         for (line, crossings) in self.crossings(area).iter().enumerate() {
@@ -94,8 +95,8 @@ impl Grid {
         }
     }
 
-    /// Returns the crossings of each scan line with the area's rings. A crossing has its distance from the left in
-    /// cells, and 1 if the ring goes up there, −1 if it goes down.
+    /// Returns for each scan line its crossings with the area's rings. The first value of a crossing is its distance
+    /// from the left side of the grid, in cells. The second is 1 if the ring goes up there, −1 if it goes down.
     fn crossings(&self, area: &Area) -> Vec<Vec<(f64, i32)>> {
         let mut lines = vec![Vec::new(); self.rows * LINES];
         let scaled = |point: Vec2| {
@@ -119,7 +120,7 @@ impl Grid {
         lines
     }
 
-    /// Adds a piece of a scan line to the cells under it.
+    /// Adds a piece of a scan line, from `from` to `to` (in cells from the left), to the cells that it passes.
     fn add(&self, shares: &mut [Cell], line: usize, from: f64, to: f64) {
         let row = line / LINES;
         let y = ((line % LINES) as f64 + 0.5) / LINES as f64;
@@ -148,7 +149,7 @@ impl Grid {
     }
 }
 
-/// Returns the pieces of a scan line that lie inside.
+/// Returns the pieces of a scan line that are inside the area: where each begins and ends, in cells from the left.
 fn inside(crossings: &[(f64, i32)], rule: FillRule) -> Vec<(f64, f64)> {
     let mut sorted = crossings.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));

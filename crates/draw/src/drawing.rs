@@ -1,4 +1,4 @@
-//! What robots are to show: lines and areas with colours, independent of the number of robots.
+//! Drawings: lines and areas with colours that robots are to show, independent of the number of robots.
 
 use lightbots_base::{Rgb, Vec2};
 
@@ -10,26 +10,26 @@ pub use crate::geometry::FillRule;
 /// A drawing in units of its own, x to the right and y up. Its size and place on the floor are chosen later.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
-    /// Parts that get robots of their own: the letters of a word, or the whole of a picture.
+    /// The parts. Each gets robots of its own. Examples: the letters of a word, or the whole of a picture.
     pub parts: Vec<DrawingPart>,
 }
 
 /// A part of a drawing. Robots of one part are spread evenly over all of its lines and areas.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingPart {
-    /// Name for people and for pins; unique in its drawing.
+    /// Name of the part, unique in its drawing.
     pub name: String,
-    /// The letter that the part shows, if it is one: readability is then measured as that of a letter.
+    /// The letter that the part shows, if it shows a letter: readability is then measured as that of a letter.
     pub letter: Option<char>,
     /// Areas to outline or to fill.
     pub areas: Vec<Area>,
     /// Lines along which robots stand.
     pub strokes: Vec<Stroke>,
-    /// Lines that replace the areas when robots are few, such as the single strokes of a letter. Empty if there are
-    /// none.
+    /// Lines that can replace the areas when there are few robots, such as the single strokes of a letter. Empty if
+    /// there are none.
     pub spine: Vec<Stroke>,
-    /// Colours and weights of a picture. If given, areas and strokes take their colours from it. In a part without
-    /// areas and strokes, its weights set how densely robots stand.
+    /// Colours and weights of a picture. If present, areas and strokes take their colours from the picture. In a part
+    /// without areas and strokes, its weights set how densely robots stand.
     pub raster: Option<Raster>,
 }
 
@@ -38,11 +38,11 @@ pub struct DrawingPart {
 pub struct Area {
     /// Closed lines; the first point is not repeated at the end.
     pub rings: Vec<Vec<Vec2>>,
-    /// Which points are inside where rings overlap.
+    /// Which points count as inside where rings overlap.
     pub rule: FillRule,
     /// Colours of its lights.
     pub ink: Ink,
-    /// How densely it is filled, relative to other areas; positive.
+    /// How densely robots fill the area, relative to other areas; positive.
     pub weight: f64,
 }
 
@@ -51,11 +51,11 @@ pub struct Area {
 pub struct Stroke {
     /// Points along the line, at least two, joined by straight segments.
     pub points: Vec<Vec2>,
-    /// Whether its last point is joined to its first.
+    /// Whether the last point is joined to the first.
     pub closed: bool,
     /// Colours of its lights.
     pub ink: Ink,
-    /// How densely robots stand along it, relative to other lines; positive.
+    /// How densely robots stand along the line, relative to other lines; positive.
     pub weight: f64,
 }
 
@@ -66,7 +66,7 @@ pub struct Raster {
     pub min: Vec2,
     /// Corner with the larger x and y.
     pub max: Vec2,
-    /// Cells in a row.
+    /// Number of cells in a row.
     pub columns: usize,
     /// Colours of the cells, `columns` of them for each row.
     pub colors: Vec<Rgb>,
@@ -80,8 +80,8 @@ impl Raster {
         self.colors.len().checked_div(self.columns).unwrap_or(0)
     }
 
-    /// Returns the index of the cell at a place. Outside the picture this is the nearest cell. `None` for an empty
-    /// picture.
+    /// Returns the index of the cell at a place, or of the nearest cell if the place is outside the picture. `None` for
+    /// an empty picture.
     pub fn cell(&self, at: Vec2) -> Option<usize> {
         let rows = self.rows();
         if rows == 0 {

@@ -7,11 +7,12 @@ use crate::place::place;
 use crate::readability::READABLE;
 use crate::settings::PlaceSettings;
 
-/// Largest number of robots that is tried. A picture that cannot be read with it is too fine for robots.
+/// Largest number of robots that is tried. A drawing that is not readable with this number is too fine for robots.
 const MOST: usize = 1_000;
 
-/// Searches the least number of robots with which a drawing is readable: first in growing steps, then one by one within
-/// the last step. `None` if no step up to a thousand robots is readable.
+/// Searches the least number of robots with which a drawing is readable. The number first grows in steps until the
+/// drawing is readable; then every number within the last step is tried. `None` if no step up to a thousand robots is
+/// readable.
 pub fn enough_robots(drawing: &Drawing, settings: &PlaceSettings) -> Option<usize> {
     // A large floor, because room for the robots is not in question here.
     let floor = PictureFloor::new(1_000.0, 1_000.0, 0.0);

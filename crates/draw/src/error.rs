@@ -1,4 +1,4 @@
-//! Errors and notes about sources that cannot be drawn in whole or in part.
+//! Errors about sources that cannot be drawn, and notes about what is missing from a drawing.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::drawing::Drawing;
 pub struct DrawError {
     /// Stable name for programs, such as `picture-cut-off`.
     pub code: &'static str,
-    /// Text for people: what is wrong, where, and what to do.
+    /// Text for people: what is wrong, where, and how to correct it.
     pub message: String,
 }
 
@@ -18,7 +18,7 @@ pub struct DrawError {
 pub struct Note {
     /// Stable name for programs, such as `svg-image`.
     pub code: &'static str,
-    /// Text for people: what is missing, how often, and what to do.
+    /// Text for people: what is missing, how often, and what can be done.
     pub message: String,
 }
 

@@ -7,21 +7,21 @@ use crate::drawing::{Drawing, DrawingPart, Stroke};
 use crate::error::DrawError;
 use crate::settings::PlaceSettings;
 
-/// Share of the largest size on the floor that a picture takes if no size is set.
+/// If no size is set, a picture takes at most this share of the largest size that the floor allows.
 const SHARE: f64 = 0.8;
 
-/// About the largest spacing of lights in a picture without a set size, in least spacings. With a larger one they do
-/// not look like one picture from the edge of the floor.
+/// In a picture without a set size, lights are at most about this number of least spacings apart. Farther apart, they
+/// do not look like one picture to a viewer at the edge of the floor.
 const LOOSE: f64 = 4.0;
 
 /// Where lights may stand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureFloor {
-    /// Corner with the smaller x and y where a robot may stand, stage metres.
+    /// Corner with the smaller x and y of the rectangle in which robots' centres may be, stage metres.
     pub min: Vec2,
-    /// Corner with the larger x and y where a robot may stand, stage metres.
+    /// Corner with the larger x and y of the rectangle in which robots' centres may be, stage metres.
     pub max: Vec2,
-    /// Where no robot may stand.
+    /// Areas in which no robot's centre may be.
     pub no_go: Vec<NoGo>,
 }
 
@@ -32,16 +32,16 @@ pub enum NoGo {
     Disc {
         /// Centre, stage metres.
         at: Vec2,
-        /// Radius, metres. It includes the distance that a robot's centre keeps from the area.
+        /// Radius, metres. It includes the distance that a robot's centre keeps from the no-go area.
         radius_m: f64,
     },
-    /// A rectangle with sides along the axes, enlarged by a margin with rounded corners.
+    /// A rectangle with sides along the axes, enlarged by a margin. The enlarged area has rounded corners.
     Rect {
-        /// Corner of the area with the smaller x and y, stage metres.
+        /// Corner with the smaller x and y, without the margin, stage metres.
         min: Vec2,
-        /// Corner of the area with the larger x and y, stage metres.
+        /// Corner with the larger x and y, without the margin, stage metres.
         max: Vec2,
-        /// Distance that a robot's centre keeps from the area, metres.
+        /// The margin: distance that a robot's centre keeps from the rectangle, metres.
         margin_m: f64,
     },
 }
@@ -58,13 +58,13 @@ pub(crate) struct Placement {
 }
 
 impl PictureFloor {
-    /// A floor of this size with its origin in the middle; robots keep `margin_m` from its edges.
+    /// A floor of this size with the origin in its middle. Robots' centres keep `margin_m` from its edges.
     pub fn new(width_m: f64, depth_m: f64, margin_m: f64) -> Self {
         let half = Vec2::new(width_m / 2.0 - margin_m, depth_m / 2.0 - margin_m);
         Self { min: half * -1.0, max: half, no_go: Vec::new() }
     }
 
-    /// Whether a robot may stand at a place.
+    /// Whether a robot's centre may be at a place.
     pub fn allows(&self, at: Vec2) -> bool {
         let inside = at.x >= self.min.x && at.y >= self.min.y && at.x <= self.max.x && at.y <= self.max.y;
         inside && !self.no_go.iter().any(|area| area.holds(at))
@@ -84,8 +84,8 @@ impl NoGo {
 }
 
 impl Placement {
-    /// Chooses the size that was asked for, at most the largest on the floor. Without one it chooses a size that suits
-    /// the floor and the number of robots.
+    /// Chooses the scale of a drawing: the size in `settings`, but at most the largest that the floor allows. Without a
+    /// size in `settings`, it chooses one for the floor and the number of robots.
     ///
     /// # Errors
     /// A drawing without extent, or a picture whose centre is not on the floor.
@@ -122,7 +122,7 @@ impl Placement {
         Ok(placement)
     }
 
-    /// Returns the largest scale at which the box, after its turn, stays on the floor.
+    /// Returns the largest scale at which the box around the drawing stays on the floor after it is turned.
     fn largest(&self, floor: &PictureFloor) -> f64 {
         let (cos, sin) = (libm::cos(self.turn).abs(), libm::sin(self.turn).abs());
         let width = self.extent.x * cos + self.extent.y * sin;
@@ -142,7 +142,8 @@ impl Placement {
         self.scale * factor * 1.002 <= self.most
     }
 
-    /// Makes the picture larger by about a factor, as far as the floor allows, and returns the factor that was applied.
+    /// Makes the picture larger by about `factor`, as far as the floor allows, and returns the factor that was applied.
+    /// `closest_m`: distance of the closest two lights at the present size.
     ///
     /// # Errors
     /// The picture fills the floor already; the message says which number of robots would fit.
@@ -168,7 +169,7 @@ impl Placement {
         self.center + Vec2::new(point.x * cos - point.y * sin, point.x * sin + point.y * cos)
     }
 
-    /// The drawing in stage metres.
+    /// Returns the drawing in stage metres.
     pub fn apply(&self, drawing: &Drawing) -> Drawing {
         Drawing { parts: drawing.parts.iter().map(|part| self.part(part)).collect() }
     }
@@ -193,8 +194,8 @@ impl Placement {
     }
 }
 
-/// Returns an error that says how many robots would fit, or on what floor. `share` is the distance of the closest pair
-/// as a share of the spacing.
+/// Returns an error that says how many robots would fit, or how large a floor would do. `share`: distance of the
+/// closest pair divided by the wanted spacing.
 fn no_room(floor: &PictureFloor, settings: &PlaceSettings, robots: usize, share: f64) -> DrawError {
     let size = floor.max - floor.min;
     let refused = format!(

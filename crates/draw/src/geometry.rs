@@ -2,7 +2,7 @@
 
 use lightbots_base::Vec2;
 
-/// Which points are inside where rings overlap, as in SVG.
+/// Which points count as inside where rings overlap, as in SVG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FillRule {
     /// Points around which the rings wind at least once in total: the winding number is not 0.
@@ -12,8 +12,8 @@ pub enum FillRule {
     EvenOdd,
 }
 
-/// Returns the smallest rectangle around points: its corners with the smaller and the larger x and y. `None` if there
-/// are no points.
+/// Returns the smallest rectangle with sides along the axes around points: its corners with the smaller and the larger
+/// x and y. `None` if there are no points.
 pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Option<(Vec2, Vec2)> {
     points.into_iter().map(|point| (*point, *point)).reduce(|(low, high), (point, _)| {
         let low = Vec2::new(low.x.min(point.x), low.y.min(point.y));
@@ -21,12 +21,12 @@ pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Option<(Vec2, V
     })
 }
 
-/// Edges of closed rings: pairs of neighbouring points, the last with the first.
+/// Edges of closed rings: pairs of successive points. The last pair joins a ring's last point with its first.
 pub(crate) fn edges(rings: &[Vec<Vec2>]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
     rings.iter().flat_map(|ring| ring.iter().copied().zip(ring.iter().copied().cycle().skip(1)))
 }
 
-/// Whether a point is inside of rings that may overlap.
+/// Whether a point is inside rings, which may overlap.
 pub(crate) fn contains(rings: &[Vec<Vec2>], rule: FillRule, point: Vec2) -> bool {
     let winding: i32 = edges(rings).map(|(a, b)| winding(a, b, point)).sum();
     match rule {
@@ -35,8 +35,8 @@ pub(crate) fn contains(rings: &[Vec<Vec2>], rule: FillRule, point: Vec2) -> bool
     }
 }
 
-/// Returns an edge's contribution to the winding number of a point. It is 1 if the edge passes upwards on the right of
-/// the point, −1 if it passes downwards there, else 0.
+/// Returns what the edge from `a` to `b` adds to the winding number of a point. It is 1 if the edge passes upwards on
+/// the right of the point, −1 if it passes downwards there, else 0.
 fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
     let left = (b - a).cross(point - a);
     match (a.y <= point.y, b.y <= point.y) {
@@ -46,7 +46,7 @@ fn winding(a: Vec2, b: Vec2, point: Vec2) -> i32 {
     }
 }
 
-/// Distance between neighbours of a hexagonal grid of `count` places in an area, the most even way of filling it.
+/// Distance between neighbours in a hexagonal grid of `count` places that fills an area: the most even way of filling.
 pub(crate) fn hexagonal_spacing(area: f64, count: usize) -> f64 {
     (2.0 * area / (3.0_f64.sqrt() * count.max(1) as f64)).sqrt()
 }
@@ -56,7 +56,7 @@ pub(crate) fn hexagonal_area(count: usize, spacing: f64) -> f64 {
     3.0_f64.sqrt() / 2.0 * spacing * spacing * count as f64
 }
 
-/// Number of places of a hexagonal grid of this spacing in an area; 0 for a negative area.
+/// Number of places of a hexagonal grid with this spacing in an area, may be fractional; 0 for a negative area.
 pub(crate) fn hexagonal_count(area: f64, spacing: f64) -> f64 {
     area.max(0.0) / hexagonal_area(1, spacing)
 }

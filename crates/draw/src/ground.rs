@@ -1,4 +1,4 @@
-//! Prepares a part for placing: samples of its areas, its lines, its mirror axis.
+//! Prepares a part of a drawing for placing robots: samples of its areas, its lines, and its mirror axis.
 
 use lightbots_base::Vec2;
 
@@ -11,10 +11,10 @@ use crate::lines::{LineSet, Polyline};
 use crate::symmetry::Mirror;
 use crate::unique::unique;
 
-/// Largest number of samples of a part. Ten thousand places on them take about a second.
+/// Largest number of samples of a part. Finding ten thousand places on them takes about a second.
 const MOST_SAMPLES: f64 = 1_000_000.0;
 
-/// How much work goes into places.
+/// How much work goes into finding places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
     /// Fewer samples and rounds, for a preview while a setting is changed.
@@ -25,7 +25,8 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// Number of samples for each place. With fewer than 30 the centroid of a cell is coarse (measured).
+    /// Number of samples for each place. With fewer than 30 samples, the centroid of a place's cell is too coarse
+    /// (measured).
     fn samples(self, count: usize) -> f64 {
         match self {
             Self::Quick => 30.0,
@@ -34,7 +35,7 @@ impl Quality {
         }
     }
 
-    /// Least number of samples of a part. With fewer, small details of a letter are coarse.
+    /// Least number of samples of a part. With fewer samples, small details of a letter would be lost.
     fn least(self) -> f64 {
         match self {
             Self::Quick => 1_200.0,
@@ -51,11 +52,11 @@ impl Quality {
     }
 }
 
-/// A part with all data that its places depend on.
+/// A part of a drawing, with all data that its places depend on.
 pub(crate) struct Ground {
     /// Samples of the areas or of the picture.
     pub samples: Vec<Sample>,
-    /// Places of the samples.
+    /// Positions of the samples, in the same order.
     pub inside: Vec<Vec2>,
     /// Distance between samples.
     pub pitch: f64,
@@ -63,11 +64,11 @@ pub(crate) struct Ground {
     pub mass: f64,
     /// Outlines of the areas.
     pub outline: LineSet,
-    /// Strokes of the part, or the lines that replace its areas, each stretch only once.
+    /// Strokes of the part, or its spine if it has no strokes. Stretches that occur twice are kept once.
     pub lines: LineSet,
-    /// Larger side of the box around the part.
+    /// Larger side of the rectangle around the part.
     pub size: f64,
-    /// Mirror axis of the areas, else of the lines.
+    /// Mirror axis of the areas, or of the lines if there are no areas. `None` if they are not symmetric.
     pub mirror: Option<Mirror>,
 }
 
@@ -98,12 +99,13 @@ impl Ground {
         ground
     }
 
-    /// Buckets of the samples' places, to find near ones.
+    /// Buckets of the samples' positions, to find near samples.
     pub fn buckets(&self) -> Buckets<'_> {
         Buckets::new(&self.inside, 2.0 * self.pitch)
     }
 
-    /// Returns where places of this part may go. `inside` are the buckets of its samples, `on_track` those of `track`.
+    /// Returns where places of this part may go. `inside`: buckets of [`Self::inside`]. `track`: lines that places
+    /// slide along. `on_track`: buckets of the points of `track`.
     pub fn room<'a>(
         &'a self,
         inside: &'a Buckets<'a>,
@@ -122,14 +124,14 @@ impl Ground {
         Mirror::of(&points, step)
     }
 
-    /// Ideal distance between `count` places that fill the areas.
+    /// Distance between neighbours if `count` places fill the areas evenly.
     pub fn spacing(&self, count: usize) -> f64 {
         hexagonal_spacing(self.mass, count)
     }
 }
 
-/// Returns the distance between samples that gives the wanted number of them. The area is measured with coarse samples
-/// first.
+/// Returns the distance between samples at which a part has the wanted number of samples. For that, its area is first
+/// measured with coarse samples.
 fn pitch(part: &DrawingPart, count: usize, quality: Quality, size: f64) -> f64 {
     let coarse = (size / 100.0).max(1e-9);
     let area = samples(part, coarse).len() as f64 * coarse * coarse;
@@ -146,7 +148,7 @@ fn rings(area: &crate::drawing::Area) -> impl Iterator<Item = Stroke> + '_ {
     })
 }
 
-/// Returns the pieces of strokes at whose points `allowed` is true.
+/// Returns the pieces of strokes on which `allowed` is true at all points.
 fn clipped(strokes: &[Stroke], step: f64, allowed: &dyn Fn(Vec2) -> bool) -> Vec<Stroke> {
     let mut parts = Vec::new();
     for stroke in strokes {

@@ -5,9 +5,9 @@ use lightbots_base::{Rgb, Vec2};
 /// What an area or a line is painted with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ink {
-    /// The colour. If there is a gradient, the mean of its colours.
+    /// The single colour. If there is a gradient, this is the mean of its colours.
     pub color: Rgb,
-    /// How the colour changes over the drawing. `None` for a single colour.
+    /// How the colour changes over the drawing; `None` for a single colour.
     pub gradient: Option<Gradient>,
 }
 
@@ -23,7 +23,7 @@ impl Ink {
         self.gradient.as_ref().map_or(self.color, |gradient| gradient.at(place))
     }
 
-    /// Returns the ink for a drawing whose points are moved by an affine map.
+    /// Returns the ink of a drawing whose points were moved by the affine map `map`.
     pub fn mapped(&self, map: impl Fn(Vec2) -> Vec2) -> Self {
         let gradient = self
             .gradient
@@ -36,11 +36,11 @@ impl Ink {
 /// Colours along a line or around a point, as SVG 2 defines them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// Positions in the drawing of the points (0, 0), (1, 0) and (0, 1) of the gradient's own coordinates.
+    /// Positions in the drawing of the points (0, 0), (1, 0) and (0, 1) of the gradient's own coordinate system.
     pub frame: [Vec2; 3],
-    /// Its shape in its own coordinates.
+    /// Shape of the gradient in its own coordinate system.
     pub shape: GradientShape,
-    /// Colours beyond offsets 0 and 1.
+    /// How the colours go on before offset 0 and after offset 1.
     pub spread: GradientSpread,
     /// Colour stops: offsets from 0 to 1 in ascending order, each with a colour; at least one.
     pub stops: Vec<(f64, Rgb)>,
@@ -72,7 +72,7 @@ pub enum GradientShape {
 pub enum GradientSpread {
     /// The colour of the nearer end.
     Pad,
-    /// The gradient backwards, then forwards, and on like this.
+    /// The gradient backwards, then forwards, and so on.
     Reflect,
     /// The gradient again from its start.
     Repeat,
@@ -93,7 +93,8 @@ impl Gradient {
         self.color(if offset.is_nan() { 0.0 } else { offset })
     }
 
-    /// Returns a place in the gradient's own coordinates. `None` if the gradient's frame has no area.
+    /// Converts a place of the drawing to the gradient's own coordinates. `None` if the three points of its frame are
+    /// on one line.
     fn own(&self, place: Vec2) -> Option<Vec2> {
         let [origin, x, y] = self.frame;
         let (x, y, at) = (x - origin, y - origin, place - origin);

@@ -1,4 +1,4 @@
-//! Finds places for one part of a drawing in one style.
+//! Finds places for the robots of one part of a drawing, in one style.
 
 use lightbots_base::Vec2;
 
@@ -16,72 +16,72 @@ use crate::symmetry::{Mirror, Pairing, symmetric_share};
 /// How robots show areas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// [`Style::Both`], [`Style::Lines`] or [`Style::Filled`], the same for all parts. The choice depends on their size
-    /// and the number of robots.
+    /// [`Style::Both`], [`Style::Lines`] or [`Style::Filled`], the same for all parts. The choice depends on the size
+    /// of the parts and the number of robots.
     #[default]
     Auto,
-    /// Evenly filled.
+    /// Robots fill areas evenly.
     Filled,
-    /// Along the edges of areas.
+    /// Robots stand along the edges of areas.
     Outline,
-    /// Along the edge, and evenly filled inside.
+    /// Robots stand along the edges of areas and fill their inside evenly.
     Both,
-    /// Along strokes. For areas, along the lines that replace them, such as the middle lines of a letter.
+    /// Robots stand along strokes. Areas are replaced by their spine, such as the middle lines of a letter.
     Lines,
 }
 
-/// Nearest distance to which places are pushed apart, in ideal spacings. A larger one would leave too little room to
-/// move.
+/// Places are pushed apart until the closest pair has this distance, as a share of the ideal spacing. With a larger
+/// share, places would have too little room to move.
 const APART: f64 = 0.88;
 
-/// Energy of a symmetric arrangement, as a multiple of that of the asymmetric one, up to which the symmetric one is
-/// preferred.
+/// A symmetric arrangement is chosen if its energy is at most this multiple of the asymmetric arrangement's energy.
 const SYMMETRY_WORTH: f64 = 1.25;
 
-/// Mean squared distance from the middle of a hexagon of area 1: 5 / (18 √3). No other cells that fill a plane have
-/// less.
+/// Mean squared distance of the points of a hexagon of area 1 from its middle: 5 / (18 √3). No other shape of equal
+/// cells that fill a plane has less.
 const HEXAGON: f64 = 0.160_375;
 
-/// Multiple of the hexagons' energy up to which an arrangement is even enough. The drawing's edges alone cost that.
+/// An arrangement is even enough if its energy is at most this multiple of the energy of hexagons. The edges of a
+/// drawing alone cause about this much energy.
 const EVEN: f64 = 1.2;
 
-/// Least distance between places on an outline, in spacings. At a tip, a place nearer than this to another moves into
-/// the area.
+/// Least distance between places on an outline, in spacings. Near a tip, a place closer than this to another one moves
+/// from the outline into the area.
 const EDGE_APART: f64 = 0.82;
 
-/// Least distance between places along lines, in spacings. Beside the tip of a five-pointed star they are 0.66 apart
-/// and are pushed apart later.
+/// Least distance between places along lines, in spacings. Beside the tip of a five-pointed star, places are 0.66
+/// spacings apart at first, and are pushed apart later.
 const LINE_APART: f64 = 0.6;
 
-/// Up to this number of places, several numbers of places on the axis are tried. An asymmetric arrangement is tried in
-/// any case.
+/// Up to this number of places in a part, several numbers of places on the mirror axis are tried. An asymmetric
+/// arrangement is then always tried as well.
 const FEW: usize = 60;
 
-/// Places of one part, and how each may move.
+/// The places of one part, and how each place may move.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layout {
     pub places: Vec<Vec2>,
     pub holds: Vec<Freedom>,
-    /// Whether places that slide do so along the outline. If not, they slide along the lines.
+    /// `true`: places that slide do so along the outline. `false`: along the lines.
     pub is_on_outline: bool,
 }
 
-/// One part that needs places.
+/// The task to find places for one part.
 pub(crate) struct LayoutTask<'a> {
     pub ground: &'a Ground,
-    /// Places that stay where they are. They come first in every list.
+    /// Places that stay where they are. They come first in every list of places.
     pub kept: &'a [Vec2],
-    /// Number of all places, with the kept ones.
+    /// Number of all places, including the kept places.
     pub count: usize,
-    /// Places to begin with instead of new ones, such as those of the previous picture, with the kept ones first.
-    /// Ignored unless their number fits.
+    /// Places to begin with, the kept places first, such as the places of the previous picture. Used only if their
+    /// number is the number of places wanted.
     pub start: &'a [Vec2],
     pub quality: Quality,
     pub seed: u64,
 }
 
 impl LayoutTask<'_> {
-    /// Returns places in a style: exactly `count`, unless the part is empty.
+    /// Returns places in a style: exactly `count` places, unless the part is empty.
     pub fn layout(&self, style: Style) -> Layout {
         let ground = self.ground;
         let (has_areas, has_lines) = (!ground.samples.is_empty(), !ground.lines.lines.is_empty());
@@ -107,8 +107,8 @@ impl LayoutTask<'_> {
         layout
     }
 
-    /// Returns `count` places along lines, none much nearer to another than the spacing. Where lines meet at a small
-    /// angle, some places are left out and others are added elsewhere.
+    /// Returns `count` places along lines. No two of them are much closer than the spacing, if this is possible. Where
+    /// lines meet at a small angle, some places are left out, and others are added elsewhere.
     fn spread(&self, track: &LineSet, count: usize, spacing: f64) -> Vec<LinePlace> {
         let all = |count: usize| occupy(track, count, self.ground.size, self.ground.mirror);
         for more in 0..=count / 4 {
@@ -123,7 +123,7 @@ impl LayoutTask<'_> {
         all(count)
     }
 
-    /// Places robots on the outline and inside, with the same spacing on both.
+    /// Places robots on the outline and inside, with equal spacing on both.
     fn both(&self) -> Layout {
         let ground = self.ground;
         let spacing = balanced_spacing(ground.outline.length(), ground.mass, self.count);
@@ -141,8 +141,8 @@ impl LayoutTask<'_> {
         layout
     }
 
-    /// Returns places on the outline, about as many as the spacing calls for. The number changes by up to two if that
-    /// is more symmetric.
+    /// Returns places on the outline: about as many as fit at this spacing. The number is changed by up to two if the
+    /// places are then more symmetric.
     fn edge(&self, spacing: f64) -> Vec<LinePlace> {
         let ground = self.ground;
         let usual = (ground.outline.length() / spacing).round() as usize;
@@ -185,8 +185,8 @@ impl LayoutTask<'_> {
         push_apart(&mut layout.places, &layout.holds, distance, &room);
     }
 
-    /// Returns the fixed places and `count` more in the areas, after relaxation. They are symmetric if the areas are,
-    /// unless this makes them less even by more than [`SYMMETRY_WORTH`].
+    /// Returns the places in `fixed` and `count` relaxed places in the areas. If the areas are symmetric, so are the
+    /// places, unless their energy is then more than [`SYMMETRY_WORTH`] times that of asymmetric places.
     fn relaxed(&self, fixed: &[Vec2], count: usize, spacing: f64) -> (Vec<Vec2>, Option<Pairing>) {
         if count == 0 || self.ground.samples.is_empty() {
             return (fixed.to_vec(), None);
@@ -212,7 +212,7 @@ impl LayoutTask<'_> {
         if value(&places) <= SYMMETRY_WORTH * value(&free) { (places, Some(pairing)) } else { (free, None) }
     }
 
-    /// Returns the places to begin with, moved together onto the drawing, which may have moved since.
+    /// Returns the places of `start`, shifted together onto the drawing, which may have moved since they were made.
     fn aligned_start(&self) -> Vec<Vec2> {
         let middle = |points: &[Vec2]| bounds(points).map_or(Vec2::ZERO, |(low, high)| low.lerp(high, 0.5));
         let shift = middle(&self.ground.inside) - middle(self.start);
@@ -230,7 +230,8 @@ impl LayoutTask<'_> {
         places
     }
 
-    /// Places `single` lights on the axis and the others in pairs.
+    /// Finds symmetric places: `single` of the `count` new places are on the axis `mirror`, the others are pairs of
+    /// mirror images.
     fn symmetric(
         &self,
         fixed: &[Vec2],
@@ -255,8 +256,8 @@ impl LayoutTask<'_> {
     }
 }
 
-/// Pushes places of different parts apart until none are nearer than the closest pair within a part. Such pairs occur
-/// where a line leads behind an area.
+/// Pushes places of different parts apart, until no pair is closer than the closest pair within any part. Places of
+/// different parts are too close where a line leads behind an area.
 pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     let distance =
         layouts.iter().map(|layout| closest_distance(&layout.places)).fold(f64::INFINITY, f64::min);
@@ -284,8 +285,8 @@ pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     }
 }
 
-/// Returns places on lines without those that may slide and are nearer to another than `distance`. Such places occur on
-/// both sides of a sharp tip.
+/// Drops places that may slide and are closer than `distance` to another place. Such places occur on both sides of a
+/// sharp tip.
 fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
     let at: Vec<Vec2> = places.iter().map(|(at, _)| *at).collect();
     let mut stays = vec![true; places.len()];
@@ -298,8 +299,8 @@ fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
     places.into_iter().zip(stays).filter(|(_, stays)| *stays).map(|(place, _)| place).collect()
 }
 
-/// Numbers of places on the axis that are worth a try: near the density of the drawing there, and even or odd as
-/// `count` is.
+/// Numbers of places on the axis that are worth a try. They match the density of the drawing there, and are even if
+/// `count` is even, odd if it is odd.
 fn singles(samples: &[Sample], mirror: Mirror, count: usize, spacing: f64) -> Vec<usize> {
     let near: f64 =
         samples.iter().filter(|s| mirror.side(s.at).abs() < spacing / 2.0).map(|s| s.mass).sum::<f64>();
@@ -314,7 +315,7 @@ fn singles(samples: &[Sample], mirror: Mirror, count: usize, spacing: f64) -> Ve
     options
 }
 
-/// Returns `count` places on the axis, as dense as the drawing is there.
+/// Returns `count` places on the axis. They are distributed along it as the drawing is.
 fn on_axis(samples: &[Sample], mirror: Mirror, count: usize, pitch: f64) -> Vec<Vec2> {
     let mut near: Vec<Vec2> =
         samples.iter().map(|s| s.at).filter(|at| mirror.side(*at).abs() < 1.5 * pitch).collect();
@@ -325,8 +326,8 @@ fn on_axis(samples: &[Sample], mirror: Mirror, count: usize, pitch: f64) -> Vec<
     (0..count).map(|i| mirror.onto(near[(2 * i + 1) * near.len() / (2 * count)])).collect()
 }
 
-/// Returns the spacing s at which an outline of length L and a filling of area A together take N = `count` places.
-/// It solves L / s + (A − L s / 2) / (0.866 s²) = N.
+/// Returns the spacing s at which an outline of length L and a filling of area A together take N = `count` places. It
+/// is the solution of L / s + (A − L s / 2) / (0.866 s²) = N.
 fn balanced_spacing(length: f64, area: f64, count: usize) -> f64 {
     let taken = |s: f64| length / s + hexagonal_count(area - length * s / 2.0, s);
     let (mut low, mut high) = (1e-6 * length, length);

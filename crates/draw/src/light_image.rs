@@ -2,13 +2,13 @@
 
 use lightbots_base::Vec2;
 
-/// Side of a cell, in sigmas of the blur. A Gaussian sampled at every sigma shows no visible steps.
+/// Side of a cell of the image, in sigmas of the blur. At this size the blur shows no visible steps.
 const CELL: f64 = 0.6;
 
-/// Distance at which a Gaussian is cut off, in sigmas.
+/// Distance from a light at which its Gaussian is cut off, in sigmas.
 const REACH: f64 = 3.5;
 
-/// A grey picture.
+/// A grey picture made of square cells.
 #[derive(Clone, Debug)]
 pub(crate) struct LightImage {
     min: Vec2,
@@ -18,8 +18,8 @@ pub(crate) struct LightImage {
 }
 
 impl LightImage {
-    /// Draws points of light of given strength, each as a Gaussian of width `sigma`, in the box `low` to `high` with a
-    /// margin around it.
+    /// Draws points of light, each with a strength, as Gaussians of standard deviation `sigma`. The image covers the
+    /// box from `low` to `high`, with a margin around it.
     pub fn new(points: impl Iterator<Item = (Vec2, f64)>, low: Vec2, high: Vec2, sigma: f64) -> Self {
         let pitch = CELL * sigma;
         let margin = Vec2::new(REACH, REACH) * sigma;
@@ -33,7 +33,7 @@ impl LightImage {
         image
     }
 
-    /// Distributes the strength of a point over the four cells around it, which keeps its centroid.
+    /// Distributes the strength of a point over the four cells around it, so that the centroid stays at the point.
     fn splat(&mut self, at: Vec2, strength: f64) {
         let cell = (at - self.min) * (1.0 / self.pitch);
         let (x, y) = (cell.x.floor(), cell.y.floor());
@@ -60,7 +60,8 @@ impl LightImage {
         self.values = convolved(&self.values, rows, self.columns, self.columns, 1, &kernel);
     }
 
-    /// Normalised cross-correlation with a picture of the same box. It is 1 if both are equal up to brightness.
+    /// Normalised cross-correlation with a picture of the same box, 0 to 1. It is 1 if both are equal up to a factor of
+    /// brightness.
     pub fn correlation(&self, other: &Self) -> f64 {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let scale = (dot(&self.values, &self.values) * dot(&other.values, &other.values)).sqrt();
@@ -68,8 +69,8 @@ impl LightImage {
     }
 }
 
-/// Convolves lines of values with a kernel. A line has `length` values that are `step` apart in the list; lines begin
-/// `stride` apart.
+/// Convolves all rows or all columns of an image with a kernel. Each of the `lines` has `length` values, whose indices
+/// differ by `step`. The first values of successive lines differ by `stride`.
 fn convolved(
     values: &[f64],
     length: usize,

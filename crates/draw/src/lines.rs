@@ -1,4 +1,4 @@
-//! Lines as lists of points with the length along them.
+//! Lines as lists of points, each with the length along the line up to it.
 
 use lightbots_base::Vec2;
 
@@ -8,13 +8,13 @@ use crate::drawing::Stroke;
 /// A line cut into short straight segments.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Polyline {
-    /// Points along it. A closed line repeats its first point at the end.
+    /// Points along the line. A closed line repeats its first point at the end.
     pub points: Vec<Vec2>,
-    /// Length along the line up to each point.
+    /// For each point, the length along the line from its start to this point.
     pub arcs: Vec<f64>,
     /// Whether the line ends where it begins.
     pub closed: bool,
-    /// How densely lights stand along it, relative to other lines.
+    /// How densely lights stand along the line, relative to other lines.
     pub weight: f64,
 }
 
@@ -57,14 +57,15 @@ impl Polyline {
         self.arcs.last().copied().unwrap_or(0.0)
     }
 
-    /// Returns the distance along the line between two positions, which are lengths from its start. On a closed line it
-    /// is the shorter way round.
+    /// Returns the distance along the line between two positions. Positions are lengths from the line's start. On a
+    /// closed line, the distance is the shorter way round.
     pub fn apart(&self, a: f64, b: f64) -> f64 {
         let direct = (a - b).abs();
         if self.closed { direct.min(self.length() - direct) } else { direct }
     }
 
-    /// Returns the place at a length along the line. Beyond an end it is that end; on a closed line it goes round.
+    /// Returns the place at the length `arc` from the line's start. Beyond an end of an open line, it is the end. On a
+    /// closed line, lengths go round.
     pub fn at(&self, arc: f64) -> Vec2 {
         let arc = if self.closed { arc.rem_euclid(self.length()) } else { arc.clamp(0.0, self.length()) };
         let next = self.arcs.partition_point(|end| *end < arc).clamp(1, self.points.len() - 1);
@@ -73,8 +74,9 @@ impl Polyline {
         self.points[next - 1].lerp(self.points[next], share)
     }
 
-    /// Change of direction at a length along the line, radians, measured over `window` before and after it. It is 0
-    /// within `window` of the ends of an open line.
+    /// Change of direction at the length `arc` from the line's start, radians, 0 to π. The place there is joined with
+    /// the places at the length `window` before and after; the result is the angle between both chords. It is 0 within
+    /// `window` of the ends of an open line.
     pub fn turn(&self, arc: f64, window: f64) -> f64 {
         if !self.closed && (arc < window || arc > self.length() - window) {
             return 0.0;
@@ -102,7 +104,7 @@ impl LineSet {
         self.lines.iter().map(Polyline::length).sum()
     }
 
-    /// Buckets of the points of all lines, to find near ones.
+    /// Buckets of the points of all lines, to find near points.
     pub fn buckets(&self) -> Buckets<'_> {
         Buckets::new(&self.points, 2.0 * self.pitch)
     }
@@ -112,13 +114,15 @@ impl LineSet {
         &self.points
     }
 
-    /// Returns the line of a point of [`LineSet::points`], and the length along that line.
+    /// Returns the index of the line that has point number `point` of [`LineSet::points`], and the length along that
+    /// line.
     pub fn arc_of(&self, point: usize) -> (usize, f64) {
         let (line, number) = self.owners[point];
         (line, self.lines[line].arcs[number])
     }
 
-    /// Returns the nearest place on the two segments at the nearest point. Without lines it returns `at`.
+    /// Returns the place on the lines nearest to `at`. It is searched on the two segments that meet at the point
+    /// nearest to `at`. Without lines it returns `at`. `buckets`: those of [`Self::buckets`].
     pub fn project(&self, at: Vec2, buckets: &Buckets<'_>) -> Vec2 {
         let Some((nearest, _)) = buckets.nearest(at) else { return at };
         let (line, number) = self.owners[nearest];

@@ -1,4 +1,4 @@
-//! Reads lists of lights: one place and colour per line, as spreadsheets write them.
+//! Reads lists of lights: a place and a colour in each line, as spreadsheets export them.
 
 use std::str::FromStr;
 
@@ -7,29 +7,29 @@ use lightbots_base::{Rgb, Vec2};
 use crate::error::DrawError;
 use crate::settings::MAX_ROBOTS;
 
-/// Lights at exact places. The list sets the unit of length.
+/// Lights at exact places. The list's author chooses the unit of length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightList {
     /// Place and colour of each light, in the order of the list.
     pub places: Vec<(Vec2, Rgb)>,
 }
 
-/// Largest file, bytes: 10,000 lines of 400.
+/// Largest file that is read, bytes: 10,000 lines of 400 bytes.
 const BYTES_MAX: usize = 4_000_000;
-/// Largest coordinate, in units of the list.
+/// Largest absolute value of a coordinate, in units of the list.
 const COORDINATE_MAX: f64 = 1e6;
 /// Colour of lights without one.
 const WHITE: Rgb = Rgb::new(255, 255, 255);
-/// Example of a correct line, for messages.
+/// Example of a correct line, for error messages.
 const EXAMPLE: &str = "Write a line for each light, such as 1.5, 2.0, #ff8800.";
 
-/// Reads the lights of a list `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red, green and blue
-/// from 0 to 255. Lights without a colour are white. Columns are separated by semicolons, tabs, commas or spaces. With
-/// semicolons or tabs, numbers may have decimal commas. A first line with the names of the columns may change their
-/// order.
+/// Reads the lights of a list whose lines are `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red,
+/// green and blue from 0 to 255. Lights without a colour are white. Columns are separated by semicolons, tabs, commas
+/// or spaces. With semicolons or tabs, numbers may have decimal commas. A first line may name the columns, and so
+/// change their order.
 ///
 /// # Errors
-/// A list that is empty, too long or not UTF-8, or the first line that is wrong.
+/// A list that is empty, too long or not UTF-8, or a line that is wrong; the message names the first such line.
 pub fn read(bytes: &[u8]) -> Result<LightList, DrawError> {
     if bytes.len() > BYTES_MAX {
         return Err(too_long());
@@ -84,13 +84,14 @@ fn too_long() -> DrawError {
     DrawError::new("list-too-long", message)
 }
 
-/// Lines that are neither empty nor comments, with their line numbers from 1. Comments begin with `#`.
+/// Lines that are neither empty nor comments, each with its line number, counted from 1. Comments begin with `#`.
 fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).enumerate();
     lines.map(|(n, line)| (n + 1, line)).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// Returns the character that separates the columns of a line.
+/// Returns the character that separates the columns: the first of `;`, tab and `,` that occurs in the line, else a
+/// space.
 fn separator(line: &str) -> char {
     [';', '\t', ','].into_iter().find(|separator| line.contains(*separator)).unwrap_or(' ')
 }
@@ -127,7 +128,7 @@ impl Default for Columns {
 }
 
 impl Columns {
-    /// Finds the columns in a line of names. `None` if it has no columns named x and y.
+    /// Finds the columns by their names in a header line. `None` if the line has no columns named x and y.
     fn named(names: &[String]) -> Option<Self> {
         let find = |wanted: &[&str]| {
             names.iter().position(|name| {
@@ -141,7 +142,7 @@ impl Columns {
     }
 }
 
-/// Reads the light on a line. The error says what is wrong.
+/// Reads the light in the columns of one line. The error says what is wrong.
 fn light(fields: &[String], columns: Columns, separator: char) -> Result<(Vec2, Rgb), String> {
     let number = |name: &str, column: usize| {
         let field = fields.get(column).map_or("", String::as_str);
@@ -160,7 +161,7 @@ fn light(fields: &[String], columns: Columns, separator: char) -> Result<(Vec2, 
     Ok((at, color(fields.get(columns.color..).unwrap_or(&[]))?))
 }
 
-/// Reads the colour at the start of the remaining columns; white if there is none.
+/// Reads the colour at the start of `fields`, the columns from the colour on; white if there is none.
 fn color(fields: &[String]) -> Result<Rgb, String> {
     let Some(first) = fields.first().filter(|first| !first.is_empty()) else { return Ok(WHITE) };
     let wrong = |text: &str| format!("the colour \"{}\" is unknown.", shortened(text));

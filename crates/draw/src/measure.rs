@@ -1,4 +1,4 @@
-//! Measures how well places cover a drawing, in numbers that can be compared between methods.
+//! Measures how well places cover a drawing. The figures can be compared between methods of placing.
 
 use lightbots_base::Vec2;
 
@@ -7,21 +7,22 @@ use crate::drawing::DrawingPart;
 use crate::ground::{Ground, Quality};
 use crate::pins::{self, CORNER_RAD};
 
-/// Figures of places on a part. Distances are in ideal spacings. For areas, that is the spacing of a hexagonal grid
-/// with this number of places; for lines, their length divided by the number of places.
+/// Figures of places on a part. Distances are divided by an ideal spacing. For areas, that is the spacing of a
+/// hexagonal grid with this number of places; for lines, the length of the lines divided by the number of places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// Standard deviation of the distances to the nearest neighbour, divided by their mean.
+    /// Standard deviation of the places' distances to their nearest neighbours, divided by the mean of these distances.
     pub variation: f64,
-    /// Distance of the closest pair. It sets the size of the picture on the floor.
+    /// Distance of the closest pair of places. It sets the size of the picture on the floor.
     pub closest: f64,
     /// Largest distance of a point of the drawing from its nearest place.
     pub farthest_point: f64,
     /// Largest distance of a place from the drawing.
     pub farthest_place: f64,
-    /// Share of the drawing within half a spacing of a place.
+    /// Share of the drawing that is within half a spacing of a place.
     pub covered: f64,
-    /// Share of the corners (turns over 35°) with a place within a quarter of a spacing; 1 if there are no corners.
+    /// Share of the corners (turns over 35°) that have a place within a quarter of a spacing; 1 if there are no
+    /// corners.
     pub corners: f64,
 }
 

@@ -9,35 +9,35 @@ use crate::lines::{LineSet, Polyline};
 use crate::pins::{self, Pin};
 use crate::symmetry::Mirror;
 
-/// A pin nearer than this share of the spacing to one of higher rank is dropped, because both would look like one
+/// A pin closer than this share of the spacing to a pin of higher rank is dropped, because both would look like one
 /// light.
 const PIN_GAP: f64 = 0.6;
 
-/// A light this near to another line, as a share of the spacing, counts as a light of both lines.
+/// A light closer than this share of the spacing to another line counts as a light of both lines.
 const BESIDE: f64 = 0.45;
 
-/// Pins nearer to each other than this share of the spacing are one light that several lines share.
+/// Pins closer to each other than this share of the spacing become one light that several lines share.
 const SAME: f64 = 0.08;
 
-/// A piece of a line between pins or ends of the line.
+/// A piece of a line between two successive pins, or between a pin and an end. `from`: length from the line's start.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     line: usize,
     from: f64,
     length: f64,
-    /// Whether its start and its end have a light already.
+    /// Whether a light is already at the start, and at the end, of the piece.
     pinned: [bool; 2],
-    /// Whether it is a whole closed line without pins.
+    /// Whether the piece is a whole closed line without pins.
     round: bool,
-    /// Number of lights between its ends.
+    /// Number of lights on the piece, without those at its start and end.
     lights: usize,
 }
 
 /// A place on a line, and how it may move.
 pub(crate) type LinePlace = (Vec2, Freedom);
 
-/// Returns `count` places along the lines of a drawing of this height. They are symmetric if the lines are symmetric
-/// about the axis `mirror`.
+/// Returns `count` places along lines, at pins first and then evenly between them. `height`: larger side of the
+/// drawing. The places are symmetric if the lines are symmetric about `mirror`.
 pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<Mirror>) -> Vec<LinePlace> {
     if count == 0 || track.lines.is_empty() {
         return Vec::new();
@@ -54,8 +54,8 @@ pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<
     places
 }
 
-/// Returns the places of lights at pins, at most `count`, and the lengths along each line at which such a light cuts
-/// it.
+/// Returns at most `count` places of lights at pins. Also returns, for each line, the lengths from its start at which
+/// these lights cut the line.
 fn nodes(
     track: &LineSet,
     pins: &[Pin],
@@ -82,7 +82,7 @@ fn nodes(
     (nodes, cuts)
 }
 
-/// Cuts lines where a light of another line is on them or beside them, because such a light counts for them too.
+/// Cuts lines where a light of another line is on or beside them, because this light counts for them as well.
 fn cut_by_others(track: &LineSet, nodes: &[Vec2], spacing: f64, cuts: &mut BTreeMap<usize, Vec<f64>>) {
     for node in nodes {
         for (line, polyline) in track.lines.iter().enumerate() {
@@ -137,8 +137,8 @@ fn edges(track: &LineSet, cuts: &BTreeMap<usize, Vec<f64>>, mirror: Option<Mirro
     edges
 }
 
-/// Returns where lights on a closed line begin, as a length along it. That is at its top, or on the mirror
-/// axis if there is one, which keeps the lights symmetric.
+/// Returns where the lights on a closed line begin, as a length from the line's start. This is the top of the line. If
+/// there is a mirror axis, it is a point on the axis, so that the lights are symmetric.
 fn beginning(line: &Polyline, mirror: Option<Mirror>) -> f64 {
     let high = |at: Vec2| match mirror {
         Some(Mirror::UpDown(_)) => at.x,
@@ -152,7 +152,7 @@ fn beginning(line: &Polyline, mirror: Option<Mirror>) -> f64 {
     best.map_or(0.0, |index| line.arcs[index])
 }
 
-/// Groups edges that are mirror images of each other into pairs; every other edge is a group of its own.
+/// Groups pieces that are mirror images of each other into pairs. Every other piece is a group of its own.
 fn orbits(track: &LineSet, edges: &[Edge], mirror: Option<Mirror>, spacing: f64) -> Vec<Vec<usize>> {
     let middle = |edge: &Edge| track.lines[edge.line].at(edge.from + edge.length / 2.0);
     let mut orbits = Vec::new();
@@ -182,7 +182,7 @@ fn orbits(track: &LineSet, edges: &[Edge], mirror: Option<Mirror>, spacing: f64)
     orbits
 }
 
-/// Adds `count` lights one group at a time, to the edges with the widest gaps. Both edges of a pair get one each.
+/// Adds `count` lights, always to the group with the widest gaps. Both pieces of a pair get a light each.
 fn fill(track: &LineSet, edges: &mut [Edge], orbits: &[Vec<usize>], count: usize) {
     let mut left = count;
     while left > 0 {
@@ -207,7 +207,8 @@ fn fill(track: &LineSet, edges: &mut [Edge], orbits: &[Vec<usize>], count: usize
 }
 
 impl Edge {
-    /// Returns the distance between the edge's lights. At an end without a light, half a gap stays free.
+    /// Returns the distance between successive lights of the piece. At an end without a light, half this distance stays
+    /// free.
     fn gap(&self) -> f64 {
         let ends = self.pinned.iter().filter(|pinned| **pinned).count();
         match (self.lights, ends) {

@@ -1,4 +1,4 @@
-//! Finds the places on lines where a light matters most: ends, crossings and corners.
+//! Finds pins: the places on lines where a light matters most, which are ends, crossings and corners.
 
 use core::f64::consts::PI;
 
@@ -8,26 +8,27 @@ use lightbots_base::shape::segment_to_segment;
 use crate::buckets::Buckets;
 use crate::lines::{LineSet, Polyline};
 
-/// Least change of direction at which a place is a corner, radians.
+/// A place is a corner if the line's direction changes by more than this there, radians.
 pub(crate) const CORNER_RAD: f64 = 35.0 * PI / 180.0;
 
-/// Lines nearer to each other than this share of the drawing's height touch.
+/// Two lines touch if they are closer than this share of the drawing's larger side.
 const TOUCH: f64 = 0.004;
 
-/// A place on a line, and how much a light matters there.
+/// A place on a line, with its importance for the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pin {
     /// Index of the line.
     pub line: usize,
-    /// Length along the line up to the place.
+    /// Length along the line from its start to the place.
     pub arc: f64,
     /// The place.
     pub at: Vec2,
-    /// How much a light matters here: 2 at an end, 1 at a crossing, below 1 at a corner, where it grows with the turn.
+    /// Importance of a light at this place: 2 at an end, 1 at a crossing, below 1 at a corner, where it grows with the
+    /// turn.
     pub rank: f64,
 }
 
-/// Returns all ends, crossings and corners, those of highest rank first. `height` is that of the whole drawing.
+/// Returns all ends, crossings and corners, those of highest rank first. `height`: larger side of the drawing.
 pub(crate) fn find(track: &LineSet, height: f64) -> Vec<Pin> {
     let window = 0.04 * height;
     let mut pins = Vec::new();
@@ -48,7 +49,8 @@ fn ends(line: usize, polyline: &Polyline) -> Vec<Pin> {
     vec![pin(0.0), pin(polyline.length())]
 }
 
-/// Finds corners: places with a greater turn than all others within `window` along the line.
+/// Finds corners of a line: places that turn more than [`CORNER_RAD`], and more than all places within `window` along
+/// the line.
 fn corners(line: usize, polyline: &Polyline, window: f64) -> Vec<Pin> {
     let turns: Vec<(f64, f64)> =
         polyline.arcs.iter().map(|arc| (*arc, polyline.turn(*arc, window))).collect();
@@ -66,7 +68,8 @@ fn corners(line: usize, polyline: &Polyline, window: f64) -> Vec<Pin> {
         .collect()
 }
 
-/// Places where two lines cross or touch, or where a line crosses itself; one pin for each of the two lines.
+/// Finds places where two lines cross or touch, or where a line crosses itself. Each place gives one pin for each of
+/// the two lines. `touch`: largest gap between lines that touch. `window`: least distance between two of these places.
 fn crossings(track: &LineSet, touch: f64, window: f64) -> Vec<Pin> {
     let points = track.points();
     let mut found: Vec<(f64, usize, usize)> = Vec::new();
@@ -96,7 +99,7 @@ fn longest_piece(track: &LineSet) -> f64 {
     pieces.map(|pair| pair[0].distance(pair[1])).fold(0.0, f64::max) * 1.01
 }
 
-/// Whether two points are on different lines, or far from each other along the same line.
+/// Whether two points are on different lines, or more than three `window` apart along one line.
 fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     let ((line_a, arc_a), (line_b, arc_b)) = (track.arc_of(a), track.arc_of(b));
     if line_a != line_b {
@@ -105,7 +108,7 @@ fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     track.lines[line_a].apart(arc_a, arc_b) > 3.0 * window
 }
 
-/// Whether one of the segments at the first point comes nearer than `touch` to one of those at the second point.
+/// Whether a segment that meets point `a` comes closer than `touch` to a segment that meets point `b`.
 fn pieces_touch(track: &LineSet, a: usize, b: usize, touch: f64) -> bool {
     let pieces = |point: usize| {
         let (line, arc) = track.arc_of(point);

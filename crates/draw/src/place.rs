@@ -1,4 +1,4 @@
-//! Places lights on the floor for a drawing and a number of robots.
+//! Places lights on the floor so that a number of robots shows a drawing.
 
 use lightbots_base::Vec2;
 
@@ -11,17 +11,17 @@ use crate::layout::Style;
 use crate::readability::{Readability, readability};
 use crate::settings::{PlaceSettings, PlacedLight};
 
-/// Largest number of sizes that are tried, each larger than the one before, until the picture is refused.
+/// Largest number of sizes that are tried, each larger than the size before. Then the picture is refused.
 const TRIES: usize = 5;
 
 /// A picture of lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// The lights: the kept ones first, then those of each part in turn.
+    /// The lights: the kept lights first, then the new lights of each part in turn.
     pub lights: Vec<PlacedLight>,
     /// Larger side of the picture, metres.
     pub size_m: f64,
-    /// Distance of the closest two lights, metres.
+    /// Distance between the closest two lights, metres.
     pub closest_m: f64,
     /// How well the lights show the drawing.
     pub readability: Readability,
@@ -32,8 +32,8 @@ pub struct Placed {
 /// Why a picture was refused.
 struct Refusal {
     error: DrawError,
-    /// Distance of the closest pair at the largest size, as a share of the spacing. `None` if the picture
-    /// was refused for another reason.
+    /// Distance of the closest pair at the largest size, divided by the wanted spacing. `None` if the picture was
+    /// refused for another reason.
     share: Option<f64>,
 }
 
@@ -43,8 +43,8 @@ impl From<DrawError> for Refusal {
     }
 }
 
-/// Places lights on a floor. If they do not fit with [`Style::Auto`], areas are filled. If they still do not fit at
-/// `spacing_m`, they come closer, but not closer than `least_m`.
+/// Places lights on a floor. If [`Style::Auto`] is set and the lights do not fit, areas are filled instead. If the
+/// lights still do not fit at `spacing_m`, they are placed closer together, but at least `least_m` apart.
 ///
 /// # Errors
 /// An empty drawing, numbers out of range, a picture off the floor, or more robots than fit on the floor.
@@ -69,7 +69,7 @@ pub fn place(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) 
     Ok(placed)
 }
 
-/// Tries the style of the settings. If it is [`Style::Auto`] and fails for lack of room, tries a filling next.
+/// Tries the style of the settings. If this is [`Style::Auto`] and lights do not fit, tries [`Style::Filled`] next.
 fn attempts(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
     let first = attempt(drawing, floor, settings);
     let Err(refused) = first else { return first };
@@ -80,7 +80,7 @@ fn attempts(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -
     filled.map_err(|other| if other.share > refused.share { other } else { refused })
 }
 
-/// Tries one style at one spacing, at several sizes if needed.
+/// Tries one style at one spacing, at growing sizes if needed.
 fn attempt(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Placed, Refusal> {
     let mut placement = Placement::new(drawing, floor, settings)?;
     for _ in 0..TRIES {

@@ -1,8 +1,8 @@
-//! Measures how well lights show a drawing: what a viewer sees of it from a distance.
+//! Measures how well lights show a drawing, seen from a distance.
 //!
 //! Every light is a Gaussian of fixed width, and the drawing is blurred with the same width. The width depends on the
-//! drawing's size and not on the spacing of lights. Otherwise three lights would pass for an A, because their blur
-//! would fill the gaps.
+//! drawing's size and not on the spacing of lights. Otherwise three lights would pass for the letter A, because wide
+//! lights would fill the gaps between them.
 
 use lightbots_base::Vec2;
 
@@ -15,26 +15,28 @@ use crate::lines::LineSet;
 use crate::settings::PlacedLight;
 use crate::symmetry::{Mirror, symmetric_share};
 
-/// Width of a light's Gaussian, in heights of a letter or in larger sides of any other drawing. A letter is seen from
-/// the distance at which its strokes just stay apart (measured with templates of 36 signs).
+/// Standard deviation of a light's Gaussian, as a share of a letter's height, or of the larger side of another drawing.
+/// A letter is seen from the distance at which its strokes just stay apart (measured with templates of 36 signs).
 pub(crate) const SIGMA: f64 = 0.07;
 
-/// Least correlation at which guests read a picture without being told what it is.
+/// From this correlation on, viewers recognise a picture without being told what it shows.
 pub const READABLE: f64 = 0.90;
 
-/// Correlation below which a picture is not recognised.
+/// Below this correlation a picture is not recognised.
 pub const DOUBTFUL: f64 = 0.85;
 
 /// How well lights show a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readability {
-    /// Normalised cross-correlation between blurred lights and blurred drawing, 0 to 1: that of the worst part.
+    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1, of the part with the
+    /// lowest value.
     pub correlation: f64,
-    /// Share of the lights that have a mirror image, in the worst part; 1 for parts without mirror symmetry.
+    /// Share of the lights that have a mirror image among the lights, in the part with the lowest share. It is 1 for
+    /// parts without mirror symmetry.
     pub symmetry: f64,
 }
 
-/// Measures how well lights show a drawing. Both have the same coordinates.
+/// Measures how well lights show a drawing. Lights and drawing have the same coordinate system.
 pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readability {
     let mut worst = Readability { correlation: 1.0, symmetry: 1.0 };
     for (index, part) in drawing.parts.iter().enumerate() {
@@ -48,7 +50,7 @@ pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readabil
     worst
 }
 
-/// Measures how well places show one part. `None` for an empty part.
+/// Measures how well lights at `places` show one part. `None` for an empty part.
 pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
     let (low, high) = bounds(part.points())?;
     let size = high - low;
@@ -78,14 +80,14 @@ pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readabilit
     Some(Readability { correlation, symmetry })
 }
 
-/// Returns samples of what is drawn: areas, or a picture's weights if there are no areas, and strokes.
+/// Returns samples of what a part draws: its areas, or a picture's weights if there are no areas, and its strokes.
 pub(crate) fn drawn(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     let mut drawn = samples(part, pitch);
     drawn.extend(along(&part.strokes, pitch));
     drawn
 }
 
-/// Returns samples along lines, with the mass of a line as wide as a light.
+/// Returns samples along lines. Their mass is that of a line four `pitch` wide, about as wide as a light.
 fn along(strokes: &[Stroke], pitch: f64) -> Vec<Sample> {
     let lines = LineSet::new(strokes, pitch);
     lines.points().iter().map(|at| Sample { at: *at, mass: 4.0 * pitch * pitch }).collect()

@@ -15,30 +15,30 @@ use crate::text::{self, Font, TextSettings};
 /// The signs that the reader knows.
 const SIGNS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// A face with areas and a face with lines, because people read both.
+/// Typefaces of the templates: one with areas and one with lines, because viewers read both.
 const FACES: [&str; 2] = ["lato", "hershey-sans"];
 
-/// Heights of templates, in heights of the letter that is read. Smaller ones are tried because lights lie inside a
-/// letter's edge.
+/// Heights of the templates, as multiples of the height of the letter that is read. Smaller templates are tried because
+/// lights lie inside a letter's edge.
 const SCALES: [f64; 5] = [0.76, 0.87, 1.0, 1.15, 1.32];
 
-/// Step by which lights are shifted against templates, in heights of the letter.
+/// Distance by which lights are shifted against the templates in each direction, as a share of the letter's height.
 const SHIFT: f64 = 0.04;
 
-/// Half the width and half the height of the picture in which signs are compared, in heights of the letter.
+/// Half the width and half the height of the image in which signs are compared, in heights of the letter.
 const HALF: Vec2 = Vec2::new(0.95, 0.75);
 
-/// Reads signs. Making its templates takes some milliseconds, so keep it for further readings.
+/// Reads signs from lights. Making its templates takes some milliseconds, so keep the reader for further readings.
 pub struct SignReader {
     templates: Vec<(char, LightImage)>,
 }
 
-/// What lights were read as.
+/// The sign that lights look like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignRead {
     /// The sign whose template is most like the lights.
     pub sign: char,
-    /// Normalised cross-correlation with that template, 0 to 1.
+    /// Normalised cross-correlation between that template and the lights, 0 to 1.
     pub correlation: f64,
 }
 
@@ -62,8 +62,9 @@ impl SignReader {
         SIGNS.contains(sign)
     }
 
-    /// Returns the sign that lights look like. It searches among digits if `sign` is a digit, else among letters.
-    /// `height` is the letter's height in units of the places. `None` if there are no lights or `sign` is unknown.
+    /// Returns the sign that lights look like. If `sign` is a digit, only digits are compared, else only letters.
+    /// `height`: height of the letter in the unit of `places`. `None` if there are no lights or the reader does not
+    /// know `sign`.
     pub fn read(&self, places: &[Vec2], height: f64, sign: char) -> Option<SignRead> {
         if places.is_empty() || height <= 0.0 || !Self::knows(sign) {
             return None;
@@ -81,18 +82,18 @@ impl SignReader {
     }
 }
 
-/// Returns a sign as a font draws it, with capitals of height 1. `None` if the font cannot draw it.
+/// Returns a sign as a font draws it, at a size at which capital letters are 1 high. `None` if the font cannot draw it.
 fn part(font: &Font, sign: char) -> Option<DrawingPart> {
     let words = sign.to_string();
     text::draw(&TextSettings::new(&words, font)).ok()?.drawing.parts.into_iter().next()
 }
 
-/// Points of what is drawn of a part, each with the strength of its light.
+/// Samples of what a part draws, each with the strength of its light.
 fn points(part: &DrawingPart) -> Vec<(Vec2, f64)> {
     drawn(part, SIGMA / 4.0).iter().map(|sample| (sample.at, sample.mass)).collect()
 }
 
-/// Draws points around the middle of their box, scaled, then shifted.
+/// Draws points as an image: their box is centred, scaled by `scale`, then shifted by `shift`.
 fn image(points: &[(Vec2, f64)], scale: f64, shift: Vec2) -> LightImage {
     let (low, high) = bounds(points.iter().map(|(at, _)| at)).unwrap_or_default();
     let middle = low.lerp(high, 0.5);

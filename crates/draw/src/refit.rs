@@ -1,4 +1,4 @@
-//! Shows a picture with fewer or more lights, from the places of its lights alone.
+//! Shows a picture with fewer or more lights. Nothing is known of the picture but the places and colours of its lights.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::point_to_segment;
@@ -12,41 +12,43 @@ use crate::relax::Lloyd;
 use crate::seeds::{eliminate, seeds};
 use crate::settings::{MAX_ROBOTS, PlacedLight};
 
-/// Number of rounds of relaxation. More rounds move lights farther and make the picture little more even (measured).
+/// Number of rounds of relaxation. More rounds move lights farther and hardly make the picture more even (measured).
 const ROUNDS: usize = 20;
 
-/// Lights up to this distance apart are joined by a line of the picture; in typical distances.
+/// Two lights that are at most this far apart are joined by a line of the picture. Unit: typical distances between
+/// lights.
 const JOINED: f64 = 1.45;
 
-/// Half the width of these lines, in typical distances, tried in this order. With the first width, twice as many lights
-/// still form a single row. Wider lines make several rows of it, where a single row has no room.
+/// Half the width of the lines that join lights, in typical distances, tried in this order. At the first width, twice
+/// as many lights still form a single row. Wider lines hold several rows, for lights that a single row has no room for.
 const HALF_WIDTHS: [f64; 8] = [0.22, 0.5, 0.9, 1.4, 2.1, 3.2, 4.8, 7.0];
 
-/// Share of the robots of an ideal filling that find room. The closest pair of relaxed places keeps 0.7 of the ideal
-/// spacing (Lloyd without pushing apart, measured).
+/// Share of the robots of an ideal filling that fit. After relaxation the closest pair is 0.7 ideal spacings apart
+/// (Lloyd without pushing apart, measured).
 const RELAXED: f64 = 0.5;
 
-/// Multiple of an ideal filling above which no picture is tried. It is above 1 because the picture may grow.
+/// If there are more robots than this multiple of an ideal filling, no picture is tried. It is above 1 because the
+/// picture may grow.
 const SPARE: f64 = 1.5;
 
 /// Number of samples along a typical distance.
 const FINENESS: f64 = 9.0;
 
-/// A light after a change of fleet.
+/// A light of the picture after the change of the number of lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefitLight {
     /// The light.
     pub light: PlacedLight,
-    /// Index of the light before the change. `None` for a new light.
+    /// Index that the light had before the change; `None` for a new light.
     pub from: Option<usize>,
 }
 
-/// Returns the picture of `lights` with `robots` lights at least `spacing_m` apart. Lights for which `pinned` is true
+/// Returns the picture of `lights` with `robots` lights at least `spacing_m` metres apart. Lights with `pinned` true
 /// are removed last, and move only if the whole picture is scaled or shifted. Each light that stays keeps its colour. A
-/// new one takes the colour of the nearest old light.
+/// new light takes the colour of the nearest old light.
 ///
 /// # Errors
-/// No lights to begin with, no robots or more than [`MAX_ROBOTS`], or more lights than find room on the floor.
+/// No lights to begin with, no robots or more than [`MAX_ROBOTS`], or more lights than fit on the floor.
 pub fn refit(
     lights: &[PlacedLight],
     pinned: &[bool],
@@ -77,13 +79,13 @@ pub fn refit(
     Err(refusal.unwrap_or_else(|| no_room(robots, spacing_m, 0.0)))
 }
 
-/// The task, and values that do not depend on the width of its lines.
+/// The task of [`refit`], and values that do not depend on the width of the lines.
 struct Refit<'a> {
     lights: &'a [PlacedLight],
     places: Vec<Vec2>,
-    /// Median distance to the nearest neighbour, metres.
+    /// Typical distance: the median of the lights' distances to their nearest neighbours, metres.
     typical: f64,
-    /// Indices of the lights that stay, the pinned ones first.
+    /// Indices of the lights that stay, those of the pinned lights first.
     staying: Vec<usize>,
     /// Number of pinned lights among `staying`.
     kept: usize,
@@ -109,7 +111,7 @@ impl<'a> Refit<'a> {
         Self { lights, typical: typical_distance(&places), places, staying, kept, robots, spacing_m, floor }
     }
 
-    /// Makes the picture with lines of this half width, in typical distances.
+    /// Makes the picture with lines of this half width, in typical distances between lights.
     fn with_lines(&self, half_width: f64) -> Result<Vec<RefitLight>, DrawError> {
         let Self { lights, places, typical, staying, kept, robots, spacing_m, floor } = self;
         let samples: Vec<Sample> = samples(places, *typical, half_width)
@@ -140,7 +142,8 @@ impl<'a> Refit<'a> {
     }
 }
 
-/// Returns the indices of the lights that stay, the pinned ones first. Of the others, the most crowded are removed.
+/// Returns the indices of at most `robots` lights that stay, those of the pinned lights first. Of the others, the most
+/// crowded are removed. `order`: all indices, those of the pinned lights first.
 fn staying(places: &[Vec2], order: &[usize], robots: usize, is_pinned: impl Fn(usize) -> bool) -> Vec<usize> {
     if robots >= places.len() {
         return order.to_vec();
@@ -153,7 +156,7 @@ fn staying(places: &[Vec2], order: &[usize], robots: usize, is_pinned: impl Fn(u
     staying
 }
 
-/// Returns the median distance to the nearest neighbour, metres; 0.3 m for a single light.
+/// Returns the median of the places' distances to their nearest neighbours, metres; 0.3 m for a single place.
 fn typical_distance(places: &[Vec2]) -> f64 {
     let mut distances = nearest_distances(places, 0.1);
     distances.retain(|distance| distance.is_finite());
@@ -161,7 +164,8 @@ fn typical_distance(places: &[Vec2]) -> f64 {
     distances.get(distances.len() / 2).copied().unwrap_or(0.3).max(1e-3)
 }
 
-/// Samples the picture that lights make: lines between neighbours, which merge into an area where lights fill one.
+/// Samples the picture that lights make: lines between neighbouring lights. Where lights fill an area, these lines
+/// merge into the area.
 fn samples(places: &[Vec2], typical: f64, half_width: f64) -> Vec<Sample> {
     let mut lines: Vec<(Vec2, Vec2)> = places.iter().map(|at| (*at, *at)).collect();
     Buckets::new(places, typical).pairs(JOINED * typical, |a, b, _| lines.push((places[a], places[b])));
@@ -185,17 +189,17 @@ fn center(x: i64, y: i64, pitch: f64) -> Vec2 {
     Vec2::new((x as f64 + 0.5) * pitch, (y as f64 + 0.5) * pitch)
 }
 
-/// Returns the shortest shift that brings a box onto the floor, if the box fits there.
+/// Returns the shortest shift that brings the box from `low` to `high` onto the floor, if the box fits there.
 fn onto_floor(low: Vec2, high: Vec2, floor: &PictureFloor) -> Vec2 {
     let shift = |low: f64, high: f64, min: f64, max: f64| (min - low).max(0.0) - (high - max).max(0.0);
     Vec2::new(shift(low.x, high.x, floor.min.x, floor.max.x), shift(low.y, high.y, floor.min.y, floor.max.y))
 }
 
-/// Scales places about their centroid until the closest pair has the distance `spacing_m`, then shifts them back onto
-/// the floor.
+/// If the closest pair is closer than `spacing_m`, scales places about their centroid until it is `spacing_m` apart,
+/// and shifts them back onto the floor.
 ///
 /// # Errors
-/// The scaled places are not all allowed on the floor.
+/// The floor does not allow all scaled places.
 fn spread(places: &mut [Vec2], spacing_m: f64, floor: &PictureFloor) -> Result<(), DrawError> {
     let closest = closest_distance(places);
     if closest >= spacing_m {

@@ -1,5 +1,5 @@
 //! Lloyd's relaxation (Lloyd 1982; weighted as in Secord, Weighted Voronoi Stippling, 2002). Each place moves to the
-//! centroid of its cell, which is the part of the drawing that is nearest to it.
+//! centroid of its cell. The cell of a place is the part of the drawing that is nearer to it than to other places.
 
 use lightbots_base::Vec2;
 
@@ -7,26 +7,26 @@ use crate::buckets::Buckets;
 use crate::coverage::Sample;
 use crate::symmetry::Pairing;
 
-/// Over-relaxation: each step is this multiple of the way to the centroid. With 1.8 about a quarter of the rounds is
-/// enough.
+/// Over-relaxation: each step is this multiple of the distance to the centroid. With 1.8, about a quarter of the rounds
+/// is enough.
 const OVER: f64 = 1.8;
 
 /// A relaxation and its settings.
 pub(crate) struct Lloyd<'a> {
     /// Samples of the drawing to cover.
     pub samples: &'a [Sample],
-    /// Number of places at the beginning of the list that stay where they are.
+    /// Number of places at the beginning of the list that are not moved.
     pub kept: usize,
-    /// Ideal distance between neighbours, same units as places.
+    /// Ideal distance between neighbouring places, in the unit of the places.
     pub spacing: f64,
     /// Largest number of rounds.
     pub rounds: usize,
-    /// Which places are mirror images of each other, for drawings with a mirror axis.
+    /// Which places are mirror images of each other; `None` for drawings without a mirror axis.
     pub pairing: Option<&'a Pairing>,
 }
 
 impl Lloyd<'_> {
-    /// Moves places until the longest step is below 1 % of the spacing or the rounds are over.
+    /// Moves places until the longest step is below 1 % of the spacing, or the rounds are over.
     pub fn run(&self, places: &mut [Vec2]) {
         for round in 0..self.rounds {
             // The last rounds step to the centroids themselves, because over-relaxed places oscillate about them.
@@ -39,8 +39,8 @@ impl Lloyd<'_> {
         }
     }
 
-    /// Runs one round and returns the longest step. It is infinite if places without a cell were moved, because they
-    /// have yet to reach their centroids.
+    /// Runs one round and returns the longest step. It is infinite if places without a cell were moved, because these
+    /// places have not reached a centroid yet.
     fn round(&self, places: &mut [Vec2], over: f64) -> f64 {
         let cells = self.cells(places);
         let mut longest: f64 = if self.recall_strays(places, &cells) { f64::INFINITY } else { 0.0 };
@@ -58,9 +58,9 @@ impl Lloyd<'_> {
         longest
     }
 
-    /// Moves places without a cell, which are off the drawing or share a point with another place. Each goes into one
-    /// of the cells with the largest distortion, where places are missing most. In the best arrangement all cells have
-    /// the same distortion (Gersho 1979). Returns whether there were any such places.
+    /// Moves places without a cell: places off the drawing, or at the same point as another place. Each is moved into
+    /// one of the cells with the largest distortion, where places are missing most. In the best arrangement all cells
+    /// have equal distortion (Gersho 1979). Returns whether there were places without a cell.
     fn recall_strays(&self, places: &mut [Vec2], cells: &[Cell]) -> bool {
         let strays: Vec<usize> =
             (self.kept..places.len()).filter(|index| cells[*index].centroid().is_none()).collect();
@@ -88,22 +88,22 @@ impl Lloyd<'_> {
     }
 }
 
-/// The samples that are nearer to one place than to all others.
+/// Sums over the samples that are nearer to one place than to all others.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cell {
     mass: f64,
-    /// Sum of the samples' places times their masses.
+    /// Sum of the samples' positions times their masses.
     moment: Vec2,
-    /// Sum of the squared distances from the place times the masses.
+    /// Sum of the samples' squared distances from the place, times their masses.
     distortion: f64,
     /// Largest contribution of one sample to the distortion.
     most: f64,
-    /// Place of that sample.
+    /// Position of the sample with the largest contribution.
     farthest: Vec2,
 }
 
 impl Cell {
-    /// Adds a sample; `square` is the squared distance from the place.
+    /// Adds a sample. `square`: its squared distance from the place.
     fn add(&mut self, sample: &Sample, square: f64) {
         self.mass += sample.mass;
         self.moment += sample.at * sample.mass;
@@ -120,8 +120,8 @@ impl Cell {
     }
 }
 
-/// Energy of places: mean squared distance of the samples from their nearest place, weighted by mass. Smaller is more
-/// even.
+/// Energy of places: mean squared distance of the samples from their nearest places, weighted by mass. With less
+/// energy, places are more even.
 pub(crate) fn energy(samples: &[Sample], places: &[Vec2], spacing: f64) -> f64 {
     let buckets = Buckets::new(places, 0.8 * spacing);
     let (mut sum, mut mass) = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! Simple methods of placing robots, to compare the engine with: random, on a grid, farthest point.
+//! Simple methods of placing robots, for comparison with the method of this crate: random, on a grid, farthest point.
 
 use lightbots_base::Vec2;
 
@@ -8,14 +8,14 @@ use crate::geometry::bounds;
 use crate::ground::{Ground, Quality};
 use crate::seeds::unit;
 
-/// Number of offsets of the grid that are tried in each direction.
+/// Number of offsets of the grid that are tried along each axis.
 const OFFSETS: usize = 4;
 
 /// Number of bisection steps in the search for the grid's pitch.
 const HALVINGS: usize = 30;
 
-/// Returns `count` places on a part by each method, with the method's name. A part without areas has no grid. Empty if
-/// nothing is drawn.
+/// Returns the name of each method, and the `count` places on a part that it finds. For a part without areas there is
+/// no grid. Empty if the part draws nothing.
 pub fn rivals(part: &DrawingPart, count: usize, seed: u64) -> Vec<(&'static str, Vec<Vec2>)> {
     let ground = Ground::new(part, count, Quality::Full, &|_| true);
     let mut state = seed;
@@ -41,13 +41,13 @@ fn pick(points: &[Vec2], state: &mut u64) -> Vec2 {
     points[((unit(state) * points.len() as f64) as usize).min(points.len() - 1)]
 }
 
-/// Picks each place at random, independent of the others.
+/// Picks each place at random from `points`, independent of the others.
 fn random(points: &[Vec2], count: usize, state: &mut u64) -> Vec<Vec2> {
     (0..count).map(|_| pick(points, state)).collect()
 }
 
-/// Picks each place as far as possible from those before it (Gonzalez, Clustering to Minimize the Maximum Intercluster
-/// Distance, 1985).
+/// Picks each next place from `points` as far as possible from all places picked before (Gonzalez, Clustering to
+/// Minimize the Maximum Intercluster Distance, 1985).
 fn farthest(points: &[Vec2], count: usize, state: &mut u64) -> Vec<Vec2> {
     let mut places = vec![pick(points, state)];
     let mut gaps = vec![f64::INFINITY; points.len()];
@@ -65,8 +65,8 @@ fn farthest(points: &[Vec2], count: usize, state: &mut u64) -> Vec<Vec2> {
     places
 }
 
-/// Returns the square grid with the largest pitch that has at least `count` nodes inside, at its best offset. Surplus
-/// nodes at the end are left out.
+/// Returns `count` nodes of a square grid: the grid with the largest pitch that has at least `count` nodes inside, at
+/// the best offset tried. Surplus nodes at the end of the list are left out.
 fn grid(ground: &Ground, count: usize) -> Vec<Vec2> {
     let inside = Buckets::new(&ground.inside, ground.pitch);
     let (low, high) = bounds(&ground.inside).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Chooses first places in an area by weighted sample elimination (Yuksel, Sample Elimination for Generating Poisson
-//! Disk Sample Sets, 2015).
+//! Chooses places for the relaxation to begin with, by weighted sample elimination (Yuksel, Sample Elimination for
+//! Generating Poisson Disk Sample Sets, 2015).
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -10,10 +10,10 @@ use lightbots_base::random::split_mix;
 use crate::buckets::Buckets;
 use crate::coverage::Sample;
 
-/// Number of candidates for each place.
+/// Number of random candidates that are drawn for each place.
 const CANDIDATES: usize = 5;
 
-/// Exponent of the weight between two candidates, from the paper.
+/// Exponent in the weight between two candidates, as in the paper.
 const EXPONENT: i32 = 8;
 
 /// Returns a random number from 0 up to, but not including, 1.
@@ -21,8 +21,8 @@ pub(crate) fn unit(state: &mut u64) -> f64 {
     (split_mix(state) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Returns `count` places in the samples, spread evenly at about the distance `spacing` from each other and from the
-/// places `kept`. The kept places are not in the result. Empty if there are no samples.
+/// Returns `count` new places in the samples, evenly spread, about `spacing` apart from each other and from the places
+/// `kept`. Empty if there are no samples.
 pub(crate) fn seeds(samples: &[Sample], kept: &[Vec2], count: usize, spacing: f64, seed: u64) -> Vec<Vec2> {
     if samples.is_empty() || count == 0 {
         return Vec::new();
@@ -34,7 +34,7 @@ pub(crate) fn seeds(samples: &[Sample], kept: &[Vec2], count: usize, spacing: f6
     left.into_iter().map(|index| candidates[index]).collect()
 }
 
-/// Draws random candidates, as dense as the samples' mass. Small random shifts hide the grid that the samples form.
+/// Draws random candidates whose density follows the samples' mass. Small random shifts hide the grid of the samples.
 fn drawn(samples: &[Sample], count: usize, spacing: f64, state: &mut u64) -> Vec<Vec2> {
     let mut total = 0.0;
     let sums: Vec<f64> = samples
@@ -73,8 +73,8 @@ impl PartialOrd for Crowded {
     }
 }
 
-/// Removes the most crowded candidate until `count` are left, and returns their indices. The first `kept` candidates
-/// are never removed and do not count.
+/// Removes the most crowded candidate again and again, until `count` are left, and returns the indices of those. The
+/// first `kept` candidates are never removed, are not in the result, and do not count.
 pub(crate) fn eliminate(candidates: &[Vec2], kept: usize, count: usize, spacing: f64) -> Vec<usize> {
     let reach = 1.3 * spacing;
     let mut near: Vec<Vec<(u32, f64)>> = vec![Vec::new(); candidates.len()];

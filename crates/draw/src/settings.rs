@@ -9,31 +9,31 @@ use crate::layout::Style;
 /// Largest number of robots in a drawing.
 pub const MAX_ROBOTS: usize = 10_000;
 
-/// What a picture of lights is to be like.
+/// Settings of a picture of lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceSettings {
     /// Number of lights.
     pub robots: usize,
     /// Least distance between two lights, metres.
     pub spacing_m: f64,
-    /// Distance to which `spacing_m` may shrink if the lights do not fit otherwise, metres.
+    /// Least value, metres, to which `spacing_m` may be reduced if the lights do not fit otherwise.
     pub least_m: f64,
     /// How areas are shown.
     pub style: Style,
-    /// Larger side of the picture, metres. If `None`, it is chosen by floor and number of robots.
+    /// Larger side of the picture, metres. `None`: chosen for the floor and the number of robots.
     pub size_m: Option<f64>,
     /// Centre of the picture, stage metres.
     pub center: Vec2,
-    /// Turn of the picture, radians counter-clockwise.
+    /// Angle by which the picture is turned, radians counter-clockwise.
     pub turn: f64,
-    /// The part of the drawing that fills the picture's box: corners with the smaller and the larger x and y, in the
-    /// drawing's units. If `None`, the box around the whole drawing. With one view, the pictures of a series keep the
-    /// same scale.
+    /// The rectangle of the drawing that is scaled to the picture's size: its corners with the smaller and the larger x
+    /// and y, in the drawing's units. `None`: the rectangle around the whole drawing. If a series of pictures has one
+    /// view, all have one scale.
     pub view: Option<(Vec2, Vec2)>,
-    /// Lights that stay where they are. They count as the first of `robots`.
+    /// Lights that stay where they are. They are included in `robots` and come first in the result.
     pub kept: Vec<PlacedLight>,
-    /// Places with which the relaxation begins, such as those of the previous picture. If empty, it begins with new
-    /// ones.
+    /// Places with which the relaxation begins, such as those of the previous picture. Empty: it begins with new
+    /// places.
     pub start: Vec<Vec2>,
     /// How much work goes into the places.
     pub quality: Quality,
@@ -67,7 +67,7 @@ pub struct PlacedLight {
     pub at: Vec2,
     /// Colour.
     pub color: Rgb,
-    /// Index of its part in the drawing.
+    /// Index of the drawing's part that the light shows.
     pub part: usize,
 }
 

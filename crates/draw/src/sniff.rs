@@ -1,4 +1,4 @@
-//! Tells the kind of a file from its bytes, because names of files are often wrong.
+//! Recognises the kind of a file by its bytes, because file names are often wrong.
 
 use crate::error::DrawError;
 use crate::list;
@@ -20,10 +20,11 @@ pub enum FileKind {
     Csv,
 }
 
-/// Number of bytes in which the first element of an SVG is searched, because long comments and licences may precede it.
+/// Number of bytes at the start of a file in which the first element of an SVG is searched. Long comments and licences
+/// may precede it.
 const SVG_WITHIN: usize = 16_384;
 
-/// Returns the kind of a file. `None` if it cannot be drawn; [`unsupported`] says why.
+/// Returns the kind of a file; `None` if it cannot be drawn. [`unsupported`] then says why.
 pub fn sniff(bytes: &[u8]) -> Option<FileKind> {
     if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         Some(FileKind::Png)
@@ -51,7 +52,7 @@ fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
     bytes.windows(wanted.len()).position(|window| window == wanted)
 }
 
-/// A format that cannot be drawn, recognised by its bytes at an offset.
+/// A file format that cannot be drawn. A file has it if `bytes` are at the offset `at`.
 struct Foreign {
     at: usize,
     bytes: &'static [u8],
@@ -68,7 +69,8 @@ const AS_PICTURE: &str = "Save it as PNG or JPEG.";
 const AS_VIDEO: &str = "Drop it into the browser app, or save it as GIF.";
 const AS_TEXT: &str = "Choose it as the font of a word.";
 
-/// Well-known formats that cannot be drawn. The first match counts: marks that begin with another mark come before it.
+/// Well-known formats that cannot be drawn. The first match counts, so a longer mark comes before a shorter one with
+/// which it begins.
 const FOREIGN: [Foreign; 19] = [
     foreign(0, &[0x1f, 0x8b], "a compressed file, such as svgz", AS_SVG),
     foreign(0, b"%PDF", "a PDF", AS_SVG),
@@ -96,7 +98,8 @@ const FOREIGN: [Foreign; 19] = [
     foreign(0, b"wOF2", "a font", AS_TEXT),
 ];
 
-/// Returns the error for a file of no known kind: what the file is, if that is known, and what to do.
+/// Returns the error for a file that [`sniff`] does not know: what the file is, if it can be recognised, and what to
+/// do.
 pub fn unsupported(bytes: &[u8]) -> DrawError {
     let known = FOREIGN
         .iter()

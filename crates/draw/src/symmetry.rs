@@ -1,30 +1,31 @@
-//! Gives mirror-symmetric drawings mirror-symmetric places: an H with three lights left and four right looks wrong.
+//! Keeps the places for mirror-symmetric drawings mirror-symmetric. An H with three lights on the left and four on the
+//! right would look wrong.
 
 use lightbots_base::Vec2;
 
 use crate::buckets::Buckets;
 use crate::coverage::Sample;
 
-/// Least share of the drawing's mass whose mirror image is in the drawing as well.
+/// A drawing is symmetric if at least this share of its mass has a mirror image in the drawing.
 const SYMMETRIC: f64 = 0.97;
 
-/// A mirror axis through the drawing.
+/// A mirror axis of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mirror {
-    /// Left and right are alike: the axis is at this x.
+    /// Left and right are alike: the axis is vertical, at this x.
     LeftRight(f64),
-    /// Above and below are alike: the axis is at this y.
+    /// Top and bottom are alike: the axis is horizontal, at this y.
     UpDown(f64),
 }
 
-/// Which places of a list are mirror images of each other.
+/// Which places of a list are mirror images of each other, and which are on the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pairing {
     /// The axis.
     pub mirror: Mirror,
     /// Indices of places on the axis.
     pub single: Vec<usize>,
-    /// Indices of places and of their mirror images.
+    /// Indices of a place and of its mirror image, for each pair.
     pub pairs: Vec<(usize, usize)>,
 }
 
@@ -37,7 +38,7 @@ impl Mirror {
         }
     }
 
-    /// Signed distance from the axis: positive to the right of it or above it.
+    /// Signed distance of a point from the axis: positive to the right of the axis or above it.
     pub fn side(self, at: Vec2) -> f64 {
         match self {
             Self::LeftRight(x) => at.x - x,
@@ -53,8 +54,8 @@ impl Mirror {
         }
     }
 
-    /// Finds the axis of a drawing, left-right before up-down. `None` if the drawing is symmetric about neither.
-    /// `pitch` is the distance between samples.
+    /// Finds the mirror axis of a drawing; a left-right symmetry comes before an up-down symmetry. `None` if the
+    /// drawing has neither. `pitch`: distance between samples.
     pub fn of(samples: &[Sample], pitch: f64) -> Option<Self> {
         let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
         let sum = samples.iter().fold(Vec2::ZERO, |sum, sample| sum + sample.at * sample.mass);
@@ -75,8 +76,9 @@ impl Mirror {
 }
 
 impl Pairing {
-    /// Makes exactly symmetric places from places on one side of the axis and from single ones on it. Both places of
-    /// each pair come first, then the single ones.
+    /// Makes exactly symmetric places. `side`: places on one side of the axis, which get mirror images. `single`:
+    /// places that are moved onto the axis. In the result, each place of `side` is followed by its image; the single
+    /// places come last.
     pub fn unfold(mirror: Mirror, side: &[Vec2], single: &[Vec2]) -> (Vec<Vec2>, Self) {
         let mut places = Vec::with_capacity(2 * side.len() + single.len());
         for place in side {
@@ -108,7 +110,7 @@ impl Pairing {
     }
 }
 
-/// Returns the share of places that have another place, or themselves, within `reach` of their mirror image.
+/// Returns the share of places whose mirror image has a place within `reach`. That may be the place itself.
 pub(crate) fn symmetric_share(mirror: Mirror, places: &[Vec2], reach: f64) -> f64 {
     let buckets = Buckets::new(places, reach);
     let near = |place: &&Vec2| {

@@ -1,4 +1,4 @@
-//! Widens lines to bands, for more robots than fit in a single row along them.
+//! Widens lines to bands, if there are more robots than fit in a single row along the lines.
 
 use core::f64::consts::PI;
 
@@ -7,18 +7,18 @@ use lightbots_base::Vec2;
 use crate::drawing::{Area, DrawingPart, FillRule, Stroke};
 use crate::geometry::{hexagonal_area, hexagonal_count};
 
-/// Segments of the half circle at each end of a band.
+/// Number of segments of the half circle at each end of a band.
 const ROUND: usize = 6;
 
-/// Least distance between places of a filling, in ideal spacings. Bands are made this much wider, to keep the distance
-/// that is asked for.
+/// Places of a filling may be as close as this, in ideal spacings. Bands are made wide enough that robots keep the
+/// wanted distance nevertheless.
 const NEAREST: f64 = 0.85;
 
-/// Share of the places along lines that can be used. Where lines meet, places of one line are too near to those of the
-/// other.
+/// Share of the places along lines that can be used. Where lines meet, places of one line are too close to places of
+/// the other.
 const USABLE: f64 = 0.8;
 
-/// What bands must hold.
+/// What lines, or the bands that replace them, must hold.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BandLoad {
     /// Number of robots.
@@ -32,8 +32,8 @@ pub(crate) struct BandLoad {
 }
 
 impl BandLoad {
-    /// Returns the width of bands that hold all robots. `None` if the lines hold them as they are, or if there are no
-    /// lines.
+    /// Returns the width of bands that hold all robots, in units of the drawing. `None` if the lines hold all robots as
+    /// they are, or if there are no lines.
     pub fn width(&self) -> Option<f64> {
         let ideal = self.spacing / NEAREST;
         let on_lines = USABLE * self.length / self.spacing;
@@ -44,7 +44,7 @@ impl BandLoad {
     }
 }
 
-/// Returns a part whose strokes have become bands of this width.
+/// Returns a part whose strokes are replaced by bands of this width.
 pub(crate) fn thickened(part: &DrawingPart, width: f64) -> DrawingPart {
     let areas = part.strokes.iter().map(|stroke| band(stroke, width)).collect();
     DrawingPart { areas, strokes: Vec::new(), spine: part.strokes.clone(), ..part.clone() }
@@ -57,7 +57,7 @@ fn band(stroke: &Stroke, width: f64) -> Area {
     Area { rings, rule: FillRule::NonZero, ink: stroke.ink.clone(), weight: stroke.weight }
 }
 
-/// Returns the outline of all points within `reach` of a straight segment, anticlockwise.
+/// Returns the outline of all points within `reach` of a straight segment, counter-clockwise.
 fn around(from: Vec2, to: Vec2, reach: f64) -> Vec<Vec2> {
     let along = (to - from).angle();
     let cap = |center: Vec2, first: f64| {

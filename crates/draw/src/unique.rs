@@ -1,4 +1,4 @@
-//! Removes stretches of lines that run over other lines. A pen may retrace its path, but two robots in one place would
+//! Removes stretches of lines that run along other lines. A pen may retrace its path, but two robots in one place would
 //! collide.
 
 use lightbots_base::Vec2;
@@ -7,13 +7,14 @@ use crate::buckets::Buckets;
 use crate::drawing::Stroke;
 use crate::lines::Polyline;
 
-/// Lines nearer than this share of the drawing's size are one line.
+/// Lines closer to each other than this share of the drawing's size count as one line.
 const SAME: f64 = 0.015;
 
-/// A shared stretch shorter than this is a crossing and stays. The unit is the distance below which lines are one.
+/// A shared stretch shorter than this is a crossing of two lines and stays. Unit: the distance below which lines count
+/// as one.
 const CROSSING: f64 = 5.0;
 
-/// Returns the strokes of a drawing of this size, with every stretch only once.
+/// Returns strokes in which every stretch occurs only once. `size`: size of the drawing.
 pub(crate) fn unique(strokes: &[Stroke], size: f64) -> Vec<Stroke> {
     let distance = SAME * size;
     let mut lines = Vec::new();
@@ -42,8 +43,8 @@ pub(crate) fn unique(strokes: &[Stroke], size: f64) -> Vec<Stroke> {
     kept
 }
 
-/// Returns the stretches of a line that are not covered. Each includes the covered point next to it, which keeps joints
-/// closed.
+/// Returns the stretches of a line that are not covered by other lines. Each stretch includes the covered points next
+/// to it, so that joints stay closed.
 fn runs(stroke: &Stroke, points: &[Vec2], covered: &[bool], shortest: usize) -> Vec<Stroke> {
     let long = long_runs(covered, shortest);
     if !long.iter().any(|covered| *covered) {
@@ -68,7 +69,7 @@ fn runs(stroke: &Stroke, points: &[Vec2], covered: &[bool], shortest: usize) -> 
     parts
 }
 
-/// Marks covered points in runs of at least `shortest` covered points.
+/// Marks the covered points that belong to runs of at least `shortest` covered points.
 fn long_runs(covered: &[bool], shortest: usize) -> Vec<bool> {
     let mut long = vec![false; covered.len()];
     let mut from = 0;

@@ -1,4 +1,5 @@
-//! An exam as its user sees it: inputs with the time `now`, and outputs to drain. Each input polls the script.
+//! An exam as its caller sees it: the caller passes inputs with the time `now`, and drains outputs. After each input
+//! the script runs on.
 
 use std::future::Future;
 use std::pin::Pin;
@@ -20,14 +21,15 @@ pub struct Exam {
 }
 
 impl Exam {
-    /// An exam that begins with [`connected`](Self::connected).
+    /// Makes an exam. It begins when [`connected`](Self::connected) is called.
     pub fn new(options: Options) -> Self {
         let session = Rc::new(Session::new(options));
         let script = Box::pin(script::run(session.clone()));
         Self { session, script: Some(script), ending: None }
     }
 
-    /// Begins the exam. The broker is connected, and all topics of robots below `T/LightBot/` are subscribed.
+    /// Begins the exam. Before this call, the broker must be connected and all topics of robots below `T/LightBot/`
+    /// subscribed.
     pub fn connected(&mut self, now: Instant) {
         self.poll(now);
     }
@@ -44,39 +46,40 @@ impl Exam {
         self.poll(now);
     }
 
-    /// Answers [`ExamEvent::Look`]; `None`: the person could not tell.
+    /// Answers the question of [`ExamEvent::Look`]. `None`: the person could not tell.
     pub fn answer(&mut self, now: Instant, yes: Option<bool>) {
         self.session.answer(yes);
         self.poll(now);
     }
 
-    /// Lets the script go on when time has passed.
+    /// Lets the script go on after time has passed.
     pub fn wake(&mut self, now: Instant) {
         self.poll(now);
     }
 
-    /// Latest moment for the next call of [`wake`](Self::wake). `None` if the exam waits for another input, or is over.
+    /// Time at which [`wake`](Self::wake) must be called at the latest. `None` if the exam waits for another input, or
+    /// is over.
     pub fn wake_at(&self) -> Option<Instant> {
         self.session.alarm().filter(|_| self.script.is_some())
     }
 
-    /// Takes the next message to publish; `None` if there is none.
+    /// Removes and returns the next message to publish; `None` if there is none.
     pub fn next_publish(&mut self) -> Option<Publish> {
         self.session.next_publish()
     }
 
-    /// Takes the next event; `None` if there is none.
+    /// Removes and returns the next event; `None` if there is none.
     pub fn next_event(&mut self) -> Option<ExamEvent> {
         self.session.next_event()
     }
 
-    /// Aborts the exam and commands the robot to stand. Drain the messages afterwards.
+    /// Aborts the exam and commands the robot to stand. Publish the remaining messages afterwards.
     pub fn give_up(&mut self) {
         self.script = None;
         self.session.make_stand();
     }
 
-    /// How the exam ended; `None` while it runs.
+    /// How the exam ended; `None` while it runs, and after [`give_up`](Self::give_up).
     pub fn ending(&self) -> Option<&Ending> {
         self.ending.as_ref()
     }
@@ -86,7 +89,7 @@ impl Exam {
         self.session.subject()
     }
 
-    /// The findings until now: one per rule, in the order of the rules.
+    /// The findings until now, one for each rule, in the order of the rules' numbers.
     pub fn findings(&self) -> Vec<Finding> {
         self.session.findings()
     }

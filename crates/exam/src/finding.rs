@@ -1,17 +1,17 @@
 //! Findings of an exam.
 
-/// Whether a robot keeps a rule.
+/// Result for one rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RuleVerdict {
-    /// All attempts were as the rule demands.
+    /// There was an attempt, and in all attempts the robot did what the rule demands.
     Keeps,
-    /// An attempt was not as the rule demands.
+    /// In an attempt the robot did not do what the rule demands.
     Breaks,
-    /// The robot lacks the optional ability that the rule is about.
+    /// The robot does not have the optional ability that the rule is about.
     DoesNotKnow,
-    /// The rule was not tried, because an earlier rule is broken or the light was not watched.
+    /// The rule was not tried, for example because an earlier rule is broken or the light was not watched.
     NotTried,
-    /// No message shows whether the rule is kept.
+    /// The rule cannot be tested by messages.
     NotFromOutside,
 }
 
@@ -37,21 +37,21 @@ pub struct Finding {
     pub title: &'static str,
     /// Whether the robot keeps the rule.
     pub verdict: RuleVerdict,
-    /// Attempts in order; for a broken rule only the first failed one. May be empty.
+    /// The attempts in order; for a broken rule only the first failed attempt. May be empty.
     pub tried: Vec<RuleTest>,
-    /// Reason of a verdict without attempts: what was missing.
+    /// Why there is this verdict without attempts: what was missing. Otherwise empty.
     pub why: String,
 }
 
-/// One attempt to see whether a rule is kept.
+/// One attempt to find out whether the robot keeps a rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleTest {
     /// What was sent to the robot, and under which conditions.
     pub sent: String,
     /// What the rule demands.
     pub expected: String,
-    /// What was received.
+    /// What the robot did, for people.
     pub came: String,
-    /// Whether `came` is as `expected`.
+    /// Whether `came` fulfils `expected`.
     pub fits: bool,
 }

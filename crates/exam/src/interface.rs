@@ -1,4 +1,4 @@
-//! What goes into an exam and what comes out of it.
+//! Types of the inputs and outputs of an exam.
 
 use lightbots_base::{RobotId, Vec2};
 
@@ -7,9 +7,10 @@ use crate::sight::Question;
 /// Options of an exam.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Robot to examine; `None`: the only robot on the broker.
+    /// Name of the robot to examine; `None`: the only robot on the broker.
     pub robot: Option<RobotId>,
-    /// Width and depth of the floor, metres. The robot is not sent off the floor, and reported places off it are errors.
+    /// Width and depth of the floor, metres, with the origin in its middle. The robot is not sent off the floor, and
+    /// reporting a place off the floor is an error.
     pub floor: (f64, f64),
     /// Whether a person answers questions about the light.
     pub looks: bool,
@@ -30,19 +31,20 @@ pub struct Publish {
     pub payload: Vec<u8>,
 }
 
-/// What happens in an exam, for its user.
+/// What an exam tells its user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExamEvent {
-    /// The robot will be driven; the exam waits for [`Exam::go`](crate::Exam::go).
+    /// The robot is about to be driven; the exam waits for [`Exam::go`](crate::Exam::go).
     Ready {
         /// Name of the robot.
         robot: RobotId,
-        /// Position, stage metres; `None`: the robot does not know it and will not be driven.
+        /// Position of the robot, stage metres. `None`: the robot does not know its position and will not be driven.
         at: Option<Vec2>,
-        /// Place up to which the robot drives, stage metres. The floor must be free for 0.5 m in this direction.
+        /// The farthest place to which the robot will be sent, stage metres. The floor must be free for 0.5 m from `at`
+        /// towards it.
         towards: Option<Vec2>,
     },
-    /// Subject of the rules that are tried now.
+    /// Subject of the rules that are tried from now on, for people.
     Doing(&'static str),
     /// A question about the light; the exam waits for [`Exam::answer`](crate::Exam::answer).
     Look(Question),
@@ -53,7 +55,7 @@ pub enum ExamEvent {
 pub enum Ending {
     /// The script has ended; the findings tell what was tried.
     Done,
-    /// No robot reports on this broker, or not the requested one.
+    /// No robot reports on this broker, or the requested robot does not.
     NoRobot,
     /// Several robots report, and none was requested.
     Several(Vec<RobotId>),

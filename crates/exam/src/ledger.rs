@@ -1,10 +1,10 @@
-//! Attempts and verdicts for each rule.
+//! Attempts and verdicts for all rules.
 
 use crate::finding::{Finding, RuleTest, RuleVerdict};
 use crate::rules::{RULES, Scope};
 
-/// Largest number of successful attempts stored per rule, to keep reports short. The first failed attempt is always
-/// stored.
+/// Largest number of successful attempts that are stored for a rule, to keep reports short. The first failed attempt is
+/// always stored.
 const ATTEMPTS_MAX: usize = 6;
 
 #[derive(Clone, Debug, Default)]
@@ -15,7 +15,7 @@ struct Entry {
     excused: Option<String>,
 }
 
-/// One entry per rule, in order.
+/// One entry for each rule, in the order of the rules' numbers.
 #[derive(Debug)]
 pub(crate) struct Ledger(Vec<Entry>);
 
@@ -35,22 +35,23 @@ impl Ledger {
         }
     }
 
-    /// Notes that the robot lacks the ability `what` of a rule.
+    /// Notes that the robot lacks the ability that a rule is about. `what`: a sentence for people that says so.
     pub fn mark_unsupported(&mut self, rule: u8, what: &str) {
         self.0[usize::from(rule) - 1].missing = Some(what.to_owned());
     }
 
-    /// Notes why a rule cannot be tried. Only the first reason is kept.
+    /// Notes why a rule cannot be tried. If there are several reasons, only the first is kept.
     pub fn mark_untried(&mut self, rule: u8, why: &str) {
         self.0[usize::from(rule) - 1].excused.get_or_insert_with(|| why.to_owned());
     }
 
-    /// Whether an attempt of this rule has failed.
+    /// Whether the robot failed in an attempt of this rule.
     pub fn is_broken(&self, rule: u8) -> bool {
         self.0[usize::from(rule) - 1].broken.is_some()
     }
 
-    /// One finding per rule, in order. `stopped`: why the script ended early.
+    /// One finding for each rule, in the order of the rules' numbers. `stopped`: why the script ended early; `None` if
+    /// it did not.
     pub fn findings(&self, stopped: Option<&str>) -> Vec<Finding> {
         RULES
             .iter()

@@ -1,25 +1,25 @@
-//! The rules of `docs/protocol.md` and how each can be tested.
+//! The rules of `docs/protocol.md`, and how each rule can be tested.
 
-/// Robots that a rule concerns, and how a test can see whether it is kept.
+/// Which robots a rule concerns, and how a test can see whether they keep it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// All robots: the original protocol.
     AllRobots,
     /// Robots whose reports say `can=route`.
     Route,
-    /// All robots. The light shows whether the rule is kept.
+    /// All robots. Only the light shows whether the rule is kept.
     Light,
-    /// Robots whose reports say `can=fade`. The light shows whether the rule is kept.
+    /// Robots whose reports say `can=fade`. Only the light shows whether the rule is kept.
     Fade,
     /// Robots whose reports say `can=light`.
     Ahead,
     /// Robots whose reports say `can=live`.
     Live,
-    /// Robots whose reports say `can=blink`. The light shows whether the rule is kept.
+    /// Robots whose reports say `can=blink`. Only the light shows whether the rule is kept.
     Blink,
-    /// Robots that report more fields than the original.
+    /// Robots that report more fields than name and place.
     Details,
-    /// No message shows whether the rule is kept. Holds the reason.
+    /// The rule cannot be tested from outside. The text is the reason.
     Hidden(&'static str),
 }
 
@@ -30,7 +30,7 @@ pub struct Rule {
     pub number: u8,
     /// Subject in a few words.
     pub title: &'static str,
-    /// Robots that it concerns.
+    /// Robots that the rule concerns, and how it shows.
     pub scope: Scope,
 }
 
@@ -38,18 +38,18 @@ const fn rule(number: u8, title: &'static str, scope: Scope) -> Rule {
     Rule { number, title, scope }
 }
 
-/// Reason of hidden rules for controllers.
+/// Why rules for controllers cannot be tested on a robot.
 const CONTROLLER: &str = "the rule concerns the controller";
-/// Reason of hidden rules that need a power cycle.
+/// Why rules about power-on cannot be tested.
 const POWER: &str = "the test would have to switch the robot off and on";
-/// Reason of hidden rules that need a broken link.
+/// Why rules about a broken link cannot be tested.
 const CUT: &str = "the test would have to cut the robot's link";
-/// Reason of hidden rules that need an obstacle.
+/// Why rules about obstacles cannot be tested.
 const OBSTACLE: &str = "the test would have to put an obstacle in front of the robot";
-/// Reason of hidden rules that need wrong sensor values.
+/// Why rules about wrong sensor values cannot be tested.
 const SENSORS: &str = "the test would have to disturb the robot's sensors";
 
-/// All rules, in order: `RULES[n - 1]` is Rn.
+/// All rules in the order of their numbers: `RULES[n - 1]` is Rn.
 pub const RULES: [Rule; 63] = {
     use Scope::{Ahead, AllRobots, Blink, Details, Fade, Hidden, Light, Live, Route};
     [

@@ -1,6 +1,6 @@
 //! State that the script and [`crate::Exam`] share: the time, received messages, messages to publish, findings.
 //!
-//! Both run on one thread. No borrow of the state lives across an `await`.
+//! Script and exam run on one thread. The state is never borrowed across an `await`.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
@@ -18,18 +18,18 @@ use crate::sight::Question;
 
 /// Largest number of names of other robots that are stored: twice the largest fleet of docs/benchmarks.md.
 const OTHERS_MAX: usize = 20_000;
-/// Time that a person has to answer a question about the light. Without an answer in this time the exam continues, and
-/// the rule is not tried. The value is a generous choice; no measurement is behind it.
+/// Time that a person has to answer a question about the light. Without an answer in this time, the exam continues and
+/// the rule counts as not tried. Chosen generously, not measured.
 const LOOK_MAX: Span = Span::from_millis(300_000);
 
-/// Receiver of a message.
+/// Robots to which a message is sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Addressee {
     /// The robot under test, on its own topic.
     Robot,
     /// All robots, on `Broadcast`.
     AllRobots,
-    /// A robot that does not exist.
+    /// A robot that does not exist, by a topic that no robot should have.
     AbsentRobot,
 }
 
@@ -47,9 +47,9 @@ pub(crate) enum TimeAnswers {
 /// A robot that is not under test.
 #[derive(Clone, Debug)]
 pub(crate) struct OtherRobot {
-    /// Arrival of its last message.
+    /// Time of arrival of its last message, on the exam's clock.
     pub last: Instant,
-    /// Position in its last report, stage metres.
+    /// Position in its last report with a position, stage metres; `None`: it has reported none.
     pub at: Option<Vec2>,
 }
 
@@ -144,7 +144,7 @@ impl Session {
         state.ledger.findings(state.stopped.as_deref())
     }
 
-    /// Makes the robot stand: our robots by `STOP`, original robots by a target at their last position.
+    /// Commands the robot to stand: a robot with routes by `STOP`, an original robot by a target at its last position.
     pub fn make_stand(&self) {
         let place = self.last_place();
         let stay = place.map_or_else(String::new, |at| format!("|TARGET {:.6} {:.6}|", at.x, at.y));
@@ -157,13 +157,13 @@ impl Session {
         self.state.borrow().now
     }
 
-    /// The show clock that the robot receives.
+    /// Present time on the show clock that the exam gives the robot.
     pub fn show(&self) -> Instant {
         let state = self.state.borrow();
         state.now + state.shift
     }
 
-    /// Sets the show clock forward.
+    /// Sets the show clock forward by a span.
     pub fn jump_clock(&self, by: Span) {
         let mut state = self.state.borrow_mut();
         state.shift = Span(state.shift.0 + by.0);
@@ -179,12 +179,12 @@ impl Session {
         state.answered = 0;
     }
 
-    /// Number of questions answered since `set_time_answers`.
+    /// Number of time questions that were answered since `set_time_answers`.
     pub fn answered(&self) -> u32 {
         self.state.borrow().answered
     }
 
-    /// Payload of the last answer.
+    /// Payload of the last answer to a time question; empty: no answer yet.
     pub fn last_answer(&self) -> String {
         self.state.borrow().last_answer.clone()
     }
@@ -199,7 +199,7 @@ impl Session {
         state.others.remove(id.as_str());
     }
 
-    /// All other robots by name.
+    /// All other robots that have sent messages, by their names.
     pub fn others(&self) -> BTreeMap<String, OtherRobot> {
         self.state.borrow().others.clone()
     }
@@ -222,7 +222,7 @@ impl Session {
         self.state.borrow_mut().events.push_back(events);
     }
 
-    /// Records an attempt for a rule.
+    /// Records an attempt for a rule. `fits`: whether the robot did what the rule demands.
     pub fn record(&self, rule: u8, fits: bool, sent: &str, expected: &str, came: impl Into<String>) {
         let attempt = RuleTest { sent: sent.into(), expected: expected.into(), came: came.into(), fits };
         self.state.borrow_mut().ledger.note(rule, attempt);
@@ -245,17 +245,17 @@ impl Session {
         self.state.borrow_mut().stopped = Some(why.to_owned());
     }
 
-    /// Number of messages received before now: later messages have this index or a higher one.
+    /// Number of messages received until now. Messages that are received later have this index or a higher one.
     pub fn mark(&self) -> usize {
         self.state.borrow().log.len()
     }
 
-    /// Passes the messages of the robot since a mark to `look`.
+    /// Passes the messages of the robot with index `mark` and higher to `look`. Returns the result of `look`.
     pub fn since<T>(&self, mark: usize, look: impl FnOnce(&[Received]) -> T) -> T {
         look(self.state.borrow().log.since(mark))
     }
 
-    /// Last reported position.
+    /// The position that the robot reported last, stage metres; `None` if it has reported none.
     pub fn last_place(&self) -> Option<Vec2> {
         self.since(0, |received| received.iter().rev().find_map(Received::place))
     }
@@ -266,7 +266,8 @@ impl Session {
         self.until(until, || None::<()>).await;
     }
 
-    /// Waits for a message after `mark` that `pick` accepts, for at most `span`.
+    /// Waits for at most `span` for a message with index `mark` or higher that `pick` accepts. Returns what `pick` made
+    /// of it; `None` if there was no such message.
     pub async fn wait_for<T>(
         &self,
         mark: usize,
@@ -290,7 +291,7 @@ impl Session {
         self.until(Instant::FAR, || self.state.borrow().is_permitted.then_some(())).await;
     }
 
-    /// Asks the observer of the robot a question. `None` without an answer, or if the observer could not tell.
+    /// Asks the person who watches the robot a question. `None` if there is no answer, or the person could not tell.
     pub async fn ask_person(&self, question: Question) -> Option<bool> {
         self.state.borrow_mut().answer = None;
         self.emit(ExamEvent::Look(question));
@@ -335,7 +336,7 @@ impl State {
     }
 }
 
-/// Topic of a robot that does not exist: its name differs from `id` in the last byte.
+/// Topic of a robot that does not exist. Its name differs from `id` in the last byte.
 fn absent_topic(id: &RobotId) -> String {
     let mut name = id.as_str().to_owned();
     let last = name.pop();

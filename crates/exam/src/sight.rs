@@ -1,17 +1,17 @@
-//! Questions that only a person or a camera can answer.
+//! Questions about the light, which a person or a camera must answer.
 
 use lightbots_base::{Instant, Rgb};
 
-/// A question about the light, for the observer of the robot.
+/// A question about the light, for the person who watches the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// Question with the answers yes and no.
+    /// A question that can be answered with yes or no.
     pub text: String,
-    /// The question for a program that has recorded the light: the answer is yes if the light showed all of these.
+    /// The same question for a program that has recorded the light. The answer is yes if the light showed all of these.
     pub sights: Vec<Sight>,
 }
 
-/// What the light shows if the rule is kept. Moments are on the exam's clock.
+/// What the light shows if the robot keeps the rule. Times are on the exam's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
     /// The light has a colour at a moment.
@@ -21,7 +21,7 @@ pub enum Sight {
         /// Colour.
         colour: Rgb,
     },
-    /// White and black in turn, 125 ms each.
+    /// The light is white and black in turn, 125 ms each.
     Flashing {
         /// Beginning.
         from: Instant,

@@ -17,10 +17,10 @@ use sha2::{Digest, Sha256};
 pub(crate) const DOCUMENT: &str = "show.lightbots.json";
 /// Folder of the assets in an archive.
 const ASSETS: &str = "assets/";
-/// Largest number of files in an archive: the document and the largest number of assets of a show.
+/// Largest number of files in an archive: the document and as many assets as a show may have.
 const ENTRIES_MAX: usize = 1 + lightbots_show::MAX_ASSETS;
 
-/// The SHA-256 by which a show names a file.
+/// The SHA-256 of a file's bytes, by which a show names the file.
 pub fn hash_of(content: &[u8]) -> AssetHash {
     AssetHash(Sha256::digest(content).into())
 }

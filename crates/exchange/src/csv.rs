@@ -13,18 +13,19 @@ use crate::{archive, skyc};
 /// First line of a table.
 const HEAD: &str = "Time [msec],x [m],y [m],z [m],Red,Green,Blue";
 
-/// Whether an archive holds tables and no document of a show.
+/// Whether the bytes are a zip archive with at least one table and without a document of our format or of Skybrush.
 pub(crate) fn sniff(bytes: &[u8]) -> bool {
     let is_document = |name: &[u8]| [archive::DOCUMENT, skyc::DOCUMENT].map(str::as_bytes).contains(&name);
     holds(bytes, is_table_bytes) && !holds(bytes, is_document)
 }
 
-/// Whether a file of an archive is a table.
+/// Whether the name of a file in an archive is that of a table.
 fn is_table(name: &str) -> bool {
     is_table_bytes(name.as_bytes())
 }
 
-/// Whether a file of an archive is a table. The name may be no text. Names of macOS's own files begin with `__MACOSX/`.
+/// Whether the name of a file in an archive is that of a table: it ends with `.csv`. The name need not be UTF-8. Files
+/// in `__MACOSX/` are none: macOS adds them to its archives.
 fn is_table_bytes(name: &[u8]) -> bool {
     name.len() > 4 && name[name.len() - 4..].eq_ignore_ascii_case(b".csv") && !name.starts_with(b"__MACOSX/")
 }

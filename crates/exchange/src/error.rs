@@ -4,17 +4,18 @@ use std::fmt;
 
 use lightbots_show::{Issue, frame_label};
 
-/// Why bytes cannot be read as a show. `Display` gives one line: place, cause and remedy. The caller, which knows the
-/// name of the file, puts it before the line.
+/// Why bytes cannot be read as a show. `Display` gives one line: place, cause and remedy. The line does not have the name
+/// of the file, which only the caller knows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
     /// The kind of error for programs: lower case words with hyphens, such as `not-json`.
     pub code: &'static str,
     /// Line and column, counted from 1, the column in characters. `None` if the error concerns the whole file.
     pub place: Option<(usize, usize)>,
-    /// Index of the frame, counted from 0, and the frame's name, which may be empty.
+    /// Index of the frame, counted from 0, and the frame's name, which may be empty. `None` if the error concerns no
+    /// single frame.
     pub frame: Option<(usize, String)>,
-    /// The pixel of that frame.
+    /// The pixel of that frame; `None` if the error concerns no single pixel.
     pub pixel: Option<PixelName>,
     /// Cause and remedy, without the place.
     pub what: String,
@@ -25,7 +26,7 @@ pub struct ReadError {
 pub enum PixelName {
     /// The pixel's id.
     Id(u32),
-    /// The pixel's position in the list of the frame, counted from 0. For pixels without a readable id.
+    /// The pixel's position in the frame's list of pixels, counted from 0. Used if the pixel has no readable id.
     Nth(usize),
 }
 
@@ -35,7 +36,7 @@ impl ReadError {
         Self { code, place: None, frame: None, pixel: None, what: what.into() }
     }
 
-    /// An error at a byte of `text`.
+    /// An error at the byte with index `byte` of `text`, counted from 0. Sets line and column of the error.
     pub(crate) fn at(code: &'static str, text: &str, byte: usize, what: impl Into<String>) -> Self {
         let before = &text.as_bytes()[..byte.min(text.len())];
         let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
@@ -45,12 +46,13 @@ impl ReadError {
         Self { place: Some((line, column)), ..Self::whole(code, what) }
     }
 
-    /// Returns the error with the name of the part of the file that it is in.
+    /// Returns the error with ` (in PART)` after its message. `part` names the part of the file that has the error.
     pub(crate) fn within(self, part: &str) -> Self {
         Self { what: format!("{} (in {part})", self.what), ..self }
     }
 
-    /// Returns the error with the number of the thing that it concerns. `index` counts from 0, the message from 1.
+    /// Returns the error with `THING NUMBER: ` before its message, such as "drone 3: ". `index` counts things from 0,
+    /// the message counts them from 1.
     pub(crate) fn of_nth(self, thing: &str, index: usize) -> Self {
         Self { what: format!("{thing} {}: {}", index + 1, self.what), ..self }
     }

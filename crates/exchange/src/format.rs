@@ -10,26 +10,27 @@ use crate::part::{Part, uses};
 
 /// A file format: its names, its contents, and functions that read and write it.
 pub struct Format {
-    /// The word that programs use, such as `?to=original`. Lower case, unique.
+    /// The format's name for programs, such as `original` in `/api/convert?to=original`. Lower case, unique.
     pub name: &'static str,
     /// The program that the format is for, in messages and menus: "a show of …", "Export for …".
     pub program: &'static str,
-    /// Endings of file names: lower case, with the dot, unique. A written file gets the first. Never empty.
+    /// Endings of the format's file names: lower case, with the dot. No other format has them. A written file gets the
+    /// first. The list is never empty.
     pub endings: &'static [&'static str],
     /// Media type of the bytes, for HTTP.
     pub media_type: &'static str,
-    /// Parts of a show that a file keeps. Besides these, every format keeps frames with their names, air times and
-    /// pixels.
+    /// Parts of a show that files of the format keep. Besides these parts, every format keeps frames with their names, air
+    /// times and pixels.
     pub carries: &'static [Part],
-    /// Whether a file holds the music itself, if the show does.
+    /// Whether a written file contains the bytes of the music, provided that the show has them.
     pub holds_music: bool,
     /// Whether a file holds timed paths or lights, so that it cannot be written without the plan of the show.
     pub needs_plan: bool,
-    /// Whether bytes look like this format. Does not parse them, and never fails.
+    /// Whether bytes look like a file of this format. Looks for a few marks, does not parse the bytes, and never fails.
     pub sniff: fn(&[u8]) -> bool,
     /// Reads the bytes of a file.
     pub(crate) read: fn(&[u8]) -> Result<Loaded, ReadError>,
-    /// Writes the parts that the format carries. Other parts are left out without an issue.
+    /// Writes the parts that the format carries. Leaves other parts out silently: [`Format::write`] adds the warnings.
     pub(crate) encode: fn(&Show, Option<&ShowPlan>) -> Written,
 }
 
@@ -38,12 +39,12 @@ pub struct Format {
 pub struct Loaded {
     /// The show.
     pub show: Show,
-    /// The plan, if the file has one. It is not proven: a file may hold any plan.
+    /// The plan, if the file has one. It has not been proven free of contact, because a file may hold any plan.
     pub plan: Option<ShowPlan>,
     /// Whether the file has a stage. If not, the floor is 3 m by 3 m and may be replaced.
     pub has_stage: bool,
-    /// Why the file holds more than was read, such as fields of a newer version, in words after "because". What was
-    /// read must then not replace the file. `None`: everything was read.
+    /// Why the file holds more than the show does, such as fields of a newer version: words that follow "because". The
+    /// file must then not be replaced by the show, or these contents are lost. `None`: everything was read.
     pub unread: Option<String>,
     /// Issues found while reading, such as unknown fields. Issues of [`validate`](lightbots_show::validate) are not
     /// among them.
@@ -53,15 +54,15 @@ pub struct Loaded {
 /// The result of writing a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
-    /// The bytes of the file. Empty if an error among the issues says why there is no file.
+    /// The bytes of the file. Empty if no file could be made; an error among `issues` then says why.
     pub bytes: Vec<u8>,
-    /// A warning for each part that the show uses and the format does not keep, then issues of the format itself.
+    /// A warning for each part that the show uses and the format does not keep, then issues of writing the file.
     pub issues: Issues,
 }
 
 impl Format {
-    /// Writes a file with the show and, if the format keeps it, the plan. The same show gives the same bytes. A format
-    /// that [needs](Self::needs_plan) a plan gives an error without one, and for a plan that is not sound.
+    /// Writes a file with the show and, if the format keeps it, the plan. Equal shows and plans give equal bytes. If the
+    /// format [needs](Self::needs_plan) a plan and `plan` is `None` or has errors, the result is an error and no bytes.
     pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
         let mut issues = self.losses(show, plan);
         let written = (self.encode)(show, plan);

@@ -11,11 +11,11 @@ use crate::sequence_file::{MAGIC, SequenceFile};
 use crate::timed::export::{ExportedShow, SAMPLE, sampled_note, written};
 use crate::timed::sequence::add_file;
 
-/// Samples from one frame of the file to the next: 40 ms, which every player of FSEQ keeps up with.
+/// Number of [`SAMPLE`]s from one frame of the file to the next: 2 are 40 ms, with which every player of FSEQ keeps up.
 const SAMPLES: usize = 2;
-/// Largest number of bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Some readers support
-/// no compression, others only zstd (docs/exchange.md). With a larger bound, files of large fleets would be ten times
-/// as long.
+/// Largest number of bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Longer ones are
+/// compressed with zlib. Some readers support no compression, others only zstd (docs/exchange.md). With a larger bound,
+/// files of large fleets would be ten times as long.
 const PLAIN_MAX: usize = 16 << 20;
 
 /// Whether the bytes begin like a file of FSEQ.
@@ -56,8 +56,8 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
     (bytes, vec![note])
 }
 
-/// Adds the colours of an FSEQ file to a show, as a layer over all others. The file begins with the air time of the
-/// first frame, as the music does. Its first three channels are those of robot 0.
+/// Adds the colours of an FSEQ file to a show, as a layer over all others. The file and the music begin with the air
+/// time of the first frame. The file's first three channels are red, green and blue of robot 0.
 ///
 /// # Errors
 /// If the bytes are no FSEQ file, or one that this program does not read.

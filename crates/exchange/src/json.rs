@@ -12,14 +12,14 @@ use lightbots_show::excerpt;
 
 use crate::error::ReadError;
 
-/// A position in a JSON text. Reading a value moves the position behind it.
+/// A position in a JSON text. Reading a value moves the position to the byte after the value.
 #[derive(Clone)]
 pub(crate) struct Json<'a> {
     text: &'a str,
     at: usize,
 }
 
-/// A value. Of a list or an object it has only the kind.
+/// A JSON value. For a list or an object, only the kind is kept and not the contents.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Scalar<'a> {
     Number(f64),
@@ -30,8 +30,8 @@ pub(crate) enum Scalar<'a> {
     Object,
 }
 
-/// Deepest nesting of lists and objects in a skipped value. Shows of both formats nest at most 5 deep. The reader is
-/// recursive (RFC 8259, section 9, allows a bound): a much larger one would let a hostile file overflow the stack.
+/// Deepest nesting of lists and objects in a skipped value. Shows of both formats nest at most 5 deep. RFC 8259, section
+/// 9, allows a bound. The reader is recursive: with a much larger bound, a hostile file could overflow the stack.
 const DEPTH_MAX: usize = 32;
 
 type Read<T> = Result<T, ReadError>;
@@ -41,12 +41,12 @@ impl<'a> Json<'a> {
         Self { text, at: 0 }
     }
 
-    /// The line of the position, counted from 1.
+    /// Number of the line in which the position is, counted from 1.
     pub fn line(&self) -> usize {
         self.text.as_bytes()[..self.at].iter().filter(|byte| **byte == b'\n').count() + 1
     }
 
-    /// An error at the position.
+    /// Returns an error at the present position, with its line and column.
     pub fn fail(&self, code: &'static str, what: impl Into<String>) -> ReadError {
         ReadError::at(code, self.text, self.at, what)
     }
@@ -57,7 +57,7 @@ impl<'a> Json<'a> {
         self.text.as_bytes().get(self.at).copied().ok_or_else(|| self.cut_off())
     }
 
-    /// Whether only white space follows. Skips it.
+    /// Skips white space. Returns whether the text ends after it.
     pub fn is_at_end(&mut self) -> bool {
         self.blank();
         self.at >= self.text.len()
@@ -152,7 +152,8 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// Returns the value of `key` in the object that follows. The position stays. `None` if the key cannot be read.
+    /// Returns the value of `key` in the object that follows, without moving the position. `None` if the object lacks the
+    /// key, or an error comes before it. If the key is there several times, the last value counts.
     pub fn ahead(&self, key: &str) -> Option<Scalar<'a>> {
         let mut found = None;
         // An error after the key does not matter: the caller uses the value to say where that error is.
@@ -166,7 +167,7 @@ impl<'a> Json<'a> {
         found
     }
 
-    /// Returns the error that something other than `wanted` follows.
+    /// Returns the error for a text in which something other than `wanted` follows.
     pub fn unexpected(&self, wanted: &str) -> ReadError {
         match self.text[self.at..].chars().next() {
             None => self.cut_off(),
@@ -284,7 +285,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// Reads the character that a backslash and the characters after it stand for.
+    /// Reads an escape sequence that begins with a backslash, and returns its character.
     fn escape(&mut self) -> Read<char> {
         let escaped = self.text.as_bytes().get(self.at + 1).copied().ok_or_else(|| self.cut_off())?;
         let char = match escaped {

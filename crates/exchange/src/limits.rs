@@ -4,5 +4,5 @@
 /// format. A longer file is refused before it is read, so that a wrong file does not fill the memory.
 pub const MAX_BYTES: usize = 64 << 20;
 
-/// Longest show in a file of another program, seconds: one day, as on the timeline of a show.
+/// Longest show in a file of another program, seconds: one day. Times in our own show files have the same bound.
 pub(crate) const LONGEST_S: f64 = 86_400.0;

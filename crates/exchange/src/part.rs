@@ -54,7 +54,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// All parts that the document of a show has: all but the plan and the files themselves.
+    /// All parts that our JSON document of a show has: every part except the plan and the contents of files.
     pub(crate) const DOCUMENT: [Self; 20] = [
         Self::Title,
         Self::FloorSize,
@@ -86,7 +86,7 @@ impl Part {
         parts
     };
 
-    /// The parts that timed paths express, and the name of the show.
+    /// The parts that a file can express if it has the show's name and a timed path for each robot.
     pub(crate) const TIMED: [Self; 7] = [
         Self::Title,
         Self::Identity,
@@ -97,7 +97,7 @@ impl Part {
         Self::Plan,
     ];
 
-    /// [`Self::TIMED`], the music and names of robots.
+    /// The parts of [`Self::TIMED`], the music, and which robot shows a pixel: the file names its robots.
     pub(crate) const TIMED_WITH_NAMES: [Self; 9] = {
         let mut parts = [Self::ChosenRobots; 9];
         let (timed, others) = parts.split_at_mut(Self::TIMED.len());
@@ -106,7 +106,7 @@ impl Part {
         parts
     };
 
-    /// The parts that tables of places with names of robots express.
+    /// The parts that a file can express if it has a table of places for each robot, named after the robot.
     pub(crate) const TABLES: [Self; 6] =
         [Self::Identity, Self::Starts, Self::Durations, Self::Easing, Self::ChosenRobots, Self::Plan];
 
@@ -172,7 +172,7 @@ impl Part {
     }
 }
 
-/// Whether a part of the show differs from what a reader assumes if a file does not have the part.
+/// Whether the show uses `part`: whether the part differs from the default that a reader assumes when a file lacks it.
 pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
     let (stage, usual) = (&show.stage, Stage::default());
     let mut pixels = show.frames.iter().flat_map(|frame| &frame.pixels);

@@ -8,12 +8,12 @@ use crate::json::{self, Json};
 use crate::limits::MAX_BYTES;
 use crate::table::{for_file, formats_in_words, sniff};
 
-/// Reads a file of any format. The content decides which format it is; `file` is the file's name and only makes
-/// messages clearer.
+/// Reads a file of any format. The bytes alone decide which format it is. `file` is the name of the file, if known, and
+/// only makes messages clearer.
 ///
 /// # Errors
 /// If the bytes are not a show. A show that can be read but must not be played is not an error here:
-/// [`validate`](lightbots_show::validate) finds its issues.
+/// [`validate`](lightbots_show::validate) finds the issues of the show.
 pub fn read(bytes: &[u8], file: Option<&str>) -> Result<Loaded, ReadError> {
     if bytes.len() > MAX_BYTES {
         let size_mb = bytes.len() as f64 / 1e6;

@@ -13,12 +13,12 @@ use lightbots_show::LayerPicture;
 pub(crate) use header::MAGIC;
 use header::{BadSequence, ChannelRange, HEADER, Header, PLAIN, ZLIB, cut_off};
 
-/// Largest number of blocks: readers of version 2.0 count them with one byte.
+/// Largest number of blocks in a written file: readers of FSEQ 2.0 read their number from one byte.
 const BLOCKS_MAX: usize = 255;
 /// Number of frames in a block, unless the file would have too many blocks.
 const BLOCK_FRAMES: usize = 250;
-/// Bytes of whole frames that are unpacked at once, unless one frame has more. Unpacking 358 million frames of three
-/// channels took 46 s one by one, and 0.9 s with this bound (2026-11-28).
+/// Whole frames of at most this number of bytes are unpacked at once; a longer frame is unpacked alone. Unpacking 358
+/// million frames of three channels one by one took 46 s, and with this bound 0.9 s (2026-11-28).
 const UNPACKED_AT_ONCE: usize = 64 << 10;
 
 /// The contents of a file.
@@ -26,11 +26,11 @@ const UNPACKED_AT_ONCE: usize = 64 << 10;
 pub(crate) struct SequenceFile {
     /// Time from one frame to the next, milliseconds.
     pub step_ms: u8,
-    /// Number of bytes of a frame: red, green and blue of each robot.
+    /// Number of bytes of a frame: three for each robot, its red, green and blue.
     pub channels: usize,
-    /// Colour codes, frame after frame.
+    /// Colour codes, frame after frame, `channels` of them for each frame.
     pub codes: Vec<u8>,
-    /// File name of the music.
+    /// File name of the music; `None`: the file names none.
     pub music: Option<String>,
 }
 
@@ -55,14 +55,15 @@ impl SequenceFile {
         bytes
     }
 
-    /// Writes a file without compression. Every reader of FSEQ 2 understands it.
+    /// Writes a file without compression, which every reader of FSEQ 2 understands.
     pub fn plain_bytes(&self) -> Vec<u8> {
         let mut bytes = self.head(PLAIN, &[]);
         bytes.extend(&self.codes);
         bytes
     }
 
-    /// Everything before the frames. `blocks`: the list of blocks, eight bytes each.
+    /// The bytes of a file before its frames. `compression` is the code for the header. `blocks` is the list of blocks,
+    /// eight bytes each.
     fn head(&self, compression: u8, blocks: &[u8]) -> Vec<u8> {
         let mut variables = variable(b"sp", "LightBots");
         if let Some(music) = &self.music {
@@ -86,8 +87,8 @@ impl SequenceFile {
         bytes
     }
 
-    /// Reads a file, at most its first `channels` channels. Of many frames only every n-th is kept, so that the lights
-    /// have at most [`PICTURE_PIXELS_MAX`] colours. Channels that a sparse file leaves out are black.
+    /// Reads at most the first `channels` channels of a file. If there would be more than [`PICTURE_PIXELS_MAX`] colours,
+    /// keeps every n-th frame only, and makes `step_ms` n times as long. Channels that a sparse file leaves out are 0.
     pub fn read(bytes: &[u8], channels: usize) -> Result<Self, BadSequence> {
         let header = Header::read(bytes)?;
         let ranges = header.ranges(bytes)?;
@@ -109,7 +110,7 @@ impl SequenceFile {
     }
 }
 
-/// The first `kept` channels of every `every`-th frame.
+/// The codes of the first `kept` channels of the frames 0, `every`, 2 · `every` and so on.
 fn kept_codes(
     header: &Header,
     bytes: &[u8],
@@ -138,7 +139,8 @@ fn kept_codes(
     Ok(codes)
 }
 
-/// Adds the first `kept` channels of a frame to `codes`.
+/// Adds the codes of the channels below `kept` of a frame to `codes`. `row` has the bytes of the frame, and `ranges` the
+/// channels for which they stand. Channels outside all ranges are 0.
 fn add_row(codes: &mut Vec<u8>, row: &[u8], ranges: &[ChannelRange], kept: usize) {
     let begin = codes.len();
     codes.resize(begin + kept, 0);

@@ -19,10 +19,10 @@ use crate::zip_files::holds;
 pub(crate) const DOCUMENT: &str = "show.json";
 /// Largest number of drones that Skybrush reads in a file.
 const DRONES_MAX: usize = 5_000;
-/// Ticks of light programs in a second.
+/// Number of ticks of a light program in a second.
 const TICKS_PER_S: f64 = 50.0;
 
-/// Whether an archive holds Skybrush's document and not ours.
+/// Whether the bytes are a zip archive with Skybrush's document `show.json` and without our document.
 pub(crate) fn sniff(bytes: &[u8]) -> bool {
     holds(bytes, |name| name == DOCUMENT.as_bytes())
         && !holds(bytes, |name| name == archive::DOCUMENT.as_bytes())

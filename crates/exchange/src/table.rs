@@ -4,8 +4,8 @@ use crate::format::Format;
 use crate::part::Part;
 use crate::{archive, csv, fseq, lightbots, original, skyc, vviz};
 
-/// Every format. The last format whose `sniff` accepts the bytes of a file reads the file. A format that checks fewer
-/// bytes therefore comes before one that checks more.
+/// Every format. The last format in the list whose `sniff` accepts the bytes of a file reads the file. A format with a
+/// looser check therefore stands before a format with a stricter check.
 pub static FORMATS: [&Format; 7] = [&LIGHTBOTS, &ARCHIVE, &ORIGINAL, &SKYC, &CSV, &VVIZ, &FSEQ];
 
 /// Our own format. It keeps every part of a show except the files that belong to the show.
@@ -92,7 +92,7 @@ pub static VVIZ: Format = Format {
     encode: vviz::encode,
 };
 
-/// Sequences of xLights and the Falcon Player: colours alone.
+/// Sequences of xLights and the Falcon Player: colours of lights over time, without places.
 pub static FSEQ: Format = Format {
     name: "fseq",
     program: "xLights and the Falcon Player",
@@ -106,7 +106,7 @@ pub static FSEQ: Format = Format {
     encode: fseq::encode,
 };
 
-/// The format of a file's bytes: the last in [`FORMATS`] that accepts them.
+/// The format of a file's bytes: the last one in [`FORMATS`] whose `sniff` accepts them. `None` if none does.
 pub fn sniff(bytes: &[u8]) -> Option<&'static Format> {
     FORMATS.into_iter().rev().find(|format| (format.sniff)(bytes))
 }
@@ -116,18 +116,19 @@ pub fn named(name: &str) -> Option<&'static Format> {
     FORMATS.into_iter().find(|format| format.name == name)
 }
 
-/// The format that a file's name stands for: the one with the longest ending that fits, in upper or lower case.
+/// The format that a file's name stands for: that with the longest ending that fits, in upper or lower case. `None` if
+/// no ending fits.
 pub fn for_file(file: &str) -> Option<&'static Format> {
     ending_of(file).map(|(format, _)| format)
 }
 
-/// A file's name without the ending of its format.
+/// A file's name without the ending of its format. The whole name if it has no ending of a known format.
 pub fn stem(file: &str) -> &str {
     let ending = ending_of(file).map_or(0, |(_, ending)| ending.len());
     &file[..file.len() - ending]
 }
 
-/// Every format with its ending, for messages: "show of LightBots (.lightbots.json) or of …".
+/// A list of all formats with their endings, for messages: "show of LightBots (.lightbots.json) or of …".
 pub fn formats_in_words() -> String {
     let formats = FORMATS.map(|format| format!("of {} ({})", format.program, format.ending()));
     format!("show {}", formats.join(" or "))
@@ -139,7 +140,8 @@ fn ending_of(file: &str) -> Option<(&'static Format, &'static str)> {
     endings.filter(|(_, ending)| ends_with(file, ending)).max_by_key(|(_, ending)| ending.len())
 }
 
-/// Endings are ASCII, so that a byte of one is never a part of a longer character.
+/// Whether a file's name ends with `ending`, in upper or lower case. Compares bytes: `ending` is ASCII, so none of its
+/// bytes matches a part of a longer UTF-8 character.
 fn ends_with(file: &str, ending: &str) -> bool {
     let start = file.len().checked_sub(ending.len());
     start.is_some_and(|start| file.as_bytes()[start..].eq_ignore_ascii_case(ending.as_bytes()))

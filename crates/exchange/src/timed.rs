@@ -24,17 +24,17 @@ pub(crate) struct TimedShow {
     pub name: String,
     /// The robots in the order of the file.
     pub robots: Vec<TimedRobot>,
-    /// Its music; `None` if the file holds none.
+    /// The music of the show; `None` if the file holds none.
     pub music: Option<TimedMusic>,
 }
 
 /// A robot of a timed show.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TimedRobot {
-    /// Its name in the file; may be empty.
+    /// Name of the robot in the file; may be empty.
     pub name: String,
-    /// Its path on the floor.
+    /// Path of the robot on the floor.
     pub path: TimedPath,
-    /// Its light over time.
+    /// Light of the robot over time.
     pub light: TimedLight,
 }

@@ -28,7 +28,7 @@ pub(crate) fn holds(bytes: &[u8], is_wanted: impl Fn(&[u8]) -> bool) -> bool {
     is_zip(bytes) && records(bytes).any(|record| name_of(record).is_some_and(&is_wanted))
 }
 
-/// For each record of the directory, the bytes from its begin on.
+/// For each record of the directory, the bytes of the archive from the start of the record on.
 fn records(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let begins = bytes.windows(DIRECTORY_RECORD.len()).enumerate();
     begins.filter(|(_, window)| *window == DIRECTORY_RECORD).map(|(at, _)| &bytes[at..])
@@ -40,8 +40,8 @@ fn name_of(record: &[u8]) -> Option<&[u8]> {
     record.get(NAME_AT..NAME_AT + length)
 }
 
-/// Unpacks the files of an archive with at most `entries_max` entries. Calls `take` with the name and the bytes of
-/// each. All files together have at most [`MAX_BYTES`].
+/// Unpacks the files of an archive, and calls `take` with the name and the bytes of each. Fails if the archive has more
+/// than `entries_max` entries, or if its files together have more than [`MAX_BYTES`].
 pub(crate) fn unpack(
     bytes: &[u8],
     entries_max: usize,
@@ -75,7 +75,7 @@ fn leaves_the_archive(name: &str) -> bool {
     name.starts_with('/') || name.contains(['\\', ':', '\0']) || name.split('/').any(|part| part == "..")
 }
 
-/// Unpacks one file. `room`: number of bytes left for all files.
+/// Unpacks one file. `room` is the number of bytes that all remaining files together may have.
 fn content(name: &str, file: &mut impl Read, room: &mut usize) -> Result<Vec<u8>, ReadError> {
     let mut content = Vec::new();
     file.take(*room as u64 + 1)
@@ -96,13 +96,13 @@ fn too_many(entries_max: usize) -> ReadError {
     ReadError::whole("too-many-files", what)
 }
 
-/// The error that an archive cannot be unpacked.
+/// The error for an archive that cannot be unpacked, because of `why`.
 pub(crate) fn damaged(why: &str) -> ReadError {
     let what = format!("the archive is damaged ({}); save or copy it again", excerpt(why));
     ReadError::whole("bad-archive", what)
 }
 
-/// Packs files with their names into an archive. The same files give the same bytes: entries have no date.
+/// Packs files with their names into an archive. Equal files give equal bytes, because entries have no date.
 pub(crate) fn pack<'a>(files: impl IntoIterator<Item = (String, &'a [u8])>) -> Result<Vec<u8>, Issue> {
     let cannot = |error| Issue::error("not-packed", format!("the archive could not be made: {error}"));
     packed(files).map_err(cannot)

@@ -13,23 +13,24 @@ pub enum FilmView {
     Front,
 }
 
-/// Projects a stage into a picture of a given size. It is a pinhole camera; from above it is infinitely far away.
+/// Projects a stage into a picture of a given size: a pinhole camera. The camera above the floor is infinitely far away,
+/// so that its picture has no perspective.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Place of the camera's axis in the picture, pixels.
+    /// Where the camera's axis meets the picture, pixels from the left and from the top.
     shift: (f64, f64),
-    /// Pixels per unit of the camera's plane.
+    /// Number of pixels per unit of the camera's plane, which is 1 m from the eye; from above, it is the floor in metres.
     scale: f64,
-    /// The eye of a view from the front. `None` from above.
+    /// Place and direction of the camera in the view from the front; `None` in the view from above.
     eye: Option<Eye>,
 }
 
-/// Position and direction of a camera, stage metres with z up. It looks along y and down.
+/// Position and direction of a camera, stage metres with z up. It is above the y axis and looks along y and down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Eye {
     y_m: f64,
     z_m: f64,
-    /// Components of the viewing direction along y and z, a unit vector.
+    /// Components along y and z of the viewing direction, which is a unit vector.
     along_y: f64,
     along_z: f64,
 }
@@ -37,20 +38,21 @@ struct Eye {
 /// A place in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnPicture {
-    /// Pixels from the left edge.
+    /// Distance from the left edge, pixels.
     pub x: f64,
-    /// Pixels from the top edge.
+    /// Distance from the top edge, pixels.
     pub y: f64,
-    /// Pixels per metre across the view.
+    /// Number of pixels per metre to the left and right of the place.
     pub per_m: f64,
-    /// Pixels per metre of floor along the view, as a share of `per_m`.
+    /// Number of pixels per metre of floor towards the audience, divided by `per_m`. About 1 from above, less from the
+    /// front.
     pub flatness: f64,
 }
 
-/// Share of the picture's width or height that the floor fills.
+/// Share that the floor fills of the picture's width or height, whichever limits it.
 const FILLED: f64 = 0.94;
-/// Distance of the seats from the front edge, and their height, both as shares of the floor's larger side. Chosen: the
-/// far edge of a square floor looks two thirds as wide as its front edge.
+/// Distance of the seats from the front edge, and height of the seats, as shares of the floor's larger side. Chosen by us
+/// so that the far edge of a square floor looks two thirds as wide as its front edge.
 const SEATS: (f64, f64) = (1.0, 0.75);
 
 impl Camera {
@@ -77,7 +79,7 @@ impl Camera {
         Self { shift, scale, eye }
     }
 
-    /// Projects a place of the stage, `height_m` above the floor.
+    /// Projects a point into the picture: `place` on the stage, `height_m` metres above the floor.
     pub fn project(&self, place: Vec2, height_m: f64) -> OnPicture {
         let (x, y, distance) = self.plane(place, height_m);
         let nearer = self.plane(place - Vec2::new(0.0, 0.01), height_m).1;
@@ -103,8 +105,8 @@ impl Camera {
         Some(Vec2::new(x * length, eye.y_m + length * (eye.along_y + y * eye.along_z)))
     }
 
-    /// Projects a place to the camera's plane. Returns x, y downwards, and the distance along the view, metres. From
-    /// above the distance is 1.
+    /// Projects a point to the camera's plane. Returns x to the right and y downwards on the plane, and the distance of the
+    /// point along the viewing direction, metres. From above, x and y are in metres, and the distance is 1.
     fn plane(&self, place: Vec2, height_m: f64) -> (f64, f64, f64) {
         let Some(eye) = self.eye else { return (place.x, -place.y, 1.0) };
         let (y_m, z_m) = (place.y - eye.y_m, height_m - eye.z_m);

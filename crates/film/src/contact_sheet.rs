@@ -16,9 +16,9 @@ use crate::words::{numbered, short};
 pub const SHEET_FRAMES_MAX: usize = 400;
 /// Largest number of columns of pictures.
 const COLUMNS_MAX: usize = 8;
-/// Width that the sheet's pictures share if no size is given, pixels.
+/// Width of a row of pictures and the gaps between them if no size of a picture is given, pixels.
 const WIDTH_MAX: usize = 3_200;
-/// Least and largest width of a picture if no size is given, pixels.
+/// Smallest and largest width of a picture if no size is given, pixels.
 const PICTURE: (usize, usize) = (160, 480);
 /// Space around pictures, pixels.
 const GAP: usize = 16;
@@ -26,7 +26,7 @@ const GAP: usize = 16;
 const LINE: usize = 30;
 /// Height of the heading, pixels.
 const HEADING: usize = 64;
-/// The paper, sRGB.
+/// sRGB code of the sheet's background, a dark grey.
 const PAPER: u8 = 12;
 
 /// Positions and sizes on a sheet, pixels.
@@ -36,8 +36,9 @@ struct Layout {
     size: (usize, usize),
 }
 
-/// Returns a contact sheet: each frame in the middle of its air time, with number, name and time. `size` is that of a
-/// picture; if `None`, it depends on the number of frames. Frames beyond [`SHEET_FRAMES_MAX`] are left out.
+/// Returns a contact sheet as PNG. It has a picture of each frame in the middle of the frame's air time, with number, name
+/// and start of the air time. `size` is width and height of a picture in pixels; `None`: the size depends on the number of
+/// frames. Only the first [`SHEET_FRAMES_MAX`] frames are shown.
 pub fn contact_sheet(
     show: &Show,
     planned: &PlannedShow<'_>,
@@ -82,14 +83,14 @@ impl Layout {
         Self { columns, picture, size }
     }
 
-    /// Returns left and top of a frame's picture.
+    /// Returns left and top edge of the picture of the frame with the index `frame`, pixels.
     fn corner(&self, frame: usize) -> (usize, usize) {
         let (column, row) = (frame % self.columns, frame / self.columns);
         (GAP + column * (self.picture.0 + GAP), HEADING + row * (self.picture.1 + LINE + GAP))
     }
 }
 
-/// Writes the heading, and below each picture the frame's number, name and time.
+/// Writes the heading of the sheet, and below each picture the frame's number, name and start of the air time.
 fn letter(sheet: &mut [u8], layout: &Layout, show: &Show, planned: &PlannedShow<'_>, frames: usize) {
     let (width, height) = layout.size;
     let mut svg = format!(

@@ -11,11 +11,11 @@ use crate::words::{numbered, short};
 const ROW: f32 = 14.0;
 /// Font size of tables and text, points.
 const LETTERS: f32 = 9.0;
-/// Columns of the table of starting places.
+/// Number of robots in a row of the table of starting places.
 const COLUMNS: usize = 3;
 /// Largest height of the map of starting places, points.
 const MAP_HEIGHT: f32 = 400.0;
-/// Largest number of robots whose names are written on the map.
+/// Largest number of robots with which the map has their names. With more robots, it has no names at all.
 const NAMED_MAX: usize = 200;
 
 /// Checks before a show. docs/operations.md has the details.
@@ -36,8 +36,8 @@ const CHECKLIST: [&str; 14] = [
     "First run of a new show at 50 % speed",
 ];
 
-/// Returns the sheet as PDF. `starts` are the starting places of the robots; `names` are the names of the robots there,
-/// where known.
+/// Returns the sheet for the crew as PDF. `starts` are the starting places, stage metres. `names` are the names of the
+/// robots that belong on these places, in the same order; `None`: any robot.
 pub fn crew_sheet(
     show: &Show,
     planned: &PlannedShow<'_>,
@@ -72,7 +72,7 @@ pub fn crew_sheet(
 /// Pages that are filled from top to bottom.
 struct Sheet {
     pages: Vec<Vec<Mark>>,
-    /// Distance of the next line from the top, points.
+    /// Distance of the next line from the top of the last page, points.
     y: f32,
 }
 
@@ -83,7 +83,7 @@ impl Default for Sheet {
 }
 
 impl Sheet {
-    /// Begins a new page if something of that height does not fit on the current one.
+    /// Begins a new page if something of the height `height`, in points, does not fit on the current page.
     fn room(&mut self, height: f32) {
         if self.y + height > PAGE.1 - MARGIN {
             self.pages.push(Vec::new());
@@ -115,7 +115,7 @@ impl Sheet {
         self.y += ROW;
     }
 
-    /// Writes a row of a table. Each text begins at its distance from the left margin, points.
+    /// Writes a row of a table. Each text has the distance from the left margin at which it begins, points.
     fn row(&mut self, columns: &[(f32, String)]) {
         self.room(ROW);
         for (x, words) in columns {
@@ -152,7 +152,7 @@ fn facts(show: &Show, planned: &PlannedShow<'_>) -> String {
     )
 }
 
-/// Draws the floor from above, with the front edge at the bottom.
+/// Draws the floor and the starting places from above, with the front edge at the bottom.
 fn map(sheet: &mut Sheet, show: &Show, starts: &[Vec2], names: &[String]) {
     let (width_m, depth_m) = (show.stage.width_m as f32, show.stage.depth_m as f32);
     let per_m = ((PAGE.0 - 2.0 * MARGIN) / width_m).min(MAP_HEIGHT / depth_m);
@@ -215,7 +215,7 @@ fn cue_list(sheet: &mut Sheet, show: &Show, planned: &PlannedShow<'_>) {
     }
 }
 
-/// Returns what ends a frame: GO, a loop until GO, or nothing.
+/// Returns what the show does at the end of a frame, in words: wait for GO or repeat frames until GO. Empty: it goes on.
 fn then(show: &Show, index: usize, times: &FrameTimes) -> String {
     let id = show.frames[index].id.as_deref();
     let cue = show.cues.iter().find(|cue| match &cue.at {

@@ -9,19 +9,21 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 
 /// Number of colours of a palette.
 pub const GIF_COLOURS: usize = 255;
-/// Palette index of pixels that do not change: the transparent colour.
+/// Palette index of pixels that keep the colour of the previous picture: the transparent colour.
 const AS_BEFORE: u8 = GIF_COLOURS as u8;
-/// Largest number of pixels of which a palette is made.
+/// Largest number of pixels from which a palette is made.
 const SAMPLES_MAX: usize = 300_000;
-/// A pixel darker than this in all channels, 0 to 255, is dark.
+/// A pixel is dark if all its channels, 0 to 255, are below this.
 const DARK: u8 = 24;
-/// One in this number of dark pixels is a sample. Most of a floor is dark, and lights would otherwise get few colours.
+/// One of this number of dark pixels goes into the palette. Most of a floor is dark; if all dark pixels counted, lights
+/// would get few colours.
 const DARK_SHARE: usize = 24;
-/// Learning uses one sample in this number. With 1 the result looks best; with 10 learning is ten times as fast.
+/// Sampling factor of the NeuQuant algorithm: it learns from one of this number of samples. 1 gives the best palette, 10 is
+/// ten times as fast.
 const LEARNING: i32 = 3;
-/// Number of upper bits of each channel by which the nearest colour is chosen.
+/// Number of upper bits of each channel that decide which colour of the palette a pixel gets.
 const BITS: u32 = 6;
-/// Entry of `GifPalette::nearest` for a colour that was not needed yet.
+/// Entry of `GifPalette::nearest` for a colour that was not looked up yet.
 const UNKNOWN: u16 = u16::MAX;
 
 /// Why a GIF cannot be written.
@@ -45,7 +47,8 @@ impl From<gif::EncodingError> for GifError {
 /// The colours of a film.
 pub struct GifPalette {
     colours: NeuQuant,
-    /// Index of the nearest colour, by the upper bits of red, green and blue. [`UNKNOWN`] until it is first needed.
+    /// Palette index of the nearest colour. The upper [`BITS`] of red, green and blue are the position in this list.
+    /// [`UNKNOWN`] until it is first needed.
     nearest: Vec<u16>,
 }
 
@@ -56,7 +59,7 @@ impl fmt::Debug for GifPalette {
 }
 
 impl GifPalette {
-    /// Makes the palette from some pictures of a film: red, green and blue of each pixel.
+    /// Makes a palette from some pictures of a film. A picture has three bytes for each pixel: red, green and blue.
     pub fn new<'a>(pictures: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut samples = Vec::new();
         let mut dark = 0;
@@ -92,9 +95,9 @@ pub struct GifWriter<W: Write> {
     encoder: Encoder<W>,
     palette: GifPalette,
     size: (usize, usize),
-    /// Palette indices of the last picture.
+    /// Palette indices of the pixels of the last picture.
     shown: Vec<u8>,
-    /// The last frame. It is not written yet because following equal pictures prolong it.
+    /// The last frame. It is not written yet, because following pictures that are equal only prolong it.
     waiting: Option<Frame<'static>>,
     fps: f64,
     /// Number of pictures that were added.
@@ -111,10 +114,11 @@ impl<W: Write> fmt::Debug for GifWriter<W> {
 }
 
 impl<W: Write> GifWriter<W> {
-    /// Begins a film of `width` by `height` pixels that repeats for ever.
+    /// Writes the header of a film of `width` by `height` pixels with `fps` pictures per second. Players repeat the film for
+    /// ever.
     ///
     /// # Errors
-    /// The header cannot be written, or the picture is too large for a GIF.
+    /// If the header cannot be written, or the picture is too large for a GIF.
     pub fn new(to: W, (width, height): (u32, u32), fps: f64, palette: GifPalette) -> Result<Self, GifError> {
         let (Ok(across), Ok(down)) = (u16::try_from(width), u16::try_from(height)) else {
             return Err(GifError(format!("a GIF has at most 65535 x 65535 pixels, not {width} x {height}")));
@@ -131,7 +135,7 @@ impl<W: Write> GifWriter<W> {
     /// Adds a picture: red, green and blue of each pixel, row by row from the top left.
     ///
     /// # Errors
-    /// The picture before cannot be written.
+    /// If the previous picture cannot be written, which is done now.
     pub fn add(&mut self, picture: &[u8]) -> Result<(), GifError> {
         let next: Vec<u8> = picture.chunks_exact(3).map(|pixel| self.palette.index(pixel)).collect();
         let moment = |pictures: u64| (pictures as f64 * 100.0 / self.fps).round() as u64;
@@ -156,7 +160,7 @@ impl<W: Write> GifWriter<W> {
     /// Writes the last picture and ends the film.
     ///
     /// # Errors
-    /// The last picture or the end cannot be written.
+    /// If the last picture or the end of the file cannot be written.
     pub fn finish(mut self) -> Result<W, GifError> {
         if let Some(last) = self.waiting.take() {
             self.encoder.write_frame(&last)?;
@@ -164,8 +168,8 @@ impl<W: Write> GifWriter<W> {
         self.encoder.into_inner().map_err(|error| GifError(error.to_string()))
     }
 
-    /// Returns left, top, right and bottom (exclusive) of the area in which `next` differs from the last picture.
-    /// `None` if nothing differs.
+    /// Returns left, top, right and bottom of the smallest area that contains all differences between `next` and the last
+    /// picture, pixels. Right and bottom are exclusive. `None` if nothing differs.
     fn changed(&self, next: &[u8]) -> Option<[usize; 4]> {
         let mut area: Option<[usize; 4]> = None;
         for (index, _) in next.iter().zip(&self.shown).enumerate().filter(|(_, (new, old))| new != old) {
@@ -177,7 +181,8 @@ impl<W: Write> GifWriter<W> {
     }
 }
 
-/// Returns a frame with the changed pixels of an area. All other pixels of the area are transparent.
+/// Returns a GIF frame for an area. Pixels of the area that differ between `shown` and `next` get their new colours, all
+/// others are transparent. `delay` is in hundredths of a second.
 fn frame(
     width: usize,
     [left, top, right, bottom]: [usize; 4],

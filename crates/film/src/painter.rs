@@ -6,26 +6,27 @@ use lightbots_show::Stage;
 use crate::camera::{Camera, FilmView, OnPicture};
 use crate::tone;
 
-/// Linear light of the floor in the dark, red, green and blue. It is just enough to make the floor visible.
+/// Red, green and blue of a floor without robots' light, linear light. Just enough to make the floor visible.
 const FLOOR: [f32; 3] = [0.0042, 0.0046, 0.0060];
-/// Width of the strip along the edge over which the floor becomes dark, metres.
+/// Width of the strip inside the floor's edge over which [`FLOOR`] fades to black, metres.
 const EDGE_M: f64 = 0.12;
-/// Radius of the light itself, in radii of a robot, and its least radius in pixels for a picture 720 pixels high.
+/// Radius of a robot's light in radii of the robot, and its smallest radius in pixels for a picture 720 pixels high. The
+/// smallest radius grows with the height of the picture.
 const CORE: (f64, f64) = (0.62, 1.7);
-/// Height of the light above the floor, metres: that of an Elisa-3.
+/// Height of a robot's light above the floor, metres, as for an Elisa-3.
 const LIGHT_M: f64 = 0.03;
 
 /// A spot of light in the picture that fades towards its rim.
 struct Spot {
-    /// Radius, in radii of the light itself.
+    /// Radius of the spot, in radii of the robot's light, see [`CORE`].
     radius: f64,
-    /// Largest strength, as a share of the robot's colour.
+    /// Strength at the centre of the spot, as a share of the robot's light.
     strength: f32,
 }
 
 /// The light scattered in eyes and lenses.
 const BLOOM: Spot = Spot { radius: 6.0, strength: 0.2 };
-/// The light on the floor, drawn flat. Its radius is in radii of a robot.
+/// The light that falls on the floor, drawn with the floor's perspective. Its radius is in radii of the robot.
 const POOL: Spot = Spot { radius: 6.5, strength: 0.055 };
 /// The mirror image of the light in the floor, in views from the front.
 const MIRRORED: Spot = Spot { radius: 2.2, strength: 0.22 };
@@ -38,7 +39,7 @@ pub struct Painter {
     view: FilmView,
     camera: Camera,
     radius_m: f64,
-    /// Linear light of the dark floor, row by row from the top.
+    /// Linear light of the pixels of a floor without robots, row by row from the top left.
     floor: Vec<[f32; 3]>,
     light: Vec<[f32; 3]>,
     bytes: Vec<u8>,
@@ -69,7 +70,7 @@ impl Painter {
         }
     }
 
-    /// Paints robots. Returns red, green and blue of each pixel, row by row from the top left.
+    /// Paints the robots of a scene. Returns red, green and blue of each pixel, sRGB codes, row by row from the top left.
     pub fn paint(&mut self, scene: &[SeenRobot]) -> &[u8] {
         self.light.copy_from_slice(&self.floor);
         for robot in scene {
@@ -101,7 +102,7 @@ impl Painter {
         self.disc(&lamp, core, colour);
     }
 
-    /// Adds an ellipse of light that fades towards its rim.
+    /// Adds an ellipse of light that fades towards its rim. `across` and `down` are half of its width and height, pixels.
     fn spot(&mut self, at: &OnPicture, (across, down): (f64, f64), strength: f32, colour: [f32; 3]) {
         let (rows, columns) = (rows(at.y, down, self.height), rows(at.x, across, self.width));
         let scale = (1.0 / across, 1.0 / down);
@@ -117,7 +118,7 @@ impl Painter {
         }
     }
 
-    /// Adds a disc of light. Pixels at its rim get the share of them that it covers.
+    /// Adds a disc of light. A pixel at its rim gets the share of light that corresponds to its covered area.
     fn disc(&mut self, at: &OnPicture, radius: f64, colour: [f32; 3]) {
         for row in rows(at.y, radius + 0.5, self.height) {
             let y = row as f64 + 0.5 - at.y;
@@ -138,7 +139,8 @@ impl Painter {
     }
 }
 
-/// Returns the rows (or columns) of pixels within `reach` of a point, out of `count`.
+/// Returns the indices of the rows, or columns, of pixels that are within `reach` of the position `at`, both in pixels.
+/// `count` is the number of all rows or columns.
 fn rows(at: f64, reach: f64, count: usize) -> std::ops::Range<usize> {
     let first = (at - reach).floor().max(0.0) as usize;
     let end = (at + reach).ceil().max(0.0) as usize;

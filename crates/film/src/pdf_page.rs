@@ -13,15 +13,15 @@ use lightbots_draw::text::{FONTS, FontInfo};
 pub(crate) const PAGE: (f32, f32) = (595.28, 841.89);
 /// Margin, points.
 pub(crate) const MARGIN: f32 = 42.0;
-/// Distance of a control point from its end point for a quarter of a circle, as a share of the radius.
+/// A Bézier curve draws a quarter of a circle if its control points are this far from its end points, in radii.
 const QUARTER: f32 = 0.552_284_8;
 /// Name of the built-in font.
 const FONT: &str = "lato";
 
-/// A grey, 0 black and 255 white.
+/// A grey: 0 is black, 255 is white.
 pub(crate) type Grey = u8;
 
-/// An element of a page. Places are points from the top left corner.
+/// An element of a page. Coordinates and sizes are in points; x and y count from the top left corner, y downwards.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mark {
     Text {
@@ -31,7 +31,7 @@ pub(crate) enum Mark {
         grey: Grey,
         words: String,
     },
-    /// A disc, filled or as a circle.
+    /// A disc, if `is_filled`, or else the outline of a circle.
     Disc {
         x: f32,
         y: f32,
@@ -54,8 +54,8 @@ pub(crate) enum Mark {
     },
 }
 
-/// Returns a PDF file with these pages. It has no dates: the same pages give the same bytes. Empty if the font cannot
-/// be read or the file cannot be made.
+/// Returns a PDF file with these pages. The file has no dates, so that equal pages give equal bytes. The result is empty if
+/// the font cannot be read or the file cannot be made.
 pub(crate) fn document(title: &str, pages: &[Vec<Mark>]) -> Vec<u8> {
     let file = FONTS.iter().find(|font| font.name == FONT).and_then(FontInfo::outline_file);
     let Some(font) = file.and_then(|file| Font::new(file.to_vec().into(), 0)) else { return Vec::new() };

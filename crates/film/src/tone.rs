@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use lightbots_base::Rgb;
 use lightbots_light::Linear;
 
-/// Number of steps of the table. Each code from 1 on covers several of them, also where light is darkest.
+/// Number of steps of the table from linear light to sRGB codes. There are enough for each code, even of the darkest light,
+/// to cover several steps.
 const STEPS: usize = 1 << 14;
 
 /// Returns the table of sRGB codes for linear light from 0 to 1, in [`STEPS`] steps.
@@ -15,20 +16,20 @@ pub(crate) fn codes() -> &'static [u8] {
     CODES.get_or_init(|| (0..=STEPS).map(code).collect())
 }
 
-/// Converts a colour to linear light.
+/// Converts an sRGB colour to linear light, 0 to 1 in each channel.
 pub(crate) fn light(colour: Rgb) -> [f32; 3] {
     let Linear { r, g, b } = Linear::from_rgb(colour);
     [r, g, b].map(|channel| channel as f32)
 }
 
-/// Linear light above which colours become paler, as in film and eyes. It is above that of one robot with its bloom and
-/// pool.
+/// Linear light of a channel above which colours become paler, as on film and in eyes. A single robot with its bloom and
+/// the light around it stays below this, so that its colour does not change.
 const PALER_FROM: f32 = 1.5;
-/// Largest share of white in the brightest light.
+/// Upper bound on the share of white in the colour of a light. The brighter a light, the closer its share is to this.
 const PALEST: f32 = 0.3;
 
-/// Converts the light of one pixel to bytes. Light beyond what a screen shows keeps its hue and becomes paler. Clipping
-/// would change the hue where lights overlap. The colour of a single robot does not change.
+/// Converts the linear light of one pixel to sRGB codes. Light brighter than a screen can show keeps its hue and becomes
+/// paler, because clipping would change the hue where lights overlap. `codes` is the table from [`codes()`].
 pub(crate) fn bytes(codes: &[u8], [r, g, b]: [f32; 3]) -> [u8; 3] {
     let most = r.max(g).max(b);
     let [r, g, b] = if most > 1.0 {

@@ -1,7 +1,7 @@
 //! Shortens texts for sheets.
 
-/// Returns at most `most` characters of a text, without control characters. If there are more, the last one is an
-/// ellipsis.
+/// Returns at most `most` characters of a text, without control characters. If the text is longer, an ellipsis is the last
+/// of these characters.
 pub(crate) fn short(text: &str, most: usize) -> String {
     let mut letters = text.chars().filter(|letter| !letter.is_control());
     let mut kept: String = letters.by_ref().take(most).collect();

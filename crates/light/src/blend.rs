@@ -2,15 +2,16 @@
 
 use crate::colour::Linear;
 
-/// A function of the light below and the light of the layer, channel by channel, in linear light.
+/// How a channel is computed from `below`, the light below the layer, and `layer`, the light of the layer. Both are linear
+/// light, 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BlendMode {
-    /// The layer.
+    /// The light of the layer.
     #[default]
     Normal,
     /// The sum, at most 1.
     Add,
-    /// Below less the layer, at least 0.
+    /// `below` minus `layer`, at least 0.
     Subtract,
     /// The product.
     Multiply,
@@ -24,16 +25,16 @@ pub enum BlendMode {
     Difference,
     /// The mean.
     Average,
-    /// Multiply where below is dark, screen where it is bright.
+    /// 2·below·layer where `below` is at most 0.5; above, the screen of `layer` and 2·below − 1.
     Overlay,
-    /// Multiply where the layer is dark, screen where it is bright.
+    /// 2·below·layer where `layer` is at most 0.5; above, the screen of `below` and 2·layer − 1.
     HardLight,
     /// Below + (2·layer − 1)(below − below²): a gentle form of hard light.
     SoftLight,
 }
 
 impl BlendMode {
-    /// Returns the mixture, of which the blended light has the share `opacity` and the light below the rest.
+    /// Returns a mixture: the light that the mode computes has the share `opacity`, and the light `below` has the rest.
     pub fn over(self, below: Linear, layer: Linear, opacity: f64) -> Linear {
         below.lerp(below.zip(layer, |below, layer| self.channel(below, layer)), opacity)
     }
@@ -60,7 +61,7 @@ fn screen(below: f64, layer: f64) -> f64 {
     1.0 - (1.0 - below) * (1.0 - layer)
 }
 
-/// Multiplies if `judge` is at most 0.5, else screens.
+/// Returns 2·other·judge if `judge` is at most 0.5, else the screen of `other` and 2·judge − 1.
 fn hard(other: f64, judge: f64) -> f64 {
     if judge <= 0.5 { other * 2.0 * judge } else { screen(other, 2.0 * judge - 1.0) }
 }

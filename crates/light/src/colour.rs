@@ -3,15 +3,16 @@
 use lightbots_base::{Rgb, srgb_decoded};
 use std::sync::LazyLock;
 
-/// `[code]`: linear light of an sRGB code. A table, because a power takes fifty times as long, and tracks need
-/// millions.
+/// `[code]`: linear light, 0 to 1, of an sRGB code. A table, because computing a power takes fifty times as long, and
+/// light tracks need millions of values.
 static LIGHTS: LazyLock<[f64; 256]> =
     LazyLock::new(|| std::array::from_fn(|code| srgb_decoded(code as f64 / 255.0)));
-/// `[code]`: linear light half-way between an sRGB code and the next, for rounding.
+/// `[code]`: linear light of the sRGB value half-way between a code and the next code, for rounding.
 static HALVES: LazyLock<[f64; 255]> =
     LazyLock::new(|| std::array::from_fn(|code| srgb_decoded((code as f64 + 0.5) / 255.0)));
 
-/// A colour in linear light. 0 is off and 1 the full light of a channel; sums may exceed 1 before they are clamped.
+/// A colour in linear light. In each channel, 0 is off and 1 is full light; sums of colours may exceed 1 until they are
+/// clamped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Linear {
     /// Red.
@@ -31,20 +32,20 @@ impl Linear {
         Self { r, g, b }
     }
 
-    /// The light that an sRGB colour stands for.
+    /// The linear light that an sRGB colour stands for.
     pub fn from_rgb(coded: Rgb) -> Self {
         let [r, g, b] = [coded.r, coded.g, coded.b].map(|code| LIGHTS[usize::from(code)]);
         Self::new(r, g, b)
     }
 
-    /// The nearest sRGB colour. Channels are clamped to 0..=1; NaN gives 0.
+    /// The sRGB colour with the nearest codes. Channels are clamped to 0..=1 first; NaN counts as 0.
     pub fn to_rgb(self) -> Rgb {
         let nearest = |light: f64| HALVES.partition_point(|&half| half <= light) as u8;
         let [r, g, b] = [self.r, self.g, self.b].map(nearest);
         Rgb::new(r, g, b)
     }
 
-    /// sRGB-coded channels, 0.0 to 255.0, not rounded.
+    /// Red, green and blue as sRGB codes, 0.0 to 255.0, not rounded. Channels are clamped to 0..=1 first.
     pub fn coded(self) -> [f64; 3] {
         [self.r, self.g, self.b].map(|light| 255.0 * encoded(within_one(light)))
     }
@@ -54,17 +55,17 @@ impl Linear {
         0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
     }
 
-    /// The colour with a function applied to each channel.
+    /// Returns the colour whose channels are `change` of this colour's channels.
     pub fn map(self, change: impl Fn(f64) -> f64) -> Self {
         Self::new(change(self.r), change(self.g), change(self.b))
     }
 
-    /// The colour from a function of two colours, channel by channel.
+    /// Returns the colour whose channels are `join` of this colour's and `other`'s channels.
     pub fn zip(self, other: Self, join: impl Fn(f64, f64) -> f64) -> Self {
         Self::new(join(self.r, other.r), join(self.g, other.g), join(self.b, other.b))
     }
 
-    /// The mixture that lies `share` of the way to `other`, 0 to 1.
+    /// The mixture of this colour and `other`, in which `other` has `share`, 0 to 1.
     pub fn lerp(self, other: Self, share: f64) -> Self {
         self.zip(other, |from, to| from + (to - from) * share)
     }
@@ -80,12 +81,12 @@ pub(crate) fn within_one(value: f64) -> f64 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }
 
-/// The sRGB code, 0 to 1, of linear light (IEC 61966-2-1).
+/// The sRGB value, 0 to 1, that encodes `light`, linear light of 0 to 1 (IEC 61966-2-1).
 fn encoded(light: f64) -> f64 {
     if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055 }
 }
 
-/// Lightness L* of CIE 1976, 0 to 100, of grey with this sRGB code.
+/// Lightness L* of CIE 1976, 0 to 100, of the grey whose three sRGB codes are `code`.
 pub fn lightness(code: u8) -> f64 {
     let light = srgb_decoded(f64::from(code) / 255.0);
     // CIE 15: (6/29)³ and (29/3)³ as exact fractions.

@@ -3,7 +3,7 @@
 use crate::colour::within_one;
 use core::f64::consts::PI;
 
-/// Easing: how a value between 0 and 1 is bent. Each curve rises from 0 to 1 and never falls.
+/// Easing: a curve that maps a value u between 0 and 1 to another one. Each curve rises from 0 to 1 and never falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ease {
     /// u.
@@ -20,7 +20,7 @@ pub enum Ease {
 }
 
 impl Ease {
-    /// Returns the bent value. Values outside of 0..=1 are clamped.
+    /// Returns the curve's value at `u`, 0 to 1. Values of `u` outside of 0..=1 are clamped first.
     pub fn at(self, u: f64) -> f64 {
         let u = within_one(u);
         match self {
@@ -36,12 +36,12 @@ impl Ease {
 /// How a phase of any size becomes a value between 0 and 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// Clamped: 0 before the start, 1 after the end.
+    /// Clamped: phases below 0 become 0, phases above 1 become 1.
     #[default]
     Once,
-    /// The fraction: jumps from 1 to 0.
+    /// The part after the decimal point: runs from 0 to 1 in each cycle, then jumps back to 0.
     Loop,
-    /// There and back with period 2: never jumps.
+    /// From 0 to 1 while the phase rises by 1, then back to 0 over the next 1: never jumps.
     Mirror,
 }
 
@@ -56,17 +56,17 @@ impl Wrap {
     }
 }
 
-/// The part of a number above the whole number below it, 0 to 1.
+/// A number minus the next lower whole number: 0 (included) to 1 (excluded), also for negative numbers.
 pub(crate) fn fraction(number: f64) -> f64 {
     number - libm::floor(number)
 }
 
-/// Opacity of a layer over time: straight lines between points. Before the first point and after the last, the value
-/// of that point holds.
+/// Opacity of a layer over time, interpolated linearly between points. It is constant before the first point and after
+/// the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpacityCurve {
-    /// Seconds since the layer began and opacity, 0 to 1; sorted by time, not empty. Two points at one moment make a
-    /// jump from the first to the second.
+    /// Moments, in seconds of the effect's own time, and the opacities at them, 0 to 1. Sorted by moment, not empty. At
+    /// two points with one moment, the opacity jumps from the first to the second.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -76,7 +76,7 @@ impl OpacityCurve {
         Self { points: vec![(0.0, opacity)] }
     }
 
-    /// Opacity `tau_s` seconds after the layer began.
+    /// Opacity at `tau_s`, seconds of the effect's own time; 1 without points.
     pub fn at(&self, tau_s: f64) -> f64 {
         let after = self.points.partition_point(|&(moment, _)| moment <= tau_s);
         let before = after.checked_sub(1).map(|index| self.points[index]);

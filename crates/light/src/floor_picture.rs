@@ -3,8 +3,8 @@
 use crate::colour::Linear;
 use lightbots_base::Rgb;
 
-/// Largest number of pixels in all pictures of a film together: 12 MB in memory. It allows 17 pictures of 640 x 360
-/// pixels. A floor of 10,000 robots needs 100 x 100. Chosen.
+/// Largest number of pixels in all pictures of a film together, chosen by us: 12 MB of memory, or 17 pictures of 640 x
+/// 360 pixels. A picture for a floor of 10,000 robots needs 100 x 100 pixels.
 pub const PICTURE_PIXELS_MAX: usize = 4_000_000;
 
 /// A picture or film, decoded.
@@ -12,17 +12,19 @@ pub const PICTURE_PIXELS_MAX: usize = 4_000_000;
 pub struct FloorPicture {
     width: usize,
     height: usize,
-    /// Pictures one after another, each row by row from the top.
+    /// Pixels of the pictures, which follow one another, each row by row from the top left.
     pixels: Vec<Rgb>,
-    /// `[code]`: linear light of an sRGB code. A table, because decoding at each lookup would take twelve powers.
+    /// `[code]`: linear light of an sRGB code. A table, because decoding the four pixels of a lookup would take twelve
+    /// powers.
     light: Vec<f64>,
 }
 
 impl FloorPicture {
-    /// A film of pictures with `width` by `height` pixels, one after another, each row by row from the top left.
+    /// A film of pictures with `width` by `height` pixels. In `pixels`, the pictures follow one another, each row by row
+    /// from the top left.
     ///
     /// # Errors
-    /// A line for people if there are no pixels, too many, or no whole number of pictures.
+    /// A line for people if there are no pixels, more than [`PICTURE_PIXELS_MAX`], or no whole number of pictures.
     pub fn new(width: usize, height: usize, pixels: Vec<Rgb>) -> Result<Self, String> {
         let area = width.saturating_mul(height);
         if area == 0 || pixels.is_empty() || !pixels.len().is_multiple_of(area) {
@@ -51,9 +53,9 @@ impl FloorPicture {
         self.height as f64 / self.width as f64
     }
 
-    /// Light at a place of a picture: `across` from the left and `down` from the top, both 0 to 1. Between the centres
-    /// of pixels, light changes bilinearly; beyond the outermost centres it is constant. After the last picture, the
-    /// last one is taken.
+    /// Light at a place of the picture with the index `frame`: `across` from the left and `down` from the top, both 0 to 1.
+    /// Light is interpolated bilinearly between the centres of pixels, and constant beyond the outermost centres. If
+    /// `frame` is too large, the last picture is taken.
     pub fn at(&self, frame: usize, across: f64, down: f64) -> Linear {
         let (left, right, x) = between(across, self.width);
         let (top, bottom, y) = between(down, self.height);
@@ -63,7 +65,7 @@ impl FloorPicture {
         upper.lerp(pixel(left, bottom).lerp(pixel(right, bottom), x), y)
     }
 
-    /// Light of one pixel of the first picture; `None`: there is no such pixel.
+    /// Light of one pixel of the first picture; `None` if column or row, counted from 0, is outside of the picture.
     pub fn pixel(&self, column: usize, row: usize) -> Option<Linear> {
         let is_inside = column < self.width && row < self.height;
         is_inside.then(|| self.linear(self.pixels[row * self.width + column]))
@@ -75,8 +77,8 @@ impl FloorPicture {
     }
 }
 
-/// Returns the two of `count` pixels around a position along a side, 0 to 1. The third value is its share of the way
-/// between them.
+/// Returns the indices of the two pixels whose centres enclose a position. The third value is how far the position is from
+/// the first centre to the second, 0 to 1. `share` is the position along a side of `count` pixels, 0 to 1.
 fn between(share: f64, count: usize) -> (usize, usize, f64) {
     let last = (count - 1) as f64;
     let along = (share * count as f64 - 0.5).clamp(0.0, last);

@@ -4,33 +4,33 @@ use crate::colour::Linear;
 use lightbots_base::Rgb;
 use serde::{Deserialize, Serialize};
 
-/// How the lamps of a fleet show light. A robot decodes the sRGB colour that it receives, so the correction works on
-/// linear light.
+/// How the lamps of a fleet differ from ideal sRGB lamps. Corrections work on linear light, which a robot obtains by
+/// decoding the sRGB colour that it receives.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LampSettings {
-    /// Exponent from the light that an sRGB lamp shows to the light that this lamp shows, 0.2 to 5; 1 for a lamp that
-    /// decodes sRGB.
+    /// Exponent g, 0.2 to 5: where an ideal lamp shows the light L, 0 to 1, this lamp shows L^g. 1 for an ideal lamp.
     pub gamma: f64,
-    /// White balance: factor of each channel's light, 0 to 1.
+    /// White balance: factors on the light of red, green and blue, 0 to 1.
     pub gain: [f64; 3],
-    /// Current of one channel at full light, milliamperes.
+    /// Current that one channel of a lamp draws at full light, milliamperes.
     pub channel_ma: f64,
-    /// Current of a lamp that is dark, milliamperes.
+    /// Current that a dark lamp draws, milliamperes.
     pub standby_ma: f64,
-    /// Largest current of a lamp, milliamperes; infinite: no limit.
+    /// Largest current that a lamp may draw, milliamperes; infinite: no limit.
     pub current_max_ma: f64,
 }
 
 impl Default for LampSettings {
-    /// A lamp that shows sRGB as it is. 20 mA a channel and 1 mA standby are a WS2812B's in a 5050 housing.
+    /// A lamp that shows sRGB colours without correction. 20 mA per channel and 1 mA in standby are those of a WS2812B in
+    /// a 5050 housing.
     fn default() -> Self {
         Self { gamma: 1.0, gain: [1.0; 3], channel_ma: 20.0, standby_ma: 1.0, current_max_ma: f64::INFINITY }
     }
 }
 
 impl LampSettings {
-    /// Returns the light to send to a lamp: `wanted` after gamma, white balance and the limit of current. One factor
-    /// scales all channels until the current is within its limit, so that the hue stays.
+    /// Returns the linear light to send to a lamp: `wanted`, corrected for gamma, white balance and the limit of current.
+    /// If the current would exceed its limit, all channels are scaled by one factor, so that the hue does not change.
     pub fn light(&self, wanted: Linear) -> Linear {
         let wanted = wanted.clamped();
         let bent =
@@ -43,17 +43,17 @@ impl LampSettings {
         balanced.map(|light| light * factor).clamped()
     }
 
-    /// [`LampSettings::light`] as the sRGB colour that is sent.
+    /// Returns the sRGB colour to send to a lamp: that of [`LampSettings::light`].
     pub fn colour(&self, wanted: Linear) -> Rgb {
         self.light(wanted).to_rgb()
     }
 
-    /// Returns the colour to send, so that a lamp shows the colour `meant`.
+    /// Returns the sRGB colour to send so that a lamp shows the sRGB colour `meant`, as far as its current allows.
     pub fn sent(&self, meant: Rgb) -> Rgb {
         if self.changes_nothing() { meant } else { self.colour(Linear::from_rgb(meant)) }
     }
 
-    /// Whether every colour is sent unchanged.
+    /// Whether these settings leave every colour unchanged.
     pub fn changes_nothing(&self) -> bool {
         let most_ma = self.standby_ma + 3.0 * self.channel_ma;
         self.gamma == 1.0 && self.gain == [1.0; 3] && self.current_max_ma >= most_ma

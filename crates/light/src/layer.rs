@@ -8,31 +8,31 @@ use crate::lit_robot::{LightContext, LitRobot};
 use crate::look::Look;
 use crate::mask::LightMask;
 
-/// Light over time.
+/// An effect over time, with its settings, masks, blend mode and opacity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightLayer {
-    /// When it begins, seconds of show time (included).
+    /// When the layer begins to shine, seconds of show time (included).
     pub from_s: f64,
-    /// When it ends, seconds of show time (excluded); infinite: never.
+    /// When the layer stops shining, seconds of show time (excluded); infinite: never.
     pub to_s: f64,
-    /// Moment from which the time of its effect counts, seconds of show time.
+    /// Moment from which the effect's own time counts, seconds of show time.
     pub origin_s: f64,
-    /// Whether its effect goes on while show time stands: [`LightContext::lead_s`] then counts for it.
+    /// Whether the effect goes on while show time stands. [`LightContext::lead_s`] is then added to the effect's time.
     pub runs_freely: bool,
     /// The effect.
     pub effect: LightEffect,
     /// The settings of the effect.
     pub look: Look,
-    /// Masks. The layer shines with the product of the shares that they let through.
+    /// Masks. The opacity of the layer is multiplied by the share that each mask lets through.
     pub masks: Vec<LightMask>,
     /// How the light of the layer is mixed with the light below.
     pub blend: BlendMode,
-    /// Opacity over time.
+    /// Opacity over the effect's own time.
     pub opacity: OpacityCurve,
 }
 
 impl LightLayer {
-    /// An opaque layer over the whole show.
+    /// An opaque layer without masks, which shines from the start of the first frame's air time, for ever.
     pub fn new(effect: LightEffect, look: Look) -> Self {
         Self {
             from_s: 0.0,
@@ -47,7 +47,7 @@ impl LightLayer {
         }
     }
 
-    /// Returns the light `below` with the layer over it at the show time `t_s`, seconds.
+    /// Returns the light of a robot with this layer over the light `below`, at the show time `t_s`, seconds.
     pub(crate) fn over(
         &self,
         below: Linear,

@@ -10,17 +10,17 @@ use crate::validate::{LayerFault, faults};
 pub struct Layers(Vec<LightLayer>);
 
 impl Layers {
-    /// The layers, if they are valid.
+    /// Validates layers, which are in order from the lowest to the highest.
     ///
     /// # Errors
-    /// The faults in the order of the layers, at most [`FAULTS_MAX`](crate::FAULTS_MAX).
+    /// If a layer is invalid: the faults in the order of the layers, at most [`FAULTS_MAX`](crate::FAULTS_MAX).
     pub fn new(layers: Vec<LightLayer>) -> Result<Self, Vec<LayerFault>> {
         let faults = faults(&layers);
         if faults.is_empty() { Ok(Self(layers)) } else { Err(faults) }
     }
 
-    /// Returns a copy with other times: `times` returns `from_s`, `to_s` and `origin_s` of the layer with an index. A
-    /// layer whose `from_s` or `to_s` is NaN stays dark.
+    /// Returns a copy with other times. `times` gets the index of a layer, from 0, and returns its new `from_s`, `to_s`
+    /// and `origin_s`. A layer whose new `from_s` or `to_s` is NaN never shines.
     pub fn at_times(&self, times: impl Fn(usize) -> (f64, f64, f64)) -> Self {
         let timed = |(number, layer): (usize, &LightLayer)| {
             let (from_s, to_s, origin_s) = times(number);
@@ -34,12 +34,12 @@ impl Layers {
         &self.0
     }
 
-    /// Colour of a robot at a show time, in linear light with channels from 0 to 1.
+    /// The colour of a robot under all layers at the show time `t_s`, seconds. Its channels are clamped to 0..=1.
     pub fn colour(&self, t_s: f64, robot: &LitRobot, context: &LightContext<'_>) -> Linear {
         self.colour_without(usize::MAX, t_s, robot, context)
     }
 
-    /// Returns the colour that a robot would have without the layer with the index `left_out`.
+    /// Like [`Self::colour`], but without the layer with the index `left_out`, counted from 0.
     pub fn colour_without(
         &self,
         left_out: usize,

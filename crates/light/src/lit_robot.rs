@@ -7,29 +7,31 @@ use lightbots_base::Vec2;
 /// A robot as effects see it at a moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LitRobot {
-    /// Its number, counted from 0; it keeps the number over the whole show.
+    /// Number of the robot, counted from 0. The robot keeps it over the whole show.
     pub index: u32,
-    /// Number of robots.
+    /// Number of all robots.
     pub count: u32,
-    /// Where it is, stage metres.
+    /// Where the robot is, stage metres.
     pub place: Vec2,
-    /// Its speed, metres per second.
+    /// Speed of the robot, metres per second.
     pub speed_mps: f64,
-    /// The frame that it shows or drives to, counted from 0.
+    /// Index of the frame that the robot shows or drives to, counted from 0.
     pub frame: u32,
-    /// Id of its pixel in that frame; `None`: it has none.
+    /// Id of the robot's pixel in that frame; `None`: the robot has no pixel.
     pub pixel: Option<u32>,
-    /// Its colour without any layer.
+    /// The robot's colour without any layer.
     pub colour: Linear,
-    /// Its colour in the next frame.
+    /// The robot's colour in the next frame, without any layer.
     pub next_colour: Linear,
 }
 
 /// What effects need besides the robot.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightContext<'a> {
-    /// Pictures and films, by the number in `LightEffect::Picture`.
+    /// Pictures and films that layers project. The numbers in `LightEffect::Picture` and `LightEffect::Sequence` are
+    /// indices into this list.
     pub pictures: &'a [FloorPicture],
-    /// How long show time has stood still until now, seconds. Layers that run freely are ahead by this time.
+    /// How long show time has stood still so far, in total, seconds. The effects of layers that run freely are ahead by
+    /// this time.
     pub lead_s: f64,
 }

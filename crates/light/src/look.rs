@@ -4,26 +4,26 @@ use crate::ease::{Ease, Wrap};
 use crate::palette::Palette;
 use lightbots_base::Vec2;
 
-/// Place, span, direction, speed, palette, easing and seed of an effect. docs/light.md says how each effect uses them.
+/// Settings that all kinds of effects have. docs/light.md says how each effect uses them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// Where the effect starts, stage metres.
     pub place: Vec2,
-    /// Its direction, radians counter-clockwise from +x.
+    /// Direction of the effect on the floor, radians counter-clockwise from the x axis of the stage.
     pub angle: f64,
-    /// Its span on the floor, metres.
+    /// Span of the effect on the floor, metres.
     pub size_m: f64,
-    /// Its speed, cycles per second; a negative speed runs backwards.
+    /// Speed of the effect, cycles per second; with a negative speed, the effect runs backwards.
     pub speed_hz: f64,
     /// The share of a cycle that shines, above 0 and at most 1.
     pub width: f64,
-    /// Its colours.
+    /// Colours of the effect.
     pub palette: Palette,
-    /// How its value is bent before the palette is looked up.
+    /// Curve that maps the effect's value, 0 to 1, to a position of the palette.
     pub ease: Ease,
     /// How a phase outside of 0..=1 is brought into that range.
     pub wrap: Wrap,
-    /// Seed of everything random.
+    /// Seed of everything random in the effect.
     pub seed: u64,
 }
 

@@ -7,44 +7,44 @@ use lightbots_base::Vec2;
 /// What a mask lets through.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaskShape {
-    /// Robots whose pixel in the frame has one of these ids, in increasing order.
+    /// Robots whose pixel in the frame that they show or drive to has one of these ids. Ids are in increasing order.
     Selection(Vec<u32>),
-    /// Robots while they show, or drive to, one of these frames, counted from 0.
+    /// All robots while they show, or drive to, one of these frames, counted from 0.
     Frames {
         /// The first frame.
         first: u32,
-        /// The last frame.
+        /// The last frame, included.
         last: u32,
     },
     /// A rectangle.
     Rectangle {
-        /// Its centre, stage metres.
+        /// Centre of the rectangle, stage metres.
         centre: Vec2,
-        /// Half of its extents along its own x and y, metres.
+        /// Half of the rectangle's extents along its own x and y axes, metres.
         half: Vec2,
-        /// Angle of its x axis from that of the stage, radians counter-clockwise.
+        /// Angle from the x axis of the stage to that of the rectangle, radians counter-clockwise.
         angle: f64,
     },
     /// A circle.
     Circle {
-        /// Its centre, stage metres.
+        /// Centre of the circle, stage metres.
         centre: Vec2,
-        /// Its radius, metres.
+        /// Radius, metres.
         radius_m: f64,
     },
-    /// The corners of a polygon of any form, stage metres. A place is inside if a ray from it crosses an odd number of
-    /// edges.
+    /// The corners of a polygon of any form, in order, stage metres. A place is inside if a ray from the place crosses an
+    /// odd number of edges.
     Polygon(Vec<Vec2>),
 }
 
 /// A mask of a layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightMask {
-    /// What it lets through.
+    /// What the mask lets through.
     pub shape: MaskShape,
-    /// Width of the soft edge inside an area, metres; 0: a hard edge.
+    /// Width of the soft edge inside of an area, metres; 0: a hard edge. Selections and frames have no edge.
     pub feather_m: f64,
-    /// Whether the mask lets through what its shape does not.
+    /// Whether the mask lets through everything but its shape.
     pub inverted: bool,
 }
 
@@ -54,7 +54,7 @@ impl LightMask {
         Self { shape, feather_m: 0.0, inverted: false }
     }
 
-    /// The share that the mask lets through for a robot, 0 to 1.
+    /// The share of a layer's light that the mask lets through for a robot, 0 to 1.
     pub fn share(&self, robot: &LitRobot) -> f64 {
         let share = match &self.shape {
             MaskShape::Selection(ids) => truth(robot.pixel.is_some_and(|id| ids.binary_search(&id).is_ok())),
@@ -64,7 +64,7 @@ impl LightMask {
         if self.inverted { 1.0 - share } else { share }
     }
 
-    /// Returns 0 outside of an area, and a share that rises to 1 over `feather_m` inside.
+    /// Returns the share for a place at `depth_m` inside of an area: 0 outside, rising to 1 over `feather_m` inside.
     fn softened(&self, depth_m: f64) -> f64 {
         if self.feather_m > 0.0 { within_one(depth_m / self.feather_m) } else { truth(depth_m >= 0.0) }
     }
@@ -74,7 +74,7 @@ fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
 
-/// Distance from the edge of an area to a place inside of it, metres; negative outside.
+/// Distance from `place` to the edge of an area, metres; negative if the place is outside. 0 for shapes that are no area.
 fn depth_m(area: &MaskShape, place: Vec2) -> f64 {
     match area {
         MaskShape::Rectangle { centre, half, angle } => {
@@ -100,7 +100,8 @@ fn polygon_depth_m(corners: &[Vec2], place: Vec2) -> f64 {
     if inside { nearest_m } else { -nearest_m }
 }
 
-/// Returns the point of the line from `from` to `to` that is nearest to `place`, and its share of the line, 0 to 1.
+/// Returns the point of the line segment from `from` to `to` that is nearest to `place`. The second value is the point's
+/// position on the segment, 0 (at `from`) to 1 (at `to`).
 pub(crate) fn nearest_on(from: Vec2, to: Vec2, place: Vec2) -> (Vec2, f64) {
     let line = to - from;
     let squared = line.length_squared();

@@ -2,7 +2,7 @@
 
 use lightbots_base::random::split_mix;
 
-/// A number from 0 (included) to 1 (excluded) that depends on the seed and two words.
+/// A pseudorandom number from 0 (included) to 1 (excluded): a hash of the seed and two words.
 pub(crate) fn unit(seed: u64, first: u64, second: u64) -> f64 {
     share(mixed(mixed(mixed(0, seed), first), second))
 }
@@ -17,12 +17,13 @@ fn share(hash: u64) -> f64 {
     (hash >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// The number of the cycle that a phase is in, as a word for [`unit()`].
+/// The number of the cycle in which a phase is, its next lower whole number, as a word for [`unit()`].
 pub(crate) fn cycle(phase: f64) -> u64 {
     libm::floor(phase) as i64 as u64
 }
 
-/// Value noise, 0 to 1: random values at whole coordinates, smooth between them. The first derivative is continuous.
+/// Value noise, 0 to 1: random values where all coordinates are whole numbers, interpolated in between with a continuous
+/// first derivative.
 fn value(seed: u64, at: [f64; 3]) -> f64 {
     let cell = at.map(libm::floor);
     let [x, y, z] = [0, 1, 2].map(|axis| {
@@ -43,7 +44,8 @@ fn mix(from: f64, to: f64, share: f64) -> f64 {
     from + (to - from) * share
 }
 
-/// The mean of octaves of value noise, 0 to 1. Each octave has twice the frequency and half the weight of the one before.
+/// The weighted mean of `count` octaves of value noise, 0 to 1. Each octave has twice the frequency and half the weight
+/// of the previous octave.
 pub(crate) fn octaves(seed: u64, at: [f64; 3], count: u32) -> f64 {
     let (mut sum, mut weights, mut scale) = (0.0, 0.0, 1.0);
     for octave in 0..u64::from(count.max(1)) {

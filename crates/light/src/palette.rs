@@ -10,16 +10,16 @@ pub struct PaletteStop {
     pub at: f64,
     /// Colour in linear light.
     pub colour: Linear,
-    /// Opacity, 0 (what is below shines through) to 1.
+    /// Opacity: 0 shows only the light below the layer, 1 only the palette.
     pub opacity: f64,
 }
 
-/// Light and opacity.
+/// A colour in linear light and its opacity, 0 to 1.
 pub(crate) type Shade = (Linear, f64);
 
-/// Stops sorted by position. Between two stops, light and opacity change in straight lines; beyond the ends, they are
-/// those of the outermost stop. Two stops at one position make an edge: the first is the end of the part before, the
-/// second the start of the part after.
+/// Stops sorted by position. Linear light and opacity are interpolated linearly between two stops. Beyond the outermost
+/// stops, they are constant. Two stops at one position make an edge: the first belongs to the positions before, the second
+/// to those after.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Palette {
     /// The stops; at least one.
@@ -27,12 +27,12 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// One colour.
+    /// A palette that has one opaque colour at all positions.
     pub fn plain(colour: Rgb) -> Self {
         Self::even(&[colour])
     }
 
-    /// Opaque colours at equal distances from 0 to 1.
+    /// A palette of opaque colours at equal distances. The first is at 0 and the last at 1; a single colour is at 0.
     pub fn even(colours: &[Rgb]) -> Self {
         let last = colours.len().saturating_sub(1).max(1) as f64;
         let stop = |(index, &colour): (usize, &Rgb)| PaletteStop {
@@ -43,14 +43,14 @@ impl Palette {
         Self { stops: colours.iter().enumerate().map(stop).collect() }
     }
 
-    /// One colour, whose opacity rises from 0 to 1.
+    /// A palette of one colour, whose opacity rises from 0 at position 0 to 1 at position 1.
     pub fn rising(colour: Rgb) -> Self {
         let colour = Linear::from_rgb(colour);
         let stop = |at| PaletteStop { at, colour, opacity: at };
         Self { stops: vec![stop(0.0), stop(1.0)] }
     }
 
-    /// Colour and opacity at a value; no light for a palette without stops.
+    /// Colour and opacity at the position `u`. A palette without stops gives black with opacity 0.
     pub(crate) fn at(&self, u: f64) -> Shade {
         let after = self.stops.partition_point(|stop| stop.at <= u);
         let before = after.checked_sub(1).map(|index| self.stops[index]);

@@ -5,35 +5,36 @@ use crate::layer::LightLayer;
 use crate::mask::{LightMask, MaskShape};
 use core::fmt::Display;
 
-/// Most layers of a show, as in `lightbots_show::MAX_LAYERS`: each costs time at every moment for every robot.
+/// Largest number of layers, equal to `lightbots_show::MAX_LAYERS`: each layer costs time for every colour of a robot.
 pub const LAYERS_MAX: usize = 1_000;
-/// Most faults that are reported at once; a person mends the first ones and looks again. Chosen.
+/// Largest number of faults that are reported at once, chosen by us: people mend the first faults and check again.
 pub const FAULTS_MAX: usize = 100;
-/// Most points of an opacity curve: one every 0.36 s in an hour. Chosen.
+/// Largest number of points of an opacity curve, chosen by us: one every 0.36 s of an hour.
 pub const CURVE_POINTS_MAX: usize = 10_000;
-/// Most stops of a palette. Chosen.
+/// Largest number of stops of a palette, chosen by us.
 pub const STOPS_MAX: usize = 64;
-/// Most masks of a layer. Chosen.
+/// Largest number of masks of a layer, chosen by us. Each mask costs time for every colour of a robot.
 pub const MASKS_MAX: usize = 16;
-/// Most points of a polygon or a curve: each costs time at every moment for every robot. Chosen.
+/// Largest number of points of a polygon or a curve, chosen by us. Each point costs time for every colour of a robot.
 pub const OUTLINE_POINTS_MAX: usize = 1_000;
-/// Most pixels of a selection: the largest number of pixels in a frame (`lightbots_show::MAX_PIXELS`).
+/// Largest number of pixels of a selection: the largest number of pixels in a frame (`lightbots_show::MAX_PIXELS`).
 pub const SELECTION_MAX: usize = 20_000;
-/// Most octaves of noise: the eighth has cells of a hundredth of the size. Chosen.
+/// Largest number of octaves of noise, chosen by us: cells of the eighth octave are about a hundredth of the effect's size.
 pub const OCTAVES_MAX: u32 = 8;
-/// Fastest flashing of all robots together, hertz: WCAG 2.2, 2.3.1 allows three flashes in any second.
+/// Largest magnitude of `speed_hz` of the effects strobe and pulse, in which all robots flash together, hertz. WCAG 2.2,
+/// 2.3.1, allows three flashes in any second.
 pub const FLASHING_MAX_HZ: f64 = 3.0;
-/// Fastest cycle of other effects, hertz: tracks have 100 samples a second, five for each such cycle.
+/// Largest magnitude of `speed_hz` of other effects, hertz: a light track has 100 samples a second, five for each cycle.
 pub const SPEED_MAX_HZ: f64 = 20.0;
-/// Smallest and largest size of an effect, metres. Chosen. Details below the size of a robot (0.07 m) are not seen.
+/// Smallest and largest size of an effect, metres, chosen by us. Details smaller than a robot (0.07 m) cannot be seen.
 pub const SIZE_RANGE_M: (f64, f64) = (0.01, 1_000.0);
-/// Largest coordinate, metres: beyond any floor. Chosen.
+/// Largest magnitude of a coordinate, metres, chosen by us: beyond any floor.
 pub const COORDINATE_MAX_M: f64 = 1_000.0;
-/// Latest moment, seconds: a day. Chosen.
+/// Largest magnitude of a moment, seconds, chosen by us: a day.
 pub const MOMENT_MAX_S: f64 = 86_400.0;
-/// Shortest time between two rows of a sequence, seconds. A track has 100 samples a second.
+/// Shortest time between two rows of a sequence, seconds. Light tracks resolve only 0.01 s.
 pub const SEQUENCE_STEP_MIN_S: f64 = 0.001;
-/// Smallest share of a cycle that shines. In a cycle of a second it is 10 ms, the time of one sample of a track.
+/// Smallest share of a cycle that may shine. In a cycle of a second it is 10 ms, the time between two samples of a track.
 pub const WIDTH_MIN: f64 = 0.01;
 
 /// Something wrong with a layer.
@@ -41,11 +42,11 @@ pub const WIDTH_MIN: f64 = 0.01;
 pub struct LayerFault {
     /// Number of the layer, counted from 0; `None`: all layers together.
     pub layer: Option<usize>,
-    /// The field, such as `speed_hz`.
+    /// The wrong field, such as `speed_hz`.
     pub field: &'static str,
-    /// Its value.
+    /// The wrong value of the field.
     pub value: String,
-    /// What to do.
+    /// What to do, for people.
     pub remedy: String,
 }
 
@@ -92,7 +93,7 @@ impl Found {
         self.list.push(fault);
     }
 
-    /// Adds a fault if a number is outside of a range. NaN always is.
+    /// Adds a fault if `value` is outside of the range from `least` to `most`, both included, or NaN.
     fn range(&mut self, field: &'static str, value: f64, (least, most): (f64, f64)) {
         if !(least <= value && value <= most) {
             self.add(field, value, format!("choose a number from {least} to {most}"));
@@ -114,7 +115,7 @@ impl Found {
         }
     }
 
-    /// Adds a fault if values are not in increasing order. NaN is reported by `range`.
+    /// Adds a fault if a value is less than the value before it. Ignores NaN, which `range` reports.
     fn order(&mut self, field: &'static str, values: impl Iterator<Item = f64> + Clone) {
         let wrong = values.clone().zip(values.skip(1)).find(|(first, second)| first > second);
         if let Some((first, second)) = wrong {

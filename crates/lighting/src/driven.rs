@@ -4,15 +4,18 @@ use crate::show_light::FrameLight;
 use lightbots_base::{PathRef, Rgb, Span, TICK, Vec2};
 use lightbots_light::{FloorPicture, LightContext, Linear, LitRobot};
 
-/// Longest time that a pixel's colour takes to change; longer fades look like a fault of the light.
+/// Longest time that a robot's colour takes to change from one pixel's to the next one's. Longer fades look like a fault of
+/// the light.
 pub const FADE_MAX: Span = Span::from_millis(1_000);
 
-/// Duration of the change of a pixel's colour at the end of a drive: half of the drive, but at most 1 s.
+/// How long a robot's colour takes to change to that of its next pixel: half of the drive, but at most 1 s. The change ends
+/// with the drive.
 pub fn fade_of(drive: Span) -> Span {
     FADE_MAX.min(Span(drive.0 / 2)).max(Span::ZERO)
 }
 
-/// Progress of the change of a pixel's colour at the end of a drive, `elapsed` after the drive began; 0 to 1.
+/// Progress of the change of a robot's colour at the end of a drive: 0 before it, 1 after it. `drive` is the duration of
+/// the drive, `elapsed` the time since the drive began.
 pub fn changed(drive: Span, elapsed: Span) -> f64 {
     let over = fade_of(drive);
     let since = elapsed - (drive - over);
@@ -23,42 +26,42 @@ pub fn changed(drive: Span, elapsed: Span) -> f64 {
     }
 }
 
-/// What one robot does from the beginning of a drive to a frame until it leaves the frame.
+/// What one robot does from the start of the drive to a frame until the end of the frame's air time.
 #[derive(Clone, Copy, Debug)]
 pub struct DrivenLight<'a> {
-    /// Number of the robot, counted from 0, and number of robots.
+    /// Number of the robot in effects, counted from 0, and number of all robots.
     pub number: (u32, u32),
     /// The frame, counted from 0.
     pub frame: u32,
-    /// Id of the pixel that the robot shows in the frame; `None`: it has none.
+    /// Id of the pixel that the robot shows in the frame; `None`: the robot has no pixel there.
     pub pixel: Option<u32>,
-    /// Its colour in the frame before, in the frame, and in the frame after.
+    /// The robot's colours without layers in the previous frame, in the frame, and in the next frame.
     pub colours: [Rgb; 3],
-    /// Whether layers shine on the robot in the frame before, and in the frame. They do if it has a pixel there.
+    /// Whether layers shine on the robot in the previous frame, and in the frame. They shine only on robots with a pixel.
     pub shines: [bool; 2],
-    /// Path of the drive; `None`: the robot stands.
+    /// Path of the drive; `None`: the robot stands at `goal`.
     pub path: Option<PathRef<'a>>,
-    /// Where it stands in the frame, stage metres.
+    /// Where the robot stands in the frame, stage metres.
     pub goal: Vec2,
-    /// How long the drive lasts.
+    /// Duration of the drive.
     pub drive: Span,
 }
 
 /// A moment of a drive or of the frame after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightMoment {
-    /// Time since the drive began, without holds.
+    /// Time since the drive began, without the times in which robots were held.
     pub elapsed: Span,
     /// Show time, seconds.
     pub show_s: f64,
-    /// How long show time has stood still until this moment, seconds.
+    /// How long show time has stood still so far, in total, seconds.
     pub lead_s: f64,
-    /// The show clock, seconds: live light runs by it.
+    /// The show clock, seconds. The effects of live light use this time.
     pub clock_s: f64,
 }
 
 impl DrivenLight<'_> {
-    /// The robot as layers see it, `elapsed` after the drive began.
+    /// The robot's place, speed and colours, from which layers compute its light, `elapsed` after the drive began.
     pub fn lit(&self, elapsed: Span) -> LitRobot {
         let (place, speed_mps) = match self.path.filter(|_| elapsed < self.drive) {
             Some(path) => {
@@ -85,13 +88,13 @@ impl DrivenLight<'_> {
         changed(self.drive, elapsed)
     }
 
-    /// The colour at a moment.
+    /// The colour of the robot at a moment, with the frame's layers and live light.
     pub fn colour(&self, light: &FrameLight, pictures: &[FloorPicture], moment: LightMoment) -> Rgb {
         self.light(light, pictures, moment, usize::MAX).to_rgb()
     }
 
-    /// The light at a moment, without the layer with the index `left_out` in the frame. `usize::MAX` leaves no layer
-    /// out.
+    /// The light of the robot at a moment, without the layer that has the index `left_out` in `light`. With `usize::MAX`,
+    /// no layer is left out.
     pub(crate) fn light(
         &self,
         light: &FrameLight,
@@ -112,8 +115,8 @@ impl DrivenLight<'_> {
         robot.colour.lerp(live, share)
     }
 
-    /// The colours at `ticks` + 1 moments that are a [`TICK`] apart. `moment` returns the moment for the time since the
-    /// first one.
+    /// The colours of the robot at `ticks` + 1 moments that are a [`TICK`] apart. `moment` returns the moment that is a
+    /// given time after the first moment.
     pub fn samples(
         &self,
         light: &FrameLight,

@@ -10,30 +10,30 @@ use lightbots_light::lightness;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-/// Largest distance between a line and a code to which it is rounded, in codes. A little less than a half, because a
-/// robot's arithmetic may differ in its last digits.
+/// How far a line may be outside of the bounds of a sample, in codes: rounding brings it back inside. A little less than a
+/// half, because a robot's arithmetic may differ in its last digits.
 const ROUNDING: f64 = 0.49;
-/// Longest block of records whose repetitions are searched for. Chosen: a pattern of five records a second may have a
-/// period of 10 s.
+/// Largest number of records in a block whose repetitions are searched for. Chosen by us: a pattern of five records a
+/// second that repeats every 10 s has 50.
 const BLOCK_MAX: usize = 64;
 
 /// `[code]`: lightness L* of an sRGB code. A table, because each fit needs it thousands of times.
 static LIGHTNESS: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| lightness(code as u8)));
 
-/// Largest difference in L* at which two colours look different only side by side.
+/// Largest difference in lightness L* (CIE 1976) with which two colours look different only side by side.
 const SIDE_BY_SIDE: f64 = 2.0;
 
-/// How far a shown colour may be from the wanted one, channel by channel.
+/// How far each channel of the colour that a robot shows may be from that of the wanted colour.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Tolerance {
     /// One sRGB code.
     OneStep,
-    /// This difference in lightness L* (CIE 1976) of the channel, and at least one code.
+    /// This difference in lightness L* (CIE 1976) of greys with the two codes. A difference of one code is always allowed.
     Lightness(f64),
 }
 
 impl Tolerance {
-    /// Allows differences that are visible only side by side.
+    /// The tolerance that allows differences which are visible only side by side.
     pub const SIDE_BY_SIDE: Self = Self::Lightness(SIDE_BY_SIDE);
 }
 
@@ -53,7 +53,7 @@ impl LightFit {
     }
 }
 
-/// `[code]`: the lowest and the highest code within the tolerance of it.
+/// `[code]`: the lowest and the highest sRGB code that may be shown in place of the code.
 struct Bounds([(u8, u8); 256]);
 
 impl Bounds {
@@ -80,9 +80,9 @@ impl Bounds {
     }
 }
 
-/// Fits a track to colours that are a [`TICK`](lightbots_base::TICK) apart. The track lasts from the first colour to
-/// the last. The tolerance is raised in steps until there are at most `records_max` records, or one if `records_max` is
-/// 0.
+/// Fits a track to the colours of a robot that are a [`TICK`](lightbots_base::TICK) apart. The track lasts from the first
+/// colour to the last. If it has more than `records_max` records, the tolerance is raised until it has not. 0 records
+/// count as 1.
 pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFit {
     let start = samples.first().copied().unwrap_or_default();
     let mut tolerance = tolerance;
@@ -98,8 +98,8 @@ pub fn fit(samples: &[Rgb], tolerance: Tolerance, records_max: usize) -> LightFi
     }
 }
 
-/// Whether two colours look different even when they are not side by side: a channel differs by more than
-/// `SIDE_BY_SIDE` in L*.
+/// Whether two colours look different even if they are not side by side: in one channel, the lightness L* differs by more
+/// than `SIDE_BY_SIDE`.
 pub fn is_seen_apart(one: Rgb, other: Rgb) -> bool {
     let pairs = channels(one).into_iter().zip(channels(other));
     let units = |code: u8| LIGHTNESS[usize::from(code)];
@@ -132,8 +132,8 @@ fn line_to(ticks: usize, to: Rgb) -> LightRecord {
     LightRecord::Line { ticks: ticks as u32, to }
 }
 
-/// Returns the first sample after `from` at which `colour` is out of bounds, so that it cannot be held; the number of
-/// samples if there is none.
+/// Returns the index of the first sample after `from` whose bounds exclude `colour`, so that the colour cannot be held
+/// until there. The number of samples if no bounds exclude it.
 fn held(wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> usize {
     let own = channels(colour);
     let fits = |bounds: &[(u8, u8); 3]| {
@@ -143,8 +143,8 @@ fn held(wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> usize {
     wanted[first..].iter().position(|bounds| !fits(bounds)).map_or(wanted.len(), |count| first + count)
 }
 
-/// Returns the farthest sample that a line from `colour` at `from` can reach within the bounds, and its end colour.
-/// `None` if it reaches no sample.
+/// Finds the longest line from `colour` at the sample `from` that stays within the bounds of all samples on the way.
+/// Returns the index of the sample at which it ends, and its end colour. `None` if no line reaches even the next sample.
 fn line(samples: &[Rgb], wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> Option<(usize, Rgb)> {
     let start = channels(colour).map(f64::from);
     let mut slopes = [(f64::NEG_INFINITY, f64::INFINITY); 3];
@@ -172,7 +172,8 @@ fn line(samples: &[Rgb], wanted: &[[(u8, u8); 3]], from: usize, colour: Rgb) -> 
     best
 }
 
-/// Returns the records with immediate repetitions of a block replaced by a repeat record, if that saves records.
+/// Returns fewer records with the same light. Where a block of records is repeated immediately, one `Repeat` record stands
+/// for all repetitions, if that saves records.
 fn repeated(records: &[LightRecord]) -> Vec<LightRecord> {
     let mut short = Vec::with_capacity(records.len());
     let mut from = 0;

@@ -14,32 +14,33 @@ use lightbots_base::{Span, Vec2};
 use lightbots_light::Linear;
 use std::collections::VecDeque;
 
-/// Samples per second, as in the films that are tested for flashes.
+/// Number of samples of light per second, as in films that are tested for flashes.
 const RATE: u32 = 60;
-/// Samples between two counts of flashes.
+/// Number of samples between two counts of flashes: a quarter of a second.
 const COUNTED_EVERY: u32 = 15;
-/// Largest number of robots that are sampled. Of a larger fleet, every second, third or n-th robot is sampled.
+/// Largest number of robots whose light is sampled. In a larger fleet, only every n-th robot is sampled.
 const ROBOTS_MAX: usize = 400;
-/// Largest number of colours that are computed, so that checking takes seconds. In a long show, fewer robots are
-/// sampled, but at least 20.
+/// Largest number of colours that are computed, so that the check takes seconds. In a long show, fewer robots are sampled to
+/// keep it. At least 20 robots are sampled, even if more colours are computed then.
 const COLOURS_MAX: usize = 4_000_000;
-/// Smallest change of relative luminance that counts towards a flash.
+/// Smallest change of relative luminance, 0 to 1, that counts towards a flash (WCAG 2.2).
 const CHANGE: f64 = 0.1;
-/// Relative luminance below which the darker state of a flash lies.
+/// A change of luminance counts towards a flash only if its darker state has a relative luminance below this (WCAG 2.2).
 const DARK: f64 = 0.8;
-/// Smallest change of R − G − B that counts towards a red flash: 20/320.
+/// Smallest change of R − G − B, in linear light, that counts towards a red flash: 20/320 (WCAG 2.2).
 const RED_CHANGE: f64 = 0.0625;
-/// Share of red in R + G + B from which a colour is a saturated red.
+/// Share of red in R + G + B, in linear light, from which a colour is a saturated red (WCAG 2.2).
 const RED_SHARE: f64 = 0.8;
-/// Largest number of flashes in a second that is allowed.
+/// Largest number of flashes in a second that WCAG 2.2 allows.
 const FLASHES_MAX: u32 = 3;
-/// Number of counts in a row, 5 s, that may find `FLASHES_MAX` flashes a second or more.
+/// Largest number of consecutive counts, 5 s of them, that may find `FLASHES_MAX` flashes or more in the last second.
 const COUNTS_MAX: u32 = 5 * RATE / COUNTED_EVERY;
-/// Share of a field that flashes may cover.
+/// Largest share of a field that may flash too often; see [`FIELD`].
 const COVERED: f64 = 0.25;
-/// Side of a field, as a share of the floor's depth.
+/// Side of a field, a square of the floor that stands for 10° of the viewer's field of view, as a share of the floor's
+/// depth.
 const FIELD: f64 = 0.25;
-/// Largest side of the square that a robot lights on the floor, metres.
+/// Largest side of the square around a robot that counts as lit by the robot, metres.
 const CELL_MAX_M: f64 = 0.3;
 
 /// A frame with the drive to it, for counting flashes.
@@ -47,7 +48,7 @@ const CELL_MAX_M: f64 = 0.3;
 pub struct LitFrame<'a> {
     /// Air time of the frame.
     pub air: Span,
-    /// The robots with their light, the same robots in the same order in all frames.
+    /// The light of each robot in the drive and the frame. All frames have the same robots in the same order.
     pub robots: Vec<DrivenLight<'a>>,
 }
 
@@ -58,18 +59,19 @@ pub struct FlashWarning {
     pub show_s: f64,
     /// Number of flashes in the second before the moment.
     pub flashes: u32,
-    /// Whether they are red flashes.
+    /// Whether the flashes are red flashes; otherwise they are general flashes.
     pub is_red: bool,
-    /// Number of the layer in the show without which the flashes would be few enough; `None`: no single layer.
+    /// Index, counted from 0, of a layer of the show without which there would be few enough flashes; `None`: no single
+    /// layer causes them.
     pub layer: Option<usize>,
 }
 
-/// Opposing changes of one quantity of one robot.
+/// Alternating rises and falls of one quantity of a robot's light, such as luminance.
 #[derive(Clone, Debug, Default)]
 struct Swings {
     is_rising: bool,
     extreme: f64,
-    /// Samples at which a change was complete, within the last second.
+    /// Numbers of the samples in the last second at which a rise or fall had become large enough.
     at: VecDeque<u32>,
 }
 
@@ -87,13 +89,13 @@ impl Swings {
         }
     }
 
-    /// Flashes in the last second.
+    /// Number of flashes in the last second: a flash is a rise and a fall.
     fn flashes(&self) -> u32 {
         self.at.len() as u32 / 2
     }
 }
 
-/// One robot's flashes: general ones and red ones.
+/// General and red flashes of one robot.
 #[derive(Clone, Debug, Default)]
 struct Watched {
     general: Swings,
@@ -112,8 +114,8 @@ impl Watched {
     }
 }
 
-/// Returns the first moment at which a show flashes too often; `None` if there is none. `depth_m`: extent of its floor
-/// away from the viewer, metres; `area_m2`: the floor's area.
+/// Returns the first moment at which the light of a show flashes too often; `None` if it never does. `frames` are the
+/// show's frames in order. `depth_m` is the extent of the floor away from the viewer, metres; `area_m2` is its area.
 pub fn flashes(
     show: &ShowLight,
     frames: &[LitFrame<'_>],
@@ -167,7 +169,7 @@ pub fn flashes(
     None
 }
 
-/// Duration of the drive and the air time, seconds.
+/// Duration of a frame: the drive to it and its air time, seconds.
 fn duration_s(frame: &LitFrame<'_>) -> f64 {
     frame.robots.first().map_or(0.0, |robot| robot.drive.as_secs()) + frame.air.as_secs()
 }
@@ -182,8 +184,8 @@ fn moment(times: FrameTimes, step: u32) -> LightMoment {
     }
 }
 
-/// Returns the largest number of flashes in the last second that robots on more than a quarter of a field reach.
-/// Returns 0 for a number below `FLASHES_MAX`.
+/// Returns the largest number of flashes in the last second that robots reach which light more than a quarter of a field.
+/// A number below `FLASHES_MAX` counts as 0. `field_m` is the side of a field, `cell_m2` the area that a robot lights.
 fn covering(watched: &[Watched], flashes: fn(&Watched) -> u32, (field_m, cell_m2): (f64, f64)) -> u32 {
     let needed = (COVERED * field_m * field_m / cell_m2).floor() as usize + 1;
     let mut many = 0;
@@ -202,8 +204,8 @@ fn covering(watched: &[Watched], flashes: fn(&Watched) -> u32, (field_m, cell_m2
     many
 }
 
-/// Returns the number of the first layer without which each robot would flash fewer than `FLASHES_MAX` times in the
-/// last second. Checks the first `ROBOTS_MAX` robots.
+/// Returns the index in the show of the lowest layer without which no robot would reach `FLASHES_MAX` flashes in the last
+/// second. `None` if no single layer is enough. Only the first `ROBOTS_MAX` robots are checked.
 fn blamed(
     show: &ShowLight,
     frame: &LitFrame<'_>,

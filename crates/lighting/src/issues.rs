@@ -8,9 +8,9 @@ use lightbots_light::{FloorPicture, LayerFault};
 use lightbots_plan::ShowPlan;
 use lightbots_show::{AssetHash, Issue, Issues, Show, excerpt};
 
-/// Returns the issues of a show, and those of its layers: each layer that stays dark, and each setting without meaning.
-/// Pictures are not decoded here, see [`attach_pictures`](crate::attach_pictures). Only a file that the show lacks is
-/// an issue.
+/// Returns all issues of a show: those of `lightbots_show::validate`, then a warning for each fault of a layer. Pictures
+/// are not decoded; a picture counts as good if its file is an asset of the show.
+/// [`attach_pictures`](crate::attach_pictures) decodes them.
 pub fn validate(show: &Show) -> Issues {
     let mut issues = lightbots_show::validate(show);
     issues.extend(faults(show).iter().map(|fault| Issue::warning("bad-layer", text(show, fault))));
@@ -23,7 +23,7 @@ fn faults(show: &Show) -> Vec<LayerFault> {
     ShowLight::with_pictures(show, |hash| is_there(hash).then(dot).flatten()).1
 }
 
-/// Text of a fault, such as `the layer "Sparks": speed_hz is 1000: choose a number from -3 to 3`.
+/// A fault as text for people, such as `the layer "Sparks": speed_hz is 1000: choose a number from -3 to 3`.
 fn text(show: &Show, fault: &LayerFault) -> String {
     let name = fault.layer.and_then(|number| show.layers.get(number)).map_or("", |layer| layer.name.as_str());
     match name {
@@ -34,7 +34,7 @@ fn text(show: &Show, fault: &LayerFault) -> String {
     }
 }
 
-/// Returns an issue with the first moment at which the light of a planned show flashes too often, if it does.
+/// Returns a warning with the first moment at which the light of a planned show flashes too often; `None` if it never does.
 pub fn flashes_of(show: &Show, plan: &ShowPlan) -> Option<Issue> {
     let (light, _) = ShowLight::new(show);
     if light.is_empty() {
@@ -45,7 +45,7 @@ pub fn flashes_of(show: &Show, plan: &ShowPlan) -> Option<Issue> {
     Some(flash_issue(show, &found))
 }
 
-/// A finding of [`flashes`] as an issue.
+/// Turns a result of [`flashes`] into a warning that names the layer, if a single one causes the flashes.
 pub fn flash_issue(show: &Show, found: &FlashWarning) -> Issue {
     let layer = found.layer.and_then(|number| Some((number, show.layers.get(number)?)));
     let layer = match layer {

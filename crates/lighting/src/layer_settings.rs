@@ -9,7 +9,7 @@ pub(crate) struct LayerSettings<'a> {
     settings: &'a NamedSettings,
     number: usize,
     read: Vec<&'static str>,
-    /// What is wrong.
+    /// What is wrong with the settings that were read.
     pub faults: Vec<LayerFault>,
 }
 
@@ -18,7 +18,7 @@ impl<'a> LayerSettings<'a> {
         Self { settings, number, read: Vec::new(), faults: Vec::new() }
     }
 
-    /// Begins to read the settings of a part of the same layer. The part has its own list of faults.
+    /// Returns a reader of the settings of a part of the layer, such as a mask. The part has its own list of faults.
     pub fn part<'b>(&self, settings: &'b NamedSettings) -> LayerSettings<'b> {
         LayerSettings::new(settings, self.number)
     }
@@ -45,7 +45,8 @@ impl<'a> LayerSettings<'a> {
         }
     }
 
-    /// Reads a whole number of 0 or more. `default` if it is missing, or wrong, which is a fault.
+    /// Reads a whole number of 0 or more. Returns `default` if the setting is missing. Returns `default` and adds a fault
+    /// if it is anything else.
     pub fn whole(&mut self, name: &'static str, default: u64) -> u64 {
         let number = self.number(name, default as f64);
         // Whole numbers up to 2⁵³ are exact in a file.
@@ -67,7 +68,8 @@ impl<'a> LayerSettings<'a> {
         }
     }
 
-    /// Reads one of `words` and returns its value. The default value if it is missing, or unknown, which is a fault.
+    /// Reads one of `words` and returns the value beside it. Returns the default of `T` if the setting is missing. Returns
+    /// the default and adds a fault if it is anything else.
     pub fn word<T: Copy + Default>(&mut self, name: &'static str, words: &[(&str, T)]) -> T {
         let Some(setting) = self.get(name) else { return T::default() };
         if let Setting::Text(text) = setting
@@ -93,7 +95,8 @@ impl<'a> LayerSettings<'a> {
         points.unwrap_or_default()
     }
 
-    /// Reads a list, each item by `read`. `None` if it is missing, or wrong, which is a fault.
+    /// Reads a list, each item with `read`. Returns `None` if the setting is missing. Returns `None` and adds a fault with
+    /// `remedy` if it is no list, or `read` returns `None` for an item.
     pub fn list<T>(
         &mut self,
         name: &'static str,
@@ -111,7 +114,7 @@ impl<'a> LayerSettings<'a> {
         items
     }
 
-    /// Adds a fault for each setting that was not read, because it may be mistyped. Returns all faults.
+    /// Adds a fault for each setting that was not read, because its name may be mistyped. Returns all faults.
     pub fn end(mut self) -> Vec<LayerFault> {
         let known = |name: &str| self.read.contains(&name);
         let unknown: Vec<String> =
@@ -134,7 +137,7 @@ pub(crate) fn point(setting: &Setting) -> Option<Vec2> {
     }
 }
 
-/// Reads a colour such as `#ff8800`. `None` if the setting is no such text.
+/// Reads a colour such as `#ff8800`. `None` if the setting is not a text of this form.
 pub(crate) fn colour(setting: &Setting) -> Option<Rgb> {
     match setting {
         Setting::Text(text) => Rgb::from_hex(text),
@@ -142,7 +145,7 @@ pub(crate) fn colour(setting: &Setting) -> Option<Rgb> {
     }
 }
 
-/// Describes a value in a fault: a short excerpt of it, or its kind.
+/// Describes the value of a setting in a fault: the value itself, the start of a long text, or the kind of a larger value.
 pub(crate) fn shown(setting: &Setting) -> String {
     match setting {
         Setting::Null => "nothing".into(),

@@ -4,10 +4,10 @@ use crate::settings::light_layer;
 use lightbots_light::{LayerFault, Layers, LightLayer};
 use lightbots_show::Layer;
 
-/// Layers of live light, lowest first. They run by the show clock and shine until they are taken off.
+/// Layers of live light, lowest first. Their effects use the time of the show clock. They shine until they are taken off.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LiveLayers {
-    /// Name, layer, and start of its effect, seconds of the show clock.
+    /// Name, layer, and the moment at which the layer's effect starts, seconds of the show clock.
     named: Vec<(String, LightLayer, f64)>,
     layers: Layers,
 }
@@ -28,11 +28,11 @@ impl LiveLayers {
         &self.layers
     }
 
-    /// Puts a layer over the others, in place of one with this `name`. Its effect starts at `clock_s`, seconds of the
-    /// show clock. Its span is ignored, and it cannot show pictures.
+    /// Puts `layer` over all others, and takes off the layer that already has `name`. The effect of the new layer starts
+    /// at `clock_s`, seconds of the show clock. Its span is ignored, and it cannot show pictures.
     ///
     /// # Errors
-    /// Faults of the layer, or its settings without meaning. Nothing has changed then.
+    /// If the layer has faults or settings without meaning. Live light is then unchanged.
     pub fn put_on(&mut self, name: String, layer: &Layer, clock_s: f64) -> Result<(), Vec<LayerFault>> {
         let (light, unknown) = light_layer(layer, 0, &mut |_| None)?;
         if !unknown.is_empty() {
@@ -44,7 +44,7 @@ impl LiveLayers {
         Ok(())
     }
 
-    /// Takes the layer with a name off, if it is on.
+    /// Takes the layer called `name` off, if there is one.
     pub fn take_off(&mut self, name: &str) {
         self.named.retain(|(other, ..)| other != name);
         self.collect();

@@ -7,7 +7,7 @@ use lightbots_show::{NamedSettings, Setting};
 
 const SHAPES: &str = "pixels, rectangle, circle or polygon";
 
-/// Reads the setting `masks`: a list of objects, each with a `shape`. A mask that is wrong is left out and is a fault.
+/// Reads the setting `masks`: a list of objects, each with a `shape`. Each wrong setting of a mask is a fault of the layer.
 pub(crate) fn read(fields: &mut LayerSettings<'_>) -> Vec<LightMask> {
     let objects = fields.list("masks", "give a list of masks: [{\"shape\": \"circle\", …}, …]", object);
     let mut masks = Vec::new();

@@ -6,19 +6,20 @@ use lightbots_show::{Asset, AssetHash, Issue, Issues, Layer, LayerPicture, Setti
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Most pictures of a show that are decoded: reading each may take seconds. Chosen.
+/// Largest number of pictures of a show that are decoded, chosen by us: decoding one may take seconds.
 pub const LAYER_PICTURES_MAX: usize = 64;
 
-/// Converts a decoded picture for effects. `None` if it is empty, too large, or no whole number of pictures.
+/// Converts a decoded picture or film for effects. `None` if it is empty, has more than [`PICTURE_PIXELS_MAX`] pixels, or
+/// has no whole number of pictures.
 pub fn floor_picture(picture: &LayerPicture) -> Option<FloorPicture> {
     let pixels = picture.codes.chunks_exact(3).map(|code| Rgb::new(code[0], code[1], code[2])).collect();
     FloorPicture::new(picture.width as usize, picture.height as usize, pixels).ok()
 }
 
-/// Decodes the pictures that layers of a show project, and stores each with its file in the show. Returns an issue for
-/// each file that cannot be shown. `decode` decodes a file; its error says what is wrong with the file and what to do.
-/// All pictures of a show together have at most [`PICTURE_PIXELS_MAX`] pixels, because recordings and journals hold
-/// them.
+/// Decodes the pictures that layers of a show project, and stores each in the asset that it was decoded from. Returns a
+/// warning for each file that cannot be shown. `decode` decodes a file; its error says what is wrong with the file and
+/// what to do. At most [`LAYER_PICTURES_MAX`] pictures are stored, with at most [`PICTURE_PIXELS_MAX`] pixels in total,
+/// because recordings and journals contain them.
 pub fn attach_pictures(
     show: &mut Show,
     mut decode: impl FnMut(AssetHash, &Asset) -> Result<Arc<LayerPicture>, String>,
@@ -50,7 +51,7 @@ pub fn attach_pictures(
     issues
 }
 
-/// The files that layers project, each with the number of the first layer that does.
+/// The hashes of the files that layers project, each with the index of the first layer that projects the file.
 fn users(layers: &[Layer]) -> BTreeMap<AssetHash, usize> {
     let mut users = BTreeMap::new();
     let projects = |layer: &Layer| matches!(layer.kind.as_str(), "picture" | "sequence");

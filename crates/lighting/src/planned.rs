@@ -12,15 +12,15 @@ use std::collections::BTreeMap;
 pub struct PlannedDrive<'a> {
     /// `[robot]`: id of the pixel that the robot shows after the drive; `None`: it has no pixel.
     pub pixels: &'a [Option<u32>],
-    /// `[robot]`: its path. Empty: nothing was planned, and each robot stands on its pixel.
+    /// `[robot]`: the robot's path. Empty: no drive was planned, and each robot stands on its pixel.
     pub paths: &'a [Path],
     /// Duration of each path.
     pub duration: Span,
 }
 
-/// Returns the number of each robot for effects that use it: the rank of its pixel's id in the frame that robots drive
-/// to first. Plans and runs thus agree. Robots without a pixel come after the others, in their order. `pixels` has the
-/// pixel of each robot in that frame.
+/// Returns the number of each robot for effects: the rank, from 0, of its pixel's id among all pixels in the frame to
+/// which robots drive first. Plans and runs of a show thus agree. Robots without a pixel come after the others, in their
+/// order. `pixels` has the id of each robot's pixel in that frame.
 pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
     let mut robots: Vec<(Option<u32>, usize)> =
         pixels.into_iter().enumerate().map(|(robot, pixel)| (pixel, robot)).collect();
@@ -32,14 +32,14 @@ pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
     numbers
 }
 
-/// Returns the drive to each frame.
+/// Returns the planned drive to each frame, in order.
 pub(crate) fn drives_of(plan: &ShowPlan) -> Vec<PlannedDrive<'_>> {
     let drives = plan.mapping.iter().zip(&plan.transitions);
     drives.map(|(pixels, way)| PlannedDrive { pixels, paths: &way.paths, duration: way.duration }).collect()
 }
 
-/// Returns each frame with the drive to it and its robots, in the order of their starting places. Robots are dark
-/// before the first frame.
+/// Returns each planned frame with the drive to it and the light of its robots, which are in the order of their starting
+/// places. At the start of the first drive, robots are dark.
 pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
     let drives = drives_of(plan);
     let frames = drives.len().min(show.frames.len());
@@ -47,13 +47,16 @@ pub fn planned<'a>(show: &Show, plan: &'a ShowPlan) -> Vec<LitFrame<'a>> {
     (0..frames).map(|frame| lit_frame(show, (&drives, &numbers), frame)).collect()
 }
 
-/// [`numbers`] of the robots of planned drives.
+/// The [`numbers`] of robots by their pixels after the first of `drives`. Empty without drives.
 pub fn numbers_of(drives: &[PlannedDrive<'_>]) -> Vec<u32> {
     numbers(drives.first().into_iter().flat_map(|drive| drive.pixels).copied())
 }
 
-/// Returns a frame with the drive to it and its robots. `numbers` are their [`numbers_of`]. Panics if the frame has no
-/// drive.
+/// Returns the frame with the index `frame`, the drive to it and the light of its robots. `numbers` has the number of each
+/// robot in effects, from [`numbers_of`].
+///
+/// # Panics
+/// If `drives` or `show` has no such frame.
 pub fn lit_frame<'a>(
     show: &Show,
     (drives, numbers): (&[PlannedDrive<'a>], &[u32]),

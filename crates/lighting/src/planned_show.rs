@@ -9,18 +9,18 @@ use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_plan::ShowPlan;
 use lightbots_show::Show;
 
-/// A duration that is too short to be seen, seconds.
+/// A duration that is too short to be seen, seconds. It takes a moment back into the last frame at the end of the show.
 const TINY_S: f64 = 1e-6;
 
-/// A show with its drives. Its time counts from the start of the drive to the first frame and does not wait for GO.
+/// A show with its drives. Its moments count from the start of the drive to the first frame. It never waits for GO.
 #[derive(Clone, Debug)]
 pub struct PlannedShow<'a> {
     show: &'a Show,
     light: &'a ShowLight,
     drives: Vec<PlannedDrive<'a>>,
-    /// `[robot]`: its number in effects.
+    /// `[robot]`: the robot's number in effects.
     numbers: Vec<u32>,
-    /// `[frame]`: when it is driven to, reached and left, in show time.
+    /// `[frame]`: when the frame is driven to, reached and left, in show time.
     times: Vec<FrameTimes>,
 }
 
@@ -33,11 +33,12 @@ pub struct SeenRobot {
     pub colour: Rgb,
 }
 
-/// Computes the robots of a planned show at given moments. Consecutive moments in one frame share work.
+/// Computes places and colours of the robots of a planned show at given moments. Consecutive moments in one frame share
+/// work.
 #[derive(Clone, Debug)]
 pub struct PlannedScenes<'a> {
     planned: &'a PlannedShow<'a>,
-    /// The frame of the last moment: its number, robots and layers.
+    /// The frame of the last moment: its index, its robots, and the layers that shine in it.
     begun: Option<(usize, LitFrame<'a>, FrameLight)>,
 }
 
@@ -59,17 +60,17 @@ impl<'a> PlannedShow<'a> {
         Self { show, light, drives, numbers, times }
     }
 
-    /// Largest number of robots of a frame.
+    /// Number of robots: that of the drive with the most robots.
     pub fn robots(&self) -> usize {
         self.drives.iter().map(|drive| drive.pixels.len()).max().unwrap_or(0)
     }
 
-    /// `[robot]`: its number in effects.
+    /// `[robot]`: the robot's number in effects.
     pub fn numbers(&self) -> &[u32] {
         &self.numbers
     }
 
-    /// `[frame]`: when it is driven to, reached and left, seconds of show time.
+    /// `[frame]`: when the frame is driven to, reached and left, seconds of show time.
     pub fn times(&self) -> &[FrameTimes] {
         &self.times
     }
@@ -79,18 +80,18 @@ impl<'a> PlannedShow<'a> {
         &self.drives
     }
 
-    /// How long the drive to the first frame takes, seconds: show time begins at its end.
+    /// Duration of the drive to the first frame, seconds. Show time is 0 at the end of that drive.
     pub fn first_drive_s(&self) -> f64 {
         self.times.first().map_or(0.0, |times| -times.drive_s)
     }
 
-    /// From the start of the first drive to the end of the last frame, seconds.
+    /// Duration from the start of the first drive to the end of the last frame, seconds.
     pub fn duration_s(&self) -> f64 {
         self.times.last().map_or(0.0, |times| times.end_s) + self.first_drive_s()
     }
 
-    /// Returns the frame at `at_s` and the moment for its light; `None` if there are no frames. After its end, the last
-    /// frame stays.
+    /// Returns the frame at `at_s`, seconds from the start of the first drive, and the moment for its light. `None` if there
+    /// are no frames. Moments after the end of the show become its end.
     fn moment(&self, at_s: f64) -> Option<(usize, LightMoment)> {
         let show_s = at_s - self.first_drive_s();
         let last = self.times.len().checked_sub(1)?;
@@ -104,15 +105,15 @@ impl<'a> PlannedShow<'a> {
         Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0, clock_s: 0.0 }))
     }
 
-    /// Begins to compute robots at moments.
+    /// Returns an object that computes the robots at moments.
     pub fn scenes(&'a self) -> PlannedScenes<'a> {
         PlannedScenes { planned: self, begun: None }
     }
 }
 
 impl PlannedScenes<'_> {
-    /// Replaces the content of `scene` by the robots at `at_s`, in their order. `at_s` counts in seconds from the start
-    /// of the drive to the first frame.
+    /// Replaces the content of `scene` by the robots at `at_s`, seconds from the start of the drive to the first frame.
+    /// Robots are in the order of their starting places. Without frames, `scene` becomes empty.
     pub fn at(&mut self, at_s: f64, scene: &mut Vec<SeenRobot>) {
         scene.clear();
         let planned = self.planned;

@@ -9,7 +9,7 @@ use lightbots_light::{
 };
 use lightbots_show::{Layer, Setting, excerpt, setting};
 
-/// Names of the effects: the values of `kind` of a layer.
+/// Names of the effects: the allowed values of the field `kind` of a layer.
 pub const LAYER_KINDS: [&str; 19] = [
     "solid",
     "gradient",
@@ -54,7 +54,7 @@ const EASES: [(&str, Ease); 5] = [
     ("out", Ease::Out),
 ];
 const WRAPS: [(&str, Wrap); 3] = [("once", Wrap::Once), ("loop", Wrap::Loop), ("mirror", Wrap::Mirror)];
-/// Values of the setting `along`: what an effect runs along.
+/// Allowed values of the setting `along`, which says what an effect runs along.
 const ALONG: [(&str, Along); 5] = [
     ("line", Along::Line),
     ("distance", Along::Distance),
@@ -73,11 +73,11 @@ enum Along {
     Curve,
 }
 
-/// Reads a layer of a document, which has this `number` in the show. Returns the light layer, and faults for settings
-/// without meaning. `picture` returns the number of the picture with a hash.
+/// Reads a layer of a show document; `number` is its index in the show, counted from 0. Returns the light layer, and a
+/// fault for each setting without meaning. `picture` returns the index of the picture whose file has the given hash.
 ///
 /// # Errors
-/// Faults of a layer that cannot be shown.
+/// The faults of the layer, if it cannot be shown.
 pub(crate) fn light_layer(
     layer: &Layer,
     number: usize,
@@ -123,7 +123,7 @@ fn look(fields: &mut LayerSettings<'_>) -> Look {
     }
 }
 
-/// Reads the palette: colours at equal distances, or stops with a position and an opacity each.
+/// Reads the palette: colours at equal distances, or stops, each with position, colour and perhaps opacity.
 fn palette(fields: &mut LayerSettings<'_>) -> Palette {
     let remedy = "give colours: [\"#ff0000\", …], or stops: [{\"at\": 0, \"color\": \"#ff0000\"}, …]";
     let is_plain = |items: &[Setting]| items.iter().all(|item| matches!(item, Setting::Text(_)));
@@ -151,7 +151,7 @@ fn stop(item: &Setting) -> Option<PaletteStop> {
     })
 }
 
-/// Reads the opacity: one number, or points of seconds and opacity.
+/// Reads the opacity: one number, or points `[seconds, opacity]`.
 fn opacity(fields: &mut LayerSettings<'_>) -> OpacityCurve {
     match fields.get("opacity") {
         None => OpacityCurve::default(),
@@ -164,7 +164,7 @@ fn opacity(fields: &mut LayerSettings<'_>) -> OpacityCurve {
     }
 }
 
-/// Reads the effect. `None` if its kind is unknown, or its picture is missing, which is a fault.
+/// Reads the effect. Returns `None` if `kind` is unknown, and `None` with a fault if the picture of the effect is missing.
 fn effect(
     kind: &str,
     fields: &mut LayerSettings<'_>,
@@ -203,7 +203,8 @@ fn effect(
     })
 }
 
-/// Returns the number of the picture that the settings name. `None` if it is missing, which is a fault.
+/// Returns the index of the picture that the setting `picture` names by its hash. Returns `None` and adds a fault if there
+/// is no such picture.
 fn picture_number(
     fields: &mut LayerSettings<'_>,
     picture: &mut dyn FnMut(&str) -> Option<usize>,

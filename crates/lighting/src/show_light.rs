@@ -7,7 +7,7 @@ use lightbots_light::{FloorPicture, LayerFault, Layers, LightLayer};
 use lightbots_show::{AssetHash, FramePhase, LayerSpan, Show};
 use std::collections::BTreeMap;
 
-/// When a layer shines. Frames are given by number, counted from 0.
+/// When a layer shines. Frames are given by their indices, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Span {
     Show,
@@ -27,11 +27,11 @@ pub struct ShowLight {
 pub struct FrameLight {
     /// The layers, lowest first.
     pub layers: Layers,
-    /// Their numbers in the show, counted from 0.
+    /// For each of `layers`, its index among all layers of the show, counted from 0.
     pub numbers: Vec<usize>,
-    /// Whether the effect of one of them goes on while show time stands.
+    /// Whether the effect of one of `layers` goes on while show time stands.
     pub runs_freely: bool,
-    /// Live light over these layers. Its times are those of the show clock.
+    /// Live light over `layers`. The times of live layers are those of the show clock.
     pub live: Layers,
 }
 
@@ -43,8 +43,8 @@ impl FrameLight {
 }
 
 impl ShowLight {
-    /// Reads the layers of a show, with the decoded pictures in its files. A layer that is wrong or lacks its picture
-    /// stays dark, and a setting without meaning changes nothing. Both are among the returned faults.
+    /// Reads the layers of a show, with the decoded pictures of its assets. A layer that is wrong or lacks its picture
+    /// never shines. A setting without meaning is ignored. The returned faults name both.
     pub fn new(show: &Show) -> (Self, Vec<LayerFault>) {
         Self::with_pictures(show, |hash| {
             let asset = show.assets.get(&AssetHash::from_hex(hash)?)?;
@@ -52,8 +52,8 @@ impl ShowLight {
         })
     }
 
-    /// Reads the layers as [`new`](Self::new) does, with pictures from elsewhere: `picture` returns the picture with a
-    /// hash.
+    /// Like [`new`](Self::new), but gets pictures from `picture` instead of the show. It returns the picture whose file has
+    /// the given hash; `None`: there is none.
     pub fn with_pictures(
         show: &Show,
         mut picture: impl FnMut(&str) -> Option<FloorPicture>,
@@ -95,9 +95,9 @@ impl ShowLight {
         &self.pictures
     }
 
-    /// Returns the layers that may shine while `frame` is driven to or shown. `times` returns the times of `frame` and
-    /// of earlier frames that have begun in the present round of the show. Without times of `frame`, there are no
-    /// layers.
+    /// Returns the layers that may shine while robots drive to `frame` or show it. `times` returns the times of a frame:
+    /// of `frame`, and of each earlier frame that has begun in the present round of the show. If it returns `None` for
+    /// `frame`, there are no layers.
     pub fn in_frame(&self, frame: usize, times: impl Fn(usize) -> Option<FrameTimes>) -> FrameLight {
         let Some(own) = times(frame) else { return FrameLight::default() };
         let mut moments = Vec::new();

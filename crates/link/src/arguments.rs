@@ -7,9 +7,10 @@ use clap::Args;
 
 use crate::{BrokerUrl, TlsTrust};
 
-/// Name of the environment variable with the user, which is read if neither address nor option names a user.
+/// Name of the environment variable with the user. It counts if neither an address nor the option `--broker-user` has one.
 const USER: &str = "LIGHTBOTS_BROKER_USER";
-/// Name of the environment variable with the password, which is read if neither address nor option has a password.
+/// Name of the environment variable with the password. It counts if neither an address nor the option
+/// `--broker-password-file` has one.
 const PASSWORD: &str = "LIGHTBOTS_BROKER_PASSWORD";
 
 /// Login and certificates for a broker.
@@ -21,7 +22,7 @@ pub struct BrokerArguments {
     /// File whose first line is the password [default: $LIGHTBOTS_BROKER_PASSWORD]
     #[arg(long, value_name = "FILE", requires = "broker")]
     pub broker_password_file: Option<PathBuf>,
-    /// Certificate of the trusted authority for mqtts://, PEM; replaces those of the system
+    /// Certificate of the authority to trust for mqtts://, PEM; replaces the authorities of the system
     #[arg(long, value_name = "FILE", requires = "broker")]
     pub ca: Option<PathBuf>,
     /// Client certificate, for a broker that asks for one, PEM
@@ -32,7 +33,7 @@ pub struct BrokerArguments {
     pub client_key: Option<PathBuf>,
 }
 
-/// Why the options describe no usable broker: one line for people.
+/// Why the options do not describe a usable broker: one line for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ArgumentsError(String);
 
@@ -44,20 +45,20 @@ impl fmt::Display for ArgumentsError {
 
 impl std::error::Error for ArgumentsError {}
 
-/// An error about an option.
+/// The error that `option` is wrong, because of `why`.
 fn wrong(option: &str, why: &dyn fmt::Display) -> ArgumentsError {
     ArgumentsError(format!("{option}: {why}"))
 }
 
 impl BrokerArguments {
-    /// Returns one broker with all of `addresses`, the login and the certificates. The addresses are parsed here and
-    /// not by the parser of the command line, because its error messages would repeat a password.
+    /// Returns one broker with all of `addresses`, the login and the certificates. Addresses are parsed here and not by
+    /// the parser of the command line, because error messages of that parser would show a password in an address.
     pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, ArgumentsError> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
         self.broker_given(addresses, set(USER), set(PASSWORD))
     }
 
-    /// As `broker`, with the values of the environment variables.
+    /// Like [`Self::broker`]. `user` and `password` are the values of the environment variables; `None`: not set.
     fn broker_given(
         &self,
         addresses: &[String],
@@ -92,7 +93,7 @@ impl BrokerArguments {
     }
 }
 
-/// Reads the first line of a password file. An empty line is an error.
+/// Returns the first line of a password file. A missing or empty line is an error.
 fn read_password(path: &Path) -> Result<String, ArgumentsError> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         ArgumentsError(format!("the password in {} cannot be read: {error}", path.display()))

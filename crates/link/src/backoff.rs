@@ -3,17 +3,18 @@
 use std::time::Duration;
 
 /// Waiting times that double from `FIRST` to `LONGEST`. Each is shortened at random by up to a half, so that the robots of a
-/// fleet do not reconnect at once.
+/// fleet do not all reconnect at one moment.
 #[derive(Debug)]
 pub(crate) struct Backoff {
     next: Duration,
 }
 
 impl Backoff {
-    /// First waiting time. Shorter: a dead broker is tried too often. Longer: a restarted broker is found later than the 2 s
-    /// after which robots stop (R43).
+    /// First waiting time. With a shorter one, a dead broker would be tried too often. With a longer one, a restarted broker
+    /// could be found later than the 1.9 s without messages after which robots stop (R43).
     const FIRST: Duration = Duration::from_millis(100);
-    /// Longest waiting time: a broker that is back is found within the 2 s of R43.
+    /// Longest waiting time. A broker that is back is found within it, which is about as long as robots drive on without
+    /// messages (1.9 s, R43).
     const LONGEST: Duration = Duration::from_secs(2);
 
     pub(crate) fn new() -> Self {

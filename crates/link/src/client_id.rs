@@ -2,7 +2,10 @@
 
 use lightbots_base::RobotId;
 
-/// Returns a new random UUID. Panics if the system gives no random numbers.
+/// Returns a new random UUID.
+///
+/// # Panics
+/// If the system gives no random numbers.
 pub fn random_id() -> RobotId {
     let mut bytes = [0; 16];
     // Without random numbers, ids would collide on the broker, so the program stops here.
@@ -15,12 +18,12 @@ pub fn robot_client_id(id: &RobotId) -> String {
     format!("LightBot/{id}")
 }
 
-/// A client id for a connection that several robots share: `LightBots/<uuid>`, a new one each time.
+/// A client id for a connection that several robots share: `LightBots/<uuid>`. Each call returns a new UUID.
 pub fn crowd_client_id() -> String {
     format!("LightBots/{}", random_id())
 }
 
-/// A client id for a controller: `BotControl/<uuid>`, a new one each time.
+/// A client id for a controller: `BotControl/<uuid>`. Each call returns a new UUID.
 pub fn controller_client_id() -> String {
     format!("BotControl/{}", random_id())
 }

@@ -17,18 +17,20 @@ use crate::interface::{LinkConfig, LinkEvent, LinkStatus};
 use crate::reason::{not_granted, reason};
 use crate::{BrokerAddress, TlsTrust};
 
-/// Longest packet, bytes: a thousand times the longest payload (R4). A longer packet closes the connection.
+/// Longest MQTT packet, bytes: a thousand times the longest payload (R4). A longer packet closes the connection.
 const PACKET_BYTES_MAX: usize = 16 << 20;
-/// Filters in one subscription packet: with 512 bytes each (docs/brokers.md) it stays below 65,536 bytes.
+/// Largest number of topic filters in one subscription packet. With at most 512 bytes per filter (docs/brokers.md), the
+/// packet stays below 65,536 bytes.
 const FILTERS_PER_PACKET: usize = 100;
-/// Longest time to send queued messages before a disconnect. Longer: programs end late. A choice, not measured.
+/// Longest time for sending queued messages before a disconnect, chosen by us. With a longer time, programs would end late.
 const DISCONNECT_MAX: Duration = Duration::from_millis(500);
-/// Waiting times before each repeated subscription after a reconnect. A cluster that has just lost a node may delete the
-/// subscriptions of that node's clients late (RabbitMQ 3.10, docs/brokers.md).
+/// After a reconnect, all subscriptions are repeated three times. These are the waiting times before each repetition. They
+/// are needed because a cluster that has lost a node may later delete new subscriptions of that node's clients
+/// (RabbitMQ 3.10, docs/brokers.md).
 const RESUBSCRIBE_AFTER: [Duration; 3] =
     [Duration::from_millis(1_000), Duration::from_millis(2_000), Duration::from_millis(6_000)];
-/// Longest random wait before the next address is tried, so that the robots of a fleet do not connect at once. Longer:
-/// robots may reach the 2 s after which they stop (R43).
+/// Longest random wait before the next address is tried. It keeps the robots of a fleet from connecting at one moment. With
+/// a longer wait, robots could reach the 1.9 s without messages after which they stop (R43).
 const NEXT_ADDRESS_MAX: Duration = Duration::from_millis(100);
 
 pub(crate) struct ConnectionTask {
@@ -40,19 +42,19 @@ pub(crate) struct ConnectionTask {
     stop: oneshot::Receiver<()>,
     status: Arc<LinkStatus>,
     backoff: Backoff,
-    /// Index of the address that is used or tried.
+    /// Index of the address that is in use or is tried.
     at: usize,
-    /// Number of consecutive failures.
+    /// Number of failures since the link was last connected and subscribed.
     failures: usize,
-    /// Whether the broker has accepted the login on this connection.
+    /// Whether the broker has accepted the login on the present connection.
     accepted: bool,
-    /// Subscription packets not yet acknowledged since the last connect.
+    /// Number of subscription packets that the broker has not yet acknowledged since the last connect.
     unconfirmed: usize,
-    /// Number of successful connects.
+    /// How often the link has been connected and subscribed.
     connects: usize,
-    /// Task that subscribes again on this connection.
+    /// Task that repeats the subscriptions on the present connection; `None`: there is no such task.
     resubscription: Option<AbortHandle>,
-    /// Last reported reason for each address.
+    /// `[address]`: the last reported reason for a failure since the link was last connected; `None`: none.
     reported: Vec<Option<String>>,
 }
 
@@ -143,7 +145,8 @@ impl ConnectionTask {
         }
     }
 
-    /// Replaces a connection that does not deliver messages. Returns `false` if the link was closed meanwhile.
+    /// Closes the connection, because it does not deliver messages, and waits until the next attempt. Returns `false` if the
+    /// link was closed meanwhile. Does nothing if the link is not connected.
     async fn renew(&mut self) -> bool {
         if !self.status.connected.load(Ordering::Acquire) {
             return true;
@@ -163,7 +166,8 @@ impl ConnectionTask {
         }
     }
 
-    /// Repeats the subscriptions later. Their answers are ignored, because all filters were granted before.
+    /// Starts a task that repeats the subscriptions after the times of [`RESUBSCRIBE_AFTER`]. The broker's answers are
+    /// ignored, because it has granted all filters before.
     fn subscribe_later(&mut self) {
         let (client, filters) = (self.client.clone(), self.config.filters.clone());
         let later = async move {
@@ -183,8 +187,8 @@ impl ConnectionTask {
         }
     }
 
-    /// Handles the answer to a subscription; answers come in the order of the packets. Returns `false` if the link was
-    /// closed meanwhile.
+    /// Handles the broker's answer to a subscription packet. Answers come in the order of the packets. A refused filter
+    /// counts as a failed connection. Returns `false` if the link was closed meanwhile.
     async fn confirmed(&mut self, answer: SubAck) -> bool {
         let packets = self.config.filters.len().div_ceil(FILTERS_PER_PACKET);
         let first = (packets - self.unconfirmed.min(packets)) * FILTERS_PER_PACKET;
@@ -215,8 +219,8 @@ impl ConnectionTask {
         self.events.send(LinkEvent::Connected).await.is_ok()
     }
 
-    /// Reports a failure if its reason is new, then waits for the next attempt, at the next address. Returns `false` if
-    /// the link was closed meanwhile.
+    /// Reports a failure if its reason is new, chooses the next address, and waits until the next attempt is due. Returns
+    /// `false` if the link was closed meanwhile.
     async fn failed(&mut self, reason: String) -> bool {
         let was_connected = self.status.connected.swap(false, Ordering::AcqRel);
         self.accepted = false;
@@ -246,7 +250,7 @@ impl ConnectionTask {
         }
     }
 
-    /// Sends queued messages and disconnects, within [`DISCONNECT_MAX`].
+    /// Sends the queued messages and disconnects. Gives up after [`DISCONNECT_MAX`].
     async fn disconnect(mut self) {
         self.cancel_resubscription();
         if !self.status.connected.swap(false, Ordering::AcqRel) || self.client.try_disconnect().is_err() {
@@ -262,13 +266,13 @@ impl ConnectionTask {
     }
 }
 
-/// Filters, split into packets of `FILTERS_PER_PACKET`.
+/// The topic filters, split into packets of at most `FILTERS_PER_PACKET`, to subscribe to at QoS 0.
 fn packets(filters: &[String]) -> impl Iterator<Item = Vec<SubscribeFilter>> {
     let filter = |filter: &String| SubscribeFilter::new(filter.clone(), QoS::AtMostOnce);
     filters.chunks(FILTERS_PER_PACKET).map(move |packet| packet.iter().map(filter).collect())
 }
 
-/// A random number, 0 to 1.
+/// A random number from 0 to 1, both included.
 fn share() -> f64 {
     f64::from(random()) / f64::from(u32::MAX)
 }

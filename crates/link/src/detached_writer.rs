@@ -10,17 +10,21 @@ use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt, BufReader};
 use tokio::net::TcpStream;
 use tokio::task::JoinHandle;
 
-/// Most bytes of output that may wait: 1,600 for each of ten thousand robots. Beyond it, the client blocks.
+/// Largest number of bytes of output that may wait: 1,600 for each of ten thousand robots. If more waits, the MQTT client
+/// blocks.
 const WAITING_BYTES_MAX: usize = 16 << 20;
-/// Largest single write, bytes. Smaller: more system calls. A usual size of socket buffers, not measured.
+/// Largest number of bytes that are written at once. Fewer need more system calls. A usual size of socket buffers, not
+/// measured.
 const WRITE_BYTES_MAX: usize = 64 << 10;
 
-/// The writing task of the present connection. It ends when all output is written or the connection fails.
+/// The task that writes the output of the present connection. It ends when the connection was dropped and all output is
+/// written, or when the connection fails.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DetachedWriter(Arc<Mutex<Option<JoinHandle<()>>>>);
 
 impl DetachedWriter {
-    /// Wraps a socket so that a task of this writer writes its output.
+    /// Wraps a socket. What is written to the result waits in a buffer, and a new task of this writer writes the buffer to
+    /// the socket.
     pub(crate) fn attach(
         &self,
         socket: TcpStream,
@@ -37,7 +41,7 @@ impl DetachedWriter {
         tokio::io::join(input, reported)
     }
 
-    /// Waits until the output of a dropped connection is written.
+    /// Waits until the task has written the output of a connection that was dropped.
     pub(crate) async fn finish(&self) {
         let task = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(task) = task {

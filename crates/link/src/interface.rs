@@ -9,24 +9,24 @@ use crate::BrokerUrl;
 /// Configuration of a link.
 #[derive(Clone, Debug)]
 pub struct LinkConfig {
-    /// Broker to connect to. If one of its addresses fails, the next one is tried.
+    /// Broker to connect to. If one of its addresses fails, the next address is tried.
     pub broker: BrokerUrl,
     /// MQTT client id of this program.
     pub client_id: String,
     /// Topic filters to subscribe to, all at QoS 0.
     pub filters: Vec<String>,
-    /// Most queued messages in each direction, at least 16; further messages are dropped.
+    /// Largest number of queued messages in each direction; less than 16 counts as 16. Further messages are dropped.
     pub queue: usize,
 }
 
 /// Event of a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LinkEvent {
-    /// Connected and subscribed to all filters.
+    /// The link is connected, and subscribed to all filters.
     Connected,
-    /// Not connected; sent again when the reason changes. The link keeps trying.
+    /// The link is not connected, and keeps trying. The event is sent again when the reason changes.
     Disconnected {
-        /// Reason, one line for people.
+        /// Why the link is not connected: one line for people.
         reason: String,
     },
     /// A message arrived.
@@ -44,10 +44,10 @@ pub enum LinkEvent {
 #[derive(Debug, Default)]
 pub(crate) struct LinkStatus {
     pub(crate) connected: AtomicBool,
-    /// Index of the address in use or used last.
+    /// Index of the address of the present connection, or of the last one.
     pub(crate) at: AtomicUsize,
-    /// Messages dropped in both directions because a queue was full.
+    /// Number of messages, sent and received, that were dropped because a queue was full.
     pub(crate) dropped: AtomicU64,
-    /// Wakes the task to replace the connection.
+    /// Wakes the task so that it replaces the connection.
     pub(crate) renew: Notify,
 }

@@ -9,7 +9,7 @@ use tokio::sync::{mpsc, oneshot};
 use crate::connection::ConnectionTask;
 use crate::interface::{LinkConfig, LinkEvent, LinkStatus};
 
-/// A connection that reconnects by itself. Dropping the link closes the connection.
+/// A connection to a broker that reconnects by itself. Dropping the link closes the connection.
 #[derive(Debug)]
 pub struct Link {
     sender: Sender,
@@ -18,7 +18,7 @@ pub struct Link {
     task: Option<tokio::task::JoinHandle<()>>,
 }
 
-/// The sending half of a link; clones share it.
+/// The sending half of a link. All clones send over the same connection.
 #[derive(Clone, Debug)]
 pub struct Sender {
     client: AsyncClient,
@@ -26,7 +26,7 @@ pub struct Sender {
 }
 
 impl Link {
-    /// Begins to connect and keeps trying until the link is closed. Must be called in a tokio runtime.
+    /// Returns a link that begins to connect, and keeps trying until it is closed. Must be called in a tokio runtime.
     pub fn open(config: LinkConfig) -> Self {
         let status = Arc::new(LinkStatus::default());
         let (client, connection, events, stop) = ConnectionTask::new(config, status.clone());
@@ -49,14 +49,15 @@ impl Link {
         self.events.try_recv().ok()
     }
 
-    /// Replaces a connection that does not deliver messages by one to the next address. Queued messages are lost.
+    /// Closes the connection and connects to the next address, because the present broker does not deliver messages. Queued
+    /// messages are lost. Does nothing if the link is not connected.
     pub fn renew(&self) {
         if self.sender.is_connected() {
             self.sender.status.renew.notify_one();
         }
     }
 
-    /// Disconnects, after at most half a second for messages that are still queued.
+    /// Sends the messages that are still queued, for at most half a second, and disconnects.
     pub async fn close(mut self) {
         drop(self.stop.take());
         if let Some(task) = self.task.take() {
@@ -67,8 +68,8 @@ impl Link {
 }
 
 impl Sender {
-    /// Publishes at QoS 0 and never blocks. `false`: the message was dropped, because there is no connection or the queue is
-    /// full.
+    /// Publishes a message at QoS 0 and never blocks. Returns `false` if the message was dropped, because there is no
+    /// connection or the queue is full.
     pub fn send(&self, topic: &str, payload: Vec<u8>) -> bool {
         if !self.is_connected() {
             return false;
@@ -85,12 +86,13 @@ impl Sender {
         self.status.connected.load(Ordering::Acquire)
     }
 
-    /// Index of the broker's address that is in use or was used last.
+    /// Index in [`BrokerUrl::addresses`](crate::BrokerUrl::addresses) of the present connection's address, or of the last
+    /// one's.
     pub fn address_index(&self) -> usize {
         self.status.at.load(Ordering::Acquire)
     }
 
-    /// Number of messages dropped in both directions because a queue was full.
+    /// Number of messages, sent and received, that were dropped because a queue was full.
     pub fn dropped(&self) -> u64 {
         self.status.dropped.load(Ordering::Relaxed)
     }

@@ -7,8 +7,8 @@ use tokio_rustls::rustls::{self, AlertDescription, CertificateError};
 
 use crate::BrokerAddress;
 
-/// Returns one line with the reason of a missing connection and its remedy. `accepted`: the broker had accepted the
-/// login.
+/// Returns one line for people: why the connection to `address` failed or broke, and what to do. `accepted`: whether the
+/// broker had accepted the login before the error.
 pub(crate) fn reason(error: &ConnectionError, address: &BrokerAddress, accepted: bool) -> String {
     if let Some(error) = rustls_error(error) {
         return tls_reason(error, address);
@@ -48,7 +48,7 @@ pub(crate) fn reason(error: &ConnectionError, address: &BrokerAddress, accepted:
     }
 }
 
-/// Returns one line with the reason and the remedy of a refused subscription.
+/// Returns one line for people about a subscription to the topic filter `filter` that the broker refused.
 pub(crate) fn not_granted(filter: &str, address: &BrokerAddress) -> String {
     format!(
         "the broker at {address} refuses the subscription to {filter}: give this user the right to read it"
@@ -83,7 +83,7 @@ fn other_port(address: &BrokerAddress) -> &'static str {
     }
 }
 
-/// The error of the operating system inside `error`, at any depth.
+/// The I/O error that caused `error`, or `None`.
 fn io_error(error: &ConnectionError) -> Option<&io::Error> {
     match error {
         ConnectionError::Io(io)
@@ -93,7 +93,7 @@ fn io_error(error: &ConnectionError) -> Option<&io::Error> {
     }
 }
 
-/// The error of rustls inside `error`, at any depth.
+/// The error of the TLS library rustls that caused `error`, or `None`.
 fn rustls_error(error: &ConnectionError) -> Option<&rustls::Error> {
     if let ConnectionError::Tls(TlsError::TLS(error)) = error {
         return Some(error);
@@ -139,7 +139,7 @@ fn certificate_reason(why: &CertificateError, address: &BrokerAddress) -> String
     }
 }
 
-/// The name in `DnsName("a")`, as rustls formats it.
+/// Returns `a` for `DnsName("a")`, which is how rustls formats the names in a certificate.
 fn bare_name(name: &str) -> &str {
     name.split_once('(').map_or(name, |(_, rest)| rest.trim_end_matches(')').trim_matches('"'))
 }

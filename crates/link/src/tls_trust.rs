@@ -9,8 +9,8 @@ use tokio_rustls::rustls::pki_types::pem::{Error as PemError, PemObject};
 use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
-/// Trusted authorities, and a client certificate for brokers that ask for one. Clones share the content; two values
-/// are equal if they share it.
+/// Trusted certificate authorities, and a client certificate for brokers that ask for one. A clone shares the content of
+/// the original. Two values are equal only if they share their content.
 #[derive(Clone)]
 pub struct TlsTrust(Arc<ClientConfig>);
 
@@ -18,18 +18,18 @@ pub struct TlsTrust(Arc<ClientConfig>);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TlsTrustError(String);
 
-/// A PEM text with a name, such as its file.
+/// A PEM text with a name, such as the name of its file.
 #[derive(Clone, Copy, Debug)]
 pub struct Pem<'a> {
-    /// Name in error messages.
+    /// Name of the text in error messages.
     pub name: &'a str,
-    /// Content.
+    /// The PEM text.
     pub bytes: &'a [u8],
 }
 
 impl TlsTrust {
-    /// Builds the TLS settings. `ca` holds trusted authorities that replace the system's. `client` is our certificate
-    /// with its chain, and its key.
+    /// Builds the TLS settings. `ca` has the trusted certificate authorities; `None`: those of the system. `client` is the
+    /// client certificate with its chain, and its key; `None`: no client certificate.
     pub fn new(ca: Option<Pem<'_>>, client: Option<(Pem<'_>, Pem<'_>)>) -> Result<Self, TlsTrustError> {
         let roots = match ca {
             Some(pem) => roots_from(pem)?,
@@ -52,7 +52,7 @@ impl TlsTrust {
         Ok(Self(Arc::new(config)))
     }
 
-    /// As `new`, from files.
+    /// Like [`Self::new`], but reads the PEM texts from files.
     pub fn read(ca: Option<&Path>, client: Option<(&Path, &Path)>) -> Result<Self, TlsTrustError> {
         let ca = ca.map(PemFile::read).transpose()?;
         let client = match client {
@@ -63,7 +63,8 @@ impl TlsTrust {
         Self::new(ca.as_ref().map(PemFile::pem), client)
     }
 
-    /// Returns the trust in the authorities of the system, which are read once.
+    /// Returns the settings that trust the certificate authorities of the system, without a client certificate. The
+    /// authorities are read at the first call only.
     pub(crate) fn of_system() -> Result<Self, TlsTrustError> {
         static SYSTEM: OnceLock<Result<TlsTrust, TlsTrustError>> = OnceLock::new();
         SYSTEM.get_or_init(|| Self::new(None, None)).clone()

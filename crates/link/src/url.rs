@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::{BrokerAddress, TlsTrust};
 
-/// The addresses of a broker, tried in turn, and the login: `[mqtt[s]://][user[:password]@]host[:port]`, with more addresses
-/// after commas.
+/// The addresses of a broker, which are tried in turn, and the login for all of them. As text:
+/// `[mqtt[s]://][user[:password]@]host[:port]`, with more addresses after commas.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BrokerUrl {
     /// Addresses in the order of attempts; never empty.
@@ -14,7 +14,7 @@ pub struct BrokerUrl {
     pub user: Option<String>,
     /// Password; only with a user.
     pub password: Option<String>,
-    /// Certificates for TLS; `None`: the authorities of the system.
+    /// Certificates for TLS; `None`: the certificate authorities of the system are trusted.
     pub trust: Option<TlsTrust>,
 }
 
@@ -22,7 +22,7 @@ pub struct BrokerUrl {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UrlError(String);
 
-/// The login in an address.
+/// User and password in an address.
 type Login = (Option<String>, Option<String>);
 
 impl BrokerUrl {
@@ -32,8 +32,8 @@ impl BrokerUrl {
         Self { addresses, user: None, password: None, trust: None }
     }
 
-    /// Reads addresses. The default port is 1883, with TLS 8883. An address after a comma takes missing parts from the first
-    /// address. `tcp://` and `ssl://` are accepted as well.
+    /// Reads addresses separated by commas. The default port is 1883, or 8883 with TLS. A later address without a scheme
+    /// uses TLS if the first address does. `tcp://` and `ssl://` are accepted as well.
     pub fn parse(text: &str) -> Result<Self, UrlError> {
         let mut parts = text.split(',').map(str::trim);
         let mut broker = Self::parse_one(parts.next().unwrap_or_default(), None)?;
@@ -72,7 +72,8 @@ impl BrokerUrl {
         Ok(Self { addresses: vec![address], user, password, trust: None })
     }
 
-    /// Adds the addresses of `more`. The login of either counts for all addresses; two different logins are an error.
+    /// Adds the addresses of `more` to this broker. The login that one of the two has counts for all addresses; two
+    /// different logins are an error.
     pub fn and(mut self, more: Self) -> Result<Self, UrlError> {
         if self.user.is_none() {
             (self.user, self.password) = (more.user, more.password);
@@ -85,7 +86,7 @@ impl BrokerUrl {
         Ok(self)
     }
 
-    /// Returns the same broker with this login. If `user` is `None`, nothing changes.
+    /// Returns the broker with this login instead of its own. If `user` is `None`, returns the broker unchanged.
     pub fn with_login(self, user: Option<String>, password: Option<String>) -> Self {
         if user.is_none() {
             return self;
@@ -93,12 +94,12 @@ impl BrokerUrl {
         Self { user, password, ..self }
     }
 
-    /// The same broker with these certificates.
+    /// Returns the broker with these certificates instead of its own.
     pub fn with_trust(self, trust: Option<TlsTrust>) -> Self {
         Self { trust, ..self }
     }
 
-    /// The same broker with its addresses rotated, so that number `first` is tried first.
+    /// Returns the broker with its addresses rotated, so that the address with the index `first` is tried first.
     pub fn starting_at(mut self, first: usize) -> Self {
         let addresses = self.addresses.len().max(1);
         self.addresses.rotate_left(first % addresses);
@@ -119,7 +120,7 @@ fn read_login(login: &str) -> Option<Login> {
     Some((Some(decode(user)?), password))
 }
 
-/// Percent-decodes; `None` if the text is invalid.
+/// Decodes percent-encoded text; `None` if the encoding is invalid, or the result is not UTF-8.
 fn decode(text: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -137,7 +138,7 @@ fn decode(text: &str) -> Option<String> {
 }
 
 impl fmt::Display for BrokerUrl {
-    /// Writes the addresses without login, for logs and screens.
+    /// Writes the addresses, separated by commas, without user and password, for logs and screens.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, address) in self.addresses.iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };

@@ -6,11 +6,11 @@ use lightbots_show::FrameSource;
 use crate::material::{Material, exact, material};
 use crate::recipe::Recipe;
 
-/// Searches the least number of robots with which a source is readable. `None` if the source is an arrangement of
-/// lights, for which any number does, or if not even a thousand robots do.
+/// Searches for the smallest number of robots with which a source is readable. `asset` has the bytes of the source's file.
+/// `None` if not even a thousand robots are enough, or if the source is itself an arrangement of lights, such as a grid.
 ///
 /// # Errors
-/// Sources that cannot be drawn or read.
+/// If the source cannot be read or drawn.
 pub fn enough_for(source: &FrameSource, asset: Option<&[u8]>) -> Result<Option<usize>, DrawError> {
     let recipe = Recipe::read(source)?;
     let made = match (exact(&recipe, 1), material(&recipe, asset)?) {

@@ -8,10 +8,10 @@ use lightbots_show::Frame;
 use crate::material::{Material, view_of};
 use crate::recipe::{Content, Recipe, style_of};
 
-/// Largest number of pictures from one key frame to the next.
+/// Largest number of pictures of the animation from one key frame to the next.
 const REACH: usize = 60;
 
-/// Time that every move takes in addition to its straight drive, seconds: a quarter turn and a ramp.
+/// Time that a drive takes in addition to its length divided by the top speed, seconds: for a quarter turn and a ramp.
 const MOVE_S: f64 = 0.62;
 
 /// The frames made of an animation.
@@ -19,26 +19,27 @@ const MOVE_S: f64 = 0.62;
 pub struct Film {
     /// The frames in order of time; at least one.
     pub frames: Vec<FilmFrame>,
-    /// Factor by which the animation is slowed down to give robots time to move. 1 if it is not slowed down.
+    /// Factor by which the animation is slowed down to give robots time to drive; 1: it is not slowed down.
     pub slowdown: f64,
-    /// Notes about what is missing, or different from the animation.
+    /// Notes about what is missing from the film, or differs from the animation.
     pub notes: Vec<Note>,
 }
 
 /// A frame of a film. Its pixels are not made yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFrame {
-    /// Name, air time, and the source with its moment. The source has no hash of the file.
+    /// The frame with name, air time, and its source with the moment of the animation. The source does not name its file.
     pub frame: Frame,
-    /// The picture of that moment.
+    /// The picture of the animation at that moment.
     pub material: Material,
 }
 
-/// Chooses the frames of an animation between which robots have time to move. `name` is the name of the series.
-/// `recipe` has an animation as its content, whose moment is not used. `bytes` are the file.
+/// Chooses frames from the pictures of an animation, far enough apart in time for robots to drive from one to the next.
+/// `name` is the name of the series and the beginning of the frames' names. `recipe` has the animation as its content; its
+/// moment is not used. `bytes` are those of the animation's file.
 ///
 /// # Errors
-/// Files that are no animation, and pictures without room for `robots`.
+/// If the recipe or the file is not an animation, or a picture has no room for `robots` robots.
 pub fn film(
     name: &str,
     bytes: &[u8],
@@ -84,8 +85,8 @@ pub fn film(
     Ok(Film { frames, slowdown: keys.slowdown, notes })
 }
 
-/// Returns when the key frame before `next` ends, seconds from the start. If `next` is `None`, that is when the
-/// animation ends.
+/// Returns when a key frame ends, seconds from the start of the animation. `next` is the index of the next key frame's
+/// picture, at which it ends; `None`: the key frame ends with the animation.
 fn end_s(animation: &Animation, next: Option<&usize>) -> f64 {
     let end_s = animation.frames.last().map_or(0.0, |frame| frame.at_s + frame.lasts_s);
     next.map_or(end_s, |next| animation.frames[*next].at_s)
@@ -100,8 +101,8 @@ fn notes(mut notes: Vec<Note>, slowdown: f64) -> Vec<Note> {
     notes
 }
 
-/// Returns the robots' places in each picture, each made from the places in the picture before. A robot has the same
-/// index in all of them.
+/// Returns `[picture][robot]`: the place of the robot in each picture of the animation, stage metres. The search for the
+/// places in a picture begins with those in the previous picture.
 fn places(
     animation: &Animation,
     usual: &PlaceSettings,

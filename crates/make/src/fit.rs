@@ -10,15 +10,16 @@ use crate::frame::make_frame_from;
 use crate::material::{Material, asset_of, material, moment};
 use crate::recipe::{Content, Recipe};
 
-/// Least distance of two lights in frames that are not made from a source, metres. With a smaller one, planning takes
-/// longer (measured).
+/// Smallest distance between two lights in frames that are not made anew from a source, metres; less if the frame's lights
+/// are closer already. With a smaller value, planning takes longer (measured).
 const SPACING_M: f64 = 0.0764;
 
-/// Fits every frame of a show to a number of robots. Frames with one source are made anew from it. Other frames keep
-/// their lights as far as possible. Returns notes about changes that people may not expect.
+/// Fits every frame of a show to `robots` robots. Frames that already have `robots` pixels are kept. Frames with exactly
+/// one source are made anew from it. Other frames, and frames whose source cannot be drawn, keep their lights as far as
+/// possible. Returns notes about changes that people may not expect.
 ///
 /// # Errors
-/// A frame in which this number of robots finds no room, or a frame without pixels; the message has the frame's name.
+/// If `robots` robots find no room in a frame, or a frame has no pixels. The message names the frame.
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
@@ -52,11 +53,11 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
     Ok(notes)
 }
 
-/// The animation that was read last, by file and settings. Frames that follow each other often come from one animation,
-/// which need not be read for each.
+/// The animation that was read last, with the hash of its file and its settings; `None`: none yet. Successive frames often
+/// come from one animation, which is then read only once.
 type Film = Option<((AssetHash, PictureSettings), Animation)>;
 
-/// Makes the frame anew from its source. `None` if it does not have exactly one source.
+/// Makes the frame anew from its source, and returns it with notes. `None` if it does not have exactly one source.
 fn made_anew(
     show: &Show,
     frame: &Frame,
@@ -84,7 +85,8 @@ fn material_of(show: &Show, source: &FrameSource, film: &mut Film) -> Result<Mat
     film.as_ref().map_or_else(|| material(&recipe, asset), |(_, animation)| moment(animation, *moment_s))
 }
 
-/// Returns the frame with fewer or more lights. Pixels that are pinned to a robot are removed last.
+/// Returns the frame with `robots` pixels: some are added or removed, the others are moved a little. Pixels that are pinned
+/// to a robot are removed last.
 fn fitted(frame: &Frame, floor: &PictureFloor, robots: usize) -> Result<Frame, DrawError> {
     let lights: Vec<PlacedLight> =
         frame.pixels.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, part: 0 }).collect();

@@ -10,10 +10,12 @@ use lightbots_show::{Frame, FrameSource, Pixel, SourcePart};
 use crate::material::{Material, exact, material};
 use crate::recipe::Recipe;
 
-/// Factor by which exact arrangements are enlarged, because files round places.
+/// Factor by which exact arrangements are enlarged beyond the wanted spacing. Files round places, which could otherwise
+/// make distances too small.
 const SLACK: f64 = 1.001;
 
-/// Least distance between robots, metres. Lists with a smaller one are scaled up.
+/// Smallest distance between two lights at which a list of lights is taken as it is, metres. A list with lights closer
+/// together is scaled up.
 const LEAST_M: f64 = 0.06;
 
 /// A frame made from its source.
@@ -23,22 +25,23 @@ pub struct MadeFrame {
     pub frame: Frame,
     /// Longer side of the picture, metres.
     pub size_m: f64,
-    /// Distance of the closest two lights, metres; infinite for one light.
+    /// Distance between the two closest lights, metres; infinite with fewer than two lights.
     pub closest_m: f64,
-    /// How well the lights show the source. `None` if the source is an arrangement of lights, such as a grid.
+    /// How well the lights show the source. `None` if the source is itself an arrangement of lights, such as a grid.
     pub readability: Option<Readability>,
-    /// Notes about what is missing or different from the settings.
+    /// Notes about what is missing from the picture, or differs from the settings.
     pub notes: Vec<Note>,
 }
 
-/// Makes a frame's pixels anew from its only source, for a number of robots. Name, times and source of the frame stay,
-/// as do pixels that were moved by hand. Pins move to the nearest pixel of the same part.
+/// Makes the pixels of the frame `before` anew from its only source, for `robots` robots. Name, times and source of the
+/// frame are kept, and so are pixels that were moved by hand. A robot that is pinned to another pixel is pinned to the
+/// nearest new pixel, of the same part if possible.
 ///
-/// `asset` has the bytes of the source's file. `start` has places to begin with, such as those of the previous picture.
-/// It is used only if it has one place for each robot.
+/// `asset` has the bytes of the source's file. `start` has places from which the search for places begins, such as those
+/// of the previous picture. It is used only if it has one place for each robot.
 ///
 /// # Errors
-/// A frame without exactly one source, sources that cannot be drawn or read, and more robots than find room.
+/// If the frame does not have exactly one source, the source cannot be read or drawn, or not all robots find room.
 pub fn make_frame(
     before: &Frame,
     asset: Option<&[u8]>,
@@ -51,7 +54,7 @@ pub fn make_frame(
     make_frame_from(before, material, floor, robots, quality, start)
 }
 
-/// Makes a frame as [`make_frame`] does, from a source that has been drawn already.
+/// Like [`make_frame`], but takes the drawn source instead of the bytes of its file.
 ///
 /// # Errors
 /// As for [`make_frame`].
@@ -100,7 +103,7 @@ fn only_source(frame: &Frame) -> Result<&FrameSource, DrawError> {
     Ok(source)
 }
 
-/// Lights made from a source, with the names of its parts.
+/// Lights that were made from a source, and the names of the source's parts.
 struct Lights {
     lights: Vec<PlacedLight>,
     names: Vec<String>,
@@ -111,7 +114,7 @@ struct Lights {
 }
 
 impl Lights {
-    /// Replaces the nearest light of each kept light by the kept one. The kept ones come first.
+    /// For each of the `kept` lights, removes the nearest light that was made. Then puts the kept lights before the others.
     fn with(mut self, kept: Vec<PlacedLight>) -> Self {
         for light in &kept {
             let distance = |index: &usize| self.lights[*index].at.distance(light.at);
@@ -143,7 +146,7 @@ fn names(drawing: &Drawing) -> Vec<String> {
     drawing.parts.iter().map(|part| part.name.clone()).collect()
 }
 
-/// Places a list of lights. If its number of lights is not that of the robots, lights are added or removed.
+/// Places a list of lights on the floor. If it does not have `robots` lights, lights are added or removed.
 fn listed(
     list: &LightList,
     recipe: &Recipe,
@@ -162,8 +165,9 @@ fn listed(
     Ok(Lights { lights, closest_m, notes: vec![Note::new("list-fitted", what)], ..as_they_are })
 }
 
-/// Places an exact arrangement on the floor. If it is `in_metres`, it stays where it is, unless the settings change its
-/// size, place or turn, or it does not fit. Otherwise it is scaled to the size or the spacing of the settings.
+/// Places an exact arrangement of lights on the floor. With `in_metres`, its places are stage metres. They are kept if the
+/// settings state no size, place or turn, and all lights are on the floor and at least [`LEAST_M`] apart. Otherwise, the
+/// arrangement is scaled to the size or the spacing of the settings, turned and moved.
 fn arranged(
     list: &LightList,
     recipe: &Recipe,
@@ -216,8 +220,8 @@ fn arranged(
     })
 }
 
-/// Makes pixels for lights. The first lights are the moved pixels, which keep their ids. The others get free ids in
-/// order.
+/// Makes the pixels for `lights`. The first lights belong to the pixels `moved`, which are kept unchanged. The others get
+/// the smallest free ids in order. `names` are the names of the source's parts.
 fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[String]) -> Vec<Pixel> {
     let taken: Vec<u32> = moved.iter().map(|pixel| pixel.id).collect();
     let mut free = (0..).filter(|id| !taken.contains(id));
@@ -237,8 +241,8 @@ fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[Str
     pixels
 }
 
-/// Moves each pin to the nearest new pixel without a pin, of the same part if there is one. Pixels with ids in `kept`
-/// already have their pins.
+/// Pins each robot that is pinned in `before` to the nearest new pixel without a robot, of the same part if there is one.
+/// Pixels with ids in `kept` come first in `pixels` and keep their robots.
 fn pin(before: &Frame, kept: &[u32], pixels: &mut [Pixel]) {
     for old in before.pixels.iter().filter(|pixel| pixel.robot.is_some() && !kept.contains(&pixel.id)) {
         let same = |pixel: &Pixel| pixel.part == old.part;

@@ -7,19 +7,20 @@ use lightbots_draw::picture::Bitmap;
 use lightbots_light::Linear;
 use lightbots_show::LayerPicture;
 
-/// Longer side of a single picture, pixels. A floor of 10,000 robots needs 100 x 100. Chosen.
+/// Largest length of the longer side of a single picture, pixels, chosen by us. A floor of 10,000 robots needs 100 x 100.
 const SIDE_MAX: usize = 256;
-/// Longer side of the pictures of a film, pixels. Chosen: with [`FILM_PICTURES_MAX`] a film has at most 3 MB.
+/// Largest length of the longer side of a film's pictures, pixels, chosen by us: with [`FILM_PICTURES_MAX`] pictures, a
+/// film has at most 3 MB.
 const FILM_SIDE_MAX: usize = 128;
-/// Largest number of pictures of a film. From more pictures, these are sampled at equal times. Chosen: 15 a second for
-/// 4 s.
+/// Largest number of pictures of a film, chosen by us: 15 a second for 4 s. From a longer film, this number of pictures is
+/// taken at equal intervals.
 const FILM_PICTURES_MAX: usize = 60;
 
-/// Reads the picture or film in a PNG, JPEG, WebP or GIF file and reduces it. Transparent pixels become dark. All
-/// pictures of a film are shown for the same time: a picture that lasts longer is repeated.
+/// Reads the picture or film in a PNG, JPEG, WebP or GIF file and reduces its size. Transparent pixels become dark. In the
+/// result, all pictures of a film last equally long; a picture that lasts longer in the file is repeated.
 ///
 /// # Errors
-/// Files without pixels, damaged files, and pictures that are too large.
+/// If the file has no pixels or is damaged, or its pictures are too large.
 pub fn layer_picture(bytes: &[u8]) -> Result<LayerPicture, DrawError> {
     let stills = stills(bytes)?;
     let side_max = if stills.len() > 1 { FILM_SIDE_MAX } else { SIDE_MAX };
@@ -33,14 +34,15 @@ pub fn layer_picture(bytes: &[u8]) -> Result<LayerPicture, DrawError> {
     Ok(LayerPicture { width: width as u32, height: height as u32, codes })
 }
 
-/// Returns columns and rows of the reduced picture.
+/// Returns the numbers of columns and rows of a reduced picture, whose longer side has at most `side_max` pixels.
 fn size(bitmap: &Bitmap, side_max: usize) -> (usize, usize) {
     let longer = bitmap.columns.max(bitmap.rows).max(1);
     let scaled = |side: usize| if longer <= side_max { side } else { side * side_max / longer };
     (scaled(bitmap.columns).max(1), scaled(bitmap.rows).max(1))
 }
 
-/// Returns the indices of the pictures that a film shows, each for the same time.
+/// Returns the pictures of the reduced film as indices into `stills`. They all last equally long, so that an index may be
+/// repeated or left out.
 fn moments(stills: &[Still]) -> Vec<usize> {
     let lasts_s: f64 = stills.iter().map(|still| still.lasts_s).sum();
     let shortest_s = stills.iter().map(|still| still.lasts_s).fold(f64::INFINITY, f64::min);
@@ -59,8 +61,8 @@ fn moments(stills: &[Still]) -> Vec<usize> {
     (0..count).map(shown).collect()
 }
 
-/// Reduces a picture to `width` by `height` pixels. Each is the mean light of its share of the large picture, as sRGB
-/// codes.
+/// Reduces a picture to `width` by `height` pixels and returns their sRGB codes. Each pixel has the mean linear light of the
+/// part of the large picture that it covers.
 fn shrunk(bitmap: &Bitmap, width: usize, height: usize) -> Vec<u8> {
     let (columns, rows) = (shares(bitmap.columns, width), shares(bitmap.rows, height));
     let mut codes = Vec::with_capacity(3 * width * height);
@@ -81,8 +83,8 @@ fn shrunk(bitmap: &Bitmap, width: usize, height: usize) -> Vec<u8> {
     codes
 }
 
-/// Returns the pixels in each of `count` cells along a side of `length` pixels. Each pixel comes with its share of the
-/// cell.
+/// Divides a side of `length` pixels into `count` equal cells. Returns, for each cell, the indices of the pixels in it, each
+/// with the share of the cell that it covers.
 fn shares(length: usize, count: usize) -> Vec<Vec<(usize, f64)>> {
     // In units of a `count`-th of a pixel, both pixels and cells begin at whole numbers.
     let cell = |nth: usize| {

@@ -10,7 +10,7 @@ use lightbots_show::{Assets, FrameSource};
 
 use crate::recipe::{Content, Recipe, Scroll, TextRecipe};
 
-/// Colour of words if none is chosen: that of a warm lamp.
+/// Colour of words if the settings have no colour: the orange of a warm lamp.
 const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
 
 /// A drawn source, independent of the number of robots.
@@ -18,20 +18,21 @@ const USUAL_COLOR: Rgb = Rgb::new(255, 165, 0);
 pub enum Material {
     /// A drawing, on which any number of robots is placed.
     Drawing {
-        /// The drawing, and what is missing from it.
+        /// The drawing, and notes about what is missing from it.
         made: Made,
-        /// The box that is the whole picture, corners in the drawing's units. `None`: the box around the drawing.
+        /// The rectangle that counts as the whole picture: its lower and its upper corner, in the drawing's units. `None`:
+        /// the smallest rectangle around the drawing.
         view: Option<(Vec2, Vec2)>,
     },
-    /// Lights at exact places, metres.
+    /// Lights at exact places, in metres.
     Lights(LightList),
 }
 
-/// Draws a source. `asset` has the bytes of its file. Grids and random shapes give an empty drawing, because their
-/// places depend on the number of robots.
+/// Draws a source. `asset` has the bytes of the source's file. Grids, hexagonal grids and random shapes give an empty
+/// drawing, because the places of their lights depend on the number of robots.
 ///
 /// # Errors
-/// Sources that cannot be drawn, and sources whose file is missing.
+/// If the source cannot be drawn, or needs a file and `asset` is `None`.
 pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawError> {
     let file = || asset.ok_or_else(missing);
     let made = match &recipe.content {
@@ -54,15 +55,15 @@ pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawE
     Ok(Material::Drawing { made, view })
 }
 
-/// Returns the box of the points of a line that was drawn by hand. A curve swings beyond the points that people drag on
-/// the floor. With the points' own box, the points stay where they are. `None` for other shapes.
+/// Returns the smallest rectangle around the points of a line that was drawn by hand; `None` for other shapes. It serves as
+/// the whole picture, so that the points stay where people dragged them, although a curve swings beyond its points.
 fn box_of_points(shape: &ShapeSettings) -> Option<(Vec2, Vec2)> {
     let drawn = [ShapeKind::Line, ShapeKind::Polyline, ShapeKind::Curve, ShapeKind::Freehand];
     let is_drawn = drawn.contains(&shape.kind) && shape.points.len() > 1;
     is_drawn.then(|| bounds(&shape.points)).flatten()
 }
 
-/// Returns the picture that an animation shows at a moment, seconds.
+/// Returns the picture that an animation shows at `moment_s`, seconds from the start of the animation.
 pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
     let after = animation.frames.partition_point(|frame| frame.at_s <= moment_s + 1e-6);
     let frame = animation.frames.get(after.saturating_sub(1));
@@ -71,7 +72,8 @@ pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, D
     Ok(Material::Drawing { made, view: view_of(animation) })
 }
 
-/// Returns the box around all pictures of an animation. `None` if there is nothing in them.
+/// Returns the lower and the upper corner of the smallest rectangle around all pictures of an animation, in the drawings'
+/// units. `None` if all pictures are empty.
 pub(crate) fn view_of(animation: &Animation) -> Option<(Vec2, Vec2)> {
     let corners: Vec<Vec2> = animation
         .frames
@@ -103,19 +105,20 @@ pub enum TextPages {
     Whole,
     /// A frame for each word.
     Words,
-    /// A frame for each step of the text as it scrolls past.
+    /// A frame for each step of the text as it scrolls past behind a window.
     Scroll {
-        /// Width of the window, cap heights.
+        /// Width of the window, in heights of a capital letter.
         window: f64,
-        /// Number of steps from start to end. Steps in which the window is empty are left out.
+        /// Number of steps in which the text scrolls past. Steps in which the window is empty get no frame.
         steps: usize,
     },
 }
 
-/// Returns the recipe and the material of each frame of a text.
+/// Returns the recipe and the material of each frame that a text becomes. `asset` has the bytes of the font; `None`: the
+/// font is built in.
 ///
 /// # Errors
-/// As for [`material`].
+/// If the font cannot be read or is unknown, or the text cannot be drawn.
 pub fn text_pages(
     words: &TextRecipe,
     asset: Option<&[u8]>,
@@ -155,7 +158,8 @@ fn font(words: &TextRecipe, asset: Option<&[u8]>) -> Result<Font, DrawError> {
 }
 
 impl TextRecipe {
-    /// The window behind which the text scrolls. `None` if it does not scroll.
+    /// The lower and the upper corner of the window behind which the text scrolls, in heights of a capital letter. `None` if
+    /// the text does not scroll.
     fn view(&self) -> Option<(Vec2, Vec2)> {
         self.scroll.map(|scroll| (Vec2::ZERO, Vec2::new(scroll.window, 1.0)))
     }
@@ -176,12 +180,12 @@ impl TextRecipe {
     }
 }
 
-/// Returns the bytes of a source's file. `None` if the show does not have them.
+/// Returns the bytes of a source's file. `None` if the source has no file, or `assets` lack its bytes.
 pub(crate) fn asset_of<'a>(source: &FrameSource, assets: &'a Assets) -> Option<&'a [u8]> {
     assets.get(source.asset.as_ref()?)?.content.as_deref()
 }
 
-/// Returns the lights of a grid or a random shape, about one unit apart. `None` for other sources.
+/// Returns `robots` lights of a grid, a hexagonal grid or a random shape, about one unit apart. `None` for other sources.
 pub(crate) fn exact(recipe: &Recipe, robots: usize) -> Option<LightList> {
     let Content::Shape(shape) = &recipe.content else { return None };
     let places = lightbots_draw::exact_places(shape, robots, u64::from(recipe.seed))?;

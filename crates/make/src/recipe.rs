@@ -30,14 +30,14 @@ const WAYS: [(&str, PictureWay); 4] = [
 const ALIGNS: [(&str, Align); 3] =
     [("center", Align::Centre), ("left", Align::Left), ("right", Align::Right)];
 
-/// The source of a frame, with typed settings.
+/// The source of a frame with typed settings. A show has them as named values of any type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recipe {
     /// The kind of source and the settings of that kind.
     pub content: Content,
-    /// How and where its lights are placed.
+    /// How and where the lights of the source are placed.
     pub placing: Placing,
-    /// Seed of all random choices.
+    /// Seed of all random choices in placing the lights.
     pub seed: u32,
 }
 
@@ -56,7 +56,7 @@ pub enum Content {
     List,
     /// A moment of the animation that is the source's asset.
     Animation {
-        /// How its pictures are shown.
+        /// How the pictures of the animation are drawn.
         picture: PictureSettings,
         /// The moment, seconds from the start of the animation.
         moment_s: f64,
@@ -68,45 +68,45 @@ pub enum Content {
 pub struct TextRecipe {
     /// The words; lines are separated by `\n`.
     pub text: String,
-    /// Name of a built-in font. If the source has an asset, that is the font instead.
+    /// Name of a built-in font. If the source has an asset, the asset is the font, and this name is ignored.
     pub font: String,
-    /// Where lines stand that are shorter than the longest one.
+    /// Where lines that are shorter than the longest line stand.
     pub align: Align,
-    /// Ratio of width to height that the text should fill, with line breaks between words. If `None`, only the line
-    /// breaks of `text` count.
+    /// Ratio of width to height that the whole text should have. The text is broken into lines between words to come near
+    /// it. `None`: only the line breaks in `text` count.
     pub wrap: Option<f64>,
-    /// Additional gap between letters, cap heights.
+    /// Additional gap between letters, in heights of a capital letter.
     pub letter_gap: f64,
-    /// Colours of the letters in turn. If empty, the usual colour.
+    /// Colours of the letters, used in turn. Empty: all letters have the usual colour.
     pub colors: Vec<Rgb>,
-    /// The step, if the text scrolls. `None` if it stands still.
+    /// The step of the scrolling that the frame shows; `None`: the text does not scroll.
     pub scroll: Option<Scroll>,
 }
 
-/// A step of a text that scrolls behind a window.
+/// A step of a text that scrolls past behind a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scroll {
-    /// Width of the window, cap heights.
+    /// Width of the window, in heights of a capital letter.
     pub window: f64,
-    /// Number of steps from start to end.
+    /// Number of steps in which the text scrolls past, including steps with an empty window.
     pub steps: usize,
-    /// Index of this step among those in which the window is not empty.
+    /// Index of this step, counted from 0, among the steps in which the window is not empty.
     pub step: usize,
 }
 
 /// How and where lights are placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placing {
-    /// How areas are shown.
+    /// Whether lights fill areas, or stand along edges or spines.
     pub style: Style,
-    /// Longer side of the picture, metres. If `None`, it depends on floor and fleet.
+    /// Longer side of the picture, metres; `None`: it depends on the floor and the number of robots.
     pub size_m: Option<f64>,
-    /// Middle of the picture, stage metres.
+    /// Centre of the picture, stage metres.
     pub center: Vec2,
-    /// Turn of the picture, radians counter-clockwise.
+    /// Angle by which the picture is turned, radians counter-clockwise.
     pub turn: f64,
-    /// Least distance of two lights, metres. If `None`, a distance at which drives are easy, or less if there is no
-    /// room.
+    /// Smallest distance between two lights, metres; `None`: a distance with which drives are easy, or a smaller one if
+    /// there is not enough room.
     pub spacing_m: Option<f64>,
 }
 
@@ -117,7 +117,7 @@ impl Default for Placing {
 }
 
 impl Placing {
-    /// Wanted and least distance of two lights, metres. They are equal if a spacing is set.
+    /// Wanted and smallest allowed distance between two lights, metres. Both are `spacing_m` if it is set.
     pub(crate) fn spacing(&self) -> (f64, f64) {
         let usual = PlaceSettings::default();
         self.spacing_m.map_or((usual.spacing_m, usual.least_m), |wanted| (wanted, wanted))
@@ -125,7 +125,7 @@ impl Placing {
 }
 
 impl TextRecipe {
-    /// Returns words with default settings.
+    /// Returns a recipe for the words `text` with default settings.
     pub fn new(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -140,7 +140,7 @@ impl TextRecipe {
 }
 
 impl Recipe {
-    /// Returns the settings for placing `robots` lights, with no kept lights and in full quality.
+    /// Returns the settings for placing `robots` lights in full quality. None of the lights is kept from an earlier picture.
     pub fn place_settings(&self, robots: usize) -> PlaceSettings {
         let (spacing_m, least_m) = self.placing.spacing();
         let Placing { style, size_m, center, turn, .. } = self.placing;
@@ -166,7 +166,7 @@ impl Recipe {
     /// Reads the recipe of a frame's source.
     ///
     /// # Errors
-    /// A setting of a wrong type or with an unknown name as its value.
+    /// If a setting has a value of a wrong type, or a word that is not known.
     pub fn read(source: &FrameSource) -> Result<Self, DrawError> {
         let reader = Reader(&source.settings);
         let content = match source.kind {
@@ -274,14 +274,14 @@ fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
     })
 }
 
-/// Returns the style for a content. Areas of animations are filled if no style is chosen. Robots of a film keep their
-/// indices from picture to picture, which is not possible with an edge of changing length.
+/// Returns the style of a content. `chosen` is returned, except that animations get `Filled` for `Auto`: robots keep their
+/// indices from picture to picture, which is not possible along edges whose length changes.
 pub(crate) fn style_of(chosen: Style, content: &Content) -> Style {
     let is_animation = matches!(content, Content::Animation { .. });
     if is_animation && chosen == Style::Auto { Style::Filled } else { chosen }
 }
 
-/// The error for an unknown name of a shape.
+/// Returns the error for a source with an unknown name of a shape.
 pub fn unknown_shape(name: &str) -> DrawError {
     let known: Vec<&str> = SHAPES.iter().map(|(_, name)| *name).collect();
     let name: String = name.chars().take(40).collect();

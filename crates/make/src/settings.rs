@@ -4,7 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::DrawError;
 use lightbots_show::{NamedSettings, Setting, setting};
 
-/// Settings that are read by their names.
+/// Reads settings by their names.
 pub(crate) struct Reader<'a>(pub &'a NamedSettings);
 
 impl Reader<'_> {
@@ -73,7 +73,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads one of several words and returns its value; that of the first word if it is not set.
+    /// Reads a text that must be one of `words`, and returns the value beside the word. If the setting is missing, returns
+    /// the value of the first word.
     pub fn word<T: Copy>(&self, name: &str, words: &[(&str, T)]) -> Result<T, DrawError> {
         let usual = words.first().map_or("", |(word, _)| word);
         let text = self.text(name, usual)?;
@@ -83,12 +84,12 @@ impl Reader<'_> {
     }
 }
 
-/// Collects settings. Those with their usual value are left out.
+/// Collects named settings. Settings that have their usual value are left out.
 #[derive(Default)]
 pub(crate) struct Writer(pub NamedSettings);
 
 impl Writer {
-    /// Adds a value in any case.
+    /// Adds a value, even if it is the usual one.
     pub fn put(&mut self, name: &str, value: Setting) {
         self.0.push((name.to_owned(), value));
     }
@@ -130,7 +131,7 @@ impl Writer {
         }
     }
 
-    /// Adds the word for a value. The first word is the usual one and is left out.
+    /// Adds the word that stands beside `value` in `words`. Adds nothing for the first word, which is the usual one.
     pub fn word<T: PartialEq>(&mut self, name: &str, value: &T, words: &[(&str, T)]) {
         let found = words.iter().skip(1).find(|(_, known)| known == value);
         if let Some((word, _)) = found {

@@ -5,25 +5,28 @@ use crate::onsets::{FRAMES_PER_S, Onsets, onsets};
 use crate::sound::{NoBeats, Sound};
 use crate::tempo::{largest, periods};
 
-/// How strictly beats keep the period: weight of ln(distance / period)², in standard deviations of the onsets.
+/// How strictly the distances between beats keep to the period: factor of the cost ln(distance / period)². The unit is the
+/// standard deviation of the onsets.
 const TIGHTNESS: f64 = 100.0;
 
-/// The beat before is searched between these multiples of the period back.
+/// The previous beat of a beat is searched between these multiples of the period before the beat.
 const BACK: [f64; 2] = [0.5, 2.0];
 
-/// Beats at both ends that are weaker than this share of the mean beat are left out, because no music plays there.
+/// The first and the last beats are left out while they are weaker than this share of the mean beat, because nothing is
+/// played there.
 const END_SHARE: f64 = 0.5;
 
-/// Beats move by half a beat if the bass between them is this much stronger.
+/// All beats move by half a beat if the bass half-way between them is more than this factor stronger than on them.
 const BASS_RATIO: f64 = 1.5;
 
-/// Correction added to beats, seconds (measured). Onsets rise before the middle of a window reaches the note.
+/// Correction that is added to times of beats, seconds (measured). Onsets rise before the middle of a window of sound
+/// reaches the note, so that beats are found too early.
 const EARLY_S: f64 = 0.006;
 
 /// The beats of a piece of music.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundBeats {
-    /// Times of the beats, seconds of the music, increasing.
+    /// Times of the beats, seconds from the start of the music, increasing.
     pub times_s: Vec<f64>,
     /// Median tempo, beats per minute.
     pub bpm: f64,
@@ -32,7 +35,7 @@ pub struct FoundBeats {
 /// Finds the beats of music.
 ///
 /// # Errors
-/// [`NoBeats::Silent`] if no notes begin, or fewer than two beats are found.
+/// [`NoBeats::Silent`] if no onsets of notes or fewer than two beats are found.
 pub fn find_beats(sound: &Sound<'_>) -> Result<FoundBeats, NoBeats> {
     let onsets = onsets(sound);
     let periods = periods(&onsets);
@@ -67,7 +70,8 @@ fn deviation(onsets: &[f32]) -> f64 {
     (onsets.iter().map(|v| (f64::from(*v) - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-/// Returns the sum of onsets around a frame, weighted by a Gaussian with a sigma of 1/32 beat.
+/// Returns the sum of the onsets around a frame, weighted by a Gaussian. Its standard deviation is 1/32 of `period`, the
+/// length of a beat in frames.
 fn blurred(onsets: &[f32], frame: usize, period: f64) -> f64 {
     let width = period / 32.0;
     let reach = (3.0 * width).ceil() as usize;
@@ -76,7 +80,8 @@ fn blurred(onsets: &[f32], frame: usize, period: f64) -> f64 {
         .sum()
 }
 
-/// Returns the chain of frames with the largest sum of strength minus the cost of uneven distances.
+/// Returns the increasing sequence of frames with the largest sum of onset strengths minus costs. Distances that differ from
+/// the period have a cost. `period_at` gives the length of a beat at a frame, in frames.
 fn best_chain(strength: &[f64], period_at: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut sums = strength.to_vec();
     let mut before: Vec<Option<usize>> = vec![None; strength.len()];
@@ -105,19 +110,20 @@ fn best_chain(strength: &[f64], period_at: impl Fn(usize) -> f64) -> Vec<usize> 
     chain
 }
 
-/// Whether the bass is stronger between the beats than on them. Loud notes off the beat were then taken for beats.
+/// Whether the bass half-way between the found beats is stronger than on them by [`BASS_RATIO`]. Loud notes off the beat
+/// were then taken for beats.
 fn bass_is_between(beats: &[usize], bass: &[f32]) -> bool {
     let sum = |frames: &[usize]| -> f64 { frames.iter().map(|&frame| near(bass, frame)).sum() };
     sum(&between(beats)) > BASS_RATIO * sum(beats)
 }
 
-/// Returns the largest value within two frames, because musicians do not play exactly.
+/// Returns the largest value at most two frames away from `frame`, because musicians do not play exactly.
 fn near(values: &[f32], frame: usize) -> f64 {
     let around = &values[frame.saturating_sub(2)..(frame + 3).min(values.len())];
     around.iter().fold(0.0, |a, b| f64::from(*b).max(a))
 }
 
-/// Frames halfway between neighbouring beats.
+/// The frames half-way between neighbouring beats. Beats are given as frames.
 fn between(beats: &[usize]) -> Vec<usize> {
     beats.windows(2).map(|pair| pair[0].midpoint(pair[1])).collect()
 }
@@ -132,7 +138,8 @@ fn without_weak_ends(mut beats: Vec<usize>, strength: &[f64]) -> Vec<usize> {
     beats
 }
 
-/// Returns the maximum of the parabola through a frame and its neighbours, as a fractional frame.
+/// Refines the position of a beat that was found at `frame`. Returns the position, in frames, of the maximum of the parabola
+/// through the strengths at `frame` and its two neighbours.
 fn peak(strength: &[f64], frame: usize) -> f64 {
     if frame == 0 || frame + 1 >= strength.len() {
         return frame as f64;

@@ -5,49 +5,51 @@ use realfft::RealFftPlanner;
 
 use crate::sound::Sound;
 
-/// Frames per second: 256 samples at 22,050 per second, a usual hop of beat trackers.
+/// Number of frames, at which onsets are measured, per second: one every 256 samples at 22,050 samples per second, which is
+/// usual for beat trackers.
 pub(crate) const FRAMES_PER_S: f64 = 22_050.0 / 256.0;
 
-/// Length of a window of sound, seconds: 1,024 samples at 22,050 per second. At other rates, the nearest power of two
-/// samples is used.
+/// Length of the window of sound around a frame, seconds: 1,024 samples at 22,050 samples per second. At other rates, the
+/// number of samples is the nearest power of two.
 const WINDOW_S: f64 = 1_024.0 / 22_050.0;
 
-/// Magnitudes m are compressed as ln(1 + `LOUD` × m), where 1 is a sine of full scale. At -60 dB a sine still counts.
+/// A magnitude m of the spectrum is compressed as ln(1 + `LOUD` × m). A sine of full scale has m = 1; with this factor, a
+/// sine of -60 dB still counts.
 const LOUD: f32 = 1_000.0;
 
 /// A band of the spectrum that is measured separately, so that a bass drum counts beside cymbals.
 struct Band {
-    /// Upper end of the band, Hz.
+    /// Upper end of the band, Hz. The band begins at the end of the previous band.
     to_hz: f64,
-    /// Weight of the band in the sum of all bands.
+    /// Weight of the band's onsets in the sum over all bands.
     weight: f32,
 }
 
-/// Bass; voices and instruments; cymbals, which often play between beats.
+/// The bands: bass; voices and instruments; cymbals, which have a small weight because they often play between beats.
 const BANDS: [Band; 3] = [
     Band { to_hz: 150.0, weight: 1.0 },
     Band { to_hz: 4_000.0, weight: 0.9 },
     Band { to_hz: f64::INFINITY, weight: 0.25 },
 ];
 
-/// Time over which the mean of rises is taken, seconds.
+/// Length of the time around a rise over which the mean that is subtracted from it is taken, seconds.
 const MEAN_S: f64 = 1.0;
 
-/// Share of the largest rise within [`PEAK_S`] above which rises count equally. One crash then does not hide the beats
-/// around it.
+/// Rises above this share of the largest rise nearby all count as 1. A single crash then does not hide the beats around it.
 const PEAK_SHARE: f32 = 0.6;
 
-/// Length of the time around a rise in which the largest rise is searched, seconds.
+/// Length of the time around a rise in which the largest rise nearby is searched, seconds.
 const PEAK_S: f64 = 4.0;
 
-/// The largest rise nearby counts as at least this share of the largest in the music, which keeps noise small.
+/// The largest rise nearby counts as at least this share of the largest rise in the whole music. Noise in quiet passages
+/// thus stays small.
 const PEAK_LEAST: f32 = 0.05;
 
-/// Strength of note onsets at each frame. Frame `i` is centred at `i / FRAMES_PER_S` seconds.
+/// How strongly notes begin at each frame. Frame `i` is at `i / FRAMES_PER_S` seconds from the start of the music.
 pub(crate) struct Onsets {
-    /// Weighted sum of all bands.
+    /// Weighted sum of the onsets in all bands.
     pub all: Vec<f32>,
-    /// The bass alone, 0 to 1.
+    /// Onsets in the bass band alone, 0 to 1.
     pub bass: Vec<f32>,
 }
 
@@ -60,7 +62,8 @@ pub(crate) fn onsets(sound: &Sound<'_>) -> Onsets {
     Onsets { all, bass }
 }
 
-/// Returns the rises of each band: for each frame, the mean rise of its bins since the frame before.
+/// Returns the rises of each band: for each frame, the mean increase of the compressed magnitudes in the band since the
+/// previous frame. Decreases count as 0.
 fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
     let rate_hz = sound.rate_hz();
     let size = 1_usize << (WINDOW_S * rate_hz).log2().round() as u32;
@@ -105,7 +108,8 @@ fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
     rises
 }
 
-/// Returns rises above their local mean, as a share of the largest nearby, at most 1.
+/// Converts the rises of a band to onsets, 0 to 1. The mean around each rise is subtracted, and negative results become 0.
+/// Each result is divided by [`PEAK_SHARE`] times the largest result nearby.
 fn level(rises: &[f32]) -> Vec<f32> {
     let above: Vec<f32> = rises.iter().zip(mean(rises)).map(|(rise, mean)| (rise - mean).max(0.0)).collect();
     let largest = above.iter().copied().fold(0.0, f32::max);
@@ -122,7 +126,7 @@ fn level(rises: &[f32]) -> Vec<f32> {
         .collect()
 }
 
-/// Returns the mean around each value, over [`MEAN_S`].
+/// Returns, for each value, the mean of the values around it, over [`MEAN_S`].
 fn mean(values: &[f32]) -> Vec<f32> {
     let reach = (MEAN_S * FRAMES_PER_S / 2.0) as usize;
     let mut sums = vec![0.0_f64];

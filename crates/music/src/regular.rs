@@ -3,25 +3,25 @@
 /// Beats at a steady tempo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteadyBeats {
-    /// Beats a minute.
+    /// Beats per minute.
     pub bpm: f64,
-    /// Time of a beat, seconds. It is a whole number of bars before the first beat that was found, as early as the
-    /// music allows.
+    /// Time of the first beat, seconds from the start of the music. It is a whole number of bars of four beats before the
+    /// first beat that was found, and as early as possible.
     pub offset_s: f64,
 }
 
-/// Least share of beats that are near a steady tempo, for beats to be steady. A few found beats are not true ones.
+/// Share of the found beats that must be near those of a steady tempo. Less than 1, because a few found beats are wrong.
 const STEADY_SHARE: f64 = 0.95;
 
-/// Largest distance from the steady tempo, seconds. It is half of what counts as the same beat, and more than the
-/// errors in steady music.
+/// Largest distance of a found beat from the nearest beat of the steady tempo at which it is near, seconds. It is half of
+/// what counts as the same beat, and more than the errors in steady music.
 const STEADY_S: f64 = 0.025;
 
 /// Number of beats in a bar of most music. The first beat that was found is taken as the first of a bar.
 const BAR: f64 = 4.0;
 
-/// Fits a steady tempo to beats by least squares. `times_s` are their times, seconds. `None` if they keep no steady
-/// tempo or are fewer than eight.
+/// Fits a steady tempo to beats by least squares. `times_s` are their times, seconds from the start of the music. `None` if
+/// there are fewer than eight beats, or they keep no steady tempo.
 #[must_use]
 pub fn steady(times_s: &[f64]) -> Option<SteadyBeats> {
     if times_s.len() < 8 {

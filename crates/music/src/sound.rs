@@ -5,7 +5,7 @@ use core::fmt;
 /// The shortest sound in which a tempo can be found, seconds.
 const SHORTEST_S: f64 = 4.0;
 
-/// The longest sound in which beats are searched, seconds. Shows are shorter, and an hour of samples takes 635 MB in a
+/// The longest sound in which beats are searched, seconds. Shows are shorter, and the samples of an hour take 635 MB in a
 /// browser.
 const LONGEST_S: f64 = 3600.0;
 
@@ -20,11 +20,11 @@ pub struct Sound<'a> {
 }
 
 impl<'a> Sound<'a> {
-    /// Takes `samples` at `rate_hz` samples per second. A sample of 1 is full scale; one that is not finite counts as
-    /// 0.
+    /// Makes a sound of `samples`, `rate_hz` of them per second. A sample of 1 is full scale. NaN and infinite samples count
+    /// as 0.
     ///
     /// # Errors
-    /// The sound is shorter than 4 s or longer than an hour, or its rate is not between 8 and 192 kHz.
+    /// If the sound is shorter than 4 s or longer than an hour, or its rate is not between 8 and 192 kHz.
     pub fn new(samples: &'a [f32], rate_hz: f64) -> Result<Self, NoBeats> {
         if !RATES_HZ.contains(&rate_hz) {
             return Err(NoBeats::Rate(rate_hz));
@@ -45,7 +45,7 @@ impl<'a> Sound<'a> {
         self.samples.len() as f64 / self.rate_hz
     }
 
-    /// Samples per second.
+    /// Number of samples per second.
     pub(crate) fn rate_hz(&self) -> f64 {
         self.rate_hz
     }
@@ -66,7 +66,7 @@ pub enum NoBeats {
     Long(f64),
     /// The sample rate is out of range. The value is the rate, samples per second.
     Rate(f64),
-    /// No notes begin, or fewer than two beats were found.
+    /// No onsets of notes, or fewer than two beats were found.
     Silent,
 }
 

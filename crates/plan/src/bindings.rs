@@ -1,5 +1,5 @@
-//! Bindings of pixels to robots by pins, names and identity. [`crate::transition()`] assigns unbound pixels by
-//! distance. Planning of a show and of a run use the same bindings.
+//! Bindings of pixels to robots by pins, names and fixed identity. [`crate::transition()`] later assigns the pixels
+//! that these bindings leave open, by distance. Planning of a show and of a run use the same bindings.
 
 use crate::assignment::Choice;
 use lightbots_base::Vec2;
@@ -7,23 +7,25 @@ use lightbots_show::{Identity, Pixel};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// For each pixel id, the robot that showed it last. `R` identifies a robot.
+/// For each pixel id, the robot that showed this pixel last. `R` is the type that identifies a robot.
 #[derive(Clone, Debug)]
 pub struct Claims<R> {
-    /// By pixel id: the robot, and the number of claims made before this one.
+    /// By pixel id: the robot, and a serial number. The greater this number, the later the robot showed the pixel.
     of: BTreeMap<u32, (R, u64)>,
+    /// Number of calls of [`Claims::show`]; the serial number of the next claim.
     told: u64,
 }
 
-/// Bindings of pixels to robots, carried from frame to frame. A robot is given by its index in a list.
+/// What is known about which robot must show which pixel, carried from frame to frame. A robot is given by its index in
+/// a list.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings {
-    /// Robots by name.
+    /// Names of robots; each value is the index of the robot.
     pub by_name: BTreeMap<String, usize>,
-    /// Whether `by_name` is complete. If it is not, a name missing from it may be given to any robot that has no name
-    /// yet.
+    /// Whether `by_name` is complete. If it is not, a pixel may ask for a name that it lacks. Any robot without a name
+    /// may then get that pixel.
     pub names_known: bool,
-    /// Pixel ids pinned to robots for all frames; `None` if the robot is not here.
+    /// By pixel id: the robot that shows this pixel in all frames; `None` if that robot is not in the list.
     pub pins: BTreeMap<u32, Option<usize>>,
     /// For each pixel id, the robot that showed it last, if that robot is here.
     pub claims: Claims<usize>,
@@ -32,25 +34,25 @@ pub struct Bindings {
 /// The pixels of a frame that are shown, and their bindings.
 #[derive(Clone, Debug, Default)]
 pub struct BoundFrame<'a> {
-    /// Pixels that are shown.
+    /// Pixels that are shown, in the order of the frame.
     pub pixels: Vec<&'a Pixel>,
     /// `[pixel]`: the robot bound to it; `None` if any robot may show it.
     pub pinned: Vec<Option<usize>>,
     /// Ids of the pixels that stay dark.
     pub dark: Vec<u32>,
-    /// Unexpected results, each with the id of its pixel.
+    /// Problems of the binding, each with the id of its pixel.
     pub issues: Vec<(u32, BindingIssue)>,
 }
 
-/// An unexpected result of a binding.
+/// Why a pixel stays dark or changes its robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BindingIssue {
-    /// Two pixels ask for the same robot. The pixel of this issue stays dark.
+    /// The pixel asks for a robot that already has another pixel of this frame, and stays dark.
     BoundTwice,
-    /// The pixel asks for a robot that is not here, and stays dark.
+    /// The pixel asks for a robot that is not in the list, and stays dark.
     Unknown,
-    /// Identity is fixed, but the robot that showed this pixel last must show another pixel. The pixel gets another
-    /// robot.
+    /// Identity is fixed, but the robot that showed this pixel last has another pixel in this frame. The pixel gets
+    /// another robot if enough are left.
     Lost,
 }
 
@@ -61,34 +63,34 @@ impl<R> Default for Claims<R> {
 }
 
 impl<R: Copy + PartialEq> Claims<R> {
-    /// Records that a robot shows a pixel.
+    /// Records that a robot shows the pixel with this id.
     pub fn show(&mut self, id: u32, robot: R) {
         self.of.insert(id, (robot, self.told));
         self.told += 1;
     }
 
-    /// Pixel ids with their robots, the oldest claim first.
+    /// Pixel ids, each with the robot that showed it last. The pixel that was shown longest ago comes first.
     pub fn oldest_first(&self) -> Vec<(u32, R)> {
         let mut all: Vec<_> = self.of.iter().map(|(&id, &(robot, told))| (told, id, robot)).collect();
         all.sort_unstable_by_key(|&(told, ..)| told);
         all.into_iter().map(|(_, id, robot)| (id, robot)).collect()
     }
 
-    /// Forgets all claims.
+    /// Forgets which robots showed which pixels.
     pub fn clear(&mut self) {
         self.of.clear();
     }
 
-    /// Forgets a robot.
+    /// Forgets all pixels of a robot.
     pub fn forget(&mut self, robot: R) {
         self.of.retain(|_, (of, _)| *of != robot);
     }
 }
 
 impl Bindings {
-    /// Binds a frame's pixels for robots at `places`, stage metres. A pixel gets the robot that it names or is pinned
-    /// to; with fixed identity, also the robot that showed it last. Pixels for which `stays_dark` holds, and those for
-    /// which no robot is left, are not shown.
+    /// Binds a frame's pixels to robots, which stand at `places[robot]`, stage metres. A pixel is bound to the robot
+    /// that it names or is pinned to. With fixed identity, other pixels are bound to the robots that showed them last.
+    /// A pixel stays dark if `stays_dark` returns `true`, if its robot is missing or taken, or if no robot is left.
     pub fn bind<'a>(
         &self,
         frame: &'a [Pixel],
@@ -121,7 +123,8 @@ impl Bindings {
         binder.done()
     }
 
-    /// Records which robot shows each pixel of `bound`; `goal_of[robot]` is an index into its pixels.
+    /// Records which robot shows each pixel of `bound`: `goal_of[robot]` is an index into `bound.pixels`, `None` if the
+    /// robot shows none.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
             let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
@@ -133,7 +136,7 @@ impl Bindings {
     }
 }
 
-/// A pixel of a frame while it is bound.
+/// A pixel of a frame while [`Binder`] looks for its robot.
 struct Role<'a> {
     pixel: &'a Pixel,
     is_dark: bool,
@@ -146,7 +149,7 @@ impl Role<'_> {
     }
 }
 
-/// A frame while it is bound.
+/// The state of [`Bindings::bind`]: all pixels of a frame, and the robots that they have got.
 struct Binder<'a, 'b> {
     bindings: &'b Bindings,
     places: &'b [Vec2],
@@ -157,8 +160,8 @@ struct Binder<'a, 'b> {
 }
 
 impl<'a> Binder<'a, '_> {
-    /// Binds a pixel to a robot. Returns `false`, and changes nothing, if the robot has a pixel already or does not
-    /// exist.
+    /// Binds the pixel with index `role` to a robot. Returns `false`, and changes nothing, if the robot has a pixel
+    /// already or does not exist.
     fn give(&mut self, role: usize, robot: usize) -> bool {
         let free = self.taken.get(robot) == Some(&false);
         if free {
@@ -173,7 +176,8 @@ impl<'a> Binder<'a, '_> {
         self.issues.push((self.roles[role].pixel.id, why));
     }
 
-    /// Binds pixels that ask for robots by name, then pinned pixels.
+    /// Binds pixels that ask for robots by name, then pinned pixels. A pixel whose robot is missing or taken stays
+    /// dark. A pixel with an unknown name stays open if names are not completely known.
     fn bind(&mut self) {
         for is_name in [true, false] {
             for role in 0..self.roles.len() {
@@ -201,12 +205,12 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Returns the robot that showed a pixel last, if that robot is here.
+    /// Returns the robot that showed the pixel with index `role` last; `None` if that robot is not here.
     fn owner(&self, role: usize) -> Option<usize> {
         self.bindings.claims.of.get(&self.roles[role].pixel.id).map(|&(robot, _)| robot)
     }
 
-    /// Indices of the open pixels that ask for a name to which no robot belongs yet.
+    /// Indices of the open pixels that ask for a name that no robot has yet.
     fn nameless(&self) -> Vec<usize> {
         let asks = |&role: &usize| self.roles[role].is_open() && self.roles[role].pixel.robot.is_some();
         (0..self.roles.len()).filter(asks).collect()
@@ -219,7 +223,8 @@ impl<'a> Binder<'a, '_> {
         named
     }
 
-    /// Binds pixels that ask for an unknown name to the robots that showed them last, if those robots have no name.
+    /// Binds pixels that ask for a name that no robot has yet to the robots that showed them last, if those robots have
+    /// no name.
     fn name_owners(&mut self) {
         let named = self.named();
         for role in self.nameless() {
@@ -229,9 +234,10 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Binds pixels with unknown names to robots without a name, so that two names are always two robots. Robots that
-    /// keep a pixel by fixed identity are used only if the others do not suffice. Pixels for which no robot is left
-    /// stay dark. If no free robot has a name, nothing is bound: the assignment may choose any.
+    /// Binds pixels that ask for names that no robot has yet to robots without a name, so that no robot gets two names.
+    /// With fixed identity, robots that showed another open pixel last are taken only if the remaining robots do not
+    /// suffice. Pixels for which no robot is left stay dark. Nothing is bound if the remaining robots suffice and have
+    /// no names: the assignment may then choose among them.
     fn name_others(&mut self, identity: Identity) {
         let nameless = self.nameless();
         if nameless.is_empty() {
@@ -261,7 +267,8 @@ impl<'a> Binder<'a, '_> {
         self.place(fit, self.nameless());
     }
 
-    /// Binds pixels to the robots that showed them last. A robot that has shown several of them keeps the latest.
+    /// Binds open pixels to the robots that showed them last. A robot that has shown several of these pixels keeps the
+    /// one that it showed last.
     fn keep_owners(&mut self) {
         let told = |role: usize| {
             let pixel = self.roles[role].pixel;
@@ -281,7 +288,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// With fewer robots than pixels, leaves unbound pixels dark: those at the end of the frame first.
+    /// If there are more open pixels than free robots, leaves the surplus pixels dark: those at the end of the frame
+    /// first.
     fn drop_surplus(&mut self) {
         let open = self.roles.iter().filter(|role| role.is_open()).count();
         let free = self.taken.iter().filter(|&&taken| !taken).count();
@@ -297,7 +305,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Binds pixels with new ids to robots that have shown no pixel yet, if there are enough of these.
+    /// Binds all open pixels to robots that have shown no pixel yet, if these robots suffice. Nothing is bound if no
+    /// free robot has shown a pixel: the assignment may then choose among all.
     fn place_newcomers(&mut self) {
         let mut fresh = vec![true; self.taken.len()];
         self.bindings.claims.of.values().for_each(|&(robot, _)| fresh[robot] = false);
@@ -309,7 +318,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Binds pixels to robots by least squared distance; binds nothing if there are fewer robots than pixels.
+    /// Binds the pixels with indices `roles` to robots, so that the sum of squared distances is least. Binds nothing if
+    /// there are fewer robots than pixels.
     fn place(&mut self, robots: Vec<usize>, roles: Vec<usize>) {
         let from: Vec<Vec2> = robots.iter().map(|&robot| self.places[robot]).collect();
         let to: Vec<Vec2> = roles.iter().map(|&role| self.roles[role].pixel.at).collect();

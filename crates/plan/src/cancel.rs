@@ -6,8 +6,9 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
 
-/// A cancellation that every long loop of the planner polls. Once it returns `true`, it must keep returning `true`. A
-/// loop that ends early leaves meaningless values, so the entry points of this crate poll again before they return any.
+/// A cancellation that every long loop of the planner polls. Once its function returns `true`, it must keep returning
+/// `true`. A loop that ends early leaves meaningless values. The entry points of this crate therefore poll again before
+/// they return a value.
 #[derive(Clone, Copy)]
 pub(crate) struct Cancel<'a>(&'a dyn Fn() -> bool);
 
@@ -15,12 +16,12 @@ impl<'a> Cancel<'a> {
     /// Never cancelled.
     pub const NEVER: Cancel<'static> = Cancel(&|| false);
 
-    /// Cancelled once `is_wanted` returns `true`, which it must then keep returning.
+    /// Cancelled once `is_wanted` returns `true`. From then on, `is_wanted` must keep returning `true`.
     pub fn when(is_wanted: &'a dyn Fn() -> bool) -> Self {
         Self(is_wanted)
     }
 
-    /// Whether cancellation is wanted.
+    /// Whether the planner should stop.
     pub fn is_wanted(self) -> bool {
         (self.0)()
     }
@@ -32,7 +33,8 @@ impl fmt::Debug for Cancel<'_> {
     }
 }
 
-/// Runs `work` and returns its result; `Err` if `is_wanted` returned `true` at any poll, including one after `work`.
+/// Runs `work` and returns its result. Returns `Err` if `is_wanted` returned `true` when `work` polled it, or after
+/// `work`.
 pub(crate) fn unless<T>(
     is_wanted: &dyn Fn() -> bool,
     work: impl FnOnce(Cancel<'_>) -> T,

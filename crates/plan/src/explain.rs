@@ -1,13 +1,14 @@
-//! Why a transition has the plan it has: the rows of the schedule that ran, and the reason for the choice.
+//! Why a transition has its plan: the rows of the schedule of solvers that ran, and the reason for the choice.
 
 use core::fmt;
 
 use lightbots_base::Span;
 
-/// What the planner tried for one transition.
+/// The solvers that the planner tried for one transition, and its choice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
-    /// Rows of the schedule, in the order in which they ran or were skipped.
+    /// Rows of the schedule of solvers, in the order in which they ran. A group of rows that was skipped is one row
+    /// here.
     pub rows: Vec<ExplainedRow>,
     /// Index in `rows` of the chosen plan; `None` if there is no plan.
     pub chosen: Option<usize>,
@@ -15,10 +16,10 @@ pub struct Explanation {
     pub reason: String,
 }
 
-/// One row of the schedule, and its outcome.
+/// One row of the schedule of solvers, or a skipped group of rows, and its outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExplainedRow {
-    /// Solver and parameters, a few words.
+    /// Solver and its parameters in a few words; for a skipped group, the name of the group.
     pub solver: String,
     /// Outcome of the row.
     pub outcome: RowOutcome,
@@ -27,36 +28,39 @@ pub struct ExplainedRow {
 /// Outcome of a row of the schedule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowOutcome {
-    /// Skipped, because a condition of the row does not hold; the text names the condition.
+    /// Skipped, because the condition of its group does not hold; the text says why.
     Skipped(&'static str),
-    /// The row has no first guess: a search found no path, or there are no nodes.
+    /// The solver did not run, because it has no paths to start from: a search found no path, or no graph could be
+    /// built.
     NoGuess,
-    /// The paths of the row still have contacts or illegal motion.
+    /// The paths of the row are rejected, because robots touch or their motion is illegal.
     Rejected {
-        /// Number of contacts and faults; 0 if only the proof's verdict is known.
+        /// Number of contacts that are left; 0 if it is only known that the proof rejects the paths.
         contacts: usize,
     },
     /// A plan that the proof accepts.
     Solved {
         /// Duration of the plan at full speed.
         duration: Span,
-        /// Stop-safe share of the plan in percent; `None` if no other candidate was left to compare it with.
+        /// Share of moments at which a robot may stop dead without a contact, in percent. `None` if it was not
+        /// measured, because the choice did not depend on it.
         stop_safe_percent: Option<u8>,
     },
 }
 
 impl Explanation {
-    /// Adds a row.
+    /// Adds a row at the end.
     pub(crate) fn add(&mut self, solver: String, outcome: RowOutcome) {
         self.rows.push(ExplainedRow { solver, outcome });
     }
 
-    /// Marks the last row as chosen.
+    /// Marks the last row as chosen, for this reason.
     pub(crate) fn choose(&mut self, reason: &str) {
         (self.chosen, self.reason) = (self.rows.len().checked_sub(1), reason.into());
     }
 
-    /// Adds the rows of a later attempt at the same transition. The choice of `later` replaces the earlier one.
+    /// Adds the rows of a later attempt at the same transition. The choice and the reason of `later` replace those of
+    /// `self`.
     pub(crate) fn append(&mut self, later: Self) {
         let before = self.rows.len();
         self.rows.extend(later.rows);

@@ -1,4 +1,4 @@
-//! One transition with a given assignment, as solvers see it: ends, floor and walls.
+//! One transition with a given assignment, in the form that solvers use: starts, ends, floor and walls.
 
 use lightbots_base::shape::nearest_in_rect;
 use lightbots_base::{Limits, Vec2};
@@ -18,18 +18,19 @@ pub(crate) struct Instance<'a> {
     pub ends: Vec<Option<Vec2>>,
     /// Obstacles and standing robots.
     pub walls: Vec<Obstacle>,
-    /// Half the extents of the rectangle that centres stay in, metres.
+    /// Half the extents, metres, of the rectangle in which centres of robots stay: half the floor less a robot's
+    /// radius.
     pub inner: Vec2,
-    /// Distance that rims keep from the floor's edge, metres, except where starts, ends and walls force robots closer
-    /// to it.
+    /// Distance that rims keep from the floor's edge, metres. A robot that starts or ends closer to the edge need not
+    /// keep it.
     pub off_edge_m: f64,
     /// Limits of the robots.
     pub limits: Limits,
 }
 
 impl Instance<'_> {
-    /// The instance of a problem. `None` if the assignment does not fit the problem, a place is not finite, or a limit
-    /// or the floor is not positive.
+    /// The instance of a problem with the assignment `goal_of[robot]`. `None` if the assignment does not fit the
+    /// problem or a place is not finite. `None` also if a limit or the floor's size is not positive.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;
@@ -65,7 +66,8 @@ impl Instance<'_> {
         self.starts.len()
     }
 
-    /// The smaller of two distances between robots `a` and `b`, metres: that of their starts and that of their ends.
+    /// Distance between the starts of robots `a` and `b`, or between their ends if that is smaller, metres. Spare
+    /// robots have no end, so for them only the starts count.
     pub fn ends_apart(&self, a: usize, b: usize) -> f64 {
         let before = self.starts[a].distance(self.starts[b]);
         match (self.ends[a], self.ends[b]) {
@@ -74,39 +76,42 @@ impl Instance<'_> {
         }
     }
 
-    /// Distance that the centres of robots `a` and `b` must keep, metres: less than [`Self::widest_gap_m`] if their
-    /// starts or ends are closer.
+    /// Distance that the centres of robots `a` and `b` must keep, metres: [`Self::widest_gap_m`], or slightly less than
+    /// the distance of their starts or ends if these are closer.
     pub fn least_gap(&self, a: usize, b: usize) -> f64 {
         self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
     }
 
-    /// The greatest distance that any two centres must keep, metres. Pairs farther apart need no further check.
+    /// Distance that any two centres must keep, metres, unless starts or ends are closer. Pairs farther apart need no
+    /// check.
     pub fn widest_gap_m(&self) -> f64 {
         self.limits.contact_m() + SPLINE_M
     }
 
-    /// Distance that a robot's rim must keep from a wall, metres: `wish`, or less if the robot's start or end is
-    /// closer.
+    /// Distance that a robot's rim must keep from a wall, metres: `wish`, or the distance at the robot's start or end
+    /// if that is smaller.
     pub fn wall_gap(&self, robot: usize, wall: usize, wish: f64) -> f64 {
         let at = |place| self.off_wall(wall, place).0;
         let end = self.ends[robot].map_or(wish, at);
         wish.min(at(self.starts[robot])).min(end)
     }
 
-    /// Gap between the rim of a robot at `place` and a wall, metres, and the unit vector away from the wall.
+    /// Gap between the rim of a robot at `place` and a wall, metres, negative if they overlap, and the unit vector away
+    /// from the wall.
     pub fn off_wall(&self, wall: usize, place: Vec2) -> (f64, Vec2) {
         let (gap, away) = off_shape(&self.walls[wall], place);
         (gap - self.limits.radius_m, away)
     }
 
-    /// Whether a robot at `place` is on the floor and `margin_m` from every wall.
+    /// Whether a robot at `place` is wholly on the floor, with its rim at least `margin_m` from every wall, metres.
     pub fn is_free(&self, place: Vec2, margin_m: f64) -> bool {
         let on_floor = place.x.abs() <= self.inner.x && place.y.abs() <= self.inner.y;
         on_floor && (0..self.walls.len()).all(|wall| self.off_wall(wall, place).0 >= margin_m)
     }
 
-    /// Whether a robot can drive straight from one place to another with its rim `margin_m` from every wall. If an end
-    /// is closer to a wall than `margin_m`, the line only has to keep that distance.
+    /// Whether a robot can drive straight from one place to another with its rim `margin_m` from every wall, metres. If
+    /// the robot is closer to a wall at an end of the line, the line only has to keep that smaller distance. The line
+    /// is sampled about every 10 mm. The floor's edge is not checked.
     pub fn is_way_free(&self, from: Vec2, to: Vec2, margin_m: f64) -> bool {
         let samples = (from.distance(to) / 0.01).min(4000.0) as usize + 1;
         (0..self.walls.len()).all(|wall| {
@@ -116,8 +121,8 @@ impl Instance<'_> {
         })
     }
 
-    /// Distance that rims keep from the floor's edge, metres. It is small enough that robots fit between walls and the
-    /// edge, and that two robots pass each other on a narrow floor.
+    /// Returns the value of `off_edge_m`: [`EDGE_M`] if there is room. It is less if robots would not fit between a
+    /// wall and the edge, or if two robots could not pass each other.
     fn room_at_edge_m(&self) -> f64 {
         let least_m = 2.0 * self.limits.radius_m + SPLINE_M;
         let gaps = self.walls.iter().flat_map(|wall| self.off_edges(wall)).map(|gap_m| gap_m - least_m);
@@ -126,7 +131,7 @@ impl Instance<'_> {
         to_spare.filter(|&room_m| room_m >= 0.0).fold(EDGE_M, f64::min)
     }
 
-    /// Distances of a shape from the four edges of the floor, metres.
+    /// Distances of a shape from the left, right, lower and upper edge of the floor, metres.
     fn off_edges(&self, shape: &Obstacle) -> [f64; 4] {
         let (min, max) = match *shape {
             Obstacle::Disc { at, radius_m } => {
@@ -138,8 +143,8 @@ impl Instance<'_> {
         [min.x + half.x, half.x - max.x, min.y + half.y, half.y - max.y]
     }
 
-    /// The nearest place to `place` at which the robot's rim is `off_edge_m` from the floor's edge. A robot with a
-    /// start or end closer to the edge may go as far out as that.
+    /// The nearest place to `place` at which the robot's rim is at least `off_edge_m` from the floor's edge, metres. A
+    /// robot with a start or end closer to the edge may be as close to the edge as that start or end.
     pub fn on_floor(&self, robot: usize, place: Vec2, off_edge_m: f64) -> Vec2 {
         let room = self.inner - Vec2::new(off_edge_m, off_edge_m);
         if place.x.abs() <= room.x && place.y.abs() <= room.y {
@@ -153,7 +158,8 @@ impl Instance<'_> {
     }
 }
 
-/// Distance of a place from a shape's rim, metres, negative inside, and the unit vector away from the shape.
+/// Returns the distance of a place from a shape's rim, metres (negative inside), and the unit vector away from the
+/// shape.
 fn off_shape(shape: &Obstacle, place: Vec2) -> (f64, Vec2) {
     match *shape {
         Obstacle::Disc { at, radius_m } => {

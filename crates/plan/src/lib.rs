@@ -4,9 +4,10 @@
 //!
 //! In reading order: [`TransitionProblem`] is the drive from one frame to the next. [`Bindings`] bind pixels to robots.
 //! [`assignment`] assigns goals to robots. `motion` makes straight lines that all robots drive with the same progress.
-//! `prescribed` makes the drives that a show prescribes. `solve` runs a table of solvers where straight lines conflict.
-//! [`proof`] checks the paths without relying on the code that made them. [`transition()`] puts these together, and
-//! [`show()`] chains the transitions of all frames. docs/planner.md explains the methods.
+//! `prescribed` makes the drives that a show prescribes. `solve` runs a table of solvers if robots on straight lines
+//! would touch. [`proof`] checks the paths without relying on the code that made them. [`transition()`] calls these
+//! modules for one drive, and [`show()`] plans the drives of all frames one after the other. docs/planner.md explains
+//! the methods.
 //!
 //! ```
 //! use lightbots_base::{Limits, Vec2};

@@ -1,27 +1,28 @@
-//! All distances that the planner keeps, in ascending order: the proof checks the smallest, and solvers first aim at
-//! the largest. Distances between robots and from walls are gaps between rims, metres.
+//! The margins that the planner keeps, in ascending order: the proof checks the smallest, and solvers first aim at the
+//! largest. All are metres between two rims, or between a rim and a wall or the floor's edge.
 
-/// Gap between any two rims that the proof checks, unless starts or goals are closer. It covers the path error of a
-/// robot, 2 mm, and the rounding of messages. With a smaller gap, robots touch in rehearsals; with a larger one, narrow
-/// gaps are closed.
+/// Least gap between rims, and between a rim and a wall, that the proof demands. A robot that starts or ends closer
+/// need only keep that smaller gap. The value covers a path error of 2 mm and the rounding of messages. With a smaller
+/// gap, robots touch in rehearsals; with a larger one, robots no longer pass narrow gaps.
 pub(crate) const MARGIN_M: f64 = 0.003;
-/// Gap that the roadmap keeps from walls: above [`MARGIN_M`] by the rounding of its distances.
+/// Gap that the roadmap keeps from walls. It exceeds [`MARGIN_M`] by the rounding error of the roadmap's distances.
 pub(crate) const ROADMAP_M: f64 = 0.003_01;
-/// Gap that the visibility graph keeps from walls: above [`ROADMAP_M`], because splines round its corners.
+/// Gap that the paths of the visibility graph keep from walls. It exceeds [`ROADMAP_M`], because splines cut the
+/// corners of these paths.
 pub(crate) const VISIBILITY_M: f64 = 0.003_05;
-/// Gap that regions of the floor keep from walls. It exceeds [`VISIBILITY_M`], so that every search can pass through
-/// what counts as open.
+/// Gap from walls at which a place counts as free when the floor is divided into regions. It exceeds [`VISIBILITY_M`],
+/// so that every solver can pass through a free region.
 pub(crate) const REGION_M: f64 = MARGIN_M + 0.000_1;
-/// Gap that deformed splines keep between robots: above [`MARGIN_M`] by the error of straight stretches, 0.1 mm.
+/// Gap that deformed splines keep between robots. The deformation approximates splines by straight stretches; the 0.1
+/// mm above [`MARGIN_M`] covers that error.
 pub(crate) const SPLINE_M: f64 = 0.003_1;
-/// Gap between rims and the floor's edge, unless starts, goals or walls force robots closer: robots follow their paths
-/// within 3 mm.
+/// Gap between rims and the floor's edge, because robots are up to 3 mm off their paths. It is smaller where starts,
+/// goals or walls force robots closer to the edge.
 pub(crate) const EDGE_M: f64 = 0.003_5;
-/// Comfortable gap, which solvers aim at where it costs little: robots follow their paths within 5 mm, most within 2
-/// mm.
+/// Gap that solvers aim at if it costs little time. Robots are up to 5 mm off their paths, but mostly less than 2 mm.
 pub(crate) const COMFORT_M: f64 = 0.008;
-/// Gap between robots at the first attempt if they are not of the Elisa-3's size: it leaves room for [`COMFORT_M`] and
-/// the deformation.
+/// Gap between robots at which [`Scale`](crate::solve) first aims if robots do not have the Elisa-3's size. It exceeds
+/// [`COMFORT_M`] to leave room for the deformation.
 pub(crate) const ROOMY_M: f64 = 0.013_5;
 
 const _: () = assert!(MARGIN_M < ROADMAP_M);

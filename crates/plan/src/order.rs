@@ -1,38 +1,39 @@
-//! The one total order on candidate plans of a transition.
+//! The one total order on candidate plans of a transition. Each rule decides among the plans that the rule before left.
 //!
-//! 1. Fewer contacts and faults: a plan without any is contact-free.
-//! 2. Of contact-free plans, those not longer than [`MOST_LONGER`] × the shortest.
-//! 3. Of these, the greater stop-safe share, in steps of 1 %.
+//! 1. Fewer contacts and faults; a fault is illegal motion. A plan without contacts and faults is contact-free.
+//! 2. Contact-free plans only: a duration of at most [`MOST_LONGER`] × the shortest.
+//! 3. Contact-free plans only: the greater stop-safe share, in steps of 1 %. It is the share of moments at which a
+//! robot may stop dead without a contact.
 //! 4. The shorter duration.
-//! 5. The lower index.
+//! 5. The lower index in the list of candidates.
 //!
-//! Stop-safety is measured only where more than one plan is left after step 2, because its measurement takes time.
+//! Stop-safety is measured only if rule 2 leaves more than one plan, because its measurement takes time.
 
 use lightbots_base::Span;
 
-/// A plan may be chosen for its stop-safety if its duration is at most this many times the shortest.
+/// A plan may be chosen for its stop-safety if its duration is at most this many times the shortest duration.
 const MOST_LONGER: f64 = 1.05;
 
-/// Properties of a candidate plan that the order compares first.
+/// Properties of a candidate plan that are known before its stop-safety is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlanQuality {
-    /// Contacts and faults; 0: contact-free.
+    /// Number of contacts and faults; 0 if the plan is contact-free.
     pub contacts: usize,
     pub duration: Span,
 }
 
-/// The chosen candidate.
+/// The chosen candidate, and why it was chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chosen {
     pub index: usize,
     /// Reason for the choice, one line.
     pub reason: &'static str,
-    /// Stop-safe shares that were measured, `(index of the candidate, percent)`.
+    /// Stop-safe shares that were measured: `(index of the candidate, percent)`; empty if none was.
     pub stop_safe_percents: Vec<(usize, u8)>,
 }
 
-/// Chooses among candidates; `None` if there are none. `stop_safe_percent(index)` is called at most once for each
-/// candidate.
+/// Chooses the best candidate by the order above; `None` if there are no candidates. `stop_safe_percent(index)` returns
+/// a candidate's stop-safe share, and is called at most once for each candidate.
 pub(crate) fn choose(
     candidates: &[PlanQuality],
     mut stop_safe_percent: impl FnMut(usize) -> u8,
@@ -63,7 +64,7 @@ pub(crate) fn choose(
     Some(Chosen { index, reason, stop_safe_percents })
 }
 
-/// A share from 0 to 1 in whole percent, rounded down.
+/// Converts a share from 0 to 1 to whole percent, rounded down. Panics outside that range.
 pub(crate) fn percent(share: f64) -> u8 {
     assert!((0.0..=1.0).contains(&share), "a share is between 0 and 1: {share}");
     (share * 100.0 + 1e-9) as u8

@@ -12,10 +12,10 @@ pub struct Path {
 }
 
 impl Path {
-    /// Most pieces of a path, because a robot stores no more.
+    /// Most pieces of a path: a robot cannot store more.
     pub(crate) const MOST_PIECES: usize = 128;
 
-    /// Duration of the longest of these paths; 0 where there are none.
+    /// The greatest duration of these paths; 0 if there are none.
     pub(crate) fn longest(paths: &[Self]) -> Span {
         paths.iter().map(|path| path.as_ref().duration()).max().unwrap_or(Span::ZERO)
     }

@@ -1,4 +1,5 @@
-//! One transition: problem and solution.
+//! The problem of one transition (the drive from one frame to the next), its solution, and reasons for which there is
+//! none.
 
 use lightbots_base::{Limits, Span, Vec2};
 use lightbots_show::{Easing, Frame, Obstacle, Show, Stage};
@@ -7,20 +8,20 @@ use crate::margins::MARGIN_M;
 use crate::proof::{Closest, ProofInput};
 use crate::{BoundFrame, Path, Prescribed};
 
-/// Tolerance on the asked duration of a drive, seconds: a drive counts as on time if it exceeds that duration by no
-/// more. Durations are whole milliseconds.
+/// Tolerance on the asked duration of a drive, seconds: a drive is on time if it lasts at most this much longer than
+/// asked. The planner rounds durations to whole milliseconds, which must not make a drive late.
 pub(crate) const ASKED_SLACK_S: f64 = 5e-3;
 
 /// The problem of one transition: all robots drive from their starts to the goals.
 #[derive(Clone, Debug)]
 pub struct TransitionProblem {
-    /// Start of each robot, stage metres.
+    /// `[robot]`: its start, stage metres. A robot's index in this list is its number everywhere in the problem.
     pub starts: Vec<Vec2>,
     /// Places to reach, stage metres. There are at most as many goals as starts. Robots without a goal are spare: they
     /// may stay or step aside.
     pub goals: Vec<Vec2>,
-    /// `pinned[goal]`: index of the start whose robot must go to that goal; `None` if any robot may. Goals beyond the
-    /// end of this list are not pinned.
+    /// `pinned[goal]`: index of the robot that must go to that goal; `None` if any robot may. Goals beyond the end of
+    /// this list are not pinned.
     pub pinned: Vec<Option<usize>>,
     /// Centres of discs that do not move, stage metres: dead robots and robots that do not take part.
     pub standing: Vec<Vec2>,
@@ -30,12 +31,13 @@ pub struct TransitionProblem {
     pub half_floor: Vec2,
     /// Limits of the robots.
     pub limits: Limits,
-    /// Asked duration of the drive. If it is `None` or shorter than the limits allow, robots drive as fast as the
-    /// limits allow.
+    /// Asked duration of the drive. If it is `None`, or shorter than the robots can drive, robots drive as fast as
+    /// their limits allow.
     pub duration: Option<Span>,
-    /// Shape of the speed over time.
+    /// Shape of the speed over time: two ramps with a cruise between them (`Swift`), or no cruise (`Gentle`).
     pub easing: Easing,
-    /// The drive that the show prescribes. It applies only if the robots' starts are where that drive begins.
+    /// The drive that the show prescribes; `None` if it prescribes none. A motion of a picture and trajectories apply
+    /// only if robots and pixels are where they begin and end. Otherwise the planner plans an ordinary drive.
     pub prescribed: Option<Prescribed>,
 }
 
@@ -71,8 +73,8 @@ impl TransitionProblem {
         }
     }
 
-    /// The problem of the drive to frame `index` of a show. Panics if there is no such frame, or if `bound` does not
-    /// have one binding for each pixel.
+    /// The problem of the drive to frame `index` of a show. Panics if there is no frame of this index, or if `bound`
+    /// does not have one binding for each pixel.
     pub fn of_frame(show: &Show, index: usize, starts: Vec<Vec2>, bound: &BoundFrame<'_>) -> Self {
         assert_eq!(bound.pixels.len(), bound.pinned.len(), "each pixel of a bound frame has a binding");
         Self {
@@ -101,28 +103,30 @@ impl TransitionProblem {
 /// A solved and proven transition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// `goal_of[start]`: index of the goal of the robot at that start; `None` if the robot is spare.
+    /// `goal_of[robot]`: index of the robot's goal; `None` if the robot is spare.
     pub goal_of: Vec<Option<usize>>,
-    /// `paths[start]`: the timed path of the robot at that start. All paths last exactly `duration`, and begin with a
-    /// rest in which robots turn.
+    /// `paths[robot]`: its timed path. All paths last exactly `duration`. Planned paths begin with a rest in which
+    /// robots turn.
     pub paths: Vec<Path>,
     /// Duration of all paths.
     pub duration: Span,
     /// Duration of the same drive at full speed: the least within the limits of the robots.
     pub least: Span,
-    /// Lower bound on the duration, seconds: the bottleneck distance of the assignment divided by the speed limit.
-    /// Where the show fixes the assignment, its longest straight line counts.
+    /// Lower bound on the duration, seconds: the bottleneck distance divided by the speed limit. The bottleneck
+    /// distance is the longest straight line from a start to its goal, with the assignment that makes this line
+    /// shortest. If the show fixes the assignment, its longest line counts.
     pub lower_bound_s: f64,
-    /// The closest approach of two centres, of robots or standing discs; `None` with fewer than two of them.
+    /// The closest approach of two centres: of two robots, or of a robot and a standing disc. `None` if there is no
+    /// pair of either kind.
     pub closest: Option<Closest>,
 }
 
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Infeasible {
-    /// Indices of the goals that cause the failure; may be empty.
+    /// Indices of the goals that cause the failure; empty if no particular goal does.
     pub goals: Vec<usize>,
-    /// Indices of the starts whose robots cause the failure; may be empty.
+    /// Indices of the robots that cause the failure; empty if no particular robot does.
     pub starts: Vec<usize>,
     /// One line for the user: the reason, and what to change.
     pub message: String,
@@ -131,8 +135,8 @@ pub struct Infeasible {
 /// Paths that a solver found for a given assignment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repaired {
-    /// `paths[start]`: the timed path of the robot at that start. All paths last equally long, at least the asked
-    /// duration, and begin with a rest in which robots turn.
+    /// `paths[robot]`: its timed path. All paths last equally long, at least the asked duration, and begin with a rest
+    /// in which robots turn.
     pub paths: Vec<Path>,
     /// Duration of the same drive at full speed: the least within the limits of the robots.
     pub least: Span,
@@ -141,8 +145,8 @@ pub struct Repaired {
 /// Two robots for which a solver found no paths past each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Indices into `starts`.
+    /// Indices of the two robots in [`TransitionProblem::starts`].
     pub pair: (usize, usize),
-    /// Point half way between the two robots, stage metres.
+    /// Point half way between the two robots when they come too close, stage metres.
     pub place: Vec2,
 }

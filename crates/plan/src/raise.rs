@@ -1,5 +1,6 @@
-//! Raises the stop-safety of a transition by delays: a robot that follows closely falls back, and one that crosses
-//! just behind another crosses later.
+//! Raises the stop-safety of a transition (the share of moments at which a robot may stop dead without a contact) by
+//! delayed starts. A robot that follows another closely then falls back, and a robot that crosses just behind another
+//! crosses later.
 
 mod delays;
 #[cfg(test)]
@@ -13,17 +14,19 @@ use crate::proof::{Proof, prove_unless};
 use crate::{Infeasible, Path, Transition, TransitionProblem, transition_unless};
 use lightbots_base::Span;
 
-/// Largest share of the planned duration that delays may cost.
+/// Largest share of the planned duration by which delays may lengthen a transition; the design allows 5 %.
 const SHARE: f64 = 0.05;
 
 /// Measures the stop-safety of a transition, and raises it by delays of at most 5 % of the duration. Transitions with
-/// an asked duration or a prescribed drive are only measured. The order on candidate plans chooses between the paths
-/// with and without delays. Returns the stop-safety of the chosen paths, which stay proven.
+/// an asked duration, with a prescribed drive or of more than 500 s are only measured. The order on candidate plans
+/// chooses between the paths with and without delays. `transition` gets the chosen paths, which are proven, and their
+/// stop-safety is returned.
 pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
     raised(problem, transition, Cancel::NEVER)
 }
 
-/// [`raise`], cancelled as soon as `is_wanted` returns `true`; the transition stays proven then too.
+/// [`raise`], cancelled as soon as `is_wanted` returns `true`. After a cancellation, the paths of `transition` are
+/// still proven.
 pub fn raise_unless(
     problem: &TransitionProblem,
     transition: &mut Transition,
@@ -32,8 +35,8 @@ pub fn raise_unless(
     unless(is_wanted, |cancel| raised(problem, transition, cancel))
 }
 
-/// Plans the transition of a problem and raises its stop-safety. If cancellation comes while stop-safety is raised, the
-/// proven plan is returned without the delays.
+/// Plans the transition of a problem and raises its stop-safety. The outer `Err` means that planning was cancelled. If
+/// cancellation comes later, while stop-safety is raised, the proven plan is returned, mostly without delays.
 pub fn planned_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,

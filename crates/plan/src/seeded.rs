@@ -14,7 +14,7 @@ impl Seeded {
         split_mix(&mut self.0)
     }
 
-    /// Returns a number from `low` to `high`.
+    /// Returns a number from `low` (included) to `high` (excluded).
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }

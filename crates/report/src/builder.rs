@@ -19,14 +19,14 @@ use crate::track::{Scrub, ScrubTrack, encoded};
 use crate::truth::Truth;
 use crate::words;
 
-/// Interval at which planned places are sampled.
+/// Least time between two samples of the planned places.
 const SAMPLE: Span = Span::from_millis(100);
-/// Largest number of incidents listed.
+/// Largest number of incidents that a report lists, besides the end of the run.
 const INCIDENTS_MAX: usize = 300;
-/// Number of closest approaches listed.
+/// Largest number of closest approaches that a report lists.
 const APPROACHES: usize = 10;
-/// A frame is late if it waited for its last robot longer than this beyond the plan, seconds. Arrivals of a healthy
-/// fleet differ by less.
+/// A frame counts as late if all robots waited longer than this for the last one, seconds. Arrivals of a healthy fleet
+/// differ by less.
 const LATE_S: f64 = 0.3;
 
 /// A report that is made while its recording is replayed.
@@ -39,20 +39,20 @@ pub struct ReportBuilder {
     has_real: bool,
     robots: AllRobots,
     taking_part: usize,
-    /// First frame of the run.
+    /// Index of the first frame of the run, counted from 0.
     from: usize,
     frames: FrameNotes,
     began: Option<Instant>,
-    /// Time of the latest input.
+    /// Show-clock time of the latest input.
     now: Instant,
     outcome: Option<RunOutcome>,
     frames_played: usize,
-    /// Whether frames were not played once each in order: one was chosen, skipped, left out or repeated.
+    /// Whether a frame was chosen, skipped, left out or repeated, so that frames were not played once each in their order.
     is_order_changed: bool,
-    /// Frames that robots reached.
+    /// Indices of the frames that robots reached.
     shown: BTreeSet<usize>,
     planned_s: f64,
-    /// Errors of all frames, metres.
+    /// Distances between robots and their pixels in all frames, metres.
     errors_m: Vec<f64>,
     losses: Vec<(RobotId, Instant, Loss)>,
     incidents: Vec<(Instant, ReportedEvent)>,
@@ -62,12 +62,12 @@ pub struct ReportBuilder {
     truth: Option<Truth>,
 }
 
-/// Makes the report of a recording, and its replay. `progress` is called with the share that is done.
+/// Makes the report and the replay of a recording. `progress` is called repeatedly with the share that is done, 0 to 1.
 pub fn report_of(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<(ShowReport, Scrub), LogError> {
     report_with_truth(log, None, progress)
 }
 
-/// Makes the report of a rehearsal as [`report_of`] does. `truth`: what its simulator knows.
+/// Like [`report_of`], with what only the simulator of a rehearsal knows; `None`: nothing.
 pub fn report_with_truth(
     log: &[u8],
     truth: Option<Truth>,
@@ -257,7 +257,7 @@ impl ReportBuilder {
         }
     }
 
-    /// Returns the report and the replay, once the recording is read to its end.
+    /// Returns the report and the replay. `replayed` is the result of replaying the recording to its end.
     pub fn finish(mut self, replayed: ReplayReport) -> (ShowReport, Scrub) {
         let began = self.began.unwrap_or(self.now);
         let since = |at: Instant| round((at - began).as_secs().max(0.0), 3);
@@ -387,7 +387,7 @@ fn area(obstacle: &Obstacle) -> Vec<f64> {
     }
 }
 
-/// The value of a note of the recording.
+/// The value of the recording's note called `name`; `None` if there is no such note.
 fn note<'a>(replayed: &'a ReplayReport, name: &str) -> Option<&'a str> {
     replayed.notes.iter().find(|note| note.0 == name).map(|note| note.1.as_str())
 }

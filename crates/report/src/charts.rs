@@ -5,24 +5,25 @@ use std::fmt::Write as _;
 use crate::figures::ThreeFigures;
 use crate::model::FrameFigures;
 
-/// Width of a chart in its own units; it is scaled to its box.
+/// Width of a chart, units of the SVG. The page scales a chart to its box.
 const WIDTH: f64 = 460.0;
-/// Height of the bars of the histogram.
+/// Height of the highest bar of the histogram, units of the SVG.
 const HEIGHT: f64 = 130.0;
-/// Number of bars of the histogram.
+/// Number of bars into which the histogram divides the range of errors.
 const BINS: usize = 14;
-/// Height of a row of arrivals.
+/// Height of a row in the chart of arrivals, which has one row per frame, units of the SVG.
 const ROW: f64 = 24.0;
-/// Space for names of frames.
+/// Width of the column of frames' names in the chart of arrivals, units of the SVG.
 const NAMES: f64 = 110.0;
-/// Largest number of rows of arrivals.
+/// Largest number of rows in the chart of arrivals. Further frames are left out.
 const ROWS_MAX: usize = 40;
-/// Largest number of evenly chosen dots in a row: all robots of a small fleet. The latest robots are shown besides.
+/// Largest number of evenly chosen robots that get a dot in a row of arrivals. The latest robots get dots in addition.
 const DOTS_MAX: usize = 100;
-/// Number of the latest robots of a frame that are always shown.
+/// Number of the latest robots of a frame that always get a dot.
 const LATEST: usize = 10;
 
-/// Draws a histogram of errors, metres, with median and 99th percentile.
+/// Draws a histogram of position errors with their median and 99th percentile. Errors are in metres, the chart shows
+/// millimetres.
 pub(crate) fn histogram(errors_m: &[f64], figures: &ThreeFigures) -> String {
     let mut svg = String::new();
     let most = (figures.max * 1e3).max(1.0);
@@ -90,7 +91,8 @@ pub(crate) fn histogram(errors_m: &[f64], figures: &ThreeFigures) -> String {
     svg
 }
 
-/// Draws the arrivals of robots in each frame, as times after the first arrival: one dot per robot.
+/// Draws a row for each frame, in which a dot per robot shows how long after the first arrival the robot arrived. `names`
+/// are the names of the frames, escaped for HTML.
 pub(crate) fn arrivals(frames: &[FrameFigures], names: &[String]) -> String {
     let rows = frames.len().min(ROWS_MAX);
     let most_s = frames.iter().take(rows).map(|frame| frame.arrival_spread_s).fold(0.05, f64::max);
@@ -135,14 +137,14 @@ pub(crate) fn arrivals(frames: &[FrameFigures], names: &[String]) -> String {
     svg
 }
 
-/// The arrivals of a row that are drawn as dots, with their indices.
+/// The arrivals of a row that get a dot, with their indices in `arrivals_s`, which is ascending.
 fn dots(arrivals_s: &[f64]) -> impl Iterator<Item = (usize, &f64)> {
     let every = arrivals_s.len().div_ceil(DOTS_MAX).max(1);
     let latest = arrivals_s.len().saturating_sub(LATEST);
     arrivals_s.iter().enumerate().filter(move |(index, _)| index % every == 0 || *index >= latest)
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is not below a number.
+/// The smallest number of the form 1, 2 or 5 times a power of ten that is at least `least`.
 fn nice(least: f64) -> f64 {
     let power = 10f64.powf(least.max(1e-6).log10().floor());
     [1.0, 2.0, 5.0, 10.0]
@@ -152,7 +154,7 @@ fn nice(least: f64) -> f64 {
         .unwrap_or(power)
 }
 
-/// A number with at most two decimals, without zeros at the end.
+/// A number as text with at most two decimals, without zeros at the end.
 fn short(number: f64) -> String {
     let text = format!("{number:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

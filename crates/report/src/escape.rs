@@ -1,6 +1,7 @@
 //! Escapes text of files, shows and robots for a page.
 
-/// Text escaped for HTML, attributes included. Control characters become spaces.
+/// Returns a text with HTML's special characters escaped, for contents and attributes of elements. Control characters
+/// become spaces.
 pub(crate) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -17,7 +18,8 @@ pub(crate) fn escaped(text: &str) -> String {
     safe
 }
 
-/// JSON that cannot end an element of a page. `<` occurs only in strings of JSON, where its escape means the same.
+/// Returns JSON with each `<` escaped, so that it cannot end the HTML element that it is in. `<` occurs only in strings of
+/// JSON, where the escape has the same meaning.
 pub(crate) fn json_in_html(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

@@ -13,14 +13,14 @@ pub struct ThreeFigures {
     pub median: f64,
     /// 99 of 100 numbers are at most this.
     pub p99: f64,
-    /// The greatest.
+    /// The largest number.
     pub max: f64,
-    /// How many numbers there are.
+    /// How many numbers are summarised.
     pub count: usize,
 }
 
 impl ThreeFigures {
-    /// Summarises numbers in any order. Figures are rounded to `decimals`.
+    /// Summarises numbers, which may be in any order. The figures are rounded to `decimals` decimal places.
     pub fn of(numbers: &[f64], decimals: i32) -> Self {
         let mut sorted = numbers.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);
@@ -32,18 +32,18 @@ impl ThreeFigures {
     }
 }
 
-/// Decimals to which counted numbers are rounded.
+/// Number of decimal places to which [`CountedNumbers`] rounds.
 const COUNTED_DECIMALS: i32 = 5;
-/// Largest number that is counted. Larger ones count as this one, so that implausible numbers do not need much memory.
+/// Largest number in [`CountedNumbers`]. A larger number counts as this, so that implausible numbers need little memory.
 const COUNTED_MAX: f64 = 10.0;
 
-/// Numbers that are counted by their rounded values. Millions of them take little memory, and give the same three
-/// figures.
+/// For each rounded value, how many numbers have it. Millions of numbers thus need little memory, and their median,
+/// percentile and maximum are those of a list of rounded numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CountedNumbers(BTreeMap<u32, usize>);
 
 impl CountedNumbers {
-    /// Adds a number. Numbers below 0 and NaN count as 0.
+    /// Adds a number. A number below 0 and NaN count as 0, a number above [`COUNTED_MAX`] as that.
     pub fn add(&mut self, number: f64) {
         let value = (number.clamp(0.0, COUNTED_MAX) * 10f64.powi(COUNTED_DECIMALS)).round() as u32;
         *self.0.entry(value).or_default() += 1;
@@ -68,7 +68,7 @@ impl CountedNumbers {
     }
 }
 
-/// Rounds a number to `decimals` digits after the point. Never gives -0.
+/// Rounds a number to `decimals` decimal places. The result is never -0.
 pub(crate) fn round(number: f64, decimals: i32) -> f64 {
     let scale = 10f64.powi(decimals);
     (number * scale).round() / scale + 0.0

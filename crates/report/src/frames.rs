@@ -8,19 +8,20 @@ use crate::figures::{ThreeFigures, round};
 use crate::model::FrameFigures;
 use crate::robots::AllRobots;
 
-/// Largest number of frames listed; a show that loops for a day has more.
+/// Largest number of frames that a report lists. A show that loops for a day would have more.
 const FRAMES_MAX: usize = 2_000;
 
-/// The frame under way, and the frames that were reached.
+/// Notes about the frame that robots drive to or have reached last, and about all frames that they reached.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FrameNotes {
     /// The frame that robots drive to or have reached, counted from 0.
     pub current: usize,
     left: Option<Instant>,
     planned_s: f64,
-    /// Whether robots have reached the frame. The next departure then begins another one.
+    /// Whether robots have reached the frame. The next departure then begins the drive to another frame.
     stands: bool,
-    /// Whether the drive was planned anew. Further departures then do not add to the planned duration.
+    /// Whether the drive to the frame was planned anew. The durations of further departures are then not added to the
+    /// planned duration.
     is_planned_anew: bool,
     arrivals: BTreeMap<RobotId, Instant>,
     pub list: Vec<FrameFigures>,
@@ -28,7 +29,8 @@ pub(crate) struct FrameNotes {
 }
 
 impl FrameNotes {
-    /// Notes that robots leave for a frame.
+    /// Notes that robots leave for the frame with the index `frame` at `starts`. `duration` is the planned duration of the
+    /// drive. If robots are on the way to this frame already, it is a further part of the same drive.
     pub fn leave(&mut self, frame: usize, starts: Instant, duration: Span) {
         if self.stands || self.left.is_none() || self.current != frame {
             (self.left, self.planned_s) = (Some(starts), duration.as_secs());
@@ -52,8 +54,8 @@ impl FrameNotes {
         }
     }
 
-    /// Notes that robots have reached the frame. `errors_m`: distance of each robot from its pixel. Returns the planned
-    /// duration of the drive, seconds.
+    /// Notes that all robots have reached the frame at `now`. `began` is the first departure of the run, `errors_m` are the
+    /// distances of robots from their pixels, metres. Returns the planned duration of the drive, seconds.
     pub fn stand(
         &mut self,
         (frame, name): (usize, String),

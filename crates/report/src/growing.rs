@@ -6,7 +6,7 @@ use crate::builder::ReportBuilder;
 use crate::model::ShowReport;
 use crate::track::Scrub;
 
-/// Reads the log of a run while it is written, so that the report is ready when the run is over. Reading the whole log
+/// Reads the recording of a run while it is written, so that the report is ready as soon as the run is over. Reading it
 /// afterwards would take minutes for half an hour with a thousand robots.
 #[derive(Debug, Default)]
 pub struct GrowingReport {
@@ -15,7 +15,7 @@ pub struct GrowingReport {
 }
 
 impl GrowingReport {
-    /// Reads the next bytes of the log.
+    /// Reads the next bytes of the recording.
     pub fn feed(&mut self, bytes: &[u8]) -> Result<(), LogError> {
         let Self { replay, builder } = self;
         replay.feed(bytes, &mut |now, controller, step| builder.step(now, controller, step))

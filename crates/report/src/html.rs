@@ -11,19 +11,19 @@ use crate::packed;
 use crate::track::Scrub;
 use crate::words::{count, millimetres, some};
 
-/// Colours and sizes, the same as the screen's.
+/// Colours and sizes of the page: the style sheet that the browser app uses, too.
 const TOKENS: &str = include_str!("../../../ui/src/style/tokens.css");
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-/// Chooses light or dark colours before anything is drawn, by the setting of the system.
+/// Script that chooses light or dark colours by the setting of the viewer's system. It runs before the page is drawn.
 const SCHEME: &str = "if (matchMedia('(prefers-color-scheme: light)').matches) \
      document.documentElement.dataset.mantineColorScheme = 'light';";
 
-/// Number of robots above which their rows are laid out only when they are visible. Laying out a thousand takes a
-/// quarter of a second.
+/// With more robots than this, the browser lays out rows of the robots' table only when they become visible. Laying out a
+/// thousand rows takes a quarter of a second.
 const ROWS_LAID_OUT: usize = 100;
 
-/// Writes the page. The same report gives the same bytes.
+/// Writes a report and its replay as an HTML page that needs no other file. Equal arguments give equal bytes.
 pub fn page(report: &ShowReport, scrub: &Scrub) -> String {
     let title = if report.show.trim().is_empty() { "A show".to_owned() } else { escaped(&report.show) };
     let kind = kind(report.kind);

@@ -7,52 +7,53 @@ use lightbots_control::{LogEnd, LogError, ReplayReport, ReplayStep, replay_obser
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// A line of a run. Payloads that are no text have � in place of their other bytes.
+/// A line of a run. In a payload, � stands for bytes that are not UTF-8 text.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "of", rename_all = "snake_case")]
 pub enum RunLine {
-    /// A message came, mostly from a robot.
+    /// The controller received a message, mostly from a robot.
     Message(LogMessage),
     /// The controller sent a message to a robot or to all.
     Sent(LogMessage),
-    /// The operator asked for something, the broker came or went, or a plan was made.
+    /// Another input of the controller: an operation, a change of the connection to the broker, or a finished plan.
     Input(LogNote),
-    /// The controller said that something happened.
+    /// An event that the controller reported.
     Event(LogNote),
     /// The last line.
     End {
         /// Version of the program that recorded the run.
         program: String,
-        /// What it noted, such as the command and the seed.
+        /// Notes of the recording, such as the command and the seed.
         notes: BTreeMap<String, String>,
-        /// Whether the recording has its end, and this program did the same as the recorded one to the bit.
+        /// Whether the recording has its end, and replaying it gave exactly the recorded outputs.
         is_same: bool,
-        /// Digest of all that the controller said, 16 hexadecimal digits.
+        /// Digest of all outputs of the controller, 16 hexadecimal digits.
         digest: String,
     },
 }
 
-/// A message of MQTT.
+/// An MQTT message.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LogMessage {
-    /// When, seconds of the show clock.
+    /// When the controller received or sent the message, seconds of the show clock.
     pub at_s: f64,
-    /// Its topic.
+    /// Topic of the message.
     pub topic: String,
-    /// Its payload, as docs/protocol.md has it.
+    /// Payload of the message, as docs/protocol.md defines it.
     pub payload: String,
 }
 
-/// Something in words.
+/// An input or an event in words.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LogNote {
-    /// When, seconds of the show clock.
+    /// When it happened, seconds of the show clock.
     pub at_s: f64,
-    /// What.
+    /// What happened, in words.
     pub what: String,
 }
 
-/// Replays a log and passes its lines to `write`. `progress` is called repeatedly with the share that is done.
+/// Replays a recording and calls `write` with each of its lines. `progress` is called repeatedly with the share that is
+/// done, 0 to 1.
 pub fn run_lines(
     log: &[u8],
     progress: &mut dyn FnMut(f64),
@@ -83,7 +84,7 @@ pub fn run_lines(
     Ok(report)
 }
 
-/// A moment as seconds, to the microsecond.
+/// A moment as seconds of the show clock, rounded to microseconds.
 fn seconds(at: Instant) -> f64 {
     (at.as_secs() * 1e6).round() / 1e6
 }

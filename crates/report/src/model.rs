@@ -21,151 +21,152 @@ pub enum RunKind {
 /// What was planned and what happened. Times are seconds after the first departure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct ShowReport {
-    /// All frames were shown, no robot was lost for good, and there was no contact.
+    /// Whether all frames were shown, no robot was lost for good, and no contact is known.
     pub ok: bool,
     /// The report in one sentence.
     pub verdict: String,
-    /// Name of the show; may be empty.
+    /// Name that the author gave the show; may be empty.
     pub show: String,
-    /// What was run.
+    /// Whether it was a rehearsal, or a run with or without real robots.
     pub kind: RunKind,
     /// When the run began, milliseconds since 1970; `None` for rehearsals.
     pub began_unix_ms: Option<u64>,
     /// Notes of the recording: names and values, such as seed and faults.
     pub notes: Vec<(String, String)>,
-    /// Robots that took part.
+    /// Number of robots that took part.
     pub robots: usize,
-    /// Frames that were to be shown.
+    /// Number of frames that were to be shown.
     pub frames: usize,
-    /// Frames that were shown.
+    /// Number of frames that were shown.
     pub frames_played: usize,
-    /// Planned drives and air times of the frames that were shown, seconds.
+    /// Sum of the planned durations of drives and of the air times, over the frames that were shown, seconds.
     pub planned_s: f64,
-    /// From the first departure to the end, seconds.
+    /// Duration from the first departure to the end of the run, seconds.
     pub duration_s: f64,
-    /// Contacts of rims; `None`: the recorded inputs of a controller do not say.
+    /// Number of contacts of two rims; `None`: only rehearsals know it.
     pub contacts: Option<u64>,
-    /// Least gap between two rims, metres: the true one of a rehearsal, else the least that a robot reported.
+    /// Smallest gap between two rims, metres. In a rehearsal the true gap, else the smallest that a robot reported; `None`:
+    /// not known.
     pub closest_m: Option<f64>,
-    /// The robots that reported the closest approaches.
+    /// The smallest gaps that robots reported, smallest first: at most one per robot, and at most ten.
     pub approaches: Vec<ClosestApproach>,
-    /// Brakes of the safety layer.
+    /// How often the robots' safety layer braked.
     pub brakes: ReportBrakes,
-    /// Distance of robots from their pixels when a frame stood, by their own reports, metres.
+    /// Distances between robots and their pixels at the moments when frames were reached, as robots reported them, metres.
     pub position_error_m: ThreeFigures,
-    /// All of these distances, metres.
+    /// All distances that `position_error_m` summarises, metres.
     #[serde(skip)]
     pub errors_m: Vec<f64>,
-    /// Between the first and the last arrival in a frame, seconds.
+    /// Times between the first and the last arrival in a frame, seconds.
     pub arrival_spread_s: ThreeFigures,
-    /// Distance of driving robots from the place of their routes, by their own reports, metres.
+    /// Distances of driving robots from where their routes have them at the moment, as robots reported them, metres.
     pub tracking_error_m: ThreeFigures,
-    /// Messages.
+    /// Numbers of messages.
     pub messages: MessageFigures,
-    /// Robots that were lost.
+    /// Robots that were lost, also those that came back.
     pub losses: Vec<Loss>,
-    /// What happened, in order.
+    /// What happened, in order of time.
     pub incidents: Vec<ReportedEvent>,
-    /// Incidents that are not listed, because there were too many.
+    /// Number of incidents that are not listed, because there were too many.
     pub incidents_left_out: usize,
     /// The frames that were shown, in order.
     pub per_frame: Vec<FrameFigures>,
     /// The robots, by name.
     pub per_robot: Vec<RobotFigures>,
-    /// Whether the places of the replay are the true ones of a rehearsal, not those that robots reported.
+    /// Whether the replay shows robots at their true places in a rehearsal. Otherwise, it shows reported places.
     pub has_true_places: bool,
-    /// Whether the whole recording was read.
+    /// Whether the recording has its end, and replaying it gave the recorded outputs.
     pub is_complete: bool,
 }
 
-/// Times that the safety layer began to slow a robot.
+/// How often the safety layer began to slow a robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ReportBrakes {
-    /// All of them.
+    /// Number of all brakes.
     pub all: u64,
-    /// Those with no faulty and no off-route robot ahead; `None`: the recorded inputs do not say.
+    /// Number of brakes without a faulty or off-route robot ahead, which were needless; `None`: only rehearsals know it.
     #[serde(rename = "false")]
     pub unfounded: Option<u64>,
 }
 
-/// How near two rims came.
+/// The smallest gap to another robot that a robot reported.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ClosestApproach {
-    /// The robot that reported it.
+    /// Name of the robot that reported the gap.
     pub robots: Vec<String>,
-    /// Least gap between rims, metres.
+    /// Gap between the two rims, metres.
     pub gap_m: f64,
-    /// When it was reported.
+    /// When the gap was reported, seconds after the first departure.
     pub at_s: f64,
-    /// The frame that was driven to, counted from 0.
+    /// The frame that robots drove to or had reached, counted from 0.
     pub frame: usize,
 }
 
-/// Messages of a run.
+/// Numbers of messages of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct MessageFigures {
-    /// From the controller.
+    /// Number of messages that the controller sent.
     pub sent: u64,
-    /// Received by the controller.
+    /// Number of messages that the controller received.
     pub received: u64,
-    /// Routes that were sent again, because their robots did not answer.
+    /// Number of routes that were sent again, because their robots did not answer.
     pub resent: u64,
-    /// Not sent: no broker, or too many waited.
+    /// Number of messages that could not be sent, because there was no broker or too many messages waited.
     pub unsent: u64,
-    /// Received, and not readable.
+    /// Number of received messages that could not be read.
     pub junk: u64,
-    /// Lost on the way; `None`: no end of a link knows.
+    /// Number of messages that were lost on the way; `None`: only rehearsals know it.
     pub lost: Option<u64>,
 }
 
 /// A robot that was lost.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Loss {
-    /// Its name.
+    /// Name of the robot.
     pub robot: String,
-    /// When.
+    /// When the robot was lost, seconds after the first departure.
     pub at_s: f64,
-    /// The frame that was driven to or stood, counted from 0.
+    /// The frame that robots drove to or had reached, counted from 0.
     pub frame: usize,
-    /// Why, such as "does not report".
+    /// Why the robot was lost, such as "does not report".
     pub why: String,
-    /// When it took part again.
+    /// When the robot took part again, seconds after the first departure; `None`: it did not.
     pub back_at_s: Option<f64>,
 }
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedEvent {
-    /// When.
+    /// When the event happened, seconds after the first departure.
     pub at_s: f64,
-    /// `note`, `look`, `bad` or `good`.
+    /// How much the event matters: `note`, `look` (a warning), `bad` (an error) or `good`.
     pub tone: &'static str,
-    /// What, in one sentence.
+    /// What happened, in one sentence.
     pub line: String,
-    /// The robot that it is about.
+    /// Name of the robot that the event is about; `None`: no single robot.
     pub robot: Option<String>,
 }
 
 /// A frame that was shown.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct FrameFigures {
-    /// Counted from 0.
+    /// Index of the frame, counted from 0.
     pub frame: usize,
-    /// Its name; may be empty.
+    /// Name of the frame; may be empty.
     pub name: String,
-    /// When robots left for it.
+    /// When robots left for the frame, seconds after the first departure.
     pub left_s: f64,
-    /// When it stood.
+    /// When all robots had reached the frame, seconds after the first departure.
     pub stood_s: f64,
-    /// How long its drive was planned to take, seconds.
+    /// Planned duration of the drive to the frame, seconds.
     pub planned_s: f64,
-    /// How long that took, seconds.
+    /// Duration from the departure to the last arrival, seconds.
     pub driven_s: f64,
-    /// Between the first and the last arrival, seconds.
+    /// Time between the first and the last arrival, seconds.
     pub arrival_spread_s: f64,
-    /// Distance of robots from their pixels, by their own reports, metres.
+    /// Distances of robots from their pixels when the frame was reached, as robots reported them, metres.
     pub position_error_m: ThreeFigures,
-    /// Arrivals after the first one, seconds, ascending.
+    /// Time of each arrival after the first arrival, seconds, ascending.
     #[serde(skip)]
     pub arrivals_s: Vec<f64>,
 }
@@ -173,26 +174,26 @@ pub struct FrameFigures {
 /// A robot in a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct RobotFigures {
-    /// Its name.
+    /// Name of the robot.
     pub name: String,
-    /// Number of its arrivals at pixels.
+    /// How often the robot arrived at a pixel.
     pub arrivals: usize,
-    /// Its latest arrival after the first robot of a frame, seconds.
+    /// Longest time from the first arrival of any robot in a frame to this robot's arrival, seconds.
     pub latest_s: f64,
-    /// Distance from its pixels when frames stood, by its own reports, metres.
+    /// Distances of the robot from its pixels when frames were reached, as it reported them, metres.
     pub position_error_m: ThreeFigures,
-    /// Largest distance from its route that it reported, metres.
+    /// Largest distance from its route that the robot reported, metres.
     pub off_m: f64,
-    /// Brakes.
+    /// How often the robot's safety layer began to slow it.
     pub brakes: u64,
-    /// Least gap between rims that it reported, metres.
+    /// Smallest gap between its rim and another robot's that the robot reported, metres; `None`: it reported none.
     pub near_m: Option<f64>,
-    /// Messages that came from it.
+    /// Number of messages from the robot.
     pub messages: u64,
-    /// Charge of its battery at the beginning, percent.
+    /// First reported charge of the robot's battery, percent; `None`: not reported.
     pub battery_began: Option<u8>,
-    /// Charge of its battery at the end, percent.
+    /// Last reported charge of the robot's battery, percent; `None`: not reported.
     pub battery_ended: Option<u8>,
-    /// It was lost, and is not back.
+    /// Whether the robot was lost and did not come back.
     pub is_lost: bool,
 }

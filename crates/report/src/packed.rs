@@ -19,7 +19,8 @@ struct Facts<'a> {
     end_s: f64,
     tolerance_m: f64,
     areas: &'a [Vec<f64>],
-    /// Of each robot: numbers of planned places, driven places and lights, and when it was lost, 1/100 s.
+    /// For each robot: how many planned places, driven places and changes of light it has, and when it was lost, 1/100 s
+    /// after the first departure; `None`: not lost.
     tracks: Vec<(usize, usize, usize, Option<i64>)>,
 }
 
@@ -33,9 +34,9 @@ pub(crate) fn facts(scrub: &Scrub) -> String {
     serde_json::to_string(&Facts { floor, radius_m, end_s, tolerance_m, areas, tracks }).unwrap_or_default()
 }
 
-/// The numbers of all tracks in Base64, compressed with zlib (RFC 1950). They are in columns, all robots' planned times
-/// first, because numbers of one kind compress best together. Each is a variable-length integer of 7 bits a byte,
-/// lowest first, and its sign is its lowest bit.
+/// The numbers of all tracks, compressed with zlib (RFC 1950), in Base64. Numbers of one kind compress best together, so
+/// they are in columns: first the planned times of all robots, then their planned x, and so on. Each number is written in
+/// zigzag coding, with the sign in the lowest bit, as a variable-length integer with 7 bits per byte, lowest bits first.
 pub(crate) fn numbers(scrub: &Scrub) -> String {
     let mut bytes = Vec::new();
     let mut column = |list: &dyn Fn(&ScrubTrack) -> Vec<i64>| {

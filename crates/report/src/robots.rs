@@ -10,7 +10,7 @@ use crate::figures::{ThreeFigures, round};
 use crate::model::RobotFigures;
 use crate::track::{PlaceTrack, SAMPLES_MAX};
 
-/// Largest number of robots in a report; the controller remembers no more either.
+/// Largest number of robots in a report, which is also the largest number that the controller remembers.
 const ROBOTS_MAX: usize = 20_000;
 
 /// Notes of one robot.
@@ -20,16 +20,17 @@ pub(crate) struct RobotNotes {
     pub latest_s: f64,
     pub errors_m: Vec<f64>,
     off_m: f64,
-    /// The count of brakes that it reported last.
+    /// The robot's last report of its count of brakes.
     counted: Option<u32>,
     brakes: u64,
-    /// Least gap that it reported, metres, when, and on the way to which frame.
+    /// Smallest gap to another robot that the robot reported on a route or on arrival, metres. The second value is when it
+    /// reported the gap, the third the index of the frame at that time.
     pub near: Option<(f64, Instant, usize)>,
     messages: u64,
     battery: Option<(u8, u8)>,
     pub planned: PlaceTrack,
     pub driven: PlaceTrack,
-    /// When its light changed, and the new colour (R·65536 + G·256 + B).
+    /// Moments at which the robot's light was found changed, and the new colours (R·65536 + G·256 + B).
     pub lights: Vec<(Instant, u32)>,
     pub lost: Option<Instant>,
 }
@@ -38,12 +39,12 @@ pub(crate) struct RobotNotes {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AllRobots {
     pub by_name: BTreeMap<RobotId, RobotNotes>,
-    /// Every reported distance from a route, metres.
+    /// Every distance from its route that a driving or held robot reported, metres.
     pub offs_m: CountedNumbers,
 }
 
 impl AllRobots {
-    /// The notes of a robot; `None` for a further robot beyond [`ROBOTS_MAX`].
+    /// The notes of a robot, which are made if it has none yet. `None` if there are notes of [`ROBOTS_MAX`] other robots.
     pub fn get(&mut self, id: RobotId) -> Option<&mut RobotNotes> {
         if self.by_name.len() >= ROBOTS_MAX && !self.by_name.contains_key(&id) {
             return None;
@@ -51,7 +52,7 @@ impl AllRobots {
         Some(self.by_name.entry(id).or_default())
     }
 
-    /// Leaves out places of a long run, until at most [`SAMPLES_MAX`] are kept.
+    /// Leaves out places, more and more coarsely, until at most [`SAMPLES_MAX`] are kept for all robots together.
     pub fn thin(&mut self) {
         let count = |robots: &Self| -> usize {
             robots.by_name.values().map(|robot| robot.planned.count() + robot.driven.count()).sum()
@@ -68,7 +69,7 @@ impl AllRobots {
         }
     }
 
-    /// Handles a report that comes while the robots are on the way to `frame`.
+    /// Notes what a robot's report says. `frame` is the frame that robots drive to or have reached, counted from 0.
     pub fn receive(&mut self, now: Instant, topic: Topic, report: &Report, frame: usize) {
         let Some(robot) = self.get(report.id) else { return };
         robot.messages += 1;

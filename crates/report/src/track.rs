@@ -6,24 +6,24 @@
 
 use lightbots_base::Vec2;
 
-/// Largest distance between a sample and the line that replaces it, metres. With less, pages grow. With more, a line on
-/// a floor of three metres is off by more than a pixel of a screen.
+/// Largest distance between a sample that is left out and the line that replaces it, metres. With a smaller value, pages
+/// grow. With a larger one, a line on a floor of three metres is off by more than a pixel of a screen.
 const TOLERANCE_M: f64 = 0.003;
 /// Largest number of samples in a report: about 2.5 bytes each in the page, and 24 bytes during the run.
 pub(crate) const SAMPLES_MAX: usize = 1_000_000;
-/// Largest number of samples left out between two that are kept. Bounds the work for a robot that stands.
+/// Largest number of samples that are left out between two samples that are kept. Bounds the work for a robot that stands.
 const SKIPPED_MAX: usize = 64;
 
-/// A place (metres) at a moment (seconds of the show clock).
+/// A moment, in seconds of the show clock, and a robot's place at that moment, in stage metres.
 type Sample = (f64, Vec2);
 
 /// One robot's places over time, simplified while samples are added.
 #[derive(Clone, Debug)]
 pub(crate) struct PlaceTrack {
-    /// Largest distance of a sample from the line that replaces it, metres.
+    /// Largest distance between a sample that is left out and the line that replaces it, metres.
     tolerance_m: f64,
     kept: Vec<Sample>,
-    /// Samples since the last kept one, at most `SKIPPED_MAX`.
+    /// All samples since the last kept sample. The last of them may have to be kept.
     open: Vec<Sample>,
 }
 
@@ -34,18 +34,18 @@ impl Default for PlaceTrack {
 }
 
 impl PlaceTrack {
-    /// Number of samples that are kept.
+    /// Number of samples that are kept so far.
     pub fn count(&self) -> usize {
         self.kept.len()
     }
 
-    /// Doubles the tolerance.
+    /// Doubles the tolerance, and leaves out the kept samples that are not needed any more.
     pub fn thin(&mut self) {
         self.tolerance_m *= 2.0;
         self.kept = thinned(&self.kept, self.tolerance_m);
     }
 
-    /// Adds a sample. One that is not later than the last one is dropped.
+    /// Adds a sample. A sample that is not later than the last sample is ignored.
     pub fn add(&mut self, at_s: f64, place: Vec2) {
         let Some(&last) = self.open.last().or(self.kept.last()) else {
             return self.kept.push((at_s, place));
@@ -65,20 +65,20 @@ impl PlaceTrack {
         self.open.push((at_s, place));
     }
 
-    /// The kept samples, and the last sample.
+    /// Returns the kept samples and the very last sample.
     fn finish(mut self) -> Vec<Sample> {
         self.kept.extend(self.open.last());
         self.kept
     }
 }
 
-/// The place at `at_s` on the straight line from one sample to another.
+/// The place at `at_s`, seconds of the show clock, of a robot that moves evenly from one sample to another.
 fn along(from: Sample, to: Sample, at_s: f64) -> Vec2 {
     let share = (at_s - from.0) / (to.0 - from.0).max(1e-9);
     from.1 + (to.1 - from.1) * share
 }
 
-/// Keeps fewer of these samples. Lines between them pass within `tolerance_m` of those that are left out.
+/// Returns some of these samples. The lines between them pass within `tolerance_m` of the samples that are left out.
 fn thinned(samples: &[Sample], tolerance_m: f64) -> Vec<Sample> {
     let mut kept: Vec<Sample> = samples.first().copied().into_iter().collect();
     let mut anchor = 0;
@@ -100,15 +100,15 @@ fn thinned(samples: &[Sample], tolerance_m: f64) -> Vec<Sample> {
 /// What a replay with a slider shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scrub {
-    /// Floor, metres.
+    /// Extent of the floor along x and y, metres.
     pub floor: [f64; 2],
     /// Radius of a robot, metres.
     pub radius_m: f64,
-    /// Duration, seconds.
+    /// Duration of the run from the first departure on, seconds.
     pub end_s: f64,
-    /// Largest distance of lines from the samples that they replace, metres.
+    /// Largest distance between samples and the lines that replace them, metres.
     pub tolerance_m: f64,
-    /// No-go areas: `[x, y, radius]` or `[left, bottom, right, top]`, metres.
+    /// No-go areas: `[x, y, radius]` for a disc or `[left, bottom, right, top]` for a rectangle, stage metres.
     pub areas: Vec<Vec<f64>>,
     /// The robots, in the order of the report's table.
     pub tracks: Vec<ScrubTrack>,
@@ -117,21 +117,23 @@ pub struct Scrub {
 /// One robot's places and lights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScrubTrack {
-    /// Places of its planned paths: differences of time (1/100 s), x and y (mm).
+    /// Planned places of the robot. Three numbers per sample: time in 1/100 s after the first departure, x and y in
+    /// millimetres, each minus that of the previous sample.
     pub planned: Vec<i32>,
-    /// Places that it reported, or its true places in a rehearsal; differences as in `planned`.
+    /// Places that the robot reported, or its true places in a rehearsal, as numbers like those of `planned`.
     pub driven: Vec<i32>,
-    /// Its light: difference of time (1/100 s) and colour (R·65536 + G·256 + B).
+    /// Changes of the robot's light. Two numbers per change: time in 1/100 s minus that of the previous change, and the new
+    /// colour (R·65536 + G·256 + B).
     pub light: Vec<i64>,
-    /// When it was lost, 1/100 s. `None` if it was not, or is back.
+    /// When the robot was lost, 1/100 s after the first departure. `None` if it was not lost, or came back.
     pub lost: Option<i64>,
 }
 
-/// Planned and driven samples of one robot as differences.
+/// Planned and driven samples of one robot: [`ScrubTrack::planned`] and [`ScrubTrack::driven`].
 pub(crate) type Encoded = (Vec<i32>, Vec<i32>);
 
-/// Encodes planned and driven samples of each robot as differences. Also returns their tolerance, metres. Times count
-/// from `began_s`.
+/// Encodes planned and driven samples of each robot for [`ScrubTrack`]. Also returns the largest tolerance that was used,
+/// metres. `began_s` is the first departure, seconds of the show clock.
 pub(crate) fn encoded(tracks: Vec<(PlaceTrack, PlaceTrack)>, began_s: f64) -> (Vec<Encoded>, f64) {
     let reached = tracks.iter().flat_map(|(planned, driven)| [planned.tolerance_m, driven.tolerance_m]);
     let mut tolerance_m = reached.fold(TOLERANCE_M, f64::max);

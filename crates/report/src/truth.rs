@@ -7,29 +7,30 @@ use lightbots_base::{Instant, RobotId, Vec2};
 use crate::model::ShowReport;
 use crate::track::PlaceTrack;
 
-/// The truth of a rehearsal, beside what its robots reported.
+/// What the simulator of a rehearsal knows, and what the recorded messages of its robots do not contain.
 #[derive(Clone, Debug, Default)]
 pub struct Truth {
-    /// Contacts of rims.
+    /// Number of contacts of two rims.
     pub contacts: u64,
     /// Number of times that the safety layer began to slow a robot.
     pub brakes: u64,
-    /// Number of these times with no faulty and no off-route robot ahead.
+    /// How many of `brakes` happened without a faulty or off-route robot ahead.
     pub false_brakes: u64,
-    /// Messages that were lost on the way.
+    /// Number of messages that were lost on the way.
     pub messages_lost: u64,
-    /// Least gap between two rims, metres; `None`: no two robots came near each other.
+    /// Smallest gap between two rims, metres; `None`: no two robots came near each other.
     pub closest_m: Option<f64>,
     places: BTreeMap<RobotId, PlaceTrack>,
 }
 
 impl Truth {
-    /// Adds the place of a robot. Samples of one robot must come in order of time.
+    /// Adds the true place of a robot, stage metres, at a moment of the show clock. Samples of one robot must come in order
+    /// of time.
     pub fn add(&mut self, at: Instant, robot: RobotId, place: Vec2) {
         self.places.entry(robot).or_default().add(at.as_secs(), place);
     }
 
-    /// Fills in the figures of a report that the recorded inputs do not contain.
+    /// Fills in the figures of a report that a recording alone does not give.
     pub(crate) fn tell(&self, report: &mut ShowReport) {
         report.contacts = Some(self.contacts);
         report.brakes.all = self.brakes;
@@ -39,7 +40,7 @@ impl Truth {
         report.has_true_places = !self.places.is_empty();
     }
 
-    /// Removes and returns the places of a robot.
+    /// Removes and returns the true places of a robot; `None` if none were added.
     pub(crate) fn take(&mut self, robot: RobotId) -> Option<PlaceTrack> {
         self.places.remove(&robot)
     }

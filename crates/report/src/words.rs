@@ -5,8 +5,8 @@ use lightbots_show::Severity;
 
 use crate::model::ShowReport;
 
-/// A report in one sentence, such as "All 8 frames shown, no contacts, one robot lost." `frame`: where the run ended,
-/// counted from 0. Uses robots, frames, contacts and losses of the report.
+/// Sums a report up in one sentence, such as "All 8 frames shown, no contacts, one robot lost." `outcome` is how the run
+/// ended; `None`: the recording has no end. `frame` is the frame in which it ended, counted from 0.
 pub fn verdict(report: &ShowReport, outcome: Option<&RunOutcome>, is_home: bool, frame: usize) -> String {
     let mut parts = vec![match outcome {
         _ if report.robots == 0 => return "Nothing was played.".into(),
@@ -40,7 +40,7 @@ fn lower(text: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
 }
 
-/// A number with its noun: `no contacts`, `one contact`, `2 contacts`.
+/// A number with its noun in words: `no contacts`, `one contact`, `2 contacts`.
 pub(crate) fn some(number: usize, noun: &str) -> String {
     match number {
         0 => format!("no {noun}s"),
@@ -54,13 +54,13 @@ pub(crate) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
-/// A distance in millimetres, such as `14 mm`.
+/// A distance as text in millimetres, such as `14 mm`; below 10 mm with one decimal.
 pub(crate) fn millimetres(metres: f64) -> String {
     let mm = metres * 1e3;
     if mm < 9.95 { format!("{mm:.1} mm") } else { format!("{mm:.0} mm") }
 }
 
-/// The line of an event that belongs in a report, and the robot that it is about.
+/// The sentence for an event, and the name of the robot that it is about, if any. `None` if reports do not list such events.
 pub(crate) fn incident(kind: &EventKind) -> Option<(String, Option<String>)> {
     use EventKind::*;
     let of = |robot: &lightbots_base::RobotId| Some(robot.as_str().to_owned());

@@ -1,11 +1,11 @@
-//! The show clock, from the robot's own clock and two-way time transfer.
+//! The show clock, computed from the robot's own clock by two-way time transfer.
 //!
-//! A Kalman filter over offset and drift. An answer measures the offset as half the difference of the delays in both
-//! directions. The error is at most half of the excess of its round trip over the shortest possible one. The excess
-//! therefore sets the noise of the measurement. Over a jittery link the few quick answers count most, and none is
-//! discarded. The clock filter of NTP (RFC 5905 section 10) discards all but the quickest. Where both directions of a
-//! link have much jitter, quick round trips are rare. There the least delays of each direction alone tell more
-//! ([`least_delays`]).
+//! A Kalman filter estimates offset and drift of the show clock. An answer measures the offset as half the difference
+//! of the delays of question and answer. The error is at most half of the excess of the round trip over the shortest
+//! possible one. So the excess sets the noise of the measurement. Over a jittery link the few quick answers count most,
+//! but no answer is discarded. (The clock filter of NTP, RFC 5905 section 10, discards all but the quickest answer.) If
+//! both directions of a link have much jitter, quick round trips are rare. Then the least delays of each direction on
+//! its own give a better estimate ([`least_delays`]).
 
 mod least_delays;
 
@@ -13,58 +13,61 @@ use least_delays::LeastDelays;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
-/// Number of answers that a synchronised clock needs. Below, one delayed answer decides the offset. Above, robots join
-/// later.
+/// Least number of answers after which the clock counts as synchronised. With a smaller value, one delayed answer
+/// decides the offset. With a larger value, robots join later.
 const ENOUGH: u32 = 4;
-/// Largest error of a synchronised clock, microseconds, 1 sigma, unless it has [`QUICK`] answers. Below, robots on jittery
-/// links join later. Above, robots depart at visibly different times.
+/// Largest error of the clock at which it becomes synchronised, microseconds, 1 sigma. After [`QUICK`] answers it
+/// becomes synchronised with any error. With a smaller value, robots on jittery links join later. With a larger value,
+/// robots depart at visibly different times.
 const GOOD_US: f64 = 3_000.0;
-/// Number of answers until which questions are sent at [`QUICK_PACE`]. Tuned on the tests below: an error of 2 ms after
-/// 3 s.
+/// Number of answers until which questions are sent every [`QUICK_PACE`]. Tuned on the tests of this module: an error
+/// of 2 ms after 3 s.
 const QUICK: u32 = 16;
-/// Number of answers until which a clock with an error above [`GOOD_US`] asks at [`QUICK_PACE`]: 30 s. Below, over a
-/// link of 5 to 250 ms each way, robots are 25 mm apart in time and brake for each other. Above, a fleet on a link that
-/// is never good floods it.
+/// Number of answers until which a robot whose clock has an error above [`GOOD_US`] asks every [`QUICK_PACE`]: 30 s.
+/// With a smaller value, clocks differ too much on a link of 5 to 250 ms each way: robots are 25 mm off and brake for
+/// each other. With a larger value, a fleet floods a link that is always bad.
 const PATIENT: u32 = 150;
-/// Number of answers from which questions are sent at [`OLD_PACE`]. Below, drift is too uncertain for that pace.
+/// Number of answers from which questions are sent every [`OLD_PACE`]: the clock is settled. With a smaller value, the
+/// drift is too uncertain for questions that rare.
 const SETTLED: u32 = 60;
-/// Time between the first questions. Below, a fleet that is switched on floods its broker.
+/// Time between two questions at first. With a smaller value, a fleet that is switched on floods its broker.
 const QUICK_PACE: Span = Span::from_millis(200);
-/// Time between questions until the clock is settled.
+/// Time between two questions from [`QUICK`] answers on, until the clock is settled.
 const YOUNG_PACE: Span = Span::from_millis(1000);
-/// Time between questions of a settled clock, or of one that gets no answers. Above, drift adds up between answers.
+/// Time between two questions of a robot whose clock is settled, or that gets no answers. With a larger value, drift
+/// adds up between answers.
 const OLD_PACE: Span = Span::from_millis(3000);
-/// Number of unanswered questions in a row after which the robot asks at [`OLD_PACE`], because this controller does not
-/// answer.
+/// Number of unanswered questions in a row after which the robot asks every [`OLD_PACE`], because its controller does
+/// not answer time questions.
 const DEAF: u8 = 8;
-/// Longest time from a question to its answer. Later answers are dropped, because their round trip bounds the offset
-/// too loosely.
+/// Longest round trip of a question and its answer that counts. Slower answers are dropped, because a long round trip
+/// says little about the offset.
 const LATEST: Span = Span::from_millis(3000);
-/// Number of answered questions remembered, so that a duplicate of an answer counts once.
+/// Number of answered questions that are remembered, so that a duplicate of an answer is ignored.
 const ANSWERED: usize = 8;
-/// Bound of the drift, as a share: three times the 100 ppm of a poor crystal. A third of it is the drift's first
-/// standard deviation.
+/// Bound of the absolute drift, as a share: three times the 100 ppm of a poor crystal. The initial standard deviation
+/// of the drift is a third of the bound.
 const WORST_DRIFT: f64 = 300e-6;
-/// Random walk of the drift with temperature: variance per second, as a share squared.
+/// Random walk of the drift because of temperature: its variance per second, as a share squared.
 const WANDER: f64 = 0.3e-6 * 0.3e-6;
-/// Noise of the quickest answer, microseconds, 1 sigma. Below, the filter becomes more certain than scheduling of a
-/// board allows.
+/// Noise of the offset as measured by the quickest answer, microseconds, 1 sigma. With a smaller value, the filter
+/// becomes more certain than the scheduling on a board allows.
 const BEST_US: f64 = 100.0;
-/// Growth of the shortest known round trip per answer, as a share, because routes through a network change.
+/// Share by which the shortest known round trip grows with each answer, because routes through a network change.
 const LEAK: f64 = 1e-5;
-/// An answer whose bounds the offset violates by more than this, microseconds, comes from a controller that was started
-/// anew.
+/// If the estimated offset is outside the bounds of an answer by more than this, microseconds, the answer comes from a
+/// controller that was restarted.
 const SET_ANEW_US: f64 = 500_000.0;
 
 const _: () = assert!(ENOUGH < QUICK && QUICK < SETTLED && SETTLED < PATIENT);
 const _: () = assert!(QUICK_PACE.0 < YOUNG_PACE.0 && YOUNG_PACE.0 < OLD_PACE.0);
 
-/// The show clock as a line over the own clock, and when the next question is due. A step reads no more than this of
-/// the clock.
+/// The show clock as a linear function of the own clock, and when the next question is due. A step reads only this part
+/// of the clock's state.
 #[derive(Debug)]
 pub(crate) struct ShowClock {
-    /// The offset, show clock minus own clock, is `base_us` + `offset_us` when the own clock reads `at`. The whole
-    /// number is kept apart so that small fractions stay exact.
+    /// The offset (show clock minus own clock) is `base_us` + `offset_us` when the own clock reads `at`. The large
+    /// whole number is kept apart so that the fraction stays exact.
     base_us: i64,
     offset_us: f64,
     /// Change of the offset, microseconds per microsecond.
@@ -74,24 +77,24 @@ pub(crate) struct ShowClock {
     synchronised: bool,
 }
 
-/// The Kalman filter that fits the line to the answers of the controller.
+/// The Kalman filter that fits the linear function of [`ShowClock`] to the answers of the controller.
 #[derive(Debug)]
 pub(crate) struct ClockFilter {
-    /// Whether the line was discarded, which makes void all moments that were received before.
+    /// Whether the clock was reset. If so, all moments of the show clock that were received before are void.
     was_reset: bool,
     unanswered: u8,
     answers: u32,
-    /// Covariance: offset², offset·drift, drift².
+    /// Covariance: variance of the offset, covariance of offset and drift, variance of the drift.
     variance: [f64; 3],
     shortest_us: f64,
     mean_us: f64,
     delays: LeastDelays,
-    /// When the questions that were answered last were sent, own clock: a ring.
+    /// When the questions of the latest answers were sent, own clock: a ring buffer.
     answered: [Instant; ANSWERED],
 }
 
 impl ShowClock {
-    /// An unknown clock; the first question is due at `first`.
+    /// A clock that is not synchronised; the first question is due at `first`, own clock.
     pub(crate) fn new(first: Instant) -> Self {
         Self {
             base_us: 0,
@@ -103,12 +106,14 @@ impl ShowClock {
         }
     }
 
-    /// The show time at `now` of the own clock; `None` until synchronised.
+    /// The show clock at `now` of the own clock; `None` until it is synchronised.
     pub(crate) fn show_time(&self, now: Instant) -> Option<Instant> {
         self.synchronised.then(|| now + Span(self.base_us.saturating_add(self.offset_at(now) as i64)))
     }
 
-    /// Delay of a question plus the offset from `base_us`, and delay of its answer minus that offset, microseconds.
+    /// Returns the delay of a question plus (offset − `base_us`), and the delay of its answer minus (offset −
+    /// `base_us`), microseconds. `there` and `back` are the differences between the clock readings at receiving and at
+    /// sending.
     fn delays_us(&self, there: i64, back: i64) -> [f64; 2] {
         [there.saturating_sub(self.base_us) as f64, back.saturating_add(self.base_us) as f64]
     }
@@ -139,7 +144,7 @@ impl ClockFilter {
         }
     }
 
-    /// How far the clock may be off (2 sigma), microseconds; `None` until synchronised.
+    /// Error of the show clock at `now` of the own clock, 2 sigma, microseconds; `None` until it is synchronised.
     pub(crate) fn error_us(&self, clock: &ShowClock, now: Instant) -> Option<u32> {
         let age = (now - clock.at).0 as f64;
         let [offset, both, drift] = self.variance;
@@ -147,7 +152,7 @@ impl ClockFilter {
         clock.synchronised.then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
     }
 
-    /// Takes an answer that came in at `now`. Late, duplicate and impossible answers are dropped.
+    /// Handles an answer that arrived at `now`, own clock. Late, duplicate and impossible answers are dropped.
     pub(crate) fn answer(&mut self, clock: &mut ShowClock, now: Instant, answer: &TimeAnswer) {
         let late = !(Span::ZERO..=LATEST).contains(&(now - answer.asked));
         if late || self.answered.contains(&answer.asked) || answer.sent < answer.received {
@@ -202,8 +207,8 @@ impl ClockFilter {
         clock.at = now;
     }
 
-    /// Corrects offset and drift by one measurement of the offset. Its noise grows with the excess of its round trip
-    /// over the shortest one.
+    /// Corrects offset and drift by one measurement of the offset. Its noise grows with the excess of the round trip
+    /// `round_us` over the shortest one.
     fn learn(&mut self, clock: &mut ShowClock, measured_us: f64, round_us: f64) {
         self.shortest_us = (self.shortest_us + LEAK * self.shortest_us).min(round_us);
         self.mean_us += (round_us - self.mean_us) / f64::from(self.answers.min(32));
@@ -221,15 +226,16 @@ impl ClockFilter {
         self.correct(clock, off, 1.0 - gain, drift_gain);
     }
 
-    /// Corrects the drift by `drift_gain` times the innovation `off` of the offset, and keeps the share `kept` of the
-    /// offset's covariance.
+    /// Corrects the drift by `drift_gain` times the innovation `off` of the offset. Multiplies the variance of the
+    /// offset, and its covariance with the drift, by `kept`.
     fn correct(&mut self, clock: &mut ShowClock, off: f64, kept: f64, drift_gain: f64) {
         let [offset, both, drift] = self.variance;
         clock.drift = (clock.drift + drift_gain * off).clamp(-WORST_DRIFT, WORST_DRIFT);
         self.variance = [offset * kept, both * kept, drift - drift_gain * both];
     }
 
-    /// Clamps the offset to the bounds that the least delays give, or moves it to their middle if that is more certain.
+    /// Improves the offset by the least delays. If the middle of their bounds is more certain than the offset, the
+    /// offset becomes the middle. Otherwise the offset is clamped to the bounds.
     fn narrow(&mut self, clock: &mut ShowClock, now: Instant) {
         let [offset, both, drift] = self.variance;
         let middle = self.delays.middle(now, self.answers, libm::sqrt(drift.max(0.0)));
@@ -245,9 +251,9 @@ impl ClockFilter {
         }
     }
 
-    /// Bounds the offset by an answer, which proves that it is at most `there` and at least `-back`. An estimate
-    /// outside moves to the bound and becomes less certain. One outside by more than [`SET_ANEW_US`] means a new
-    /// controller: the clock starts anew.
+    /// Bounds the offset by an answer, which proves that the offset is at most `there` and at least `-back`. An
+    /// estimated offset outside moves to the bound and becomes less certain. If it is outside by more than
+    /// [`SET_ANEW_US`], the controller was restarted, and the clock is reset.
     fn keep_within_bounds(&mut self, clock: &mut ShowClock, there: i64, back: i64, round_us: f64) {
         let [most, back_us] = clock.delays_us(there, back);
         let least = -back_us;
@@ -261,13 +267,13 @@ impl ClockFilter {
         }
     }
 
-    /// Notes that a question is sent, and sets when the next one is due.
+    /// Notes that a question is sent at `now`, own clock, and sets when the next question is due.
     pub(crate) fn ask(&mut self, clock: &mut ShowClock, now: Instant) {
         clock.next_question = now + self.pace();
         self.unanswered = self.unanswered.saturating_add(1);
     }
 
-    /// Time between questions.
+    /// Time between two questions in the present state.
     fn pace(&self) -> Span {
         match self.answers {
             _ if self.unanswered >= DEAF => OLD_PACE,
@@ -278,13 +284,13 @@ impl ClockFilter {
         }
     }
 
-    /// Makes a question due at once, because a link came up.
+    /// Makes the next question due at once, because the link came up.
     pub(crate) fn hurry(&mut self, clock: &mut ShowClock, now: Instant) {
         clock.next_question = clock.next_question.min(now);
         self.unanswered = 0;
     }
 
-    /// Whether the show clock was set anew, which makes void all moments that were received before. The call clears the
+    /// Returns whether the show clock was reset, so that all moments received before are void. The call clears the
     /// flag.
     pub(crate) fn take_reset(&mut self) -> bool {
         core::mem::take(&mut self.was_reset)

@@ -1,4 +1,4 @@
-//! Configuration at power-on, and inputs and outputs of a step.
+//! Configuration of a robot at power-on, and inputs and outputs of a step.
 
 use lightbots_base::{Limits, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{Abilities, Firmware};
@@ -10,27 +10,28 @@ pub struct Config {
     pub id: RobotId,
     /// Name and version it reports.
     pub firmware: Firmware,
-    /// Seed of the phase of its periodic messages, so that those of a fleet spread over time.
+    /// Seed for the phase of the robot's periodic messages. Different seeds spread the messages of a fleet over time.
     pub seed: u32,
-    /// How old a position fix is when it comes in; 0 to 0.45 s.
+    /// Age of a position fix when the robot receives it; 0 to 0.45 s.
     pub fix_delay: Span,
     /// Noise of a position fix in each coordinate, 1 sigma, metres.
     pub fix_sigma_m: f64,
     /// Noise of a heading fix, 1 sigma, radians.
     pub heading_sigma_rad: f64,
-    /// Expected wheel slip as a share of the wheels' turning, 1 sigma. The filter estimates the actual slip.
+    /// Expected wheel slip, 1 sigma: the share of the wheels' turning that does not move the robot. The filter
+    /// estimates the actual slip.
     pub slip: f64,
-    /// How long the robot tolerates a lost link. It brakes and is cut off if the controller is silent for longer during
-    /// a route. A link that is down for longer has that effect during any drive. The robot stands 0.3 s later at the
-    /// latest.
+    /// How long the robot drives on without a link. On a route, the robot brakes and is `cut` once it has received no
+    /// message for longer. On a drive to a target, only a link that is down for longer has this effect. The robot
+    /// stands at most 0.3 s later.
     pub silence: Span,
     /// Time between position fixes.
     pub fix_pace: Span,
-    /// Abilities beyond the original protocol. Without any, the robot behaves and reports like an original one.
+    /// Abilities beyond the original protocol. Without any, the robot behaves and reports like an original robot.
     pub abilities: Abilities,
-    /// Measures of its body.
+    /// Dimensions and limits of the robot: radius, wheels, speed, acceleration.
     pub limits: Limits,
-    /// Whether its reports say that it is simulated. Firmware of real robots never sets this.
+    /// Whether the robot's reports say that it is simulated. Real robots never set this.
     pub simulated: bool,
     /// Its proximity sensors.
     pub proximity: ProximitySensors,
@@ -43,26 +44,26 @@ pub struct Config {
 /// How many proximity sensors a robot can have.
 pub const SENSORS: usize = 8;
 
-/// Parameters of a robot's proximity sensors. Each sits on the rim and reads the distance to the nearest point of any
-/// rim in its cone.
+/// Parameters of a robot's proximity sensors. Each sensor sits on the robot's rim. It reads the distance to the nearest
+/// object in its cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProximitySensors {
-    /// Directions of the sensors, radians counter-clockwise from the front, in order around the robot.
+    /// Directions in which the sensors look, radians counter-clockwise from the robot's front, in order around the
+    /// robot.
     pub bearings_rad: [f32; SENSORS],
-    /// Half the angle of their cones, radians.
+    /// Half the opening angle of each sensor's cone, radians.
     pub half_cone_rad: f32,
-    /// Largest gap that counts as a reading, metres. What is farther away cannot be reached within the stopping
-    /// distance.
+    /// Largest gap that counts as a reading, metres. Objects farther away are beyond the robot's stopping distance.
     pub range_m: f32,
     /// Constant part of the noise of a reading, 1 sigma, metres.
     pub noise_m: f32,
-    /// Part of the noise that grows with the gap, 1 sigma, as a share of the gap. It is added to `noise_m`.
+    /// Part of a reading's noise that grows with the gap, 1 sigma, as a share of the gap. It is added to `noise_m`.
     pub noise_share: f32,
 }
 
 impl ProximitySensors {
-    /// The sensors of an Elisa-3: eight, 45° apart. Noise as measured in Webots R2023b on 2026-11-21: 0.5 mm at 5 mm,
-    /// 0.8 mm at 10 mm.
+    /// The sensors of an Elisa-3: eight, 45° apart. Their noise was measured in Webots R2023b on 2026-11-21: 0.5 mm at
+    /// a gap of 5 mm, 0.8 mm at 10 mm.
     pub const ELISA_3: Self = Self {
         bearings_rad: {
             const STEP: f32 = core::f32::consts::FRAC_PI_4;
@@ -78,30 +79,32 @@ impl ProximitySensors {
 /// Parameters of the safety layer's decisions; docs/reflex.md says what breaks above and below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SafetyPolicy {
-    /// Growth of the swept discs, as a multiple of the standard deviation of the neighbour's place at its nearest.
+    /// Safety margin on the distance to a neighbour, as a multiple of the standard deviation of the neighbour's place
+    /// at the nearest approach.
     pub sigmas: f32,
-    /// Gap that is left between the rims when the robot stands, metres.
+    /// Least gap between the rims once the robot has stopped for a neighbour, metres.
     pub spare_m: f32,
-    /// Largest growth of the swept discs for a moving planned neighbour: a share of the planned clearance, less one
-    /// sigma of the place.
+    /// Bound of the safety margin for a neighbour that moves by plan, as a share of the planned clearance. One standard
+    /// deviation of the neighbour's place is then subtracted.
     pub planned_share: f32,
-    /// How much nearer a planned neighbour that is too near already may come before the robot brakes for it, metres.
+    /// For a planned neighbour that is already too near: how much nearer it may come before the robot brakes for it,
+    /// metres.
     pub tolerance_m: f32,
-    /// Number of steps with less than half the wanted speed after which a robot counts as blocked. A step without a
-    /// limit takes one off the count.
+    /// A robot counts as blocked after this number of steps in which less than half the wanted speed was allowed. A
+    /// step without a speed limit lowers the count by one.
     pub steps_to_block: u8,
-    /// Number of steps for which the blocking obstacle must be missing before the robot is free again.
+    /// Number of steps in a row in which the blocking obstacle must be missing before the robot is free again.
     pub steps_to_free: u8,
-    /// Growth of the gap, metres, from which the blocking obstacle counts as missing. A blocked robot also backs away
-    /// until the gap is this large.
+    /// The blocking obstacle counts as missing once the gap to it has grown by more than this, metres. A blocked robot
+    /// also backs away until the gap is this large.
     pub clear_m: f32,
     /// Speed at which a blocked robot backs away, m/s.
     pub retreat_mps: f32,
-    /// Gap to a neighbour behind it below which a blocked robot does not back away, metres.
+    /// Least gap to a neighbour behind the robot at which a blocked robot backs away, metres.
     pub followed_m: f32,
     /// Largest distance by which the robot backs away, or leaves its route to give way to a neighbour, metres.
     pub evade_most_m: f32,
-    /// Distance by which a robot gives way, as a share of the missing clearance.
+    /// Distance by which the robot gives way to a neighbour that is too near, as a share of the missing clearance.
     pub give_way_share: f32,
 }
 
@@ -122,28 +125,30 @@ impl SafetyPolicy {
     };
 }
 
-/// Assumptions of the neighbour estimator about motion and the plan's errors; docs/reflex.md says what breaks above and
-/// below each value.
+/// Assumptions of the neighbour estimator about motion and about deviations from the plan. docs/reflex.md says what
+/// breaks above and below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NeighbourModel {
-    /// How far neighbours are off their planned places, 1 sigma in each axis, metres. Errors of the place estimates of
-    /// both robots come on top.
+    /// Deviation of neighbours from their planned places, 1 sigma in each axis, metres. The estimator adds the errors
+    /// of both robots' place estimates.
     pub planned_sigma_m: f32,
-    /// How far neighbours are off their planned velocities, 1 sigma in each axis, m/s.
+    /// Deviation of neighbours from their planned velocities, 1 sigma in each axis, m/s.
     pub planned_sigma_mps: f32,
-    /// Rate at which a neighbour's offset from its plan decays, 1/s: the inverse of the correlation time.
+    /// Rate at which a neighbour's deviation from its planned place decays, 1/s: the inverse of the correlation time.
     pub offset_share: f32,
-    /// Unforeseen acceleration of planned neighbours, 1 sigma in each axis, m/s².
+    /// Acceleration of planned neighbours that deviates from the plan, 1 sigma in each axis, m/s².
     pub accel_sigma_mps2: f32,
-    /// Unforeseen acceleration of neighbours that the plan does not know, 1 sigma in each axis, m/s².
+    /// Unknown acceleration of neighbours that the plan does not know, 1 sigma in each axis, m/s².
     pub unplanned_accel_mps2: f32,
-    /// Velocity of an unplanned neighbour before it is measured, 1 sigma in each axis, m/s.
+    /// Assumed velocity of an unplanned neighbour before it is measured (mean 0), 1 sigma in each axis, m/s.
     pub unknown_sigma_mps: f32,
-    /// Error of the distance that the robot's own wheels measure, 1 sigma, as a share of the distance.
+    /// Error of odometry, 1 sigma: the share of the distance that the robot's own wheels measure.
     pub odometry_share: f32,
-    /// Log-likelihood ratio (natural) above which a planned neighbour counts as stopped: stopped over driving by plan.
+    /// A planned neighbour counts as stopped above this natural logarithm of the likelihood ratio of "stopped" to
+    /// "drives by plan".
     pub stop_log_ratio: f32,
-    /// Offset of a neighbour's readings from its plan above which it has left the plan, in standard deviations.
+    /// A neighbour counts as having left its plan if the readings deviate from the plan by more than this, in standard
+    /// deviations.
     pub stray_sigmas: f32,
     /// Error of the place of a neighbour that was found to have stopped, 1 sigma across the line of sight, metres.
     pub stop_sigma_m: f32,
@@ -153,31 +158,32 @@ pub struct NeighbourModel {
     pub standing_sigma_m: f32,
     /// Process noise of the direction of an edge, 1 sigma per step, radians.
     pub standing_sigma_rad: f32,
-    /// Error of the velocity of a standing object, which is taken as 0, 1 sigma in each axis, m/s.
+    /// Error of the velocity of a standing object, 1 sigma in each axis, m/s. The velocity itself is taken as 0.
     pub standing_sigma_mps: f32,
-    /// Log-likelihood ratio (natural) above which readings are of a standing object: standing over moving neighbours.
+    /// Readings count as those of a standing object above this natural logarithm of the likelihood ratio of "standing
+    /// object" to "moving neighbours".
     pub standing_log_ratio: f32,
-    /// Share of the log-likelihood of a standing object that remains after a step.
+    /// Share of a standing object's log-likelihood that is kept from step to step; older readings thus count less.
     pub standing_remembered: f32,
     /// Probability that a sensor does not see a standing object in its cone.
     pub unseen_share: f32,
-    /// Prior of the end of an edge at each of the places tried, when something comes into sight. Natural logarithm of
-    /// its likelihood over that of an endless edge.
+    /// Prior for each tried place of an edge's end, when an object comes into sight: natural logarithm of its
+    /// likelihood over that of an endless edge.
     pub end_log_prior: f32,
-    /// Prior of a standing robot at each of the places tried: natural logarithm of its likelihood over that of an
-    /// endless edge.
+    /// Prior for each tried place of a standing robot, when an object comes into sight: natural logarithm of its
+    /// likelihood over that of an endless edge.
     pub disc_log_prior: f32,
-    /// Prior of an end where an edge goes out of sight: natural logarithm of its likelihood over that of an endless
-    /// edge.
+    /// Prior for an end of an edge that may lie where the sensors stop seeing the edge: natural logarithm of its
+    /// likelihood over that of an endless edge.
     pub new_end_log_prior: f32,
-    /// Difference in place below which hypotheses are merged, metres.
+    /// Hypotheses about a standing object are merged if their places differ by less than this, metres.
     pub alike_m: f32,
 }
 
 impl NeighbourModel {
     /// `planned_sigma_m` and `offset_share` were measured in rehearsals with standard conditions on 2026-11-24.
-    /// `accel_sigma_mps2` makes the covariances of planned neighbours match their errors
-    /// (reflex/planned_scene_tests.rs). The parameters of standing objects do that for walls
+    /// `accel_sigma_mps2` was chosen so that the covariances of planned neighbours match their errors
+    /// (reflex/planned_scene_tests.rs). The parameters of standing objects were chosen in the same way for walls
     /// (reflex/wall_scene_tests.rs, 2026-11-24). The others were tuned on formations, random pairs and robots that stop
     /// dead, 2026-11-23 and 2026-11-24.
     pub const DEFAULT: Self = Self {
@@ -206,8 +212,8 @@ impl NeighbourModel {
 }
 
 impl Config {
-    /// An Elisa-3 with all abilities. Fixes come at every step, without delay and with noise of 2 mm and 1°. It
-    /// tolerates a lost link for 1.9 s.
+    /// The configuration of an Elisa-3 with all abilities. Fixes come at every step, without delay, with noise of 2 mm
+    /// and 1°. The robot drives on without a link for at most 1.9 s.
     pub fn new(id: RobotId) -> Self {
         Self {
             id,
@@ -233,27 +239,29 @@ impl Config {
 /// Readings of the sensors at a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inputs {
-    /// Turns of the left and the right wheel since the step before, radians, forwards positive.
+    /// Angles by which the left and the right wheel turned since the step before, radians; forwards is positive.
     pub wheel_turns_rad: [f64; 2],
-    /// A position fix that came in since the step before; `None` if there was none.
+    /// A position fix that was received since the step before; `None` if there was none.
     pub fix: Option<Fix>,
     /// Charge of the battery, percent; `None` without a reading.
     pub battery: Option<u8>,
-    /// Lag of the world of the wheels behind the own clock; negative if it runs ahead. Zero on a board; a simulation
-    /// that is slower than real time lags. Routes go by the time of that world, so that all robots of one simulation
-    /// are at the same path time. The show clock, the link and the light go by the own clock.
+    /// How far the time of the world in which the wheels turn lags behind the robot's own clock; negative if it runs
+    /// ahead. It is zero on a real robot, and positive in a simulation that is slower than real time. Routes go by the
+    /// time of that world, so that all robots of one simulation are at the same path time. The show clock, the link and
+    /// the light go by the own clock.
     pub lag: Span,
     /// Gap that each proximity sensor reads between the robot's rim and the nearest object, metres, in the order of
     /// [`ProximitySensors::bearings_rad`]. Infinite if nothing is in sight; `None` if the robot has no sensors.
     pub proximity_m: Option<[f32; SENSORS]>,
 }
 
-/// Where a positioning system saw the robot [`Config::fix_delay`] ago.
+/// Where a positioning system saw the robot. The robot receives the fix [`Config::fix_delay`] later.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fix {
-    /// The place, stage metres; NaN: the system did not see the robot.
+    /// The place, stage metres; NaN if the system did not see the robot.
     pub at: Vec2,
-    /// The heading, radians in the stage, where the system or a compass measures it; NaN counts as `None`.
+    /// The heading, radians counter-clockwise from stage x. `None` or NaN if neither the system nor a compass measures
+    /// it.
     pub heading: Option<f64>,
 }
 

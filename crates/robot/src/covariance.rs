@@ -1,32 +1,34 @@
 //! Covariance of the extended Kalman filter over place, heading and the slip of both wheels (Thrun, Burgard and Fox,
 //! "Probabilistic Robotics", 2005, section 3.3).
 //!
-//! The Kalman gains change slowly, so the covariance is propagated over several steps at once, and the gains are used in
-//! between. The filter then costs a few multiplications a step.
+//! The Kalman gains change slowly. So the covariance is propagated over several steps at once, and the last gains are used
+//! in between. The filter then costs only a few multiplications a step.
 
 use lightbots_base::Vec2;
 
-/// Index of stage x. The slip of the right wheel is stored apart, so that a row fits a vector register.
+/// Index of stage x in a row. The slip of the right wheel has no index: it is stored apart, so that a row fits a vector
+/// register.
 const X: usize = 0;
-/// Index of stage y.
+/// Index of stage y in a row.
 const Y: usize = 1;
 /// Index of the heading.
 const HEADING: usize = 2;
 /// Index of the left wheel's slip.
 const LEFT: usize = 3;
 
-/// Process noise of the place of a robot that stands, metres a step, 1 sigma. Below, a robot that was pushed rejects its
-/// fixes. Above, noise of the fixes moves a robot that stands.
+/// Process noise of the place in each step, even if the robot stands, metres, 1 sigma. With a smaller value, a robot that
+/// was pushed rejects its fixes. With a larger value, noise of the fixes moves a robot that stands.
 const STANDING_M: f64 = 1e-5;
-/// Process noise of the heading of a robot that stands, radians a step, 1 sigma. See [`STANDING_M`].
+/// Process noise of the heading in each step, even if the robot stands, radians, 1 sigma. See [`STANDING_M`].
 const STANDING_RAD: f64 = 5e-5;
-/// Process noise of the place as a share of the distance driven, beside slip, because wheels are not quite round.
+/// Process noise of the place besides slip, 1 sigma, as a share of the distance driven, because wheels are not quite round.
 const WAY: f64 = 0.01;
-/// Process noise of the heading as a share of the rotation, because the effective track varies: see docs/simulator.md.
+/// Process noise of the heading, 1 sigma, as a share of the rotation, because the effective distance between the wheels
+/// varies: see docs/simulator.md.
 const TURN: f64 = 0.03;
 
-/// Covariances of one state with x, y, heading and the slip of the left wheel. Single precision is much finer than the
-/// values are known, and half the work.
+/// Covariances of one state with x, y, heading and the slip of the left wheel. Single precision is enough, because the
+/// values are not known precisely, and halves the work.
 pub(crate) type Row = [f32; 4];
 
 /// Motion since the covariance was last propagated.
@@ -36,40 +38,40 @@ pub(crate) struct MotionSegment {
     pub moved: Vec2,
     /// Distance that the left and the right wheel would have covered without slip, metres.
     pub ways_m: [f64; 2],
-    /// Rotation, radians.
+    /// Rotation of the robot, radians counter-clockwise.
     pub turn: f64,
     /// Number of steps.
     pub steps: u32,
-    /// Number of those steps in which a wheel turned.
+    /// Number of these steps in which a wheel turned.
     pub driven: u32,
 }
 
-/// Expected change of the slip: a first-order Gauss-Markov process.
+/// Model of how the slip changes over a [`MotionSegment`]: a first-order Gauss-Markov process.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drift {
-    /// Share of a deviation from the mean that remains after the stretch, 0 to 1.
+    /// Share of a deviation from the mean that remains at the end of the segment, 0 to 1.
     pub left: f64,
     /// Variance of the deviation in the long run.
     pub variance: f64,
 }
 
-/// Variance of the mean of the measurements in a stretch; infinite without measurements.
+/// Variance of the mean of all measurements in a [`MotionSegment`]; infinite without measurements.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Noise {
     pub place: f64,
     pub heading: f64,
 }
 
-/// Kalman gain of one measured coordinate: the correction of each state per unit of innovation.
+/// Kalman gains of one measured coordinate: the correction of each state per unit of innovation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Gain {
-    /// Stage x and y, heading, slip of the left wheel.
+    /// Corrections of stage x and y, heading, and slip of the left wheel.
     pub by: Row,
-    /// Slip of the right wheel.
+    /// Correction of the slip of the right wheel.
     pub right: f32,
 }
 
-/// Correction of x, y, heading and the left wheel's slip by the innovations of x, y and heading.
+/// Returns the corrections of x, y, heading and the left wheel's slip for the innovations of x, y and heading.
 // Not inlined, see `PoseCovariance::update_one`.
 #[inline(never)]
 pub(crate) fn correction(gains: &[Gain; 3], innovation: [f32; 3]) -> Row {
@@ -80,7 +82,7 @@ pub(crate) fn correction(gains: &[Gain; 3], innovation: [f32; 3]) -> Row {
     sum
 }
 
-/// Correction of the right wheel's slip by the innovations of x, y and heading.
+/// Returns the correction of the right wheel's slip for the innovations of x, y and heading.
 #[inline]
 pub(crate) fn right_correction(gains: &[Gain; 3], innovation: [f32; 3]) -> f32 {
     gains.iter().zip(innovation).fold(0.0, |sum, (gain, off)| sum + gain.right * off)
@@ -89,19 +91,18 @@ pub(crate) fn right_correction(gains: &[Gain; 3], innovation: [f32; 3]) -> f32 {
 /// The covariance.
 #[derive(Debug)]
 pub(crate) struct PoseCovariance {
-    /// Greater variance of x and y, square metres: a copy from `rows`, because every step reads it. `heading` is a
-    /// copy, too.
+    /// The larger one of the variances of x and y, square metres. It is copied from `rows`, because every step reads it.
     place: f64,
     heading: f64,
     rows: [Row; 4],
-    /// Covariances of the right wheel's slip with the other states.
+    /// Covariances of the right wheel's slip with x, y, heading and the left wheel's slip.
     right: Row,
     /// Variance of the right wheel's slip.
     right_own: f32,
 }
 
 impl PoseCovariance {
-    /// The covariance of an unknown pose, and of a slip with this standard deviation.
+    /// The covariance of an unknown pose. `slip`: standard deviation of each wheel's slip.
     pub(crate) fn new(slip: f64) -> Self {
         let mut rows = [[0.0; 4]; 4];
         let slip = (slip * slip) as f32;
@@ -119,7 +120,8 @@ impl PoseCovariance {
         self.heading = f64::from(self.rows[HEADING][HEADING]);
     }
 
-    /// Propagates the covariance over a stretch. `facing`: unit vector of the heading at its end.
+    /// Propagates the covariance over a motion segment. `facing`: unit vector of the heading at the end of the segment.
+    /// `track_m`: distance between the wheels.
     pub(crate) fn propagate(&mut self, stretch: &MotionSegment, facing: Vec2, track_m: f64, drift: Drift) {
         let [left, right] = stretch.ways_m;
         let (half_left, half_right, by) = (-0.5 * left, -0.5 * right, 1.0 / track_m);
@@ -165,7 +167,7 @@ impl PoseCovariance {
         self.right_own = self.right_own * left * left + fresh;
     }
 
-    /// Updates the covariance by measurements of this noise.
+    /// Updates the covariance by measurements of place and heading with these variances.
     pub(crate) fn update(&mut self, noise: Noise) {
         for (state, variance) in [(X, noise.place), (Y, noise.place), (HEADING, noise.heading)] {
             if variance.is_finite() {
@@ -175,7 +177,8 @@ impl PoseCovariance {
         self.sum_up();
     }
 
-    /// Updates the covariance by one measurement. Not inlined, because three copies in one function compile to slower code.
+    /// Updates the covariance by one measurement of the state with this index and variance. Not inlined, because three
+    /// copies in one function compile to slower code.
     #[inline(never)]
     fn update_one(&mut self, state: usize, variance: f32) {
         let (seen, seen_right) = (self.rows[state], self.right[state]);
@@ -187,7 +190,7 @@ impl PoseCovariance {
         self.right_own += seen_right * share * seen_right;
     }
 
-    /// Kalman gains of x, y and heading for measurements of these variances.
+    /// Kalman gains of measurements of x, y and heading with these variances.
     pub(crate) fn gains(&self, place: f64, heading: f64) -> [Gain; 3] {
         [(X, place), (Y, place), (HEADING, heading)].map(|(state, variance)| {
             let by = (1.0 / variance) as f32;
@@ -195,13 +198,13 @@ impl PoseCovariance {
         })
     }
 
-    /// Resets the place to a variance, uncorrelated with the other states.
+    /// Sets the variance of x and of y, square metres, and makes both uncorrelated with all other states.
     pub(crate) fn set_place(&mut self, variance: f64) {
         self.set(X, variance);
         self.set(Y, variance);
     }
 
-    /// Resets the heading to a variance, uncorrelated with the other states.
+    /// Sets the variance of the heading, radians squared, and makes it uncorrelated with all other states.
     pub(crate) fn set_heading(&mut self, variance: f64) {
         self.set(HEADING, variance);
     }
@@ -214,7 +217,7 @@ impl PoseCovariance {
         self.sum_up();
     }
 
-    /// Variance of the place: the greater of both coordinates.
+    /// Variance of the place, square metres: the larger one of the variances of x and y.
     pub(crate) fn place(&self) -> f64 {
         self.place
     }
@@ -224,7 +227,7 @@ impl PoseCovariance {
         self.heading
     }
 
-    /// Variance of the slip: the mean of both wheels.
+    /// Variance of the slip: the mean of the variances of both wheels.
     pub(crate) fn slip(&self) -> f64 {
         0.5 * f64::from(self.rows[LEFT][LEFT] + self.right_own)
     }
@@ -236,7 +239,7 @@ fn add(row: &mut Row, share: f32, other: &Row) {
     row.iter_mut().zip(other).for_each(|(value, with)| *value += share * with);
 }
 
-/// Multiplies one row by the transposed Jacobian. Not inlined, see [`PoseCovariance::update_one`].
+/// Multiplies one row by the transposed Jacobian `by`. Not inlined, see [`PoseCovariance::update_one`].
 #[inline(never)]
 fn add_columns(row: &mut Row, with_right: f32, by: &[Row; 3]) {
     let (turn, left) = (row[HEADING], row[LEFT]);

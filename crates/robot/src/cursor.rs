@@ -1,17 +1,18 @@
-//! Evaluation of a route at a path time that advances. The current piece is kept as a polynomial.
+//! Evaluation of a route at an advancing path time. The current piece of the route is kept as a polynomial.
 
 use lightbots_base::{Motion, Span, Vec2};
 use lightbots_wire::Route;
 
-/// The current piece of a route, as a cubic polynomial in the share of the piece's duration.
+/// A position in a route: its current piece, as a cubic polynomial of the share of the piece's duration that is over.
 #[derive(Debug)]
 pub(crate) struct RouteCursor {
-    /// Index of the piece; at the end of the route, the number of pieces.
+    /// Index of the current piece; past the end of the route: the number of pieces.
     index: usize,
     begin: Span,
     end: Span,
     per_second: f64,
-    /// Coefficients of share⁰ to share³, metres.
+    /// Coefficients of share⁰ to share³, stage metres. The share is the part of the piece's duration that is over, 0 to
+    /// 1.
     cubic: [Vec2; 4],
     rests: bool,
 }
@@ -31,7 +32,7 @@ impl RouteCursor {
         cursor
     }
 
-    /// Moves to a path time, forwards or backwards.
+    /// Moves the cursor to the piece at the path time `time`, forwards or backwards.
     pub(crate) fn seek(&mut self, route: &Route, time: Span) {
         if time < self.begin {
             self.enter(route, 0, Span::ZERO);
@@ -41,7 +42,8 @@ impl RouteCursor {
         }
     }
 
-    /// The motion at a path time within the current piece. Velocity and acceleration are per path time.
+    /// The motion of the route at the path time `time`, which must be within the current piece. Velocity and
+    /// acceleration are per path time.
     pub(crate) fn motion(&self, time: Span) -> Motion {
         let [p, a, b, c] = self.cubic;
         if self.rests {
@@ -56,7 +58,7 @@ impl RouteCursor {
         }
     }
 
-    /// The current piece: its index, and when it begins.
+    /// The current piece: its index, and the path time at which it begins.
     pub(crate) fn piece(&self) -> (usize, Span) {
         (self.index, self.begin)
     }
@@ -79,7 +81,7 @@ impl RouteCursor {
     }
 }
 
-/// The place where piece `index` starts, stage metres.
+/// The place where piece `index` of a route starts, stage metres.
 pub(crate) fn from(route: &Route, index: usize) -> Vec2 {
     index.checked_sub(1).and_then(|before| route.pieces.get(before)).map_or(route.start, |piece| piece.end)
 }

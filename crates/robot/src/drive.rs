@@ -1,41 +1,41 @@
-//! The drive base: from speed and turning rate to wheel rates, with ramps and saturation.
+//! The drive base converts speed and turning rate into wheel rates, with acceleration ramps and saturation.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::filter::turned;
 
-/// Largest acceleration under feedback, as a multiple of the one that plans use. Below, a robot cannot catch up with
-/// its route. Above, it stumbles.
+/// Largest acceleration (the ramp), as a multiple of the acceleration that plans use. With a smaller value, a robot cannot
+/// catch up with its route. With a larger value, its wheels lose grip.
 const ACCEL_RESERVE: f64 = 1.25;
-/// Largest speed under feedback, as a multiple of the one that plans use. See [`ACCEL_RESERVE`].
+/// Largest speed, as a multiple of the speed limit that plans use. See [`ACCEL_RESERVE`].
 const SPEED_RESERVE: f64 = 1.25;
-/// Acceleration after braking without a ramp, as a multiple of the ramp: about the grip of tyres. An Elisa-3 stumbles at it
-/// and loses 4 mm at most. Below, it loses 20 mm, and the robots close behind brake in turn, each more than the one before.
+/// Acceleration with which a robot regains its speed after braking without a ramp, as a multiple of the ramp: about the grip
+/// of the tyres. An Elisa-3 slips at it and falls behind by at most 4 mm. With the ramp alone, it falls behind by 20 mm.
+/// Robots close behind then brake in turn, each more than the one before.
 const RECOVERY: f64 = 9.0;
-/// Number of braked steps from which braking is stop-and-go, at which the robots behind brake too. After fewer, speed
-/// comes back fast. A robot that brakes in one step because a sensor erred would lag 18 mm by the ramp. The robot
-/// behind would run into it (campaign, seeds 498, 703).
+/// Number of braked steps from which a robot that drives gently regains its speed by the ramp. With fewer braked steps, it
+/// regains speed as fast as the grip allows. If a sensor error brakes a robot in one step, regaining speed by the ramp would
+/// leave it 18 mm behind. The robot behind would run into it (campaign, seeds 498, 703).
 const STOP_AND_GO: u32 = 2;
-/// Largest change of the turning rate, rad/s²: 2 m/s² at the wheels.
+/// Largest change of the commanded turning rate, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
-/// Time for which a robot drives on as commanded before, seconds: one step until the motors answer, and one step of holding
-/// the command.
+/// Dead time of the drive, seconds: one step until the motors react to a command, and one step for which a command is held.
 const DEAD_S: f64 = 0.032;
-/// Commanded speed below which the robot stands or only turns, m/s.
+/// Below this commanded speed the robot counts as standing or turning on the spot, m/s.
 const STANDING_MPS: f64 = 0.01;
-/// Commanded turning rate below which the robot does not turn, rad/s.
+/// Below this commanded turning rate the robot counts as not turning, rad/s.
 const STANDING_RADPS: f64 = 0.2;
 
 /// Commanded motion of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Setpoint {
-    /// Along the body's front, m/s; negative is backwards.
+    /// Speed along the body's front, m/s; negative is backwards.
     pub speed_mps: f64,
-    /// Counter-clockwise, rad/s.
+    /// Turning rate, rad/s, counter-clockwise.
     pub turn_radps: f64,
 }
 
-/// Place of the body, and the unit vector of its heading.
+/// Place of the body, stage metres, and the unit vector of its heading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyPose {
     pub at: Vec2,
@@ -46,22 +46,23 @@ pub(crate) struct BodyPose {
 #[derive(Debug, Default)]
 pub(crate) struct DriveBase {
     commanded: Setpoint,
-    /// Number of steps in which the robot braked without a ramp since it last had its wanted speed.
+    /// Number of steps in which the robot was braked without a ramp since it last drove at its wanted speed.
     braked_steps: u32,
-    /// Whether the robot regains its speed by the ramp after [`STOP_AND_GO`] braked steps or more.
+    /// Whether the robot regains its speed gently, by the ramp, after [`STOP_AND_GO`] braked steps or more.
     pub gently: bool,
 }
 
 impl DriveBase {
-    /// Predicted pose in `dt` seconds, when the next command takes effect, because motors answer one step late.
+    /// Predicted pose in `dt` seconds, when the next command takes effect. Motors react one step late, so the robot moves by
+    /// the last command until then.
     pub(crate) fn foresee(&self, body: BodyPose, dt: f64) -> BodyPose {
         let facing = turned(body.facing, within(self.commanded.turn_radps * dt, 0.1));
         let way = self.commanded.speed_mps * dt;
         BodyPose { at: body.at + (body.facing + facing) * (0.5 * way), facing }
     }
 
-    /// Wheel rates towards a setpoint within the ramps, left and right, rad/s. `slip`: share of their turning that the
-    /// wheels lose.
+    /// Changes the command towards the setpoint `want`, by at most the ramps, and returns the wheel rates, left and right,
+    /// rad/s. `slip`: slip of the wheels, left and right, as a share of their turning. `dt`: length of the step, seconds.
     pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64, limits: &Limits) -> [f64; 2] {
         let speed_max = limits.speed_mps * SPEED_RESERVE;
         let speed = within(want.speed_mps, speed_max);
@@ -79,7 +80,8 @@ impl DriveBase {
         self.wheels(slip, limits)
     }
 
-    /// [`Self::step`] with a speed of at most `most_mps`, to which it brakes without a ramp.
+    /// Like [`Self::step`], but with a speed of at most `most_mps`. If the command is faster, the robot brakes to `most_mps`
+    /// without a ramp.
     pub(crate) fn step_within(
         &mut self,
         want: Setpoint,
@@ -96,13 +98,13 @@ impl DriveBase {
         self.wheels(slip, limits)
     }
 
-    /// Whether speed lost by braking is regained as fast as the tyres grip.
+    /// Whether speed that was lost by braking without a ramp is regained by [`RECOVERY`] instead of by the ramp.
     fn recovers_fast(&self) -> bool {
         self.braked_steps > 0 && !(self.gently && self.braked_steps >= STOP_AND_GO)
     }
 
-    /// The setpoint of a robot that has nothing to do: it brakes by the ramp on its present curve until it stands.
-    /// Robots close behind detect that in time, but not a robot that stops dead.
+    /// The setpoint of a robot that has nothing to do: it brakes by the ramp on its present curve until it stands. Robots
+    /// close behind detect this in time; they could not if it stopped at once.
     pub(crate) fn rolling_out(&self, dt: f64, limits: &Limits) -> Setpoint {
         if !self.rolls() {
             return Setpoint::default();
@@ -112,12 +114,12 @@ impl DriveBase {
         Setpoint { speed_mps: next_mps, turn_radps: turn_radps * next_mps / speed_mps }
     }
 
-    /// Whether it is commanded to drive, and not only to turn.
+    /// Whether the robot is commanded to drive, and not only to turn or stand.
     pub(crate) fn rolls(&self) -> bool {
         self.commanded.speed_mps.abs() >= STANDING_MPS
     }
 
-    /// Distance to a stop by the ramp, metres, with the dead time before it.
+    /// Distance that the robot drives until it stands if it brakes by the ramp from now on, metres, including the dead time.
     pub(crate) fn braking_m(&self, limits: &Limits) -> f64 {
         let speed_mps = self.commanded.speed_mps.abs();
         speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * limits.accel_mps2) + DEAD_S)
@@ -128,19 +130,20 @@ impl DriveBase {
         self.commanded.speed_mps
     }
 
-    /// Stops without a ramp: an Elisa-3 stands after 32 ms and 1.3 mm (Webots R2023b, 2026-11-21).
+    /// Stops without a ramp and returns wheel rates of 0. An Elisa-3 then stands after 32 ms and 1.3 mm (Webots R2023b,
+    /// 2026-11-21).
     pub(crate) fn halt(&mut self) -> [f64; 2] {
         *self = Self::default();
         [0.0; 2]
     }
 
-    /// Whether the command is to stand, or nearly so.
+    /// Whether the robot is commanded to stand: its speed and turning rate are nearly 0.
     pub(crate) fn stands(&self) -> bool {
         !self.rolls() && self.commanded.turn_radps.abs() < STANDING_RADPS
     }
 
-    /// Wheel rates of the command, left and right, rad/s. Where one exceeds the motor's limit, both are scaled, so that
-    /// the curve stays.
+    /// Wheel rates of the command, left and right, rad/s. If one exceeds the motor's limit, both are scaled down, so that
+    /// the robot stays on its curve.
     fn wheels(&self, slip: [f64; 2], limits: &Limits) -> [f64; 2] {
         let Setpoint { speed_mps, turn_radps } = self.commanded;
         let half = turn_radps * limits.track_m * 0.5;
@@ -156,7 +159,8 @@ impl DriveBase {
     }
 }
 
-/// `value`, limited to ±`most`. `f64::clamp` also checks its bounds, at some cost in every step.
+/// Returns `value`, limited to ±`most`. `f64::clamp` is not used, because it also checks its bounds, which costs time in
+/// every step.
 #[inline]
 fn within(value: f64, most: f64) -> f64 {
     let value = if value < -most { -most } else { value };

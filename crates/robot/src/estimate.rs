@@ -1,5 +1,5 @@
-//! Estimate of the present pose. The filter holds the pose at the moment of the latest fixes. If fixes come late,
-//! odometry carries that pose on to the present.
+//! Estimate of the robot's present pose. The filter estimates the pose at the moment at which the latest fix was measured.
+//! If fixes arrive late, odometry since that moment leads to the present pose.
 
 use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
@@ -7,18 +7,18 @@ use crate::config::{Config, Fix};
 use crate::filter::{Filter, turned};
 use crate::history::OdometryHistory;
 
-/// Error of the place above which a robot is lost, metres, 1 sigma. Below, robots abandon routes in short outages.
-/// Above, they drive where they may touch their neighbours.
+/// A robot is lost if the error of its place is larger than this, metres, 1 sigma. With a smaller value, robots abandon
+/// routes in short outages. With a larger value, robots drive where they may touch their neighbours.
 const LOST_M: f64 = 0.02;
-/// Time without a fix after which a robot is lost, whatever the covariance says.
+/// A robot is lost after this time without a fix, whatever the covariance says.
 const LOST_AFTER: Span = Span::from_millis(3000);
 
-/// How well a robot knew its pose in one step.
+/// How well a robot knows its pose in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PoseQuality {
     /// Whether the pose is too uncertain to drive.
     pub lost: bool,
-    /// Whether the last fix is too old, even for a robot that rests on a held route.
+    /// Whether the last fix is older than [`LOST_AFTER`]. Then even a robot that rests on a held route is lost.
     pub lost_for_good: bool,
     /// Whether fixes are overdue.
     pub blind: bool,
@@ -29,7 +29,8 @@ pub(crate) struct PoseQuality {
 pub(crate) struct Estimate {
     delay: Span,
     filter: Filter,
-    /// The present place if fixes come late; otherwise unused, as are the two fields below.
+    /// The present place, stage metres, if fixes arrive late. Otherwise `at`, `facing` and `heading` are unused, because the
+    /// filter's pose is the present one.
     at: Vec2,
     /// Unit vector of `heading`.
     facing: Vec2,
@@ -47,8 +48,8 @@ impl Estimate {
         }
     }
 
-    /// Predicts the pose over one step by wheel turns, radians. `history` holds the turns that the filter has not taken
-    /// yet.
+    /// Predicts the pose over the step that ended at `now`, from the turns of the left and the right wheel, radians.
+    /// `history`: the turns that the filter has not been given yet, because fixes of their time are still to come.
     #[inline]
     pub(crate) fn advance(&mut self, now: Instant, turns_rad: [f64; 2], history: &mut OdometryHistory) {
         if !self.is_ahead() {
@@ -64,7 +65,7 @@ impl Estimate {
         self.predict_present(history);
     }
 
-    /// Corrects the pose by a fix. NaN in it is ignored.
+    /// Corrects the pose by a fix that arrived at `now`. A place or heading that is NaN is ignored.
     #[inline]
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, history: &OdometryHistory) {
         if !self.is_ahead() {
@@ -114,7 +115,7 @@ impl Estimate {
         if self.is_ahead() { self.heading } else { self.filter.heading() }
     }
 
-    /// Whether fixes come late, so that the present is ahead of the filter.
+    /// Whether fixes arrive late, so that the present is ahead of the filter's moment.
     fn is_ahead(&self) -> bool {
         self.delay > Span::ZERO
     }
@@ -124,7 +125,7 @@ impl Estimate {
         self.filter.aligned()
     }
 
-    /// Share of their turning that the wheels lose, left and right.
+    /// Estimated slip of the left and the right wheel: the share of their turning that does not move the robot.
     pub(crate) fn slip(&self) -> [f64; 2] {
         self.filter.slip()
     }
@@ -139,18 +140,19 @@ impl Estimate {
         libm::sqrt(self.filter.variance())
     }
 
-    /// [`Self::error_m`] after `way_m` more of driving without a fix.
+    /// [`Self::error_m`] after `way_m` more metres of driving without a fix.
     pub(crate) fn error_after_m(&self, way_m: f64) -> f64 {
         libm::sqrt(self.filter.variance() + self.filter.drift(way_m))
     }
 
-    /// Error of the place after `way_m` more of driving without a fix, if heading error and slip stay as they are, metres.
+    /// Error of the place after `way_m` more metres of driving without a fix, metres. It assumes that heading error and slip
+    /// error stay constant, and adds all errors linearly.
     pub(crate) fn error_at_worst_m(&self, way_m: f64) -> f64 {
         // The filter's covariance is that of the moment at which the fixes were made.
         self.error_m() + self.filter.strays_m(way_m + self.at().distance(self.filter.at()))
     }
 
-    /// How well the pose is known at `now`; fixes are overdue after `blind_after` without one.
+    /// How well the pose is known at `now`. Fixes are overdue if none came for longer than `blind_after`.
     #[inline]
     pub(crate) fn quality(&self, now: Instant, blind_after: Span) -> PoseQuality {
         let age = self.filter.last_fix().map(|fix| now - fix);
@@ -160,7 +162,7 @@ impl Estimate {
         PoseQuality { lost, lost_for_good, blind: is_older(blind_after) }
     }
 
-    /// Whether no fix came for longer than a span.
+    /// Whether no fix came for longer than `span`, or ever.
     pub(crate) fn is_blind(&self, now: Instant, span: Span) -> bool {
         self.filter.last_fix().is_none_or(|fix| now - fix > span)
     }
@@ -175,12 +177,13 @@ impl Estimate {
         self.is_blind(now, LOST_AFTER)
     }
 
-    /// How far the place has jumped since the last call, metres; 0: it has not.
+    /// Returns how far outlier fixes have moved the place by jumps since the last call, metres; 0 if there was no jump.
     pub(crate) fn take_jump_m(&mut self) -> f64 {
         self.filter.take_jump_m()
     }
 
-    /// Whether the place jumped twice within a second, which no push explains. The call clears the flag.
+    /// Returns whether the place jumped twice within a second, which no push of the robot explains. The call clears the
+    /// flag.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.filter.take_senseless()
     }

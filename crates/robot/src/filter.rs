@@ -1,8 +1,8 @@
 //! An extended Kalman filter over place, heading and the slip of both wheels (Thrun, Burgard and Fox, "Probabilistic
 //! Robotics", 2005, section 3.3).
 //!
-//! Odometry predicts, fixes correct, and an outlier gate rejects wild fixes. Because the slip is a state, dead reckoning
-//! stays good while fixes stay away.
+//! Odometry predicts the state, position and heading fixes correct it, and an outlier gate rejects implausible fixes.
+//! Because the slip is part of the state, dead reckoning stays good while no fixes come.
 
 mod gate;
 #[cfg(test)]
@@ -17,25 +17,26 @@ use crate::noise::NoiseEstimate;
 use crate::slip::SlipEstimate;
 use gate::{GateResult, OutlierGate};
 
-/// Steps between two propagations of the covariance. Below, the filter costs more. Above, the gains in use are too old.
+/// Number of steps between two propagations of the covariance. With a smaller value, the filter costs more time. With a
+/// larger value, the Kalman gains in use are too old.
 const STRETCH: u32 = 4;
-/// Number of fixes after a gap for which the covariance is propagated at every step, because each of them changes the
-/// gains a lot.
+/// After a gap without fixes, and after a jump, the covariance is propagated at each of this number of fixes. Each of
+/// these fixes changes the Kalman gains a lot.
 const TEACHING: u8 = 8;
-/// Lower bound of the noise of a position fix, metres, 1 sigma. Below, too low a figure in the configuration makes the
-/// filter reject good fixes.
+/// Lower bound of the assumed noise of a position fix, metres, 1 sigma. With a smaller value, a configuration with too
+/// little noise makes the filter reject good fixes.
 const BEST_FIX_M: f64 = 0.000_3;
-/// Lower bound of the noise of a heading fix, radians, 1 sigma. See [`BEST_FIX_M`].
+/// Lower bound of the assumed noise of a heading fix, radians, 1 sigma. See [`BEST_FIX_M`].
 const BEST_HEADING_RAD: f64 = 0.002;
-/// Time without a heading fix after which the heading comes from motion.
+/// Time without a heading fix after which the heading is computed from the robot's motion.
 const NO_COMPASS: Span = Span::from_millis(500);
-/// Error of a heading that comes from motion, radians, 1 sigma: 2 mm of noise over 60 mm.
+/// Error of a heading that is computed from motion, radians, 1 sigma: 2 mm of noise over 60 mm.
 const BEARING_RAD: f64 = 0.03;
-/// Contradiction between a heading from motion and the estimate from which the former is used, radians. Below, its
-/// noise turns a robot that knows its heading.
+/// A heading from motion replaces the estimated heading only if both differ by more than this, radians. With a smaller
+/// value, noise of the motion spoils a heading that is known.
 const BEARING_OFF_RAD: f64 = 0.2;
 
-/// Pose and slip with their covariance.
+/// Estimate of the pose and of the wheels' slip, with its covariance.
 #[derive(Debug)]
 pub(crate) struct Filter {
     at: Vec2,
@@ -46,17 +47,18 @@ pub(crate) struct Filter {
     teaching: u8,
     wheel_radius_m: f64,
     track_m: f64,
-    /// Displacement by odometry since power-on, stage metres.
+    /// Displacement of the robot since power-on by odometry, without corrections by position fixes, stage metres.
     way: Vec2,
-    /// Motion since the covariance was propagated.
+    /// Motion of the robot since the covariance was last propagated.
     stretch: MotionSegment,
-    /// Number of fixes since the covariance was propagated: of the place, of the heading.
+    /// Number of inlier fixes since the covariance was last propagated: of the place, of the heading.
     fixes: [u32; 2],
     slip: SlipEstimate,
     gate: OutlierGate,
     place_noise: NoiseEstimate,
     heading_noise: NoiseEstimate,
-    /// Innovations of the fix before: place in metres and heading in radians, zero for an outlier. `None` after a gap.
+    /// Innovations of the fix before the present one: place in metres and heading in radians, zero for an outlier.
+    /// `None` after a gap without fixes.
     off: Option<(Vec2, f64)>,
     gains: [Gain; 3],
     covariance: PoseCovariance,
@@ -91,7 +93,7 @@ impl Filter {
         }
     }
 
-    /// Predicts the pose over one step by wheel turns, radians.
+    /// Predicts the pose over one step from the turns of the left and the right wheel, radians.
     pub(crate) fn advance(&mut self, turns_rad: [f64; 2]) {
         if self.stretch.steps >= STRETCH {
             self.propagate();
@@ -116,13 +118,15 @@ impl Filter {
         self.stretch.driven += 1;
     }
 
-    /// Distance (metres) and rotation (radians) by wheel turns, less the estimated slip.
+    /// Distance (metres, forwards) and rotation (radians, counter-clockwise) of the robot for turns of the left and the
+    /// right wheel, radians. The estimated slip is subtracted.
     pub(crate) fn motion(&self, turns_rad: [f64; 2]) -> (f64, f64) {
         let [left, right] = self.slip.ground_m(turns_rad.map(|turn| turn * self.wheel_radius_m));
         ((left + right) * 0.5, (right - left) / self.track_m)
     }
 
-    /// Corrects the state by a fix. NaN and places beyond 1 km are ignored.
+    /// Corrects the state by a fix that arrived at `now`. A place or heading that is NaN is ignored, and so is a place
+    /// beyond 1 km.
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
         let mut off = (Vec2::ZERO, 0.0);
         if fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
@@ -158,8 +162,8 @@ impl Filter {
         self.turn_by(f64::from(turn));
     }
 
-    /// Propagates the covariance over the steps since the last time, updates it by their measurements, and computes the
-    /// gains.
+    /// Propagates the covariance over the steps since the last propagation, updates it by the fixes of these steps, and
+    /// computes the Kalman gains.
     fn propagate(&mut self) {
         let stretch = core::mem::take(&mut self.stretch);
         let [places, headings] = core::mem::take(&mut self.fixes);
@@ -178,8 +182,8 @@ impl Filter {
         }
     }
 
-    /// Tests a position fix and returns its innovation. Zero for an outlier, and for a jump, which moves the place
-    /// itself.
+    /// Tests a position fix by its innovation `off`, metres. Returns the innovation to apply: zero for an outlier. For
+    /// a jump, moves the estimated place to the fix and also returns zero.
     fn gate_place(&mut self, now: Instant, off: Vec2) -> Vec2 {
         let noise = self.place_noise.variance();
         match self.gate.place(now, off, self.covariance.place(), noise) {
@@ -198,8 +202,8 @@ impl Filter {
         }
     }
 
-    /// Tests a heading fix and returns its innovation. Zero for an outlier, and for a jump, which turns the heading
-    /// itself.
+    /// Tests a heading fix by its innovation `off`, radians. Returns the innovation to apply: zero for an outlier. For
+    /// a jump, sets the estimated heading to the fix and also returns zero.
     fn gate_heading(&mut self, now: Instant, off: f64) -> f64 {
         let noise = self.heading_noise.variance();
         match self.gate.heading(now, off, self.covariance.heading(), noise, !self.aligned) {
@@ -218,7 +222,8 @@ impl Filter {
         }
     }
 
-    /// Without a compass, sets the heading from motion if it is unknown or far off.
+    /// If no heading fixes come, sets the heading from the robot's motion: if the heading is unknown, or wrong by more
+    /// than [`BEARING_OFF_RAD`]. `by_fix`: place of the present fix, stage metres.
     fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
         if self.gate.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
             return;
@@ -237,7 +242,7 @@ impl Filter {
         self.facing = if turn.abs() < 0.1 { turned(self.facing, turn) } else { Vec2::unit(self.heading) };
     }
 
-    /// Share of their turning that the wheels lose, left and right.
+    /// Estimated slip of the left and the right wheel: the share of their turning that does not move the robot.
     pub(crate) fn slip(&self) -> [f64; 2] {
         self.slip.now()
     }
@@ -262,41 +267,44 @@ impl Filter {
         self.aligned
     }
 
-    /// When the last position fix came that was no outlier.
+    /// When the last position fix arrived that was no outlier; `None` if there was none.
     pub(crate) fn last_fix(&self) -> Option<Instant> {
         self.gate.last_place()
     }
 
-    /// Variance of the place, square metres: the greater of both coordinates.
+    /// Variance of the estimated place, square metres: the larger one of the variances of x and y.
     pub(crate) fn variance(&self) -> f64 {
         self.covariance.place()
     }
 
-    /// Error that `way_m` of driving without a fix adds, metres, 1 sigma, if heading error and slip stay as they are.
+    /// Error that driving `way_m` metres without a fix adds to the place, metres, 1 sigma. It assumes that heading
+    /// error and slip error stay constant, and adds both linearly.
     pub(crate) fn strays_m(&self, way_m: f64) -> f64 {
         let bend = way_m / self.track_m * core::f64::consts::FRAC_1_SQRT_2;
         way_m * (libm::sqrt(self.covariance.heading()) + bend * libm::sqrt(self.covariance.slip()))
     }
 
-    /// Variance that `way_m` of driving without a fix adds to the place, by the heading error and by unknown slip,
-    /// square metres.
+    /// Variance that driving `way_m` metres without a fix adds to the place, square metres. It comes from the heading
+    /// error and from the slip error, which count as independent.
     pub(crate) fn drift(&self, way_m: f64) -> f64 {
         let bend_m = way_m / self.track_m * way_m;
         way_m * way_m * self.covariance.heading() + 0.5 * bend_m * bend_m * self.covariance.slip()
     }
 
-    /// How far the place has jumped since the last call, metres; 0: it has not.
+    /// Returns how far outlier fixes have moved the place by jumps since the last call, metres; 0 if there was no jump.
     pub(crate) fn take_jump_m(&mut self) -> f64 {
         self.gate.take_jump_m()
     }
 
-    /// Whether the place jumped twice within a second, which no push explains. The call clears the flag.
+    /// Returns whether the place jumped twice within a second, which no push of the robot explains. The call clears the
+    /// flag.
     pub(crate) fn take_senseless(&mut self) -> bool {
         self.gate.take_senseless()
     }
 }
 
-/// Returns `facing` rotated by a small angle: a Taylor series, exact to 1e-9 below 0.1 rad, scaled back to length 1.
+/// Returns the unit vector `facing` rotated by a small angle `turn`, radians. It uses a Taylor series (error below 1e-9
+/// up to 0.1 rad) and scales the result to length 1.
 pub(crate) fn turned(facing: Vec2, turn: f64) -> Vec2 {
     let square = turn * turn;
     let sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));

@@ -1,54 +1,61 @@
-//! Trajectory tracking. The motion of the route is feed-forward; errors along, across and in heading are feedback.
-//! Source: Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990.
+//! Trajectory tracking. The motion of the route is feed-forward. The errors along the robot's front, across it, and in
+//! heading are feedback. Source: Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990.
 
 use lightbots_base::{Motion, Vec2};
 
 use crate::drive::{BodyPose, Setpoint};
 use crate::look_ahead::Ahead;
 
-/// Gain of the error along, 1/s (Kanayama's Kx). Above, the dead time of two steps makes the speed swing.
+/// Gain of the error along the robot's front, 1/s (Kanayama's Kx). With a larger value, the dead time of two steps makes the
+/// speed oscillate.
 const ALONG: f64 = 9.0;
-/// Deceleration with which a large error along is closed, m/s². It adds to the deceleration of the route. Above, a
-/// robot that caught up cannot brake in time and drives on beyond its route.
+/// Deceleration at the end of closing a large error along the front, m/s². It adds to the deceleration of the route. With a
+/// larger value, a robot that catches up cannot brake in time and overshoots.
 const CLOSING_MPS2: f64 = 0.4;
-/// Error along from which [`CLOSING_MPS2`] limits the speed, metres: there it equals the linear gain.
+/// Error along the front from which [`CLOSING_MPS2`] limits the closing speed, metres. At this error the limit equals the
+/// linear gain.
 const FAR_M: f64 = 2.0 * CLOSING_MPS2 / (ALONG * ALONG);
-/// Gain of the error across per speed, rad/m² (Kanayama's Ky). With [`TURN`] it is nearly critically damped within 60 mm.
+/// Gain of the error across the front per speed, rad/m² (Kanayama's Ky). With [`TURN`], the error decays nearly critically
+/// damped within 60 mm of driving.
 const ACROSS: f64 = 600.0;
 /// Gain of the sine of the heading error, rad/s (Kanayama's Kθ, times the speed). See [`ACROSS`].
 const TURN: f64 = 11.0;
-/// Gain of the heading error on the spot, 1/s. Above, the dead time of two steps makes the robot swing.
+/// Gain of the heading error while turning on the spot, 1/s. With a larger value, the dead time of two steps makes the
+/// heading oscillate.
 const SPOT: f64 = 12.0;
-/// Turning rate towards the look-ahead direction, as a multiple of angle per remaining time. At 1 the turn would end
-/// exactly in time, without reserve for the ramp.
+/// Turning rate towards the look-ahead direction, as a multiple of the remaining angle over the remaining time. At 1 the
+/// turn would end exactly in time, without reserve for the acceleration.
 const SWING: f64 = 1.8;
-/// Lower bound of the speed that an error across is multiplied by for steering, m/s. Below, a robot that creeps does
-/// not return to its route.
+/// Lower bound of the speed by which an error across the front is multiplied for steering, m/s. With a smaller value, a slow
+/// robot does not return to its route.
 const STEERING_MPS: f64 = 0.05;
-/// Speed of the route below which its tangent is no direction, m/s.
+/// Below this speed of the route, its tangent is not used as the direction of travel, m/s.
 pub(crate) const RESTING_MPS: f64 = 0.002;
-/// Errors along below this are noise while the route rests, metres. Below, robots jitter at their places.
+/// While the route rests, errors along the front below this are taken for noise, metres. With a smaller value, robots jitter
+/// at their places.
 const CALM_M: f64 = 0.0015;
-/// Sines of the heading error below this are noise while the route rests. See [`CALM_M`].
+/// While the robot turns on the spot, sines of the heading error below this are taken for noise. See [`CALM_M`].
 const CALM_SIN: f64 = 0.012;
-/// Distance from a creeping route at which a robot turns towards it, metres. A robot does not turn where the route
-/// rests: the place may be as wrong, and the robot would arrive later.
+/// A robot turns towards the place of a creeping route if it is farther from it than this, metres. It does not turn while
+/// the route rests: its estimated place may be wrong by as much, and it would arrive later.
 const STRAY_M: f64 = 0.004;
-/// Speed of a route up to which it rests; a faster one creeps, m/s. It only has to exclude rounding.
+/// A route rests up to this speed, and creeps above it (up to [`RESTING_MPS`]), m/s. The bound only has to exclude rounding
+/// errors.
 const CREEPING_MPS: f64 = 1e-5;
-/// Largest speed of a correction while the route rests, m/s.
+/// Largest speed along the front with which an error is corrected while the route rests, m/s.
 const CORRECTION_MPS: f64 = 0.1;
-/// Cosine of the direction of travel below which front and back swap. Near zero, noise would swap them again and again.
+/// Cosine of the angle between the robot's direction of driving and the direction of travel. Below it, the robot changes
+/// between driving forwards and backwards. Near zero, noise would make it change repeatedly.
 const BEHIND_COS: f64 = -0.1;
 
 const _: () = assert!(CREEPING_MPS < RESTING_MPS && RESTING_MPS < STEERING_MPS);
 
-/// The tracking controller of a robot.
+/// The tracking controller of a robot, with its memory.
 #[derive(Debug)]
 pub(crate) struct Follow {
-    /// Unit vector of travel, in the stage.
+    /// Unit vector of the direction of travel, in the stage.
     travel: Vec2,
-    /// 1 forwards, −1 backwards, 0 not chosen yet.
+    /// How the robot drives: 1 forwards, −1 backwards, 0 not chosen yet.
     sense: f64,
 }
 
@@ -57,8 +64,8 @@ impl Follow {
         Self { travel: Vec2::ZERO, sense: 0.0 }
     }
 
-    /// The next setpoint. `motion`: motion of the route per show time, at the moment when the setpoint takes effect.
-    /// `ahead`: the look-ahead direction, if the route rests or is slow.
+    /// Returns the next setpoint. `motion`: motion of the route per show time, at the moment when the setpoint takes effect.
+    /// `ahead`: the look-ahead direction if the route rests or is slow, and later drives off; otherwise `None`.
     #[inline]
     pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: BodyPose) -> Setpoint {
         let speed = motion.velocity.length();
@@ -83,14 +90,15 @@ impl Follow {
         self.rest(motion, stray || ahead.is_some(), body)
     }
 
-    /// Turns towards the look-ahead direction of a route that has not begun.
+    /// Returns the setpoint that turns the robot on the spot towards `ahead`, the first direction of a route that has not
+    /// begun.
     pub(crate) fn prepare(&mut self, ahead: Vec2, body: BodyPose) -> Setpoint {
         self.travel = ahead;
         self.choose_sense(body.facing);
         Setpoint { speed_mps: 0.0, turn_radps: self.turn_on_the_spot(body.facing) }
     }
 
-    /// Chooses whether the robot drives forwards or backwards, whichever is the shorter turn, with hysteresis.
+    /// Chooses whether the robot drives forwards or backwards: the one that needs the smaller turn, with hysteresis.
     fn choose_sense(&mut self, facing: Vec2) {
         let cos = facing.dot(self.travel);
         if self.sense == 0.0 || cos * self.sense < BEHIND_COS {
@@ -111,7 +119,8 @@ impl Follow {
         }
     }
 
-    /// On a slow stretch, turns to the look-ahead direction in time and keeps up with the route as far as it can.
+    /// Returns the setpoint on a slow part of the route. The robot turns to the look-ahead direction within `within_s`
+    /// seconds, and keeps up with the route as far as its heading allows.
     fn swing(&self, motion: &Motion, within_s: f64, body: BodyPose) -> Setpoint {
         let along = body.facing.dot(motion.position - body.at);
         let hurry = (SWING / within_s.max(1e-3)).min(SPOT);
@@ -142,7 +151,7 @@ impl Follow {
     }
 }
 
-/// Speed that closes an error along the front, m/s.
+/// Speed that closes an error along the front of `along_m` metres, m/s.
 fn closing_mps(along_m: f64) -> f64 {
     if along_m.abs() <= FAR_M {
         return ALONG * along_m;

@@ -1,9 +1,9 @@
-//! Odometry since the moment of the latest fixes, so that a late fix corrects the pose that the robot had at its
-//! moment.
+//! Odometry since the moment at which the latest fix was measured. A late fix corrects the pose that the robot had at
+//! that moment, and odometry leads from that pose to the present.
 
 use lightbots_base::{Instant, Span};
 
-/// Steps remembered: 0.5 s of 16 ms, more than the largest delay of a fix (0.45 s).
+/// Number of steps that are remembered: 0.5 s of 16 ms each, which is more than the largest delay of a fix (0.45 s).
 const STEPS: usize = 32;
 
 /// Turns of the left and the right wheel in a step, radians.
@@ -12,11 +12,11 @@ type Turns = [f64; 2];
 /// The wheel turns of the last steps, oldest first.
 #[derive(Debug)]
 pub(crate) struct OdometryHistory {
-    /// `(end of the step, turns)`, a ring.
+    /// Ring buffer of `(end of the step, turns)`.
     steps: [(Instant, Turns); STEPS],
     oldest: usize,
     count: usize,
-    /// End of the last step that was taken out.
+    /// End of the last step that was removed.
     taken: Instant,
 }
 
@@ -25,7 +25,7 @@ impl OdometryHistory {
         Self { steps: [(Instant::ZERO, [0.0; 2]); STEPS], oldest: 0, count: 0, taken: Instant::ZERO }
     }
 
-    /// Adds one step that ended at `now`; returns the oldest where there is no room.
+    /// Adds a step that ended at `now`. If the buffer is full, removes the oldest step and returns its turns.
     pub(crate) fn add(&mut self, now: Instant, turns: Turns) -> Option<Turns> {
         let pushed_out = if self.count == STEPS { self.take_until(Instant::FAR) } else { None };
         self.steps[(self.oldest + self.count) % STEPS] = (now, turns);
@@ -33,7 +33,7 @@ impl OdometryHistory {
         pushed_out
     }
 
-    /// Takes out the oldest step if it ended by `then`.
+    /// Removes the oldest step and returns its turns, if it ended at `then` or before; otherwise `None`.
     pub(crate) fn take_until(&mut self, then: Instant) -> Option<Turns> {
         let (ended, turns) = *self.all().next()?;
         if ended > then {
@@ -45,7 +45,7 @@ impl OdometryHistory {
         Some(turns)
     }
 
-    /// Wheel turns in the part of the oldest step before `then`, interpolated.
+    /// Wheel turns in the part of the oldest step that lies before `then`, interpolated linearly.
     pub(crate) fn begun_by(&self, then: Instant) -> Turns {
         let Some((ended, turns)) = self.all().next() else { return [0.0; 2] };
         let (whole, past) = (*ended - self.taken, then - self.taken);

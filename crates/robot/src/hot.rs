@@ -14,50 +14,53 @@ use crate::seek::Seek;
 use crate::stall::StallDetector;
 use crate::supervise::Supervisor;
 
-/// Time beyond that of three fixes after which fixes are overdue. Below one step, jitter of the fixes counts as an
-/// outage. Above, a robot drives on without fixes for longer.
+/// Fixes are overdue after the time of three fixes plus this. With less than one step (16 ms), jitter of the fixes
+/// counts as an outage. With a larger value, a robot drives on without fixes for longer.
 const OVERDUE: Span = Span::from_millis(16);
 
-/// All state that a step reads or writes while no neighbour is in sight and the light is a straight line of colours. It
-/// is one piece of memory, 1.8 KB.
+/// All state that an ordinary step reads or writes. In such a step no neighbour is in sight, and the light follows a
+/// straight line of colours. `Hot` is one piece of memory, 1.8 KB.
 ///
-/// A simulator of thousands of robots may load it into the cache by its address and size before the robot's turn.
-/// Otherwise a step waits longer for memory than it computes.
+/// A simulator of thousands of robots may prefetch it into the cache before the robot's step. Otherwise the step waits
+/// longer for memory than it computes.
 #[derive(Debug)]
 #[repr(align(64))]
 pub struct Hot {
-    /// The own clock at the latest step or message.
+    /// The robot's own clock at the latest step, message or change of the link.
     pub(crate) now: Instant,
-    /// When the latest step was, in the time of the world that the wheels are in.
+    /// Moment of the latest step, in the time of the world in which the wheels turn; see
+    /// [`Inputs::lag`](crate::Inputs::lag).
     pub(crate) last_step: Option<Instant>,
-    /// How far the world of the wheels lags behind the own clock, as of the latest step.
+    /// [`Inputs::lag`](crate::Inputs::lag) of the latest step.
     pub(crate) lag: Span,
     pub(crate) clock: ShowClock,
-    /// Measures of the own body, a copy from the configuration.
+    /// Copy of [`Config::limits`].
     pub(crate) limits: Limits,
-    /// Without a fix for longer than this, fixes are overdue.
+    /// Time without a fix after which fixes are overdue.
     pub(crate) blind_after: Span,
     /// Range of the proximity sensors, metres.
     pub(crate) range_m: f32,
     /// Whether the robot understands routes, and with them the show clock.
     pub(crate) takes_routes: bool,
-    /// Whether its light shows faults.
+    /// Whether the light flashes red for faults; an original robot's light does not.
     pub(crate) shows_trouble: bool,
-    /// Whether the light may change by itself, or a command changed it since the latest step.
+    /// Whether the light may change without a further command, or a command changed it since the latest step.
     pub(crate) light_changes: bool,
     pub(crate) shown: Rgb,
-    /// The light of the next steps, as far as it is known.
+    /// The line of colours of the next steps; [`LightPiece::NONE`] if it is not known in advance.
     pub(crate) light_piece: LightPiece,
-    /// Moment of the show clock whose colour of the piece was shown last.
+    /// Moment for which `light_piece` last gave the colour, show clock.
     pub(crate) piece_shown_at: Instant,
     pub(crate) state: RobotState,
-    /// When the robot stops after a `STOP at`, by its own clock. Its route comes to rest by then.
+    /// When the robot stops because of a `STOP at` command, own clock; `None` if there is none. The route comes to rest
+    /// by then.
     pub(crate) stops_at: Option<Instant>,
-    /// Whether the robot stands until fixes come again.
+    /// Whether the robot stands still until position fixes come again.
     pub(crate) pauses: bool,
-    /// Whether the safety layer slowed the robot on its route, and it has not caught up since.
+    /// Whether the safety layer slowed the robot on its route, and the robot has not caught up since.
     pub(crate) is_held_up: bool,
-    /// Whether the safety layer follows a neighbour or acts on one. Otherwise a step does not run the safety layer.
+    /// Whether the safety layer tracks a neighbour, or slows the robot for one. If not, a step does not run the safety
+    /// layer.
     pub(crate) is_wary: bool,
     /// How well the robot knew its pose in the latest step.
     pub(crate) quality: PoseQuality,

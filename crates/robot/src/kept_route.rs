@@ -1,4 +1,4 @@
-//! The route that waits for its START.
+//! The kept route: the next route, which waits for its START or its start time.
 
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::Route;
@@ -8,15 +8,15 @@ use crate::follow::Follow;
 use crate::look_ahead::LookAhead;
 use crate::storage::Slot;
 
-/// A START that comes later than this after its moment is refused. Above, a robot would jump onto a route far under
-/// way.
+/// A START is refused if its moment is past by more than this. With a larger value, a robot would jump onto a route
+/// that others have driven for long.
 pub(crate) const TOO_LATE: Span = Span::from_millis(500);
-/// Distance to the begin of a kept route within which a robot turns towards the route, metres. Below, robots that have
-/// just arrived (R36) may not turn in time. Above, robots whose last route was aborted turn towards a route that they
-/// cannot drive.
+/// A robot turns towards a kept route only if it is within this distance of the route's start, metres. With a smaller
+/// value, robots that have just arrived (R36) may not turn in time. With a larger value, robots whose last route was
+/// aborted turn towards a route that they cannot drive.
 const BEGINS_HERE_M: f64 = 0.02;
 
-/// A route that waits for its START.
+/// A route that waits for its START or its start time.
 #[derive(Debug)]
 pub(crate) struct KeptRoute {
     pub(crate) slot: Slot,
@@ -25,7 +25,8 @@ pub(crate) struct KeptRoute {
     pub(crate) starts: Option<Instant>,
     begin: Vec2,
     ahead: Option<Vec2>,
-    /// Whether the robot turns towards the route. After an outage it does only once the START has come.
+    /// Whether the robot turns towards the route before the start. After an outage of the link, it does so only once
+    /// the START has come.
     is_turned_to: bool,
 }
 
@@ -36,13 +37,14 @@ impl KeptRoute {
         Self { slot, seq, starts: None, follow: Follow::new(), begin, ahead, is_turned_to }
     }
 
-    /// Whether a START for the moment `at` is refused, because that is too long ago.
+    /// Whether a START for the moment `at` is refused, because the moment is too long ago. `show`: the show clock now,
+    /// if it is known.
     pub(crate) fn is_late(&self, at: Instant, show: Option<Instant>) -> bool {
         show.is_some_and(|show| show - at > TOO_LATE)
     }
 
-    /// Sets when the route begins. A later START counts only if its moment is later too: one with an earlier moment is
-    /// an old message that was overtaken. Returns whether the moment changed.
+    /// Sets that the route begins at the moment `at`, show clock. A further START counts only if its moment is later: a
+    /// START with an earlier moment is an old message that was overtaken. Returns whether the moment changed.
     pub(crate) fn start(&mut self, at: Instant) -> bool {
         self.is_turned_to = true;
         let is_news = self.starts.is_none_or(|known| known < at);
@@ -52,13 +54,13 @@ impl KeptRoute {
         is_news
     }
 
-    /// Stops turning towards the route until its START comes.
+    /// Makes the robot stop turning towards the route until the START comes.
     pub(crate) fn await_start(&mut self) {
         self.is_turned_to = false;
     }
 
-    /// The setpoint to turn towards the first direction of the route. `None` if the robot shall not turn or the route
-    /// begins elsewhere.
+    /// The setpoint that turns the robot towards the first direction of the route. `None` if the robot shall not turn,
+    /// or if the route begins at another place.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         let is_here = self.begin.distance(body.at) < BEGINS_HERE_M;
         self.ahead.filter(|_| self.is_turned_to && is_here).map(|ahead| self.follow.prepare(ahead, body))

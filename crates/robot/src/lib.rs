@@ -1,13 +1,13 @@
 //! The firmware core of a LightBot: the same code on a board, in Webots and in the simulator.
 //!
-//! One [`Robot`] is one robot. Each 16 ms the shell passes in the readings of the sensors and gets the outputs for
-//! motors and light. Messages go in as they come, and are drained after every step. The core allocates nothing and
-//! reads no clock, and the same inputs give the same outputs to the last bit. It knows nothing of shows, brokers or
-//! other robots.
+//! A [`Robot`] is the core of one robot. Every 16 ms the shell (the program around the core) passes in the readings of
+//! the sensors. It gets the outputs for motors and light. The shell passes in messages as they come, and takes outgoing
+//! messages after every step. The core allocates nothing and reads no clock. The same inputs give the same outputs to
+//! the last bit. The core has no notion of shows or brokers.
 //!
 //! A step: [`Inputs`] → `estimate` (pose) → `routes` with `follow`, or `seek` (setpoint) → `reflex` and `supervise` may
-//! override → `drive` (wheel rates) → [`Outputs`]. [`Hot`] is all state of such a step. A `PATH` is decoded on the
-//! stack, so the thread that calls [`Robot::receive`] needs 32 KB.
+//! override → `drive` (wheel rates) → [`Outputs`]. [`Hot`] is all state of an ordinary step. A `PATH` command is
+//! decoded on the stack, so the thread that calls [`Robot::receive`] needs 32 KB of stack.
 //!
 //! ```
 //! use lightbots_base::{Instant, RobotId, Vec2};

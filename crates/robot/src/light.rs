@@ -1,5 +1,6 @@
-//! The light: a colour, fades and stretches of light by the show clock, and live light from elsewhere over them. It
-//! also blinks to be found and flashes red for faults.
+//! The light of the robot. Its own light is a colour, fades, and stretches of light: colours over time that the
+//! controller sends ahead. Live light from elsewhere is shown in place of the own light. The light also blinks so that
+//! people find the robot, and flashes red for faults.
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::Fade;
@@ -8,34 +9,36 @@ use crate::light_ahead::{LightAhead, StoredTracks};
 use crate::light_piece::LightPiece;
 use crate::live_light::LiveLight;
 
-/// Number of fades that can wait for their moment. One more replaces the latest.
+/// Number of fades that can wait for their moment. A further fade replaces the waiting fade with the latest moment.
 const WAITING: usize = 4;
-/// Half a period of blinking: 4 Hz.
+/// Half a period of blinking and of red flashes: 4 Hz.
 const FLASH: Span = Span::from_millis(125);
-/// How long a fault lasts before the light shows it. Below, every restart of the link flashes.
+/// How long a fault must last before the light shows it. With a smaller value, the light flashes at every restart of
+/// the link.
 const SETTLED: Span = Span::from_millis(500);
-/// Period of the groups of red flashes.
+/// Time from the beginning of a group of red flashes to the beginning of the next group.
 const TROUBLE: Span = Span::from_millis(2000);
 const RED: Rgb = Rgb::new(255, 0, 0);
 
-/// The present colour, and what will change it.
+/// The light of a robot: the present colour, and all that will change it.
 #[derive(Debug, Default)]
 pub(crate) struct Light {
-    /// Colour of the own light, which goes on beneath all that is shown over it.
+    /// Colour of the own light. It goes on changing while live light, blinking or flashes are shown in its place.
     shown: Rgb,
-    /// Whether a fade, a stretch, live light, blinking or flashes may change the light. Otherwise it stays at `shown`.
+    /// Whether a fade, a stretch, live light, blinking or flashes may change the light. Otherwise the light stays at
+    /// `shown`.
     busy: bool,
-    /// The colour at which the running fade began, and that fade.
+    /// The colour at which the running fade began, and this fade; `None` if no fade runs.
     running: Option<(Rgb, Fade)>,
-    /// Fades that have not begun, in order of time.
+    /// Fades that have not begun, in the order of their moments.
     waiting: heapless::Vec<Fade, WAITING>,
-    /// Stretches of light, sent ahead.
+    /// Stretches of light, which are sent ahead of their time.
     pub(crate) tracks: LightAhead,
     /// Live light from elsewhere, such as a lighting desk.
     pub(crate) live: LiveLight,
     /// Begin and end of blinking, own clock.
     blink: Option<(Instant, Instant)>,
-    /// When a fault begins to be shown, own clock, and its number of flashes.
+    /// When the light begins to show the present fault, own clock, and the number of flashes. `None` without a fault.
     trouble: Option<(Instant, u8)>,
 }
 
@@ -48,8 +51,8 @@ impl Light {
         self.tracks.clear();
     }
 
-    /// Takes a fade. It begins at its moment, or at once if that is past. If the show time is unknown, its colour is
-    /// set at once.
+    /// Adds a fade. It begins at its moment, or at once if the moment is past. `show`: the show clock; if it is
+    /// unknown, the light changes to the colour of the fade at once.
     pub(crate) fn fade(&mut self, show: Option<Instant>, fade: Fade) {
         let Some(show) = show else {
             return self.set(fade.to);
@@ -64,13 +67,14 @@ impl Light {
         self.advance(show);
     }
 
-    /// Blinks from `now` on, own clock, for the time `over`.
+    /// Blinks white from `now` on, own clock, for the time `over`.
     pub(crate) fn blink(&mut self, now: Instant, over: Span) {
         self.blink = Some((now, now + over));
         self.busy = true;
     }
 
-    /// Takes the present fault at `now` of the own clock, as a number of red flashes; 0 for none.
+    /// Sets the fault that is present at `now`, own clock. `flashes`: the number of red flashes that stand for it; 0 if
+    /// there is no fault.
     pub(crate) fn report(&mut self, now: Instant, flashes: u8) {
         if flashes == 0 && !self.busy {
             return;
@@ -86,18 +90,19 @@ impl Light {
         self.busy
     }
 
-    /// Cancels the fades that have not begun, and all stretches of light. A fade that runs goes on.
+    /// Cancels all fades that have not begun, and all stretches of light. A running fade goes on.
     pub(crate) fn stop(&mut self) {
         self.waiting.clear();
         self.tracks.clear();
     }
 
-    /// Notes that a stretch or live light arrived, which steps must look at.
+    /// Notes that a stretch or live light arrived. Steps then compute the light again.
     pub(crate) fn wake(&mut self) {
         self.busy = true;
     }
 
-    /// The colour at `now` of the own clock and at `show` of the show clock.
+    /// Returns the colour to show at `now` of the own clock, which is `show` of the show clock. `stored`: the colours
+    /// of the stretches.
     pub(crate) fn step(&mut self, now: Instant, show: Option<Instant>, stored: &StoredTracks) -> Rgb {
         if !self.busy {
             return self.shown;
@@ -131,8 +136,8 @@ impl Light {
         if beat % 2 == 0 { colour } else { Rgb::BLACK }
     }
 
-    /// The line of colours from a moment of the show clock on, after `step` computed the colour of that moment.
-    /// [`LightPiece::NONE`] if anything but a stretch may change the light.
+    /// Returns the line of colours from the moment `show` on, show clock. `step` must have computed the colour of that
+    /// moment before. [`LightPiece::NONE`] if no stretch plays, or if anything else may change the light.
     pub(crate) fn piece(&self, show: Option<Instant>, stored: &StoredTracks) -> LightPiece {
         let is_alone = self.running.is_none()
             && self.waiting.is_empty()

@@ -1,4 +1,5 @@
-//! Stretches of light that were sent ahead (R55 to R57): which one plays, and its colour.
+//! Stretches of light: colours over time that the controller sends ahead (R55 to R57). This module decides which
+//! stretch plays, and computes its colour.
 
 use lightbots_base::{Instant, LightCursor, LightRecord, LightTrack, Rgb, Span};
 use lightbots_wire::{LightAnchor, LightStretch, MAX_LIGHT_RECORDS};
@@ -6,10 +7,11 @@ use lightbots_wire::{LightAnchor, LightStretch, MAX_LIGHT_RECORDS};
 use crate::light_piece::LightPiece;
 use crate::timeline::Timeline;
 
-/// Number of stretches that are stored: the one that plays, the one that goes on from it, and the first of the next
-/// drive.
+/// Number of stretches that are stored: the stretch that plays, the stretch that follows it, and the first stretch of
+/// the next drive.
 pub(crate) const STORED: usize = 3;
-/// A message whose number is less than this below the newest is old, as with routes.
+/// A message is old if its number is below the newest one by less than this, as with routes. A number farther below
+/// comes from a restarted controller.
 pub(crate) const OLD_NUMBERS: u32 = 64;
 
 /// Colours of one stretch.
@@ -37,14 +39,14 @@ impl StoredTrack {
 /// Storage of all stretches.
 pub(crate) type StoredTracks = [StoredTrack; STORED];
 
-/// A stretch that was received, without its colours.
+/// A received stretch. Its colours lie in [`StoredTracks`].
 #[derive(Clone, Copy, Debug)]
 struct Kept {
     number: u32,
     slot: usize,
-    /// The route whose START it waits for.
+    /// Number of the route whose START begins the stretch; `None` if it begins at a given moment.
     seq: Option<u32>,
-    /// Moment of the show clock from which its time counts; `None` while it waits for a START.
+    /// Moment of the show clock at which the time of the stretch is 0; `None` while the stretch waits for a START.
     from: Option<Instant>,
     runs_freely: bool,
     skip: Span,
@@ -55,36 +57,39 @@ struct Kept {
 #[derive(Clone, Copy, Debug)]
 struct Playing {
     kept: Kept,
-    /// The colour that was shown before it began.
+    /// The colour that was shown before the stretch began. The stretch blends from it.
     before: Rgb,
     cursor: LightCursor,
-    /// Moment of the show clock at which its track began, if its time runs with the show clock.
+    /// Moment of the show clock at which its track began. It is valid while the time of the stretch runs evenly with
+    /// the show clock.
     began: Instant,
-    /// Whether its time runs with the show clock until a message comes, and blending is over.
+    /// Whether blending is over, and the time of the stretch runs evenly with the show clock until a further message
+    /// comes.
     is_even: bool,
 }
 
 impl Playing {
-    /// The line of colours at its cursor, as far as it lies between two moments. `None` if the track is over.
+    /// Returns the line of colours at the cursor, limited to the time between two moments of the show clock. `None` if
+    /// the track is over.
     fn piece(&self, track: LightTrack<'_>, moments: (Instant, Instant)) -> Option<LightPiece> {
         let (begins, lasts, colours) = self.cursor.line(track)?;
         Some(LightPiece::new(moments, (self.began + begins, lasts), colours))
     }
 }
 
-/// The stretches of a robot. Their records lie in its storage.
+/// The stretches of a robot. Their colours lie in [`StoredTracks`].
 #[derive(Debug)]
 pub(crate) struct LightAhead {
     playing: Option<Playing>,
-    /// Stretches that have not begun, in order of arrival.
+    /// Stretches that have not begun, in the order in which they arrived.
     waiting: heapless::Vec<Kept, STORED>,
-    /// Number of the stretch that was received last; 0: none.
+    /// Number of the stretch that was received last; 0 if none was.
     newest: u32,
-    /// Route number and moment of the START that was received last.
+    /// Route number and moment (show clock) of the START that was received last.
     started: Option<(u32, Instant)>,
-    /// Time of the stretch that plays, which stands still during holds.
+    /// Time of the stretch that plays. Like path time, it stands still during holds.
     timeline: Timeline,
-    /// No stretch that waits begins before this moment of the show clock.
+    /// No waiting stretch begins before this moment of the show clock.
     quiet_until: Instant,
 }
 
@@ -102,7 +107,7 @@ impl Default for LightAhead {
 }
 
 impl LightAhead {
-    /// Number of the stretch that was received last; 0: none.
+    /// Number of the stretch that was received last; 0 if none was.
     pub(crate) fn newest(&self) -> u32 {
         self.newest
     }
@@ -112,8 +117,8 @@ impl LightAhead {
         self.playing.is_some() || !self.waiting.is_empty()
     }
 
-    /// Keeps a stretch. An old message changes nothing. Without room, the new stretch replaces the one that came last
-    /// of those that wait.
+    /// Stores a stretch until it begins. An old message changes nothing. If all places are taken, the new stretch
+    /// replaces the waiting stretch that arrived last.
     pub(crate) fn keep(&mut self, stretch: &LightStretch, storage: &mut StoredTracks) {
         if self.newest != 0 && self.newest.wrapping_sub(stretch.number) < OLD_NUMBERS {
             return;
@@ -141,8 +146,8 @@ impl LightAhead {
         self.quiet_until = Instant::ZERO;
     }
 
-    /// Takes a START, which sets when stretches of that route begin. For the START of a route that is known, only a
-    /// later moment counts.
+    /// Handles a START, which sets when the stretches of the route `seq` begin. A further START of the same route
+    /// counts only if its moment `at` is later.
     pub(crate) fn start(&mut self, seq: u32, at: Instant) {
         if self.started.is_some_and(|(known, before)| known == seq && before >= at) {
             return;
@@ -154,7 +159,7 @@ impl LightAhead {
         }
     }
 
-    /// Notes a hold or resume.
+    /// Notes a hold (`hold`) or a resume for the moment `at`, show clock.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
         // A resume that is received late advances the time at once.
@@ -173,17 +178,18 @@ impl LightAhead {
         self.waiting.clear();
     }
 
-    /// Drops all stretches and moments, because the show clock was set anew.
+    /// Drops all stretches and all moments of the show clock, because the show clock was reset.
     pub(crate) fn forget_moments(&mut self) {
         *self = Self { newest: self.newest, ..Self::default() };
     }
 
-    /// Whether a stretch begins by this moment of the show clock.
+    /// Whether a waiting stretch is to begin at the moment `show` or before, show clock.
     pub(crate) fn begins(&self, show: Instant) -> bool {
         show >= self.quiet_until && self.due(show).is_some()
     }
 
-    /// The colour at a moment of the show clock; `None` if no stretch plays. `shown`: the colour until now.
+    /// Returns the colour at the moment `show`, show clock; `None` if no stretch plays. `shown`: the colour of the own
+    /// light until now.
     pub(crate) fn step(&mut self, show: Instant, shown: Rgb, storage: &StoredTracks) -> Option<Rgb> {
         if show >= self.quiet_until {
             while let Some(index) = self.due(show) {
@@ -211,7 +217,8 @@ impl LightAhead {
         Some(colour)
     }
 
-    /// The line of colours after one that is over, if nothing else happened. `None` if `step` must compute the colour.
+    /// Returns the line of colours at the moment `show`, after the last line has ended. `None` if a stretch may begin,
+    /// or none plays: `step` must then compute the colour.
     #[inline]
     pub(crate) fn next_piece(&mut self, show: Instant, storage: &StoredTracks) -> Option<LightPiece> {
         if show >= self.quiet_until {
@@ -223,7 +230,8 @@ impl LightAhead {
         playing.piece(track, (show, self.quiet_until))
     }
 
-    /// The line of colours from a moment of the show clock on, after `step` computed the colour of that moment.
+    /// Returns the line of colours from the moment `show` on, show clock. `step` must have computed the colour of that
+    /// moment before. [`LightPiece::NONE`] if no line is known.
     pub(crate) fn piece(&self, show: Instant, storage: &StoredTracks) -> LightPiece {
         let even = self.playing.as_ref().filter(|playing| playing.is_even);
         let piece = even
@@ -251,22 +259,23 @@ impl LightAhead {
         });
     }
 
-    /// Index of the first stretch that waits and begins by this moment.
+    /// Index of the first waiting stretch that is to begin at the moment `show` or before.
     fn due(&self, show: Instant) -> Option<usize> {
         let is_due =
             |kept: Kept| self.time_of(kept, show).is_some_and(|time| time >= kept.skip.max(Span::ZERO));
         (0..self.waiting.len()).find(|&index| is_due(self.waiting[index]))
     }
 
-    /// Moment of the show clock before which no stretch that waits begins. The time of a stretch goes no faster than
-    /// the show clock.
+    /// Moment of the show clock before which no waiting stretch begins. It is a lower bound, because the time of a
+    /// stretch never runs faster than the show clock.
     fn next_due(&self, show: Instant) -> Instant {
         let due =
             |kept: &Kept| self.time_of(*kept, show).map(|time| show + (kept.skip.max(Span::ZERO) - time));
         self.waiting.iter().filter_map(due).min().unwrap_or(Instant::FAR)
     }
 
-    /// The time of a stretch since its anchor; `None` if that is not known.
+    /// The time of a stretch at the moment `show`, show clock: the time since its start, without holds unless it runs
+    /// freely. `None` while its start is not known.
     fn time_of(&self, kept: Kept, show: Instant) -> Option<Span> {
         let from = kept.from?;
         if kept.runs_freely || show < from {
@@ -281,7 +290,7 @@ impl LightAhead {
     }
 }
 
-/// Whether a number comes before another one; numbers wrap around.
+/// Whether `number` comes before `other`. Numbers wrap around after the largest one.
 fn is_earlier(number: u32, other: u32) -> bool {
     (other.wrapping_sub(number) as i32) > 0
 }

@@ -1,4 +1,4 @@
-//! A piece of light: a straight line of colours over a part of the show clock. A step within it need not look at
+//! A piece of light: a linear change of colour over a time of the show clock. A step within the piece need not look at
 //! stretches, fades or faults.
 //!
 //! Most steps lie within a piece. They would be a quarter slower if [`LightAhead`](crate::light_ahead::LightAhead)
@@ -6,17 +6,18 @@
 
 use lightbots_base::{Instant, Rgb, Span};
 
-/// Binary places of the fixed-point numbers in which colour codes are computed: whole numbers are quicker than
-/// floating-point ones.
+/// Number of fractional bits of the fixed-point numbers in which colour codes are computed. Integers are quicker than
+/// floating-point numbers.
 const PARTS_BITS: u32 = 40;
 
-/// Colours from one moment of the show clock to another, if no message comes between.
+/// The colours from one moment of the show clock to another, if no message comes in between.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPiece {
-    /// First moment, show clock. The piece lasts `lasts_us` microseconds, 0 if it covers no moment.
+    /// First moment of the piece, show clock. The piece lasts `lasts_us` microseconds, 0 if it covers no moment.
     from: Instant,
     lasts_us: u64,
-    /// Code of each channel at `from` plus one half, in fixed point. `changes`: its change in a microsecond.
+    /// Code of each colour channel at `from` plus one half (for rounding), in fixed point. `changes`: change of the
+    /// code in a microsecond.
     codes: [i64; 3],
     changes: [i64; 3],
 }
@@ -25,8 +26,8 @@ impl LightPiece {
     /// A piece that covers no moment.
     pub(crate) const NONE: Self = Self { from: Instant::ZERO, lasts_us: 0, codes: [0; 3], changes: [0; 3] };
 
-    /// A line of colours from `start` to `end` that takes `lasts` from `begins` on, as far as it lies within
-    /// `from..until`.
+    /// The part within `from..until` (show clock) of a line of colours from `start` to `end`. The line begins at
+    /// `begins` and takes `lasts`.
     pub(crate) fn new(
         (from, until): (Instant, Instant),
         (begins, lasts): (Instant, Span),

@@ -1,39 +1,41 @@
-//! Light from elsewhere, such as a lighting desk (R59 to R61): the colour that is shown instead of the robot's own.
+//! Live light: a colour from elsewhere, such as a lighting desk, that is shown instead of the robot's own light (R59 to
+//! R61).
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::{LiveColours, LiveRelease};
 
 use crate::light_ahead::OLD_NUMBERS;
 
-/// Without a message for this long the robot shows its own light again: the network data loss of ANSI E1.31-2018, 6.7.1.
+/// The robot shows its own light again after this time without live colours for it: the network data loss timeout of ANSI
+/// E1.31-2018, 6.7.1.
 const LOSS: Span = Span::from_millis(2_500);
 
 /// Live light of a robot.
 #[derive(Debug, Default)]
 pub(crate) struct LiveLight {
-    /// Number of its colour in messages (SLOT); `None` until it is received.
+    /// Slot of the robot: the number by which LIVE and RELEASE messages address it. `None` until it is received.
     slot: Option<u16>,
-    /// Number of the newest message for this robot; 0 if none came lately.
+    /// Number of the newest LIVE or RELEASE message for this robot. 0 if none came yet, or the live light was lost since.
     newest: u32,
-    /// The colour that is shown, and until when if no message follows, own clock.
+    /// The live colour that is shown, and until when (own clock) if no message follows. `None` if the own light is shown.
     shown: Option<(Rgb, Instant)>,
 }
 
 impl LiveLight {
-    /// Number of its colour in messages, if it has one.
+    /// The robot's slot; `None` if it has not received one.
     pub(crate) fn slot(&self) -> Option<u16> {
         self.slot
     }
 
-    /// Sets the number of its colour in messages. A colour that was shown for another number is dropped.
+    /// Sets the robot's slot. If the slot changes, a live colour that is shown is dropped.
     pub(crate) fn give_slot(&mut self, slot: u16) {
         if self.slot.replace(slot) != Some(slot) {
             self.shown = None;
         }
     }
 
-    /// Receives colours at `now` of the own clock. Returns whether one of them is for this robot; an old message is
-    /// ignored.
+    /// Handles live colours that arrive at `now`, own clock. Returns whether one of them is for this robot. An old message
+    /// is ignored.
     pub(crate) fn receive(&mut self, now: Instant, live: &LiveColours) -> bool {
         let colour = self.slot.and_then(|slot| live.of(slot)).filter(|_| !self.is_old(live.number));
         if let Some(colour) = colour {
@@ -42,14 +44,14 @@ impl LiveLight {
         colour.is_some()
     }
 
-    /// Shows the own light again, if the message concerns this robot and is not old.
+    /// Handles a RELEASE: the own light is shown again, if the message covers this robot's slot and is not old.
     pub(crate) fn release(&mut self, release: &LiveRelease) {
         if self.slot.is_some_and(|slot| release.covers(slot)) && !self.is_old(release.number) {
             (self.newest, self.shown) = (release.number, None);
         }
     }
 
-    /// The colour at `now` of the own clock; `None` if the own light is shown.
+    /// Returns the live colour at `now`, own clock; `None` if the own light is shown.
     pub(crate) fn colour(&mut self, now: Instant) -> Option<Rgb> {
         let (colour, until) = self.shown?;
         if now >= until {
@@ -60,12 +62,13 @@ impl LiveLight {
         Some(colour)
     }
 
-    /// Whether a colour is shown instead of the own light.
+    /// Whether a live colour is shown instead of the own light.
     pub(crate) fn is_on(&self) -> bool {
         self.shown.is_some()
     }
 
-    /// Whether a message is older than the newest one. Messages of one moment have the same number.
+    /// Whether the message with this number is older than the newest one. Messages of the same moment have the same number
+    /// and are not old.
     fn is_old(&self, number: u32) -> bool {
         self.newest != 0 && (1..OLD_NUMBERS).contains(&self.newest.wrapping_sub(number))
     }

@@ -1,44 +1,45 @@
-//! Look-ahead on slow stretches of a route. Near a stop, the tangent swings faster than a robot turns, or reverses. The
-//! robot therefore turns to the direction in which the route drives off.
+//! Look-ahead on slow parts of a route. Near a stop, the tangent of the route turns faster than a robot can, or
+//! reverses. So the robot turns to the look-ahead direction: the direction in which the route drives off after the slow
+//! part.
 
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Route;
 
 use crate::cursor::from;
 
-/// Speed below which a route is slow, m/s. The proof of a plan uses the same bound.
+/// Below this speed a route is slow, m/s. The proof of a plan uses the same bound.
 pub(crate) const SLOW_MPS: f64 = 0.02;
-/// Path time for which the look-ahead looks ahead. Below, a robot begins its turn too late. Above, it turns away while
-/// the route still moves.
+/// How far the look-ahead looks ahead on the route, path time. With a smaller value, a robot begins its turn too late.
+/// With a larger value, the robot turns away while the route still moves.
 const HORIZON: Span = Span::from_millis(480);
 /// Time between two samples of the route: a step of the control loop.
 const STEP: Span = Span::from_millis(16);
-/// Where the route stays slow within the horizon, its fastest moment counts if its speed is this multiple of the
-/// present one.
+/// If the route stays slow within the horizon, the direction of its fastest moment is taken. The speed must then be
+/// more than this multiple of the present speed.
 const MUCH_FASTER: f64 = 2.0;
 
 /// The look-ahead direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ahead {
-    /// Unit vector of travel.
+    /// Unit vector of the direction, in the stage.
     pub towards: Vec2,
-    /// Time until the route travels in this direction, seconds.
+    /// Path time until the route travels in this direction, seconds.
     pub within_s: f64,
 }
 
 /// The latest look-ahead, kept until it is outdated.
 #[derive(Debug, Default)]
 pub(crate) struct LookAhead {
-    /// Path time from which it holds.
+    /// First path time for which `towards` is valid.
     from: Span,
-    /// Path time until which it holds.
+    /// Path time at which `towards` is outdated: if there is a direction, when the route drives off.
     until: Span,
     towards: Option<Vec2>,
 }
 
 impl LookAhead {
-    /// The look-ahead direction at a path time within piece `index`, which begins at `begin`. `None` if the route ends
-    /// or stays about as slow as it is.
+    /// The look-ahead direction at the path time `time`, which is within piece `index` of the route; this piece begins
+    /// at the path time `begin`. `None` if the route ends or stays about as slow as it is now.
     pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
         if time < self.from || time >= self.until {
             (self.from, self.until, self.towards) = (time, time + HORIZON / 2, None);
@@ -51,7 +52,8 @@ impl LookAhead {
     }
 }
 
-/// Path time and direction with which a route drives off; `None` if it does not within the horizon.
+/// Path time at which a route drives off after `time`, and its direction then; `None` if it does not drive off within
+/// [`HORIZON`].
 fn drives_off(route: &Route, (index, begin): (usize, Span), time: Span) -> Option<(Span, Vec2)> {
     let mut start = from(route, index);
     let (mut begin, mut now, mut horizon) = (begin, time.max(begin), time + HORIZON);

@@ -1,21 +1,21 @@
 //! Estimation of a sensor's noise from its readings (an adaptive Kalman filter).
 //!
-//! Half the mean square of the difference of two consecutive innovations is the variance of the noise. A constant error of
-//! the prediction cancels out.
+//! The variance of the noise is half the mean square of the difference between two consecutive innovations. In this
+//! difference a constant error of the prediction cancels out.
 
-/// Time constant of the average, readings: 2 s. Below, the estimate itself is noisy. Above, a sensor that becomes worse is
-/// trusted for longer.
+/// Time constant of the average, number of readings: 2 s of fixes. With a smaller value, the estimated variance is
+/// noisy. With a larger value, the growing noise of a sensor that becomes worse is noticed later.
 const READINGS: f64 = 128.0;
-/// Largest half of a squared difference that counts, as a multiple of the variance, because outliers are no noise: 3
-/// sigma.
+/// Upper bound of half a squared difference, as a multiple of the variance: 3 sigma. It keeps outliers from counting as
+/// noise.
 const CLIP: f64 = 9.0;
 
-/// The noise variance of one sensor.
+/// Estimated noise variance of one sensor.
 #[derive(Debug)]
 pub(crate) struct NoiseEstimate {
-    /// Variance by the configuration.
+    /// Variance from the configuration.
     described: f64,
-    /// Variance as estimated.
+    /// Variance estimated from the innovations.
     seen: f64,
 }
 
@@ -31,7 +31,7 @@ impl NoiseEstimate {
         if self.seen > self.described { self.seen } else { self.described }
     }
 
-    /// Updates the estimate by the squared difference of two consecutive innovations, per coordinate.
+    /// Updates the estimate. `square`: squared difference of two consecutive innovations, per coordinate.
     pub(crate) fn update(&mut self, square: f64) {
         let (read, most) = (0.5 * square, CLIP * self.variance());
         self.seen += (if read < most { read } else { most } - self.seen) * (1.0 / READINGS);

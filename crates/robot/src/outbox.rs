@@ -1,43 +1,47 @@
-//! The outbox: which messages wait, and when the robot sends one unasked. It holds kinds, not texts, because a report is
-//! written when it is sent.
+//! The outbox: which messages wait, and when the robot reports without being asked. It holds kinds of messages instead of
+//! texts, because a report is written when it is sent.
 
 use lightbots_base::{Instant, Span, Vec2, wrap};
 use lightbots_wire::RobotState;
 
-/// Time between status reports while the robot drives. Below, 1,000 robots flood the broker. Above, the screen lags.
+/// Time between two periodic status reports while the robot drives. With a smaller value, 1,000 robots flood the broker.
+/// With a larger value, the screen lags.
 const BUSY: Span = Span::from_millis(500);
-/// Time between status reports while it stands.
+/// Time between two periodic status reports while the robot stands.
 const CALM: Span = Span::from_millis(2000);
-/// Distance from its route, or of a robot that stands from where it last reported, beyond which it reports at once,
-/// metres. Below, ordinary tracking errors are reported.
+/// A robot reports at once if it is farther than this from its route, metres. A robot that stands reports at once if it is
+/// this far from its last reported place. With a smaller value, ordinary tracking errors are reported.
 const OFF_M: f64 = 0.008;
-/// Least time between two reports of a robot that is carried. Below, it floods the broker.
+/// Least time between two reports of a robot that stands and is being moved. With a smaller value, a robot that is carried
+/// floods the broker.
 const MOVED_AGAIN: Span = Span::from_millis(200);
-/// Standard deviations of a reported place within which a robot that stands was not moved: the place of one that was
-/// just switched on still settles.
+/// Standard deviations of the reported place that are added to [`OFF_M`] for a robot that stands. The place of a robot that
+/// was just switched on still changes while its estimate settles.
 const SURE: f64 = 3.0;
-/// Distance within which a robot is back on its route, metres. The gap to [`OFF_M`] is hysteresis.
+/// A robot is back on its route once it is within this distance of it, metres. The difference to [`OFF_M`] is hysteresis.
 const BACK_M: f64 = 0.006;
-/// Growth of the reported distance from the route, as a factor, at which it is reported again. Braking for a neighbour
-/// stays below it; above it the robot may be standing.
+/// The distance from the route is reported again once it has grown by this factor. While a robot brakes for a neighbour, the
+/// distance grows by less. If it grows by more, the robot may be standing.
 const FARTHER: f64 = 4.0;
-/// Growth of the reported error of the place, as a factor, at which a robot without fixes reports it again.
+/// A robot whose fixes are overdue reports the error of its place again once the error has grown by this factor and
+/// [`MORE_M`].
 const MORE: f64 = 1.25;
-/// Growth of that error that comes on top of the factor, metres.
+/// Growth of the error that must be exceeded in addition to the factor [`MORE`], metres.
 const MORE_M: f64 = 0.0005;
-/// Change of an obstacle's direction above which it is reported again, radians.
+/// The direction of an obstacle is reported again if it has changed by more than this, radians.
 const ELSEWHERE: f64 = 0.08;
-/// How long a robot with a new link, or just switched on, waits for its place. Then it introduces itself without one.
+/// How long a robot that was switched on, or has a new link, waits for its place before it introduces itself. Then it
+/// introduces itself without a place.
 const POWER_ON: Span = Span::from_millis(500);
 
 const _: () = assert!(BACK_M < OFF_M && BUSY.0 < CALM.0);
 
-/// A kind of message.
+/// A kind of outgoing message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MessageKind {
     /// The introduction, on `UUID`.
     Introduction,
-    /// An arrival, on `Arrival`: the number of the route that ended, 0 for a target.
+    /// An arrival, on `Arrival`. Holds the number of the route that ended; 0 for a target.
     Arrival(u32),
     /// A status report, on `Status`.
     Status,
@@ -45,34 +49,35 @@ pub(crate) enum MessageKind {
     Question,
 }
 
-/// The messages that wait: at most one of each kind, the latest.
+/// The messages that wait: at most one of each kind, because a newer one replaces an older one.
 #[derive(Debug)]
 pub(crate) struct Outbox {
     introduction: bool,
-    /// When it began to wait for its place to introduce itself unasked.
+    /// When the robot began to wait for its place before introducing itself, own clock. `None` if it does not wait.
     newcomer: Option<Instant>,
-    /// Whether its last introduction was without a place.
+    /// Whether the last introduction was sent without a place.
     introduced_without_place: bool,
     arrival: Option<u32>,
     status: bool,
-    /// Whether a command requires the status report that waits.
+    /// Whether a command, and not only the robot's own rules, requires the waiting status report.
     is_status_required: bool,
     question: bool,
     next_status: Instant,
     state: RobotState,
-    /// Where the robot was at the last status report, stage metres, and the distance from there beyond which it was
-    /// moved, metres.
+    /// Place of the robot at the last status report, stage metres. With it, the distance from there beyond which the robot
+    /// counts as moved, metres. `None` if the place was unknown.
     reported_at: Option<(Vec2, f64)>,
-    /// The last reported distance from the route, metres; 0: on the route.
+    /// The last reported distance from the route, metres; 0 if the robot was reported on its route.
     reported_off_m: f64,
-    /// The last reported error of the place while fixes stay away, metres.
+    /// The last reported error of the place, metres; `None` if fixes were not overdue then.
     reported_err_m: Option<f64>,
-    /// The last reported direction of an obstacle, radians in the stage.
+    /// The last reported direction of an obstacle, radians in the stage; `None` if the last report named none.
     reported_towards: Option<f64>,
 }
 
 impl Outbox {
-    /// An empty outbox. `phase` delays the first periodic status report, so that those of a fleet spread over time.
+    /// An empty outbox. `phase` delays the first periodic status report. Different phases spread the reports of a fleet over
+    /// time.
     pub(crate) fn new(phase: Span) -> Self {
         Self {
             introduction: false,
@@ -95,8 +100,8 @@ impl Outbox {
         self.introduction = true;
     }
 
-    /// Notes that the robot was switched on or its link is new. It introduces itself once it knows its place, or after
-    /// [`POWER_ON`].
+    /// Notes at `now`, own clock, that the robot was switched on or its link is new. The robot introduces itself once it
+    /// knows its place, at the latest after [`POWER_ON`].
     pub(crate) fn arrive_new(&mut self, now: Instant) {
         self.newcomer = Some(now);
     }
@@ -115,9 +120,9 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Decides after a step whether an introduction or a status report is due. `at`: where the robot is, stage metres, and
-    /// the error of that, metres, 1 sigma; `None` if it does not know. `off_m`: distance from the route, metres. `err_m`:
-    /// error of the place to be reported, metres; `None` unless fixes are overdue.
+    /// Decides after a step whether an introduction or a status report is due. `at`: place of the robot, stage metres, and
+    /// its error, metres, 1 sigma; `None` if the place is unknown. `off_m`: distance from the route, metres; `None` if no
+    /// route is under way. `err_m`: error of the place to report, metres; `None` if fixes are not overdue on a route.
     pub(crate) fn notice(
         &mut self,
         now: Instant,
@@ -157,8 +162,8 @@ impl Outbox {
         }
     }
 
-    /// Notes where a robot is that has nothing to drive and stands, stage metres. A status report is due if the robot
-    /// is elsewhere than at its last one: it was lifted or pushed.
+    /// Notes the place `at` (stage metres) of a robot that stands and has nothing to drive. A status report is due if the
+    /// robot was moved since its last report: it was lifted or pushed.
     pub(crate) fn notice_place(&mut self, now: Instant, at: Option<Vec2>) {
         if self.next_status - now > CALM - MOVED_AGAIN {
             return;
@@ -167,7 +172,8 @@ impl Outbox {
         self.status |= at.zip(self.reported_at).is_some_and(is_off);
     }
 
-    /// Notes the direction of an obstacle, radians in the stage; `None`: there is none.
+    /// Notes the direction of the obstacle to report, radians in the stage; `None` if there is none. A status report is due
+    /// if this is new.
     #[inline]
     pub(crate) fn notice_block(&mut self, towards: Option<f64>) {
         let news = match (towards, self.reported_towards) {
@@ -186,8 +192,8 @@ impl Outbox {
         !(self.introduction || self.arrival.is_some() || self.question || self.status)
     }
 
-    /// Takes out the next message and returns its kind. A robot that cannot drive routes asks for no time (R25), and
-    /// sends only the status reports that commands require (R41, R55, R59).
+    /// Removes the next message and returns its kind; `None` if none is to be sent. A robot that cannot drive routes does
+    /// not ask for the time (R25), and sends only status reports that commands require (R41, R55, R59).
     pub(crate) fn take(&mut self, knows_place: bool, drives_routes: bool) -> Option<MessageKind> {
         if core::mem::take(&mut self.introduction) {
             self.introduced_without_place = !knows_place;

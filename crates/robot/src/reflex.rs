@@ -1,6 +1,7 @@
 //! The reflex: the safety layer of a robot. It estimates from the proximity sensors where neighbours are and how they
-//! move. It limits the speed so that the robot can stop for them, sooner than any message could tell it to. See
-//! docs/reflex.md.
+//! move. It limits the robot's speed so that the robot can stop for them, sooner than any message could tell it to.
+//! Neighbours are robots and other objects in sight. A track is the estimate of one neighbour. Planned neighbours are
+//! those that the route names; the route also gives their planned motion. See docs/reflex.md.
 
 mod birth;
 mod covariance;
@@ -33,36 +34,38 @@ use sensors::Sensors;
 use track::Track;
 use tracks::Tracks;
 
-/// Speed up to which a robot does not count as driving, m/s. Nothing blocks a robot that wants to go no faster.
+/// A robot counts as driving above this speed, m/s. A robot that wants to drive no faster never counts as blocked.
 const DRIVES_MPS: f32 = 0.02;
-/// Difference between wanted and allowed speed up to which the limit does not count as braking, m/s.
+/// The safety layer counts as braking if the allowed speed is less than the wanted speed by more than this, m/s.
 const SLOWS_MPS: f32 = 0.001;
 
 /// State of the safety layer. Its transitions are drawn in docs/reflex.md.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Safety {
-    /// The robot drives at the speed it wants.
+    /// The robot may drive at the speed that it wants.
     Free,
-    /// The robot drives slower than it wants because of the obstacle at `block`. `steps`: steps with less than half the
-    /// wanted speed, less those without a limit. `alarm`: whether the plan does not know the obstacle.
+    /// The robot must drive slower than it wants because of the obstacle `block`. `steps`: number of steps in which
+    /// less than half the wanted speed was allowed, minus the steps without a limit. `alarm`: whether the robot has
+    /// braked hard for an obstacle that the plan does not know.
     Braking { block: Block, steps: u8, alarm: bool },
-    /// The robot stands because of the obstacle at `block`. `gone`: steps in a row in which the obstacle was missing.
+    /// The robot stands because of the obstacle `block`. `gone`: number of steps in a row in which the obstacle was
+    /// missing.
     Blocked { block: Block, gone: u8 },
-    /// The robot is blocked and backs away by what is left of `retreat_m`, metres. Its sign is that of the speed at
-    /// which the robot was blocked.
+    /// The robot is blocked and backs away. `retreat_m`: distance that is left to back away, metres. Its sign is that
+    /// of the wanted speed when the robot was blocked, so the robot drives in the opposite direction.
     BackingOff { block: Block, gone: u8, retreat_m: f32 },
 }
 
-/// The obstacle that slows or blocks a robot.
+/// An obstacle that slows or blocks a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Block {
     /// Gap from the robot's rim to the obstacle, metres.
     pub gap_m: f64,
-    /// Direction of the obstacle, radians in body space.
+    /// Direction of the obstacle, radians counter-clockwise from the robot's front.
     pub towards: f64,
     /// Centre of the obstacle, body space, metres.
     at: Point,
-    /// The gap when the robot came to stand, metres.
+    /// The gap when the robot stopped for the obstacle, or while it last backed away, metres.
     stood_m: f32,
 }
 
@@ -72,7 +75,8 @@ pub(crate) struct Reflex {
     safety: Safety,
     own: OwnMotion,
     tracks: Tracks,
-    /// `(index, clearance in metres, whether it moves)` of the planned neighbours in sight.
+    /// `(index, planned clearance in metres, whether it moves by plan)` of the planned neighbours in sight. The index
+    /// counts the neighbours of the route.
     clearances: heapless::Vec<(u8, f32, bool), 16>,
     sensors: Sensors,
     model: NeighbourModel,
@@ -95,9 +99,9 @@ impl Reflex {
         }
     }
 
-    /// Takes the readings of a step of `dt` seconds in which the robot drove `way_m` forwards and turned `turn_rad`
-    /// counter-clockwise. `planned`: the neighbours that the plan expects in sight. `error_m`: error of the own place,
-    /// 1 sigma. A reading that is NaN counts as nothing seen.
+    /// Updates the estimates by the readings of a step of `dt` seconds, in which the robot drove `way_m` metres
+    /// forwards and turned `turn_rad` counter-clockwise. `planned`: the neighbours that the plan expects in sight.
+    /// `error_m`: error of the robot's own place, metres, 1 sigma. A reading that is NaN counts as nothing seen.
     pub(crate) fn look(
         &mut self,
         gaps_m: Option<&[f32; SENSORS]>,
@@ -128,14 +132,15 @@ impl Reflex {
         self.tracks.step(&scan);
     }
 
-    /// Whether the layer sees something or acts on what it saw. If not, there is no need to call it until the next
-    /// `look`.
+    /// Whether the safety layer tracks an object or slows the robot. If not, it need not be called before the next
+    /// reading within the sensors' range.
     pub(crate) fn is_wary(&self) -> bool {
         !self.tracks.is_empty() || self.safety != Safety::Free
     }
 
-    /// The highest allowed speed, m/s, at least 0; `None` if nothing limits it. Updates the state. `room_mm`: planned
-    /// clearance to neighbours that the route does not name, millimetres.
+    /// Updates the state of the safety layer. Returns the highest allowed speed, m/s, at least 0; `None` if the speed
+    /// is not limited. `room_mm`: planned clearance to neighbours that the route does not name, millimetres; `None` if
+    /// the route names all neighbours, or if that clearance is unknown.
     pub(crate) fn limit(&mut self, wish: Wish, room_mm: Option<u16>) -> Option<f64> {
         let slowest = self.slowest(&wish, room_mm);
         self.safety = match self.safety {
@@ -160,8 +165,8 @@ impl Reflex {
         }
     }
 
-    /// The next state of a robot that may drive only at `mps`, m/s, less than it wants. `named`: whether the route
-    /// names all neighbours.
+    /// The next state of a robot that may drive only at `mps` m/s, which is less than it wants. `named`: whether the
+    /// route names all neighbours.
     fn slowed(&self, before: Safety, wish: &Wish, mps: f32, cause: Cause, named: bool) -> Safety {
         let (steps, alarm) =
             if let Safety::Braking { steps, alarm, .. } = before { (steps, alarm) } else { (0, false) };
@@ -175,7 +180,8 @@ impl Reflex {
         self.retreats(block, 0, self.policy.evade_most_m.copysign(wish.speed_mps))
     }
 
-    /// The lowest speed that any neighbour allows, m/s, and which neighbour that is. `None` if none limits the speed.
+    /// The lowest of the speeds that the neighbours allow, m/s, and the neighbour that allows no more. `None` if no
+    /// neighbour limits the speed.
     fn slowest(&self, wish: &Wish, room_mm: Option<u16>) -> Option<(f32, Cause)> {
         let allowed = |track: &Track| {
             let clearance_m = self.clearance_m(track, room_mm, true);
@@ -185,13 +191,13 @@ impl Reflex {
         self.tracks.iter(&self.sensors).filter_map(allowed).min_by(|one, other| one.0.total_cmp(&other.0))
     }
 
-    /// Whether a neighbour is in sight that has left its plan.
+    /// Whether a neighbour that has left its plan is in sight.
     pub(crate) fn sees_strays(&self) -> bool {
         self.tracks.iter(&self.sensors).any(Track::strays)
     }
 
-    /// Planned clearance between the robot and this neighbour, metres; `None` if it is unknown. With `moving`, a
-    /// planned neighbour must move by plan to have one.
+    /// Planned clearance between the robot and this neighbour, metres; `None` if it is unknown. With `moving`, also
+    /// `None` for a planned neighbour that stands by plan.
     fn clearance_m(&self, track: &Track, room_mm: Option<u16>, moving: bool) -> Option<f32> {
         match track.planned {
             Some(index) => {
@@ -202,8 +208,8 @@ impl Reflex {
         }
     }
 
-    /// The next state of a blocked robot. The nearest track updates the obstacle; the robot is free once the obstacle
-    /// was missing for `steps_to_free` steps.
+    /// The next state of a blocked robot. The track nearest to the obstacle's expected place updates the obstacle. The
+    /// robot is free once the obstacle was missing for `steps_to_free` steps in a row.
     fn still_blocked(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let moved = block.at.minus(Point::new(self.own.way_m, 0.0));
         let near = |track: &&Track| track.at.minus(moved).length() < 2.0 * self.sensors.radius_m;
@@ -223,8 +229,8 @@ impl Reflex {
         if retreat_m == 0.0 { Safety::Blocked { block, gone } } else { self.retreats(block, gone, retreat_m) }
     }
 
-    /// The next state of a blocked robot that backs away the way it came, so that there is room for a path past the
-    /// obstacle. It stops at `clear_m`, at the end of `retreat_m`, or if a neighbour follows.
+    /// The next state of a blocked robot that backs away, so that there is room for a path past the obstacle. Backing
+    /// away ends once the gap is `clear_m`, the distance `retreat_m` is driven, or a neighbour behind is too near.
     fn retreats(&self, block: Block, gone: u8, retreat_m: f32) -> Safety {
         let left_m = retreat_m.abs() - self.own.way_m.abs();
         let is_near = |track: &Track| track.gap_m(&self.sensors) < self.policy.followed_m;
@@ -237,7 +243,8 @@ impl Reflex {
         Safety::BackingOff { block, gone, retreat_m: left_m.copysign(retreat_m) }
     }
 
-    /// The speed of a blocked robot along its front, m/s: 0, or that of backing away. `None` if it is not blocked.
+    /// The speed of a blocked robot along its front, m/s: 0, or the signed speed of backing away. `None` if the robot
+    /// is not blocked.
     pub(crate) fn blocked_mps(&self) -> Option<f64> {
         match self.safety {
             Safety::BackingOff { retreat_m, .. } => {
@@ -248,8 +255,8 @@ impl Reflex {
         }
     }
 
-    /// Offset in body space by which the robot gives way to neighbours, metres; zero if none is too near. `room_mm`:
-    /// planned clearance to neighbours that the route does not name, millimetres.
+    /// Offset in body space by which the robot gives way to neighbours that are too near, metres; zero if none is.
+    /// `room_mm`: planned clearance to neighbours that the route does not name, millimetres; `None` if it is unknown.
     pub(crate) fn give_way(&self, room_mm: Option<u16>) -> Vec2 {
         let own_mps = self.own.way_m / self.own.dt;
         self.tracks.iter(&self.sensors).fold(Vec2::ZERO, |sum, track| {
@@ -258,14 +265,15 @@ impl Reflex {
         })
     }
 
-    /// Forgets what is in sight, because a route begins: from the next step on the plan names the neighbours in sight.
+    /// Forgets all neighbours, because a route begins. From the next step on the plan names the neighbours in sight.
     pub(crate) fn begin_route(&mut self) {
         self.tracks.clear();
         self.safety = Safety::Free;
         self.encounters.begin_route();
     }
 
-    /// Notes for reports, at `now` on a route, whether the robot brakes and how near the neighbours that it sees are.
+    /// Notes for reports whether the robot brakes in the step at `now`, and the least gap to a neighbour that the
+    /// sensors see now. Straight edges do not count as neighbours here.
     pub(crate) fn note(&mut self, now: Instant) {
         if self.safety != Safety::Free {
             self.encounters.brakes_at(now);
@@ -276,13 +284,13 @@ impl Reflex {
         }
     }
 
-    /// Frees the robot from what slows or blocks it.
+    /// Sets the state to free, so that nothing slows or blocks the robot. Tracks of neighbours are kept.
     pub(crate) fn forget(&mut self) {
         self.safety = Safety::Free;
     }
 
-    /// The obstacle to report: the one that blocks the robot, or one that the plan does not know and that it brakes
-    /// hard for.
+    /// The obstacle to report: an obstacle that blocks the robot, or one that the plan does not know and for which the
+    /// robot brakes hard. `None` if there is none.
     pub(crate) fn block(&self) -> Option<Block> {
         match self.safety {
             Safety::Blocked { block, .. }
@@ -292,7 +300,8 @@ impl Reflex {
         }
     }
 
-    /// Direction of the obstacle that slows the robot, radians in body space; `None` if none does.
+    /// Direction of the obstacle that slows or blocks the robot, radians counter-clockwise from its front; `None` if
+    /// none does.
     pub(crate) fn braking_towards(&self) -> Option<f64> {
         match self.safety {
             Safety::Free => None,
@@ -303,7 +312,7 @@ impl Reflex {
     }
 }
 
-/// The neighbour that slows a robot most.
+/// The neighbour that allows the lowest speed.
 #[derive(Clone, Copy)]
 struct Cause {
     /// Its centre, body space, metres.

@@ -19,16 +19,17 @@ pub use reports::Message;
 use sense::{AWAY_M, LONGEST_STEP};
 pub use state::Robot;
 
-/// Distance from its route beyond which a robot abandons the route, metres: it is stuck, or was never where the route
-/// starts. Below, robots abandon routes that they can still follow. Above, they drive far outside what the plan proved.
+/// A robot farther than this from the present place of its route abandons the route, metres. It is stuck, or was never where
+/// the route starts. With a smaller value, robots abandon routes that they can still follow. With a larger value, robots
+/// drive far away from the paths for which the plan was proved.
 const GIVE_UP_M: f64 = 0.3;
-/// Distance from its route within which a robot that the safety layer slowed has caught up, metres. Below, the error of
-/// following a route counts as being behind.
+/// A robot that the safety layer slowed has caught up once it is within this distance of the present place of its route,
+/// metres. With a smaller value, the error of following a route counts as being behind.
 const CAUGHT_UP_M: f64 = 0.02;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Receives a message at `now` of the own clock. Messages on other topics than `Broadcast` and the robot's own are
-    /// ignored.
+    /// Handles a message that arrives at `now`, own clock. Messages are ignored unless their topic is `Broadcast` or the
+    /// robot's own topic.
     pub fn receive(&mut self, now: Instant, topic: Topic, payload: &[u8]) {
         let personal = topic == Topic::Robot(self.config.id);
         if !personal && topic != Topic::Broadcast {
@@ -57,8 +58,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Takes note that the link to the broker went up or down at `now`. After it went up, the robot introduces itself
-    /// once it knows its place, or after 0.5 s without one.
+    /// Notes that the link to the broker went up or down at `now`, own clock. After the link went up, the robot introduces
+    /// itself once it knows its place, at the latest after 0.5 s.
     pub fn link(&mut self, now: Instant, up: bool) {
         self.hot.now = self.hot.now.max(now);
         self.hot.supervisor.link(now, up);
@@ -68,8 +69,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Runs one step at `now` of the own clock, to be called every 16 ms. Time runs as in the world of the wheels
-    /// (`Inputs::lag`). A step after a gap of more than 0.1 s counts as 0.1 s long.
+    /// Runs one step at `now`, own clock. The shell calls it every 16 ms. The length of the step is measured in the time of
+    /// the wheels' world (see [`Inputs::lag`]). After a gap of more than 0.1 s the step counts as 0.1 s long.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
         let world = now - inputs.lag;
         let took = self.take_time(now, world);
@@ -89,8 +90,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         Outputs { wheels_radps, light }
     }
 
-    /// The colour of the light at `now` of the own clock, between steps. A shell that can change its light at any time
-    /// calls this about every millisecond. The lights of a fleet then change together and not each at its next step.
+    /// Returns the colour of the light at `now`, own clock, between steps. A shell that can change its light at any time
+    /// calls this about every millisecond. The lights of a fleet then change at the same moment, instead of each at its
+    /// robot's next step.
     pub fn light(&mut self, now: Instant) -> Rgb {
         let show = self.hot.clock.show_time(now);
         if !self.hot.light_changes {
@@ -116,8 +118,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.change_light(now, show)
     }
 
-    /// Returns the colour of the light piece at this moment of the show clock, and remembers the moment. `None` if the
-    /// piece does not cover it, or the show clock is unknown.
+    /// Returns the colour of the light piece at `show` of the show clock, and stores that moment. `None` if the piece does
+    /// not cover the moment, or the show clock is unknown.
     #[inline]
     fn piece_colour(&mut self, show: Option<Instant>) -> Option<Rgb> {
         let show = show?;
@@ -127,7 +129,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         Some(colour)
     }
 
-    /// Computes the colour where the light piece does not cover the moment, and finds the next piece.
+    /// Computes the colour at a moment that the light piece does not cover, and replaces the piece by the next one.
     #[inline(never)]
     fn change_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
         if let Some(show) = show.filter(|_| !self.hot.light_piece.is_none())
@@ -146,8 +148,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.shown
     }
 
-    /// Ends the light piece, because a message or a fault may change the light. `Light` learns the colour that was
-    /// shown last.
+    /// Ends the light piece, because a message or a fault may change the light. Passes the colour that was shown last to
+    /// `Light`.
     fn end_light_piece(&mut self) {
         if !self.hot.light_piece.is_none() {
             self.hot.shown = self.hot.light_piece.colour(self.hot.piece_shown_at).unwrap_or(self.hot.shown);
@@ -156,7 +158,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Returns how long the step took, 0 to [`LONGEST_STEP`], and stores its time.
+    /// Returns the time since the last step, limited to 0 to [`LONGEST_STEP`], and stores the moment of this step.
     fn take_time(&mut self, now: Instant, world: Instant) -> Span {
         let hot = &mut self.hot;
         if hot.last_step.is_none() {
@@ -186,9 +188,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Stops the robot or ends its route where it must not drive on, and sends questions for the time during a silence.
-    /// Being lost or faulty ends a route, because the others drive on. A target survives that, as with an original
-    /// robot.
+    /// Stops the robot or ends its route if it must not drive on. During a silence of the controller, asks for the time. A
+    /// lost or faulty robot gives up its route, because the other robots drive on. But a lost or faulty robot keeps its
+    /// target, as an original robot does.
     fn supervise(&mut self, now: Instant) {
         self.stop_in_time(now);
         let drives = self.drives();
@@ -213,7 +215,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Abandons the target and the route if the link is down or silent for too long.
+    /// Abandons the target and the route if the link has been down for too long, or silent on a route for too long.
     fn heed_link(&mut self, now: Instant) {
         let drives = self.drives();
         let hot = &mut self.hot;

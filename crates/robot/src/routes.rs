@@ -1,4 +1,6 @@
-//! The route under way, the one kept for later, and when they begin.
+//! The route under way, the route that is kept for later, and when they begin. START names the moment at which a kept
+//! route begins. Path time is how far along its route a robot should be, as a time. HOLD slows path time to a stop, and
+//! RESUME lets path time run again.
 
 mod in_sight;
 
@@ -17,18 +19,20 @@ use crate::steady_time::SteadyTime;
 use crate::storage::{RouteStorage, Slot};
 use crate::timeline::Timeline;
 
-/// Distance to the end at which a robot has arrived, metres. Below, robots with noisy fixes arrive late. Above, pictures
-/// blur.
+/// Distance to the end of its route within which a robot has arrived, metres. With a smaller value, robots with noisy
+/// fixes arrive late. With a larger value, pictures look blurred.
 const NEAR_M: f64 = 0.0125;
-/// Time after the end of a route from which the arrival test of the original robots (20 mm) suffices.
+/// Path time after the end of a route from which the coarser arrival test of the original robots (20 mm) is enough.
 const TRYING: Span = Span::from_millis(1500);
-/// Distance from its route beyond which a robot drives back to it during a hold, metres. Below, it turns on the spot
-/// for noise. Above, the robots near it have less room than the plan left them.
+/// During a hold, a robot farther than this from the present place of its route drives back there, metres. With a
+/// smaller value, noise makes the robot turn on the spot. With a larger value, robots near it have less room than
+/// planned.
 const STRAYED_M: f64 = 0.0055;
-/// Distance from its route at which the robot is back, metres. The gap to [`STRAYED_M`] is hysteresis.
+/// The drive back ends within this distance of the place of the route, metres. The difference to [`STRAYED_M`] is
+/// hysteresis.
 const BACK_M: f64 = 0.004;
-/// A route whose number is less than this below the newest is an old message that came late. One farther below is of a
-/// controller that began anew.
+/// A route is an old message that arrived late if its number is below the newest one by less than this. A route whose
+/// number is farther below comes from a restarted controller.
 const OLD_NUMBERS: u32 = 64;
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
@@ -37,43 +41,44 @@ const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
 #[derive(Debug)]
 struct Running {
     starts: Instant,
-    /// Where the route ends.
+    /// Where the route ends, stage metres.
     end: Vec2,
     look_ahead: LookAhead,
-    /// The drive to the end, once the route is over and the robot has not arrived.
+    /// The drive to the end of the route, if the route is over and the robot has not arrived; otherwise `None`.
     seek: Option<Seek>,
-    /// The drive back to the route during a hold.
+    /// The drive back to the place of the route during a hold; otherwise `None`.
     back: Option<Seek>,
     slot: Slot,
-    /// Whether path time stands still by the time the wheels have answered.
+    /// Whether path time stands still at the moment when the latest setpoint takes effect.
     rests: bool,
     room_mm: Option<u16>,
     seq: u32,
     duration: Span,
-    /// Path time by the time the wheels have answered.
+    /// Path time at the moment when the latest setpoint takes effect.
     time: Span,
-    /// Path time per show time at `time`, 0 to 1. Negative while path time goes back.
+    /// Rate of path time at `time`, in path time per show time, 0 to 1. Negative while path time goes back.
     rate: f64,
     /// Place of the route at `time`, stage metres.
     due: Vec2,
     off_m: f64,
-    /// Distance from the place of the route by the moments of holds, metres: not `off_m` while path time goes back.
+    /// Distance between the robot and the place where the route should be by all known holds, metres. It differs from
+    /// `off_m` while path time goes back after a late HOLD.
     due_off_m: f64,
     cursor: RouteCursor,
     steady: SteadyTime,
     follow: Follow,
 }
 
-/// The routes of a robot. Their pieces lie in its storage.
+/// The routes of a robot. Their pieces lie in [`RouteStorage`].
 #[derive(Debug)]
 pub(crate) struct Routes {
     running: Option<Running>,
     timeline: Timeline,
     kept: Option<KeptRoute>,
-    /// Number of the route that ended last.
+    /// Number of the route that was finished last; 0 if there is none.
     finished: u32,
-    /// Whether the link was out since the latest START or STOP. Until the next one, a route that comes may be an old
-    /// message, and the robot does not turn towards it.
+    /// Whether the link was out since the latest START or STOP. Until the next START or STOP, a received route may be
+    /// an old message, and the robot does not turn towards it.
     was_out: bool,
 }
 
@@ -82,7 +87,8 @@ impl Routes {
         Self { running: None, kept: None, timeline: Timeline::new(), finished: 0, was_out: false }
     }
 
-    /// Keeps a route until its START. Copies of the route under way or just finished, and old messages, change nothing.
+    /// Keeps a route until its START; it replaces the kept route. Old messages change nothing, and neither do copies of
+    /// the route that is kept, under way or just finished.
     pub(crate) fn keep(&mut self, route: &Route, storage: &mut RouteStorage) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
@@ -94,8 +100,9 @@ impl Routes {
         storage.put(slot, route);
     }
 
-    /// Sets when the kept route begins. A later START counts only if its moment is later too: one with an earlier
-    /// moment is an old message that was overtaken. Returns whether the moment changed.
+    /// Handles a START: sets that the kept route with the number `seq` begins at the moment `at`, show clock. A further
+    /// START counts only if its moment is later: a START with an earlier moment is an old message that was overtaken.
+    /// Returns whether the moment changed.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq && !kept.is_late(at, show)) else {
             return false;
@@ -104,17 +111,19 @@ impl Routes {
         kept.start(at)
     }
 
-    /// Planned clearance of the route under way, millimetres; `None` without one.
+    /// Planned clearance of the route under way, millimetres; `None` if no route is under way or its clearance is
+    /// unknown.
     pub(crate) fn room_mm(&self) -> Option<u16> {
         self.running.as_ref()?.room_mm
     }
 
-    /// Notes a HOLD or a RESUME.
+    /// Notes a HOLD (`hold`) or a RESUME for the moment `at`, show clock.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
     }
 
-    /// Brings the route under way to rest from `at` on, or from its begin if that is later. Discards the kept route.
+    /// Slows the route under way to rest from the moment `at` (show clock) on, or from its start if that is later.
+    /// Discards the kept route.
     pub(crate) fn rest(&mut self, at: Instant) {
         self.kept = None;
         if let Some(running) = &self.running {
@@ -122,8 +131,8 @@ impl Routes {
         }
     }
 
-    /// Begins the kept route if its moment has come, and returns whether it did. A moment that is past by more than
-    /// [`TOO_LATE`] is discarded; it was missed because the clock was unknown.
+    /// Begins the kept route if its start time has come at `show`, and returns whether it began. A start time that is
+    /// past by more than [`TOO_LATE`] is discarded: it was missed because the show clock was unknown.
     #[inline]
     pub(crate) fn begin_due(&mut self, show: Instant, storage: &RouteStorage) -> bool {
         self.kept.is_some() && self.begin_kept(show, storage)
@@ -163,8 +172,8 @@ impl Routes {
         true
     }
 
-    /// The next setpoint along the route under way; `None` without one. `takes_effect`: show time when the wheels
-    /// answer. `aside`: offset from the route at which to drive, stage metres.
+    /// The next setpoint along the route under way; `None` if no route is under way. `takes_effect`: show time at which
+    /// the setpoint takes effect. `aside`: offset from the route at which the robot shall drive, stage metres.
     pub(crate) fn step(
         &mut self,
         takes_effect: Instant,
@@ -218,26 +227,29 @@ impl Routes {
         Some(running.follow.step(&motion, ahead, body))
     }
 
-    /// Stops turning towards the kept route until its START comes, because other messages after a silence may be old.
+    /// Stops turning towards the kept route until its START comes. After a silence of the link, any other message may
+    /// be old.
     pub(crate) fn await_start(&mut self) {
         if let Some(kept) = &mut self.kept {
             kept.await_start();
         }
     }
 
-    /// Notes that the link was out. That matters only to a robot with a route, because others have nothing that could
-    /// be old.
+    /// Notes that the link was out. This matters only for a robot that has or had a route: only then can a message
+    /// about routes be old.
     pub(crate) fn note_outage(&mut self) {
         self.was_out |= self.named() != 0;
         self.await_start();
     }
 
-    /// The setpoint to turn towards the first direction of the kept route; `None` if there is nothing to turn to.
+    /// The setpoint that turns the robot towards the first direction of the kept route; `None` if the robot shall not
+    /// turn.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         self.kept.as_mut()?.prepare(body)
     }
 
-    /// Ends the route under way and returns its number if it is over and the robot is at its end; else `None`.
+    /// Ends the route under way and returns its number. The route must be over at `show`, and the robot at `at` must be
+    /// near enough to its end. Otherwise returns `None`.
     pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
         let over = |running: &mut Running| {
             let time = self.timeline.at(show).time;
@@ -248,7 +260,7 @@ impl Routes {
         Some(self.finished)
     }
 
-    /// Abandons the route under way.
+    /// Gives up the route under way, without an arrival.
     pub(crate) fn abandon(&mut self) {
         self.running = None;
     }
@@ -261,7 +273,7 @@ impl Routes {
         self.was_out = false;
     }
 
-    /// Abandons the route under way and discards all moments, because the show clock was set anew.
+    /// Gives up the route under way and discards all moments of the show clock, because the show clock was reset.
     pub(crate) fn forget_moments(&mut self) {
         self.running = None;
         self.timeline = Timeline::new();
@@ -280,29 +292,30 @@ impl Routes {
         self.kept.is_some()
     }
 
-    /// Whether a route is under way or will begin at a known moment.
+    /// Whether a route is under way, or is kept with a known start time.
     pub(crate) fn in_a_run(&self) -> bool {
         self.running.is_some() || self.kept.as_ref().is_some_and(|kept| kept.starts.is_some())
     }
 
-    /// Whether the route under way is held at `show`.
+    /// Whether a route is under way and a hold is in force at the moment `show`, show clock. `false` if the moment is
+    /// unknown.
     pub(crate) fn held(&self, show: Option<Instant>) -> bool {
         self.running.is_some() && show.is_some_and(|show| self.timeline.held(show))
     }
 
-    /// Whether the route under way is held and stood still by the latest step.
+    /// Whether a route is under way whose path time stood still in the latest step.
     pub(crate) fn rests_held(&self) -> bool {
         self.running.as_ref().is_some_and(|running| running.rests)
     }
 
-    /// Number of the route that reports name: the one kept, else the one under way, else the one finished last; 0 for
-    /// none.
+    /// Number of the route that reports name: the kept route, else the route under way, else the route finished last; 0
+    /// if there is none.
     pub(crate) fn named(&self) -> u32 {
         let running = self.running.as_ref().map(|running| running.seq);
         self.kept.as_ref().map(|kept| kept.seq).or(running).unwrap_or(self.finished)
     }
 
-    /// When the route that reports name begins or began; `None` if that is unknown.
+    /// When the kept route begins, or else when the route under way began, show clock; `None` if that is unknown.
     pub(crate) fn starts(&self) -> Option<Instant> {
         match &self.kept {
             Some(kept) => kept.starts,
@@ -310,13 +323,14 @@ impl Routes {
         }
     }
 
-    /// Place of the route under way once the wheels have answered, stage metres; `None` without one.
+    /// Place of the route under way at the moment when the latest setpoint takes effect, stage metres; `None` if no
+    /// route is under way.
     pub(crate) fn due(&self) -> Option<Vec2> {
         self.running.as_ref().map(|running| running.due)
     }
 
-    /// Distance from the present place of the route to its place after `within` more of path time, metres. 0 without a
-    /// route under way.
+    /// Straight distance from the present place of the route to its place after `within` more path time, metres. 0 if
+    /// no route is under way.
     pub(crate) fn way_ahead_m(&self, within: Span, storage: &RouteStorage) -> f64 {
         let Some(running) = &self.running else { return 0.0 };
         let route = storage.at(running.slot);
@@ -324,33 +338,33 @@ impl Routes {
         path.at(running.time + within).position.distance(running.due)
     }
 
-    /// Distance of the robot from the place of the route under way, metres; `None` without one.
+    /// Distance of the robot from the present place of the route under way, metres; `None` if no route is under way.
     pub(crate) fn off_m(&self) -> Option<f64> {
         self.running.as_ref().map(|running| running.off_m)
     }
 
-    /// Distance of the body from where its route is by the moments of all holds, metres; `None` without a route under
-    /// way. While the robot goes back after a late HOLD, that is farther than [`off_m`](Self::off_m).
+    /// Distance between the robot and the place where the route should be by all known holds, metres; `None` if no
+    /// route is under way. While path time goes back after a late HOLD, it differs from [`off_m`](Self::off_m).
     pub(crate) fn due_off_m(&self) -> Option<f64> {
         self.running.as_ref().map(|running| running.due_off_m)
     }
 }
 
 impl Running {
-    /// Whether the robot is near enough to the end: within [`NEAR_M`], or after [`TRYING`] by the arrival test of the
-    /// original robots.
+    /// Whether the robot at `at` is near enough to `end`: within [`NEAR_M`], or, from [`TRYING`] after the end of the
+    /// route on, within the arrival test of the original robots. `time`: path time.
     fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
         at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }
 }
 
-/// A vector rotated by the angle of a unit vector.
+/// Returns `vector` rotated by the angle of the unit vector `by`.
 fn turned_by(vector: Vec2, by: Vec2) -> Vec2 {
     Vec2::new(vector.x * by.x - vector.y * by.y, vector.x * by.y + vector.y * by.x)
 }
 
-/// Converts motion per path time into motion per show time. The acceleration by the ease of holds is left out: it is
-/// too gentle to matter.
+/// Converts motion per path time into motion per show time, for a `rate` of path time per show time. The acceleration
+/// while a hold slows the rate is neglected, because it is small.
 fn by_show_time(motion: Motion, rate: f64) -> Motion {
     if rate == 1.0 {
         return motion;

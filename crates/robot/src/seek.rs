@@ -1,35 +1,38 @@
-//! Driving to a TARGET: the robot turns, drives, curves smoothly, goes backwards if that is shorter, and stands within
-//! 20 mm.
+//! Driving to a TARGET. The robot turns and drives on a smooth curve, backwards if that needs the smaller turn, and stops
+//! within 20 mm of the target.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::drive::{BodyPose, Setpoint};
 
-/// Arrival test of the original robots: both coordinates within this, metres.
+/// Arrival test of the original robots: both coordinates are within this distance of the target, metres.
 const ARRIVED_M: f64 = 0.02;
-/// Distance to the target at which the robot stops, metres. If it were smaller, noise of the place would make the robot
-/// turn on the spot.
+/// The robot stops once it is closer than this to the target, metres. With a smaller value, noise of the place would make
+/// the robot turn on the spot.
 const STOP_M: f64 = 0.003;
-/// Distance at which it stops where the target lies to its side, metres. If
-/// it were smaller, the robot would turn back and forth at the target.
+/// The robot also stops once it is closer than this to a target that lies to its side, metres. With a smaller value, the
+/// robot would turn back and forth at the target.
 const ABEAM_M: f64 = 0.012;
-/// Deceleration of the approach, m/s². It is less than the ramps of the drive base allow, so that the robot does not
-/// overshoot.
+/// Deceleration when approaching the target, m/s². It is less than the ramps of the drive base allow, so that the robot does
+/// not overshoot.
 const BRAKING_MPS2: f64 = 0.8;
-/// Turning rate per sine of the heading error, rad/s. Above, the dead time of the motors makes it swing.
+/// Turning rate per sine of the heading error, rad/s. With a larger value, the dead time of the motors makes the heading
+/// oscillate.
 const TURN_GAIN: f64 = 8.0;
-/// Cosine of the heading error (45°) below which the robot turns on the spot. Above, it drives a curve.
+/// If the cosine of the heading error is below this (an error of more than 45°), the robot turns on the spot. Otherwise it
+/// drives a curve.
 const CURVE_COS: f64 = 0.7;
-/// Cosine of the direction to the target below which front and back swap. Near zero, noise would swap them again and again.
+/// The robot changes between driving forwards and backwards if the cosine of the angle from its direction of driving to the
+/// target is below this. Near zero, noise would make it change repeatedly.
 const BEHIND_COS: f64 = -0.15;
 
 /// A drive to a target.
 #[derive(Debug)]
 pub(crate) struct Seek {
     goal: Vec2,
-    /// 1 forwards, −1 backwards, 0 not chosen yet.
+    /// How the robot drives: 1 forwards, −1 backwards, 0 not chosen yet.
     sense: f64,
-    /// Distance at which it stops where the target lies to its side, metres.
+    /// The robot stops once it is closer than this to a goal that lies to its side, metres.
     abeam_m: f64,
 }
 
@@ -38,12 +41,12 @@ impl Seek {
         Self { goal, sense: 0.0, abeam_m: ABEAM_M }
     }
 
-    /// A drive to a target as near as the robot can come, whatever turns that takes.
+    /// A drive that ends within [`STOP_M`] of the goal, even if the robot must turn on the spot for it.
     pub(crate) fn closely(goal: Vec2) -> Self {
         Self { abeam_m: STOP_M, ..Self::new(goal) }
     }
 
-    /// Whether a place counts as reached.
+    /// Whether a robot at `at` (stage metres) has reached the goal.
     pub(crate) fn reached(&self, at: Vec2) -> bool {
         within_arrival(at, self.goal)
     }

@@ -1,44 +1,46 @@
-//! Estimate of wheel slip: each wheel has a mean, learned over metres, and a deviation from it that changes within a
-//! second.
+//! Estimate of wheel slip. The slip of each wheel is the sum of a mean, learned over metres, and a deviation from the
+//! mean that changes within a second.
 
 use crate::covariance::Drift;
 
-/// Share of the deviation from the mean that is lost in a step: a time constant of 1 s. Wheels that stand lose it too,
-/// because their grip may be different when they turn again.
+/// Share by which the deviation from the mean decays in a step: a time constant of 1 s. The deviation also decays while
+/// the wheels stand, because their grip may be different when they turn again.
 const FORGETTING: f64 = 0.015;
-/// Distance over which the mean is first learned, metres. Below, the noise of the first fixes becomes slip.
+/// Distance over which the first estimate of the mean is averaged, metres. With a smaller value, noise of the first
+/// fixes is taken for slip.
 const FIRST_M: f64 = 0.1;
-/// Distance over which the mean is averaged in the long run, metres. Below, the mean follows single bumps. Above, it does
-/// not follow worn tyres or another floor within a show.
+/// Distance over which the mean is averaged in the long run, metres. With a smaller value, the mean follows single
+/// bumps. With a larger value, the mean does not follow worn tyres or another floor within a show.
 const LAST_M: f64 = 2.0;
-/// First estimate of the deviation, as a share of the expected slip.
+/// First estimate of the deviation, 1 sigma, as a share of the expected slip.
 const WANDER: f64 = 0.3;
-/// Lower bound of the deviation, as a share of its first estimate. Below, a steady stretch makes the filter ignore slip.
+/// Lower bound of the deviation, 1 sigma, as a share of its first estimate. With a smaller value, the filter ignores
+/// slip after a drive with steady slip.
 const LEAST: f64 = 0.25;
-/// Upper bound of the deviation, as a share of the turning.
+/// Upper bound of the deviation, 1 sigma, as a share of the wheel's turning.
 const MOST: f64 = 0.1;
-/// Largest absolute slip, as a share of the turning. Beyond it a wheel is lifted or stuck.
+/// Largest absolute slip, as a share of the wheel's turning. A wheel with more slip is lifted or stuck.
 const BOUND: f64 = 0.4;
 
 const _: () = assert!(FIRST_M < LAST_M && MOST < BOUND);
 
-/// Slip of the left and the right wheel, shares of their turning.
+/// Slip of the left and the right wheel: the shares of their turning that do not move the robot.
 #[derive(Debug)]
 pub(crate) struct SlipEstimate {
     now: [f64; 2],
     mean: [f64; 2],
-    /// Variance of the deviation from the mean.
+    /// Variance of the deviation from the mean, common to both wheels.
     wander: f64,
     /// Lower and upper bound of `wander`.
     bounds: [f64; 2],
-    /// Variance of the mean before anything is learned.
+    /// Variance of the mean before anything was learned.
     unknown: f64,
     /// Distance over which the mean was learned, at most [`LAST_M`], metres.
     learned_m: f64,
 }
 
 impl SlipEstimate {
-    /// The estimate before anything is learned. `expected`: slip as a share of the turning, 1 sigma.
+    /// The estimate before anything was learned. `expected`: expected slip as a share of the turning, 1 sigma.
     pub(crate) fn new(expected: f64) -> Self {
         let wander = WANDER * expected.clamp(0.002, BOUND);
         Self {
@@ -51,7 +53,8 @@ impl SlipEstimate {
         }
     }
 
-    /// Converts distances by the wheels' turning into distances over the ground, left and right.
+    /// Converts the distances that the left and the right wheel would cover without slip into distances over the
+    /// ground, metres.
     pub(crate) fn ground_m(&self, ways: [f64; 2]) -> [f64; 2] {
         [ways[0] * (1.0 - self.now[0]), ways[1] * (1.0 - self.now[1])]
     }
@@ -61,19 +64,19 @@ impl SlipEstimate {
         self.now
     }
 
-    /// Predicts the slip over one step: it returns towards its mean.
+    /// Predicts the slip over one step: the slip returns towards its mean.
     pub(crate) fn predict(&mut self) {
         self.now[0] += (self.mean[0] - self.now[0]) * FORGETTING;
         self.now[1] += (self.mean[1] - self.now[1]) * FORGETTING;
     }
 
-    /// Corrects the slip by the filter's correction, left and right.
+    /// Adds the filter's corrections to the slip of the left and the right wheel.
     pub(crate) fn correct(&mut self, by: [f64; 2]) {
         self.now[0] = (self.now[0] + by[0]).clamp(-BOUND, BOUND);
         self.now[1] = (self.now[1] + by[1]).clamp(-BOUND, BOUND);
     }
 
-    /// Updates mean and deviation from a drive of `way_m`, metres. `uncertain`: variance of the slip.
+    /// Updates mean and deviation after a drive of `way_m` metres. `uncertain`: variance of the estimated slip.
     pub(crate) fn learn(&mut self, way_m: f64, uncertain: f64) {
         self.learned_m = (self.learned_m + way_m).min(LAST_M);
         let share = way_m / (self.learned_m + FIRST_M);
@@ -87,7 +90,7 @@ impl SlipEstimate {
         self.wander = self.wander.clamp(self.bounds[0], self.bounds[1]);
     }
 
-    /// Expected change of the slip in a number of steps.
+    /// Model of how the slip changes in this number of steps.
     pub(crate) fn drift(&self, steps: u32) -> Drift {
         let share = FIRST_M / (FIRST_M + self.learned_m);
         let mean = self.unknown * share * share;

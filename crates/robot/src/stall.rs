@@ -1,19 +1,20 @@
-//! Detection of wheels that do not turn although they are commanded to. A robot with such a wheel reports a fault at once,
-//! because it stands in the way of others.
+//! Detection of stuck wheels, which do not turn although they are commanded to. A robot with a stuck wheel reports a fault
+//! at once, because it blocks the paths of other robots.
 
-/// Least commanded rate at which a wheel must turn, rad/s: 22 mm/s of an Elisa-3. Below, friction is taken for a stall.
+/// A wheel that is commanded to turn slower than this cannot count as stuck, rad/s: 22 mm/s of an Elisa-3. With a smaller
+/// value, friction is taken for a stall.
 const LEAST_RADPS: f64 = 5.0;
-/// Share of its commanded turn below which a wheel counts as not turning.
+/// A wheel counts as not turning if it turns by less than this share of its commanded turn.
 const SHARE: f64 = 0.2;
-/// Number of steps in a row without turning after which a wheel counts as stuck. Below three, the dead time of the
-/// motors counts as a stall. Above, a robot that is stuck is reported later.
+/// Number of steps in a row without turning after which a wheel counts as stuck. With less than three, the dead time of the
+/// motors counts as a stall. With a larger value, a robot that is stuck is reported later.
 const STEPS: u8 = 6;
 
 /// Compares commanded with measured wheel rates.
 #[derive(Debug, Default)]
 pub(crate) struct StallDetector {
     commanded_radps: [f64; 2],
-    /// `[wheel]`: steps in a row in which it did not turn.
+    /// Number of steps in a row in which the left and the right wheel did not turn.
     steps: [u8; 2],
     /// Whether a wheel has turned since power-on, which shows that the encoders work.
     turned: bool,
@@ -26,7 +27,8 @@ impl StallDetector {
         self.commanded_radps = wheels_radps;
     }
 
-    /// Takes the wheel turns of a step of `dt` seconds. Returns whether a wheel is stuck; counting then begins anew.
+    /// Checks the turns of the left and the right wheel in a step of `dt` seconds. Returns whether a wheel is stuck. If so,
+    /// the counts begin again at 0.
     #[inline]
     pub(crate) fn sample(&mut self, turns_rad: [f64; 2], dt: f64) -> bool {
         self.turned |= turns_rad != [0.0; 2];

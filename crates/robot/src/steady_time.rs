@@ -1,36 +1,40 @@
-//! Path time that does not jump back. A HOLD that comes late, as after a freeze of the broker, says that path time has
-//! stood for a while. A robot that drove straight to that place at once would meet others that do the same. So it goes
-//! back along its route, and all robots that learnt of the HOLD at the same time do so in step.
+//! Path time that does not jump back. Path time is how far along its route a robot should be, as a time. A HOLD stops
+//! path time at a moment that it names. It can arrive late, for example after a freeze of the broker: path time should
+//! then have stopped at a moment in the past. If robots drove straight back to their places at that path time, they
+//! might meet. So each robot goes back along its route. Robots that receive the HOLD at the same moment go back in
+//! step.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
 use crate::timeline::RouteProgress;
 
-/// Lowest rate of path time, path time per show time. Below, robots that go back are too fast to see others behind them.
-/// Above, the others wait longer.
+/// Lowest rate of path time, in path time per show time; negative rates go back. With a lower rate, robots go back too
+/// fast to see others behind them. With a rate closer to 0, going back takes longer.
 const BACK: f64 = -0.5;
-/// Jump back of path time that a robot makes at once: 5 mm at full speed. Below, corrections of the clock count.
+/// Largest jump back of path time that is made at once: 5 mm at full speed. With a smaller value, small corrections of
+/// the clock make robots go back slowly, too.
 const JUMP: Span = Span::from_millis(20);
-/// Path time has gone back when it is ahead by no more than this.
+/// Going back ends once path time is ahead of the due path time by no more than this.
 const THERE: Span = Span::from_millis(2);
 
 /// The progress of a route under way, which never jumps back by more than [`JUMP`].
 #[derive(Debug)]
 pub(crate) struct SteadyTime {
-    /// Show time of the latest step.
+    /// Moment of the latest step, show clock.
     at: Instant,
     progress: RouteProgress,
     goes_back: bool,
 }
 
 impl SteadyTime {
-    /// The progress of a route that begins at `starts`, show clock.
+    /// The progress of a route that begins at the moment `starts`, show clock.
     pub(crate) fn new(starts: Instant) -> Self {
         Self { at: starts, progress: RouteProgress::START, goes_back: false }
     }
 
-    /// Returns the progress at a moment of the show clock. `due`: the progress by the holds that are known.
+    /// Returns the progress at the moment `at`, show clock. `due`: the progress that follows from all known holds and
+    /// resumes.
     pub(crate) fn step(&mut self, at: Instant, due: RouteProgress) -> RouteProgress {
         let over_s = (at - core::mem::replace(&mut self.at, at)).as_secs().clamp(0.0, 0.1);
         let RouteProgress { time, rate, .. } = self.progress;

@@ -1,4 +1,5 @@
-//! Storage of a robot's large and seldom used data: routes, stretches of light, and odometry for fixes that come late.
+//! Storage of a robot's large and rarely used data: routes, stretches of light, and odometry for fixes that arrive
+//! late.
 
 use lightbots_base::Vec2;
 use lightbots_wire::{Neighbours, Pieces, Route};
@@ -6,11 +7,11 @@ use lightbots_wire::{Neighbours, Pieces, Route};
 use crate::history::OdometryHistory;
 use crate::light_ahead::{StoredTrack, StoredTracks};
 
-/// Storage of the route under way, of the one kept for later, of stretches of light and of the odometry history. It has
-/// 31 KB, of which a step reads next to nothing.
+/// Storage of the route under way, of the route kept for later, of stretches of light and of the odometry history. It
+/// has 31 KB, and a step reads only a small part of it.
 ///
-/// A [`crate::Robot`] contains a storage or refers to one elsewhere. A simulator of thousands of robots keeps them
-/// elsewhere, so that the state of its steps lies close together in memory.
+/// A [`crate::Robot`] contains a storage or refers to a storage elsewhere. A simulator of thousands of robots keeps the
+/// storages elsewhere. The state that steps need then lies close together in memory.
 #[derive(Debug)]
 pub struct RouteStorage {
     slots: [Route; 2],
@@ -18,7 +19,7 @@ pub struct RouteStorage {
     pub(crate) history: OdometryHistory,
 }
 
-/// One of the two places for a route.
+/// One of the two places for a route in [`RouteStorage`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slot {
     First,

@@ -1,29 +1,31 @@
-//! Supervision: a lost link, or a fault of sensors or motors, stops the robot whatever it was to do.
+//! Supervision: a lost link, or a fault of sensors or motors, stops the robot, whatever it was commanded to do.
 
 use lightbots_base::{Instant, Span};
 
-/// How long a robot stands after a fault. Below, it drives on and off where a sensor fails again and again.
+/// How long a robot stands after a fault. With a smaller value, a robot whose sensor fails repeatedly starts and stops
+/// repeatedly.
 const FAULT: Span = Span::from_millis(1000);
-/// Silence of the controller during a run after which the robot asks for the time. It must be shorter than
-/// `Config::silence` (1.9 s by default). Above, a question that is lost cannot be repeated in time.
+/// Time without a message on a route, or before a known start, after which the robot asks for the time to get an
+/// answer. It must be shorter than `Config::silence` (1.9 s by default). With a larger value, a question that is lost
+/// cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
-/// Silence after which the link counts as out, whatever the robot does. Its questions for the time, at most 3 s apart
-/// (R28), were not answered then. Below, robots that stand for long take all routes for old. Above, they turn towards
-/// an old route.
+/// Time without a message after which the link counts as out, whatever the robot does. A robot asks for the time at
+/// least every 3 s (R28), so at least one answer did not come. With a smaller value, robots that stand for long take
+/// each new route for an old one. With a larger value, robots turn towards an old route after an outage.
 const OUTAGE: Span = Span::from_millis(3300);
-/// Time between two questions of a robot in such a silence.
+/// Least time between two questions for the time that a silence causes.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
 
-/// What the robot is driving, as far as it matters to the link's supervision.
+/// What the robot is driving, as far as it matters to the supervision of the link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Drives {
     /// Nothing: the robot stands and will not drive without a message.
     Not,
-    /// To a target. Its controller may be an original one, which sends nothing meanwhile.
+    /// To a target. Its controller may be an original one, which sends no messages during the drive.
     Target,
-    /// Not yet, but the START of its route has come: the route will begin by itself.
+    /// Nothing yet, but the START of its kept route has come: the route will begin without a further message.
     Soon,
     /// A route under way.
     Route,
@@ -36,7 +38,7 @@ pub(crate) struct Supervisor {
     heard: Instant,
     down_since: Option<Instant>,
     cut: bool,
-    /// Whether the robot was cut off until the link came back, and has not reported that.
+    /// Whether the robot was cut off when the link came back, and has not reported this yet.
     untold: bool,
     faulty_until: Option<Instant>,
     asked: Instant,
@@ -56,14 +58,15 @@ impl Supervisor {
         }
     }
 
-    /// Notes that a message came in.
+    /// Notes that a message arrived at `now`, own clock. This ends a silence and a cut-off.
     pub(crate) fn receive(&mut self, now: Instant) {
         self.heard = now;
         self.down_since = None;
         self.cut = false;
     }
 
-    /// Notes that the link went up or down. Only a message ends a silence, not a link that went up.
+    /// Notes that the link went up or down at `now`, own clock. A link that goes up does not end a silence: only a
+    /// message does.
     pub(crate) fn link(&mut self, now: Instant, up: bool) {
         if up {
             self.untold |= self.cut;
@@ -88,13 +91,13 @@ impl Supervisor {
         now - self.heard > self.silence
     }
 
-    /// Whether a message that comes now ends an outage.
+    /// Whether no message came for longer than [`OUTAGE`].
     pub(crate) fn was_out(&self, now: Instant) -> bool {
         now - self.heard > OUTAGE
     }
 
-    /// Cuts the robot off if the link is down, or silent on a route, for too long. Returns whether it did so in this
-    /// call.
+    /// Cuts the robot off if the link has been down for too long during a drive, or silent for too long during a route.
+    /// Returns whether the robot was cut off by this call.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
         let silent = self.is_silent(now);
@@ -108,7 +111,8 @@ impl Supervisor {
         news
     }
 
-    /// Whether to ask for the time because the controller is silent. If so, the call counts as the question.
+    /// Returns whether the robot is to ask for the time now, because of a silence. If so, the call counts as having
+    /// asked.
     pub(crate) fn take_question(&mut self, now: Instant, drives: Drives) -> bool {
         let asks = matches!(drives, Drives::Soon | Drives::Route)
             && now - self.heard > QUIET
@@ -119,28 +123,30 @@ impl Supervisor {
         asks
     }
 
-    /// Notes a fault: the robot stands for [`FAULT`].
+    /// Notes a fault at `now`, own clock: the robot stands for [`FAULT`].
     pub(crate) fn fault(&mut self, now: Instant) {
         self.faulty_until = Some(now + FAULT);
     }
 
-    /// Whether the robot stands because of a fault.
+    /// Whether the robot stands at `now` because of a fault.
     pub(crate) fn faulty(&mut self, now: Instant) -> bool {
         self.faulty_until.take_if(|until| now >= *until);
         self.faulty_until.is_some()
     }
 
-    /// Whether a fault is in force, as of the step before.
+    /// Whether the robot stood because of a fault at the last call of [`faulty`](Self::faulty), or a fault was noted
+    /// since.
     pub(crate) fn is_faulty(&self) -> bool {
         self.faulty_until.is_some()
     }
 
-    /// Whether the link came back while the robot was cut off. The call clears the flag.
+    /// Returns whether the robot was cut off when the link came back, and has not reported this yet. The call clears
+    /// the flag.
     pub(crate) fn take_untold(&mut self) -> bool {
         core::mem::take(&mut self.untold)
     }
 
-    /// Whether the robot stands because the link was lost during a drive.
+    /// Whether the robot is cut off: it stopped because the link was lost during a drive.
     pub(crate) fn is_cut(&self) -> bool {
         self.cut
     }

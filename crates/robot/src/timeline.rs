@@ -1,9 +1,11 @@
-//! Path time: show time since the route's start, less the time spent in holds.
+//! Path time: how far along its route a robot should be, as a time. It is the time of the show clock since the start of the
+//! route, minus the time spent in holds. A hold slows path time to a stop within [`Route::EASE`], and a resume lets it run
+//! again.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
-/// Holds and resumes remembered. Older ones are folded into the base point.
+/// Number of holds and resumes that are remembered. The effect of older ones is kept in the base point.
 const EVENTS: usize = 8;
 
 /// Progress of a route at one moment.
@@ -11,9 +13,9 @@ const EVENTS: usize = 8;
 pub(crate) struct RouteProgress {
     /// Path time.
     pub time: Span,
-    /// Path time per show time, 0 to 1; −0.5 at the least while path time goes back.
+    /// Rate of path time, in path time per show time, 0 to 1. While path time goes back (see `steady_time`): down to −0.5.
     pub rate: f64,
-    /// Whether a hold is in force.
+    /// Whether a hold is in force, even if path time is still slowing down.
     pub held: bool,
 }
 
@@ -23,19 +25,19 @@ struct Event {
     hold: bool,
 }
 
-/// Progress at a moment of the show clock.
+/// Progress at the moment `at`, show clock.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     at: Instant,
     progress: RouteProgress,
 }
 
-/// The path time of the route under way as a function of show time alone. Robots with the same holds are at the same path
-/// time, however late the messages came.
+/// The path time of the route under way as a function of the show clock alone. Robots that know the same holds and resumes
+/// compute the same path time, however late the messages arrived.
 #[derive(Clone, Debug)]
 pub(crate) struct Timeline {
     base: Point,
-    /// Holds and resumes in order of time, not before `base`.
+    /// Holds and resumes in the order of their moments, none of them before `base`.
     events: heapless::Vec<Event, EVENTS>,
 }
 
@@ -47,14 +49,14 @@ impl Timeline {
         }
     }
 
-    /// Begins a route at `at`. Earlier holds and resumes do not apply to it.
+    /// Begins a route at the moment `at`, show clock. Holds and resumes for earlier moments are dropped.
     pub(crate) fn begin(&mut self, at: Instant) {
         self.base = Point { at, progress: RouteProgress::START };
         self.events.retain(|event| event.at >= at);
     }
 
-    /// Notes a hold or resume. The order in which they arrive does not matter. Duplicates, and those from before the
-    /// route, are dropped.
+    /// Notes a hold (`hold`) or a resume for the moment `at`, show clock. Holds and resumes may arrive in any order.
+    /// Duplicates are dropped, and so are moments before the start of the route.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         let folded = at < self.base.at || at == self.base.at && hold == self.base.progress.held;
         if folded || self.events.iter().any(|event| event.at == at && event.hold == hold) {
@@ -73,31 +75,32 @@ impl Timeline {
         let _ = self.events.insert(place, Event { at, hold });
     }
 
-    /// Brings progress to rest from `at` on: adds a hold and discards what was noted for later.
+    /// Slows progress to rest from the moment `at` (show clock) on: adds a hold and drops later holds and resumes.
     pub(crate) fn rest(&mut self, at: Instant) {
         self.events.retain(|event| event.at <= at);
         self.note(at, true);
     }
 
-    /// Whether no resume after this moment is known.
+    /// Whether no resume after the moment `show` (show clock) is known.
     pub(crate) fn stays_held(&self, show: Instant) -> bool {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
 
-    /// Path time, and whether it runs with the show clock from this moment on, as far as is known.
+    /// Path time at the moment `show`, show clock. Also returns whether path time runs evenly with the show clock from then
+    /// on, by the holds and resumes that are known.
     pub(crate) fn time_and_whether_even(&self, show: Instant) -> (Span, bool) {
         let now = self.at(show);
         let is_even = now.rate == 1.0 && !now.held && self.events.last().is_none_or(|last| last.at <= show);
         (now.time, is_even)
     }
 
-    /// Whether a hold is in force at a moment of the show clock.
+    /// Whether a hold is in force at the moment `show`, show clock.
     pub(crate) fn held(&self, show: Instant) -> bool {
         let last = self.events.iter().take_while(|event| event.at <= show).last();
         last.map_or(self.base.progress.held, |event| event.hold)
     }
 
-    /// Progress at a moment of the show clock. Before the route's start, path time is negative.
+    /// Progress of the route at the moment `show`, show clock. Before the start of the route, path time is negative.
     #[inline]
     pub(crate) fn at(&self, show: Instant) -> RouteProgress {
         let mut point = self.base;
@@ -113,7 +116,8 @@ impl RouteProgress {
 }
 
 impl Point {
-    /// Progress at a later moment `at`: the rate first changes linearly to 0 or 1, then it stays.
+    /// Progress at a later moment `at`, without holds and resumes in between. The rate first changes linearly to 0 (if held)
+    /// or 1, and then stays.
     fn until(self, at: Instant) -> Self {
         let RouteProgress { time, rate, held } = self.progress;
         let elapsed = at - self.at;

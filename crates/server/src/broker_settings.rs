@@ -64,8 +64,8 @@ impl Settings {
         self.address == EMBEDDED
     }
 
-    /// Returns the broker that the settings describe, or one line for people if they are invalid. A login in the
-    /// address is moved to its own fields.
+    /// Returns the broker that the settings describe. The error is one line for people. A login in the address is moved to
+    /// the fields `user` and `password`.
     pub fn broker(&mut self) -> Result<BrokerUrl, String> {
         for text in [&self.ca, &self.client_cert, &self.client_key].into_iter().flatten() {
             if text.len() > LONGEST {
@@ -97,8 +97,8 @@ impl Settings {
         TlsTrust::new(ca.as_ref().map(Text::pem), client).map(Some).map_err(|error| error.to_string())
     }
 
-    /// Returns what a screen may show of the settings: everything but the password and the key. `embedded` is the
-    /// address of the server's own broker, if it runs.
+    /// Returns what a screen may show of the settings: everything but the password and the key. `embedded` is the address of
+    /// the server's own broker; `None` if that broker does not run.
     pub fn shown(&self, embedded: Option<&BrokerUrl>) -> BrokerSettings {
         BrokerSettings {
             address: self.address.clone(),
@@ -111,7 +111,7 @@ impl Settings {
         }
     }
 
-    /// Reads the settings from the data folder; `None` if the file is missing or unreadable.
+    /// Reads the settings from the data folder; `None` if the file is missing, cannot be read or is invalid.
     pub fn load(folder: &Path) -> Option<Self> {
         let path = folder.join(FILE);
         let bytes = disk::read_regular(&path, FILE_MAX).ok()?;
@@ -120,7 +120,7 @@ impl Settings {
             .ok()
     }
 
-    /// Writes the settings to the data folder, readable for the owner only, all or nothing.
+    /// Writes the settings to a file in the data folder that only its owner can read. A failure leaves the old file.
     pub fn save(&self, folder: &Path) -> Result<(), String> {
         let path = folder.join(FILE);
         let text = serde_json::to_vec_pretty(self).map_err(|error| error.to_string())?;
@@ -129,7 +129,7 @@ impl Settings {
     }
 }
 
-/// Returns the external broker that the command line of `run` names; `None` if it is to use its own.
+/// Returns the external broker that the command line of `run` names. `None` if `run` is to use its embedded broker.
 pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Option<BrokerUrl>, Failure> {
     let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
     if embedded == addresses.len() {
@@ -141,7 +141,7 @@ pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Opt
     Ok(Some(login.broker(addresses)?))
 }
 
-/// A PEM text with its name for error messages.
+/// A certificate or a key as PEM, and what error messages call it.
 struct Text {
     name: String,
     bytes: Vec<u8>,

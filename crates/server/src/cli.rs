@@ -61,9 +61,9 @@ pub enum Command {
     Plan(PlanArguments),
     /// Play a whole show in virtual time, with simulated robots, sensors and network
     Rehearse(RehearseArguments),
-    /// Play a show once on a live fleet, without a screen; a report at the end
+    /// Play a show once on a live fleet, without a screen; prints a report at the end
     Play(PlayArguments),
-    /// Run a recorded rehearsal or run through the controller again, and compare what it does
+    /// Repeat a recorded rehearsal or run in the controller, input by input, and compare the outputs
     Replay(ReplayArguments),
     /// What was planned and what happened in a recorded run or rehearsal
     Report(ReportArguments),
@@ -77,7 +77,8 @@ pub enum Command {
     Render(Box<RenderArguments>),
     /// Convert between show formats, by the files' endings
     Convert(ConvertArguments),
-    /// Take a robot on a broker through the protocol, rule by rule; it drives, within half a metre of where it stands
+    /// Test whether a robot on a broker keeps the protocol, rule by rule; the robot drives, within half a metre of where it
+    /// stands
     RobotCheck(RobotCheckArguments),
     /// Make certificates for a broker and the browser app with TLS: an authority, a server, clients
     Certs(CertsArguments),
@@ -95,20 +96,20 @@ pub enum Command {
 /// `run`
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// The show to open; an example where none is given
+    /// The show to open; without it, an example
     pub show: Option<PathBuf>,
     #[command(flatten)]
     pub reading: ShowArguments,
     /// How many simulated robots to start; 0: none [default: 30, or more where SHOW needs more]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
     pub robots: Option<u32>,
-    /// Use this broker instead of the embedded one: mqtt[s]://[user[:password]@]host[:port], more addresses of it after
-    /// commas; `embedded` overrules a broker that was chosen on the screen before
+    /// Use this broker instead of the embedded one: mqtt[s]://[user[:password]@]host[:port], further addresses of the same
+    /// broker after commas; `embedded` overrules a broker that was chosen on the screen before
     #[arg(long, value_name = "URL")]
     pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
-    /// Where the browser app is served. On another address than a loopback one people have to sign in, over TLS
+    /// Where the browser app is served. On any address except a loopback one, people have to sign in, over TLS
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
     /// Serve the browser app without TLS where the network can reach --listen: passwords can be read on the way, and
@@ -118,7 +119,7 @@ pub struct RunArguments {
     /// A further name of this machine in the browser's address line, such as stage.local; may be repeated
     #[arg(long, value_name = "NAME[:PORT]")]
     pub host_name: Vec<String>,
-    /// How long a plan that a program asks the web app for may take, seconds
+    /// Longest time for a plan that a program requests from the web app, seconds
     #[arg(long, value_name = "S", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=86_400))]
     pub plan_budget: u32,
     #[command(flatten)]
@@ -134,8 +135,8 @@ pub struct RunArguments {
     /// ask]
     #[arg(long, value_name = "WHAT", value_enum)]
     pub on_return: Option<OnReturnArgument>,
-    /// Seed of the simulated robots, their names included, which pins in a show go by [default: 1; with --broker,
-    /// where others may bear those names, another one each time]
+    /// Seed of the simulated robots' noise and names; pins in a show refer to these names [default: 1; with --broker, where
+    /// other robots may have the same names, a random one]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
     /// Simulated robots without sensor noise and wheel slip
@@ -146,7 +147,7 @@ pub struct RunArguments {
 /// What happens to a show that was cut off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum OnReturnArgument {
-    /// It goes on from where the robots stand, once they report.
+    /// The show goes on from where the robots stand, once they report.
     Go,
     /// The robots stand until Go on or Stop is pressed on the screen.
     Ask,
@@ -170,10 +171,10 @@ pub struct MqttArguments {
     /// Where the embedded broker listens
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:1883", value_parser = address)]
     pub mqtt_listen: SocketAddr,
-    /// Where the embedded broker speaks TLS beside that; `lightbots certs` makes what it needs
+    /// A further address at which the embedded broker speaks TLS; `lightbots certs` makes the files for it
     #[arg(long, value_name = "HOST:PORT", requires_all = ["cert", "key"], value_parser = address)]
     pub mqtt_tls_listen: Option<SocketAddr>,
-    /// Its certificate with the chain, PEM
+    /// The embedded broker's certificate with the chain, PEM
     #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
     pub cert: Option<PathBuf>,
     /// The certificate's key, PEM
@@ -182,8 +183,9 @@ pub struct MqttArguments {
     /// Over TLS, accept only clients with a certificate of this authority, PEM
     #[arg(long, value_name = "FILE", requires = "mqtt_tls_listen")]
     pub client_ca: Option<PathBuf>,
-    /// A user of the embedded broker; if any is given, other users are refused. ROLE is robot (it has the user's name),
-    /// any-robot, controller, cue, or left out: a robot where the client id is LightBot/<name>; may be repeated
+    /// A user of the embedded broker; if any is given, other users are refused. ROLE is robot (whose name is USER),
+    /// any-robot, fleet, controller or cue. Without ROLE, the client id decides: LightBot/NAME is a robot, BotControl/NAME a
+    /// controller, any other fleet. May be repeated
     #[arg(long, value_name = "USER:PASSWORD[:ROLE]")]
     pub mqtt_user: Vec<String>,
     /// File of such users, one a line
@@ -196,7 +198,7 @@ pub struct MqttArguments {
 pub struct BrokerOnlyArguments {
     #[command(flatten)]
     pub mqtt: MqttArguments,
-    /// How many robots there will be: its queues are sized for them
+    /// Number of robots that will connect; the broker's queues are sized for them
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=20_000))]
     pub robots: u32,
     /// Be the child process of a running lightbots: orders come on stdin
@@ -239,22 +241,22 @@ pub struct PlanArguments {
 pub struct PlayArguments {
     #[arg(help = show_help())]
     pub show: PathBuf,
-    /// The broker of the fleet: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
+    /// The broker of the fleet: mqtt[s]://[user[:password]@]host[:port], further addresses of the same broker after commas
     #[arg(long, value_name = "URL", required = true)]
     pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
-    /// Robots that must be there before it starts; with fewer than pixels, some pixels stay dark [default: as many as
-    /// pixels, or the robots that are there once no more have come for ten seconds]
+    /// Number of robots that must be ready before the show starts; with fewer robots than pixels, some pixels stay dark
+    /// [default: as many as pixels, or those that are ready once no further robot has come for ten seconds]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub wait: Option<u32>,
-    /// How long to wait for broker and robots at most, seconds
+    /// Longest wait for the broker and the robots, seconds
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=86_400))]
     pub patience: u32,
     /// Record the inputs of the controller, for `replay`
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Speed of drives, percent of the usual one: half of it for a first run
+    /// Speed of drives, percent of the usual speed; 50 is good for a first run
     #[arg(long, value_name = "PERCENT", default_value_t = 100, value_parser = clap::value_parser!(u32).range(i64::from(SPEED_MIN_PERCENT)..=100))]
     pub speed: u32,
     #[command(flatten)]
@@ -269,25 +271,25 @@ pub struct PlayArguments {
 /// `robots`
 #[derive(Debug, Args)]
 pub struct RobotsArguments {
-    /// How many
+    /// Number of simulated robots
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20_000))]
     pub count: u32,
-    /// Their broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
+    /// The broker of the robots: mqtt[s]://[user[:password]@]host[:port], further addresses of the same broker after commas
     #[arg(long, value_name = "URL", required = true)]
     pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
-    /// How many robots share a connection; 1 where the broker gives each robot rights of its own
+    /// How many robots share a connection; use 1 if the broker gives each robot rights of its own
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub together: u32,
-    /// Seed of their noise and their names [default: another one each time]
+    /// Seed of the robots' noise and names [default: another one each time]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
-    /// Floor in metres, whose front rows they stand in
+    /// Width and depth of the floor in metres; with `--start rows`, the robots stand in its front rows
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
-    /// Where they stand at first: `rows` along the front edge, a SHOW's first frame, or places X,Y in metres with blanks
-    /// between them, one for each robot; may be repeated
+    /// Where the robots stand at first: `rows` along the front edge, a SHOW's first frame, or one place X,Y in metres for
+    /// each robot, with blanks between places; may be repeated
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true, default_value = "rows")]
     pub start: Vec<String>,
     /// Without sensor noise and wheel slip
@@ -319,24 +321,25 @@ pub struct ConvertArguments {
 /// `robot-check`
 #[derive(Debug, Args)]
 pub struct RobotCheckArguments {
-    /// The robot's broker: mqtt[s]://[user[:password]@]host[:port], more addresses of it after commas
+    /// The robot's broker: mqtt[s]://[user[:password]@]host[:port], further addresses of the same broker after commas
     #[arg(long, value_name = "URL", required = true)]
     pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
-    /// Which robot, by its name; needed where several are on the broker
+    /// Name of the robot to test; needed if several are on the broker
     #[arg(long, value_name = "ID", value_parser = robot)]
     pub robot: Option<RobotId>,
-    /// Floor in metres: the robot is not sent off it, and a reported place off it breaks the rule
+    /// Width and depth of the floor in metres: the robot is not sent off the floor, and a reported place off the floor
+    /// breaks a rule
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
     /// Drive without asking first
     #[arg(long)]
     pub yes: bool,
-    /// Ask what its light shows, to be answered with y or n
+    /// Ask questions about the robot's light, to be answered with y or n
     #[arg(long)]
     pub look: bool,
-    /// How long to wait for the broker at most, seconds
+    /// Longest wait for the broker, seconds
     #[arg(long, value_name = "S", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=86_400))]
     pub patience: u32,
     /// One JSON object on stdout

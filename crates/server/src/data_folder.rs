@@ -81,7 +81,7 @@ impl DataFolder {
     }
 }
 
-/// Opens the lock file. Before that it writes and removes another file, to check that shows can be saved.
+/// Opens the lock file in a data folder. First writes and removes another file there, to check that shows can be saved.
 fn open(folder: &Path) -> std::io::Result<File> {
     disk::create_folder(folder)?;
     let path = folder.join(LOCK);

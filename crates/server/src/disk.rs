@@ -24,7 +24,7 @@ pub enum Readers {
     Owner,
 }
 
-/// Makes a folder and the folders above it. Folders that were missing are on the disk when this returns.
+/// Makes a folder and the missing folders above it. All of them are on the disk when this returns.
 pub fn create_folder(folder: &Path) -> io::Result<()> {
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
@@ -47,7 +47,7 @@ pub fn replace(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<()> {
     replace_with(path, readers, |file| file.write_all(bytes))
 }
 
-/// As [`replace`], with a function that writes the new file.
+/// Replaces a file as [`replace`] does. The function `write` writes the content of the new file.
 pub fn replace_with<E: From<io::Error>>(
     path: &Path,
     readers: Readers,
@@ -91,8 +91,8 @@ pub fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Reads a regular file; more than `most` bytes are an error. A pipe or a device is refused before it is opened,
-/// because it may wait for ever or never end.
+/// Reads a regular file; more than `most` bytes are an error. A pipe or a device is refused before it is opened, because
+/// reading it may wait for ever or never end.
 pub fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     open_regular(path).and_then(|file| read_to_end(file, most))
 }
@@ -120,7 +120,7 @@ fn read_to_end(file: File, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Removes the drafts that a crash left in a folder. No other program may be saving there.
+/// Removes the drafts that a crash left in a folder. To be called only while no other program saves in that folder.
 pub fn remove_drafts(folder: &Path) {
     let Ok(files) = fs::read_dir(folder) else { return };
     let is_draft = |file: &fs::DirEntry| file.file_name().to_string_lossy().ends_with(DRAFT);
@@ -131,7 +131,7 @@ pub fn remove_drafts(folder: &Path) {
     }
 }
 
-/// A temporary file, which is removed when this value is dropped. After a rename there is nothing to remove.
+/// A temporary file, which is removed when this value is dropped, unless it was renamed by then.
 pub struct Draft(PathBuf);
 
 impl Draft {
@@ -185,8 +185,8 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Synchronises the names in a folder to the disk, on Unix. Otherwise a crash may undo a rename whose file is on the
-/// disk.
+/// Synchronises the names in a folder to the disk, on Unix. Without this, a crash may undo a rename although the content of
+/// the file is on the disk.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;

@@ -87,7 +87,7 @@ impl FleetBook {
         })
     }
 
-    /// Sets whether only listed robots take part in runs. If `on`, the robots in `present` are listed too.
+    /// Sets whether only listed robots take part in runs. If `on`, the robots in `present` are put on the list too.
     pub fn only_listed(&self, on: bool, present: &[RobotId]) -> Result<(), String> {
         self.change(|kept| {
             kept.only_listed = on;

@@ -13,7 +13,7 @@ pub struct GrowingFile<'a> {
     file: BufWriter<std::fs::File>,
     /// Whether the old content was removed.
     is_begun: bool,
-    /// The first error, after which nothing is written.
+    /// The first error. After it, nothing more is written. `None`: writing has not failed.
     failure: Option<std::io::Error>,
 }
 

@@ -21,7 +21,8 @@ pub const FILE_MAX: u64 = 64 << 20;
 const HEAD_MAX: u64 = 4096;
 /// Most bytes of a decoded picture: more than `make::layer_picture` ever returns.
 const CODES_MAX: u64 = 4 << 20;
-/// Most results that are remembered, and most pixels of their pictures together: twice those of a show.
+/// Most results that are remembered, and most pixels of their pictures together. Beyond either, the oldest results are
+/// forgotten.
 const KNOWN_MAX: (usize, usize) = (256, 8_000_000);
 
 /// The line that the child writes before the codes.
@@ -44,8 +45,8 @@ type Decoded = Result<Arc<LayerPicture>, String>;
 pub struct LayerPictures(Arc<Mutex<VecDeque<(AssetHash, Decoded)>>>);
 
 impl LayerPictures {
-    /// Decodes the pictures of a show's layers and stores them in the show. `content` returns the bytes of a file.
-    /// Returns an issue for each layer whose picture cannot be decoded.
+    /// Decodes the pictures of a show's layers and stores them in the show. `content` returns the bytes of an asset, or
+    /// `None` if they are missing. Returns an issue for each layer whose picture cannot be decoded.
     pub fn attach(
         &self,
         show: &mut Show,

@@ -63,7 +63,7 @@ pub struct Library {
     states: States,
     /// Facts about the files that lists display.
     facts: FileFacts,
-    /// Built-in shows, which are in no folder, by the name they are listed under.
+    /// Built-in shows, which are in no folder, by the names under which they are listed.
     given: GivenShows,
     /// Lock that is held while a file is compared and replaced.
     writing: Arc<Mutex<()>>,
@@ -104,8 +104,8 @@ impl Library {
         }
     }
 
-    /// Removes drafts that a crash left, states of shows that were deleted long ago, and assets that no show names any
-    /// more. No other program may use the folder.
+    /// Removes drafts that a crash left, states of shows that were deleted long ago, and assets that no show names any more.
+    /// To be called only while no other program uses the folder.
     pub fn tidy_up(&self) {
         disk::remove_drafts(self.files.folder());
         self.assets.remove_drafts();
@@ -116,9 +116,9 @@ impl Library {
         self.sweep();
     }
 
-    /// Adds a built-in show and returns the name that it is listed under, as close to `name` as possible. The file of
-    /// the command line takes the name of an example, which is then listed under another. `unread` says why the show's
-    /// file holds more than the show.
+    /// Adds a built-in show and returns the name under which it is listed, as close to `name` as possible. If an example has
+    /// the same name as the file of the command line, the file keeps the name, and the example is listed under another name.
+    /// `unread` says why the show's file holds more than the show; `None`: it does not.
     pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show, unread: Option<String>) -> String {
         self.assets.give(show);
         self.given.add(Given::new(tidy_name(name), origin, show, unread), &self.files.names())
@@ -154,7 +154,8 @@ impl Library {
         self.kept(name, bytes, unread)
     }
 
-    /// Reads the show in a file's bytes. `unread` says why the file of a built-in show holds more than the show.
+    /// Reads the show in a file's bytes. `unread` says why the original file of a built-in show holds more than `bytes`;
+    /// `None`: it does not, or the show is not built-in.
     fn kept(&self, name: &str, bytes: Vec<u8>, unread: Option<String>) -> Result<Kept, LibraryError> {
         let loaded = read(&bytes, None)
             .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?;
@@ -208,14 +209,15 @@ impl Library {
         self.kept(name, bytes, None)
     }
 
-    /// Returns the bytes of a show's file as it is kept, and its format. For a built-in show that is the document.
+    /// Returns the bytes of a show's file as the library keeps it, and its format. A built-in show gives the bytes of its
+    /// document.
     pub fn file(&self, name: &str) -> Result<(Vec<u8>, &'static Format), LibraryError> {
         let (bytes, _) = self.stored(checked(name)?)?;
         let format = sniff(&bytes).unwrap_or(&LIGHTBOTS);
         Ok((bytes, format))
     }
 
-    /// Fills in the content of the assets that a show names, as far as the library has it.
+    /// Fills in the content of the assets that a show names. Assets that the library lacks stay without content.
     pub fn attach(&self, show: &mut Show) {
         self.assets.attach(show);
     }
@@ -225,7 +227,8 @@ impl Library {
         self.pictures.attach(show, |hash, asset| self.assets.of(hash, asset))
     }
 
-    /// Adds the decoded pictures of the layers to a show, as robots play it.
+    /// Decodes the pictures of the show's layers and adds them to the show, because robots play it with them. Adds the
+    /// issues of pictures that cannot be decoded.
     pub fn with_pictures(&self, mut kept: Kept) -> Kept {
         kept.issues = self.attach_pictures(&mut kept.show);
         kept
@@ -249,7 +252,8 @@ impl Library {
         kept.map_err(|error| LibraryError::Disk(format!("the file {hash} cannot be saved: {error}")))
     }
 
-    /// Returns the bytes of a show, and for a built-in show why its file holds more than the show.
+    /// Returns the bytes of a show. For a built-in show, also returns why its original file holds more than these bytes, if
+    /// it does.
     fn stored(&self, name: &str) -> Result<(Vec<u8>, Option<String>), LibraryError> {
         match self.files.read(name) {
             Ok(bytes) => Ok((bytes, None)),
@@ -311,7 +315,7 @@ impl Library {
     }
 }
 
-/// Says why a show cannot be replaced, with the remedy.
+/// Returns a line that says why a show cannot be replaced, and what to do.
 fn read_only_line(name: &str, reason: &str) -> String {
     format!(
         "\"{name}\" is read-only, because {reason}: update LightBots, or save a copy under another name, which will be \

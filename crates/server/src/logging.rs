@@ -34,8 +34,8 @@ pub fn level() -> &'static str {
     }
 }
 
-/// Starts logging to stderr. Fewer lines of the broker and other libraries are logged, because the broker reports
-/// ordinary disconnects as important.
+/// Starts logging to stderr. Of the broker and other libraries, less is logged than of this program, because the broker
+/// reports ordinary disconnects as important.
 pub fn start(log: Log) {
     // A second call keeps the first level.
     let _ = LEVEL.set(log);

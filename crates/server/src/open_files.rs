@@ -8,7 +8,7 @@ pub fn raise_limit() {
     }
 }
 
-/// Returns how many files this process may have open.
+/// Returns how many files this process may have open at once.
 pub fn limit() -> usize {
     // 256 if the limit is not known: the least that systems have.
     let known = rlimit::Resource::NOFILE.get_soft().unwrap_or(256);

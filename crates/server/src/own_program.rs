@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Returns the path of this program. On Linux it is valid even after the file was replaced by a newer build.
+/// Returns the path of this program's file. On Linux, the path works even after the file was replaced by a newer build.
 pub fn own_program() -> PathBuf {
     let running = PathBuf::from("/proc/self/exe");
     if cfg!(target_os = "linux") && running.exists() {

@@ -14,7 +14,7 @@ use crate::live::conductor::{Handle, News};
 use crate::web::Desk;
 
 const FILE: &str = "played.json";
-/// Most shows that are kept. Beyond it, the show that was played first is forgotten. An entry has about 100 bytes.
+/// Most shows that are kept. If there are more, the one that was entered first is forgotten. An entry has about 100 bytes.
 const SHOWS_MAX: usize = 1_000;
 /// Longest file, bytes: names of shows are 200 characters at most.
 const FILE_MAX: u64 = 1 << 20;
@@ -28,7 +28,7 @@ pub struct PlayedShows {
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct Kept {
-    /// Shows in the order in which they were first played.
+    /// Shows in the order in which they were first played to their end.
     #[serde(default)]
     shows: VecDeque<Entry>,
 }
@@ -51,8 +51,8 @@ pub struct Played {
 }
 
 impl Played {
-    /// Returns a show by its `show_plan::drives_hash`, with the kind of robots that are there. For real robots, a show
-    /// that only simulated robots have played counts as not played.
+    /// Returns a show by `drives`, its `show_plan::drives_hash`, with the kind of robots that are there. A show that only
+    /// simulated robots have played counts as not played if real robots take part.
     pub fn of(drives: u64, robots: &[RobotView]) -> Self {
         Self { drives, real: has_real(robots) }
     }
@@ -63,8 +63,8 @@ fn has_real(robots: &[RobotView]) -> bool {
 }
 
 impl PlayedShows {
-    /// Reads the file in the data folder. If it cannot be read, there are no shows, and all are offered at half speed
-    /// again.
+    /// Reads the file in the data folder. If it cannot be read, the list is empty, so that all shows are offered at half
+    /// speed again.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
         let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
@@ -138,7 +138,7 @@ struct PresentRun {
 }
 
 impl PresentRun {
-    /// If this event ends the run and all frames were played, returns the show.
+    /// Returns the show if this event ends the run and all frames were played. Otherwise returns `None`.
     fn ends(&mut self, event: &Event) -> Option<(String, Played)> {
         let EventKind::RunEnded { outcome, frames_played, .. } = &event.kind else { return None };
         let (name, played, frames) = self.show.take()?;

@@ -17,10 +17,10 @@ use crate::web::{Shared, operate};
 
 /// Time between two checks of the playlist.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
-/// Number of consecutive checks without a run after which a turn counts as over, although no event ended it. The event
-/// may still be on its way at the first check.
+/// A turn without a run at this number of consecutive checks counts as over, although no event ended it. At the first check,
+/// the event may still be on its way.
 const LOOKS_WITHOUT_RUN: u32 = 3;
-/// Most turns that are skipped in one check. Entries whose time is past are skipped one after the other.
+/// Most turns that are skipped in one check. Each pass of the check skips one entry whose time is past.
 const ACTS_MAX: usize = 200;
 
 /// A turn that is about to begin.
@@ -38,9 +38,10 @@ struct Player {
     shared: Arc<Shared>,
     stop: Stop,
     attempt: Option<Attempt>,
-    /// The operator's speed (percent) and loop setting, kept while a show of the playlist plays with other ones.
+    /// The operator's speed (percent) and loop setting, to be restored after a show of the playlist. `None`: nothing is to
+    /// be restored.
     settings: Option<(u32, bool)>,
-    /// Whether this player has begun the run of the present turn, or found it at the start.
+    /// Whether the present turn has a run: this player began the run, or found it when the program started.
     is_playing: bool,
     looks_without_run: u32,
 }
@@ -140,8 +141,8 @@ impl Player {
         }
     }
 
-    /// Ends a turn whose run is over although no event said that, because too much happened at once and events were
-    /// lost.
+    /// Ends the turn that is playing, if its run is over although no event said so. Events are lost if too many come at
+    /// once.
     fn watch(&mut self, snapshot: &Snapshot) {
         self.looks_without_run = if snapshot.run.is_some() { 0 } else { self.looks_without_run + 1 };
         if self.looks_without_run < LOOKS_WITHOUT_RUN {
@@ -307,7 +308,7 @@ impl Player {
 
 /// Why a turn does not begin, with a remedy.
 enum Refused {
-    /// The start is tried again while the turn is not too late, because robots and broker may still come.
+    /// The start is tried again until the turn is too late, because robots and broker may still come.
     ForNow(String),
     /// Waiting would change nothing.
     ForGood(String),

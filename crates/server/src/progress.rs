@@ -5,6 +5,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// A bar for a share of work, 0 to 1, with a word about what is being done.
 pub struct Bar(ProgressBar);
 
+/// Number of steps of a bar: its resolution.
 const STEPS: u64 = 1000;
 
 impl Bar {

@@ -22,7 +22,7 @@ pub struct RunReport {
     began: Option<Instant>,
     duration_s: f64,
     frames_played: usize,
-    /// Time between the first and the last arrival in a frame, one value a frame.
+    /// Time between the first and the last arrival in a frame, seconds, one value for each frame.
     spreads_s: Vec<f64>,
     errors_m: Vec<f64>,
     dropouts: usize,
@@ -56,7 +56,8 @@ impl RunReport {
         matches!(event.kind, EventKind::FrameReached { .. })
     }
 
-    /// Adds an event. `places` is a snapshot if [`Self::wants_places`] returns `true`.
+    /// Adds an event. `places` must be a snapshot if [`Self::wants_places`] returns `true` for the event, and may be `None`
+    /// otherwise.
     pub fn add(&mut self, event: &Event, places: Option<&Snapshot>) {
         match &event.kind {
             EventKind::RunBegun { robots, .. } => self.robots = *robots,
@@ -110,7 +111,7 @@ impl RunReport {
         self.outcome.is_some()
     }
 
-    /// Whether the whole show was played, and no robot was lost for good.
+    /// Whether the whole show was played, and all robots that were lost came back.
     pub fn ok(&self) -> bool {
         self.outcome == Some(RunOutcome::Finished)
             && self.frames_played >= self.frames
@@ -123,7 +124,7 @@ impl RunReport {
     }
 }
 
-/// Returns the issue for an event; `None` if the report has none for it.
+/// Returns the issue for an event; `None` if the event is no issue.
 fn issue(kind: &EventKind) -> Option<Issue> {
     let (code, frame) = match kind {
         EventKind::Disconnected => ("broker-lost", None),

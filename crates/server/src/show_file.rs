@@ -11,7 +11,7 @@ use crate::disk::read_bounded;
 use crate::failure::Failure;
 use crate::layer_pictures::LayerPictures;
 
-/// The code of the issue that `--floor` was given for a show that has a floor of its own.
+/// The code of the issue that a show has a floor of its own, so that `--floor` is ignored.
 pub const FLOOR_IGNORED: &str = "floor-ignored";
 
 /// A show as commands use it: read, adapted to the command line, and validated.
@@ -19,7 +19,7 @@ pub const FLOOR_IGNORED: &str = "floor-ignored";
 pub struct Opened {
     /// The show, with the floor and the identity the user asked for.
     pub show: Show,
-    /// Why the file holds more than the show; `None`: all of it was understood.
+    /// Why the file holds more than the show; `None`: the show holds everything.
     pub unread: Option<String>,
     /// Issues that were found when the show was read and validated.
     pub issues: Issues,
@@ -101,7 +101,7 @@ fn prepare(loaded: Loaded, arguments: &ShowArguments) -> Opened {
     Opened { show, unread, issues }
 }
 
-/// Returns the warning that a show keeps its own floor, if `--floor` differs from it.
+/// Returns a warning if `--floor` differs from the show's own floor, which is kept.
 fn floor_ignored(stage: &Stage, (width_m, depth_m): (f64, f64)) -> Option<Issue> {
     let same = (stage.width_m, stage.depth_m) == (width_m, depth_m);
     let message = format!(

@@ -18,7 +18,7 @@ pub fn plan(show: &Show, found: &Issues) -> (ShowPlan, api::Plan) {
     plan_unless(show, found, &|| false).unwrap_or_default()
 }
 
-/// As [`plan`], but cancelled as soon as `is_cancelled` returns `true`.
+/// Plans a show as [`plan`] does, but stops with an error as soon as `is_cancelled` returns `true`.
 pub fn plan_unless(
     show: &Show,
     found: &Issues,
@@ -45,7 +45,7 @@ fn document(show: &Show, found: &Issues, plan: &ShowPlan, began: Instant) -> api
 pub struct LastPlan(Mutex<Option<(Show, Arc<ShowPlan>)>>);
 
 impl LastPlan {
-    /// Plans a show as [`plan_unless`] does, or uses the latest plan if the robots' drives are the same.
+    /// Plans a show as [`plan_unless`] does, or takes the latest plan if robots would drive as in that one.
     pub fn plan_unless(
         &self,
         show: &Show,
@@ -82,8 +82,8 @@ impl io::Write for Hashed {
     }
 }
 
-/// Returns a hash of all that robots' drives depend on. It reads the whole show, so it must not run in a task that
-/// others wait for.
+/// Returns a hash of everything that robots' drives depend on. It takes long for a large show, so it must not run in a task
+/// that others wait for.
 pub fn drives_hash(show: &Show) -> u64 {
     let mut hashed = Hashed(StateHash::new());
     // Neither serialising a show nor hashing it fails.
@@ -91,7 +91,7 @@ pub fn drives_hash(show: &Show) -> u64 {
     hashed.0.finish()
 }
 
-/// Returns the show without everything that robots' drives do not depend on. A field that is not named here is kept.
+/// Returns a copy of the show that keeps only what robots' drives depend on. Fields that are not named here are kept too.
 fn driven(show: &Show) -> Show {
     let mut driven = Show {
         name: String::new(),
@@ -113,7 +113,7 @@ fn driven(show: &Show) -> Show {
     driven
 }
 
-/// Returns what clients get for a show whose planning took too long: issues, and no part of a plan.
+/// Returns the answer to clients for a show whose planning took too long: issues, and no part of a plan.
 pub fn cut_off(found: &Issues, budget: Duration) -> api::Plan {
     let message = format!(
         "planning took longer than {} s and was cut off: check the show on the command line, make it smaller, or start \

@@ -13,7 +13,7 @@ const COMPUTING: u8 = 1;
 /// Phase in which a command waits by [`Stop::wait`]: the first signal requests a stop.
 const RUNNING: u8 = 2;
 
-/// Whether the user wants the program to stop. A second signal ends the program at once.
+/// Whether the user wants the program to stop. After the first signal, a second one ends the program at once.
 #[derive(Clone, Debug)]
 pub struct Stop {
     wanted: watch::Receiver<bool>,
@@ -48,7 +48,7 @@ impl Stop {
         let _ = wanted.wait_for(|wanted| *wanted).await;
     }
 
-    /// Returns a `Stop` that is requested together with this one, or earlier by its [`End`].
+    /// Returns a `Stop` that is requested when this one is, or earlier by the returned [`End`].
     pub fn child(&self) -> (Self, End) {
         let (child, end) = self.apart();
         let (sender, parent) = (end.0.clone(), self.clone());
@@ -63,7 +63,8 @@ impl Stop {
         (child, end)
     }
 
-    /// Returns a `Stop` that is requested only by its [`End`]. The [`End`] must be kept until then.
+    /// Returns a `Stop` that is requested only by the returned [`End`]. The caller must keep the [`End`], because dropping
+    /// it makes [`Stop::wait`] return, too.
     pub fn apart(&self) -> (Self, End) {
         let (sender, wanted) = watch::channel(false);
         (Self { wanted, phase: self.phase.clone() }, End(sender))

@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use lightbots_plan::{WorkerTask, Workers};
 
-/// Interval at which the calling thread checks for a cancellation while it waits for the others. A cancelled plan thus
-/// ends as early as in the planner's own loops.
+/// Interval at which the calling thread checks for a cancellation while it waits for the other threads. A cancelled plan
+/// thus ends as early as in the planner's own loops.
 const POLL: Duration = Duration::from_millis(10);
-/// Most threads. Beyond it, memory is the limit, because each thread plans a drive of up to 10,000 robots.
+/// Most threads. Memory limits their number, because each thread plans a drive of up to 10,000 robots.
 const MOST: usize = 16;
 
 /// Worker threads for the planner: one per core, at most [`MOST`].

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::layer_picture::LayerPicture;
 
-/// SHA-256 of a file's bytes. `Display` gives the 64 hexadecimal digits that files use.
+/// SHA-256 of a file's bytes. `Display` gives 64 hexadecimal digits, as in show files.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct AssetHash(pub [u8; 32]);
 
@@ -21,12 +21,12 @@ pub struct Asset {
     pub media_type: String,
     /// Length of the file, bytes.
     pub bytes: u64,
-    /// The file itself. `None` if only its hash is known, because the show's file does not hold it. Serde skips the
-    /// content: what a controller writes down of a show does without.
+    /// The bytes of the file. `None` if only the hash is known, because the show was read from a file without its
+    /// assets. Serde skips the content: recordings and journals of a controller do not need it.
     #[serde(skip)]
     pub content: Option<Arc<[u8]>>,
-    /// The file as a picture that layers project on the floor. `None` if no layer projects it, or it was not decoded. A
-    /// controller writes it down, because the light of a run depends on it.
+    /// The decoded file, if it is a picture that layers project on the floor. `None` if no layer projects it, or it was
+    /// not decoded. Recordings of a controller contain the picture, because the light of a run depends on it.
     #[serde(with = "crate::layer_picture::shared")]
     pub picture: Option<Arc<LayerPicture>>,
 }

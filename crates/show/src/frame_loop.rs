@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use crate::{Cue, CuePlace, Issue, Issues, Show, excerpt, frame_label};
 
-/// Frames that a show repeats until GO. The cue is at the last frame and names the first.
+/// Frames that a show repeats until GO. A cue at the last of these frames names the first one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameLoop {
     /// The first frame, counted from 0.
     pub first: usize,
-    /// The last frame, counted from 0; not before the first.
+    /// The last frame, counted from 0 and included; not less than `first`.
     pub last: usize,
 }
 
@@ -20,13 +20,13 @@ impl FrameLoop {
     }
 }
 
-/// The loops of a show in playing order. No frame is in two of them. A cue with an invalid loop gives none: its frame
-/// waits for GO instead, as [`validate`](crate::validate()) reports.
+/// The valid loops of a show in playing order. No frame is in two loops. A cue with an invalid loop gives no loop: the
+/// show waits for GO at the cue's frame instead, as [`validate`](crate::validate()) reports.
 pub fn frame_loops(show: &Show) -> Vec<FrameLoop> {
     examined(show).0
 }
 
-/// The valid loops of a show, and an issue for each invalid one.
+/// The valid loops of a show in playing order, and a warning for each invalid loop.
 pub(crate) fn examined(show: &Show) -> (Vec<FrameLoop>, Issues) {
     let (mut loops, mut issues) = (Vec::new(), Issues::new());
     let (mut cues, mut places) = (BTreeMap::<&str, &Cue>::new(), BTreeMap::<&str, usize>::new());
@@ -59,8 +59,9 @@ pub(crate) fn examined(show: &Show) -> (Vec<FrameLoop>, Issues) {
     (loops, issues)
 }
 
-/// The loop from the frame `first` (`None`: unknown) to the frame `last`, or the code of an issue and why the loop is
-/// invalid. `before`: the loop before it in playing order.
+/// Returns the loop from the frame `first` to the frame `last`; `first` is `None` if no frame has the id that the cue
+/// names. If the loop is invalid, returns the code of an issue and the reason. `before` is the previous loop in playing
+/// order.
 fn loop_to(
     last: usize,
     first: Option<usize>,

@@ -4,38 +4,41 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::{Obstacle, Show, Stage, robots_needed};
 
-/// Spacings of robots and rows for an Elisa-3, metres. The first spacing is taken at which all rows are on the floor.
-/// 0.1 m is the spacing of the original's robots. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
+/// Distances between neighbouring robots, and between rows, for robots of the size of an Elisa-3, metres. The first with
+/// which all rows are on the floor is taken. The original system uses 0.1 m. 0.06 m leaves 6 mm between rims, twice
+/// `PROVABLE_GAP_M`.
 const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
-/// Distance from the front edge of the floor to the first row, metres. The original's value: y = 1.3 m on a
-/// 3 m floor.
+/// Distance from the front edge of the floor to the first row, metres. The original system has y = 1.3 m on a floor of
+/// 3 m.
 const FIRST_ROW_M: f64 = 0.2;
-/// Distance from a side edge to the nearest robot of a row, metres. The original's value: x = -1.45 m
-/// on a 3 m floor.
+/// Least distance from a side edge to the nearest robot of a row, metres. The original system has x = -1.45 m on a floor
+/// of 3 m.
 const SIDE_M: f64 = 0.05;
 /// Longest row, metres: five times the widest floor, which is 200 m (`MOST_SIDE_M`). Bounds the number
 /// of columns for hostile widths.
 const USABLE_MAX_M: f64 = 1e3;
-/// Largest ratio of a robot's radius to that of an Elisa-3. The largest radius that validation allows, 1 m, has a ratio
-/// of 37.
+/// Largest ratio of a robot's radius to that of an Elisa-3 with which distances grow. Bounds them for invalid shows: the
+/// largest radius that validation allows, 1 m, has a ratio of 37.
 const SIZE_MAX: f64 = 100.0;
-/// Clearance between a waiting robot and a no-go area, metres. More than `PROVABLE_GAP_M`, so that plans can leave.
+/// Least clearance between a waiting robot and a no-go area, metres. More than `PROVABLE_GAP_M`, so that the robot's
+/// drive away from there can be proven free of contact.
 const OBSTACLE_GAP_M: f64 = 0.01;
-/// Largest number of rows without a free place. After them, places are put in one column without a check. Valid shows
-/// stay below it, because the largest floor, 200 m, has 3,333 rows.
+/// Largest number of rows without a free place. Once there are more, the remaining places are put in one column without
+/// a check of no-go areas. Valid shows stay below the bound: the largest floor, 200 m, has 3,333 rows.
 const FULL_ROWS_MAX: usize = 10_000;
 /// Largest number of comparisons of a place with a no-go area: ten times what `MAX_PIXELS` places and `MAX_OBSTACLES`
-/// areas need. After them, places are put in one column without a check. Bounds the time for hostile shows.
+/// areas need. After that, the remaining places are put in one column without a check. Bounds the time for hostile
+/// shows.
 const COMPARISONS_MAX: usize = 200_000_000;
 
-/// Starting places of `count` robots: rows along the front edge, which has the largest y. Rows are 0.1 m apart, as are
-/// robots in a row, and the first row is 0.2 m from the edge. A row runs from left to right; the last one is centred.
-/// On the original's floor of 3 m by 3 m the first thirty places are on y = 1.3 m, from x = −1.45 m on. Places on
-/// no-go areas are left out.
+/// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Robots of
+/// a row are 0.1 m apart, and so are rows; the first row is 0.2 m from the edge. A row runs from left to right and is
+/// centred. On the original system's floor of 3 m by 3 m the first thirty places have y = 1.3 m and begin at
+/// x = −1.45 m. Places on no-go areas are left out.
 ///
-/// All distances grow with the radius of the robot. If the floor is too small, rows move closer, down to 60 mm for an
-/// Elisa-3. If that is not enough, further rows are beyond the far edge, which [`validate`](crate::validate()) reports.
-/// The list always has `count` places.
+/// These distances are for an Elisa-3, and grow with the radius of the robot. If the floor is too small, robots and rows
+/// are closer together, down to 60 mm for an Elisa-3. If that is not enough, the last rows are beyond the far edge, which
+/// [`validate`](crate::validate()) reports. The list always has `count` places.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
     let [wide_m, medium_m, narrow_m] = STEPS_M;
@@ -49,12 +52,14 @@ pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     rows(stage, count, narrow_m, size)
 }
 
-/// Places where the robots of a show wait before the first frame: its `starts`, or else rows along the front edge.
+/// Places where the robots of a show wait before the first frame, stage metres: the show's `starts`, or else
+/// [`front_rows`].
 pub fn starting_places(show: &Show) -> Vec<Vec2> {
     show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show)))
 }
 
-/// Rows for robots `size` times as large as an Elisa-3. `step_m` is the spacing for an Elisa-3.
+/// Rows of `count` places for robots `size` times as large as an Elisa-3. `step_m` is the distance between neighbours
+/// for an Elisa-3, metres.
 fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
     let (step_m, side_m, first_row_m) = (step_m * size, SIDE_M * size, FIRST_ROW_M * size);
     // A floor without a finite width gets a single column, so that validation can report the places.
@@ -93,13 +98,14 @@ fn is_free(stage: &Stage, spot: Vec2) -> bool {
     stage.obstacles.iter().all(|obstacle| obstacle.gap_m(spot) >= reach_m)
 }
 
-/// Rounded to tenths of a millimetre, so that places read well in files.
+/// Rounds metres to tenths of a millimetre, so that places read well in files.
 fn tidy(metres: f64) -> f64 {
     (metres * 1e4).round() / 1e4 + 0.0
 }
 
 impl Obstacle {
-    /// Distance from a place to the nearest point of the obstacle, metres; 0 or less on the obstacle.
+    /// Distance from a place to the nearest point of the no-go area, metres. Within a disc it is negative, within a
+    /// rectangle 0.
     pub fn gap_m(&self, from: Vec2) -> f64 {
         match *self {
             Self::Disc { at, radius_m } => at.distance(from) - radius_m,

@@ -13,7 +13,7 @@ pub struct Issue {
     pub frame: Option<usize>,
     /// Ids of the pixels concerned; may be empty.
     pub pixels: Vec<u32>,
-    /// One line for people with place, cause and remedy. Frames are counted from 1 there.
+    /// One line for people with place, cause and remedy. The text counts frames from 1.
     pub message: String,
 }
 
@@ -49,12 +49,12 @@ impl Issue {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// The issue with the index of its frame, counted from 0.
+    /// Returns the issue as one about the frame with the index `frame`, counted from 0.
     pub fn in_frame(self, frame: usize) -> Self {
         Self { frame: Some(frame), ..self }
     }
 
-    /// The issue with the ids of its pixels.
+    /// Returns the issue as one about the pixels with these ids.
     pub fn with_pixels(self, pixels: impl IntoIterator<Item = u32>) -> Self {
         Self { pixels: pixels.into_iter().collect(), ..self }
     }

@@ -1,9 +1,10 @@
 //! How messages quote a show.
 
-/// Longest text of a file in a message, characters. Longer texts are cut, so that a message stays one line on a screen.
+/// Largest number of characters of a text from a show that a message quotes. A longer text is cut, so that the message
+/// stays one line on a screen.
 const EXCERPT_CHARS: usize = 40;
 
-/// The name of a frame in messages: `frame 3 "Heart"`, counted from 1 (`index` counts from 0).
+/// How messages name a frame: `frame 3 "Heart"`. `index` counts frames from 0, the text counts them from 1.
 pub fn frame_label(index: usize, name: &str) -> String {
     if name.is_empty() {
         return format!("frame {}", index + 1);
@@ -17,8 +18,8 @@ pub fn clock_label(seconds: f64) -> String {
     format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
 }
 
-/// The first 40 characters of a text, for messages. Control characters become U+FFFD, because they would break the
-/// line.
+/// The first 40 characters of a text, for messages, with `…` after them if the text is longer. Control characters become
+/// U+FFFD, because they would break the line.
 pub fn excerpt(text: &str) -> String {
     let printable = |char: char| if char.is_control() { char::REPLACEMENT_CHARACTER } else { char };
     let mut short: String = text.chars().take(EXCERPT_CHARS).map(printable).collect();

@@ -2,26 +2,27 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A small picture or film in memory. Files are decoded in a process of their own, so that the program that plays a
-/// show never reads them.
+/// A small picture or film, decoded, in memory. A separate process decodes files of pictures, so that a harmful file
+/// cannot end the program that plays a show.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LayerPicture {
-    /// Pixels in a row.
+    /// Number of pixels in a row.
     pub width: u32,
-    /// Number of rows.
+    /// Number of rows of one picture.
     pub height: u32,
-    /// Red, green and blue of each pixel, sRGB codes: pictures one after another, each row by row from the top left.
+    /// Red, green and blue of each pixel, sRGB codes. The pictures of a film follow one another, each row by row from the
+    /// top left.
     pub codes: Vec<u8>,
 }
 
 impl LayerPicture {
-    /// Number of pixels, all pictures of a film together.
+    /// Number of pixels of all pictures of a film together.
     pub fn pixels(&self) -> usize {
         self.codes.len() / 3
     }
 }
 
-/// Serialises a shared picture as the picture itself.
+/// Functions for `#[serde(with)]` that serialise a picture behind an [`Arc`](std::sync::Arc) like the picture itself.
 pub(crate) mod shared {
     use super::LayerPicture;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -15,11 +15,11 @@ pub struct Show {
     pub name: String,
     /// Floor and robots.
     pub stage: Stage,
-    /// Whether pixels are bound to robots, in frames without their own [`Frame::identity`].
+    /// Whether pixels are bound to robots. A frame's own [`Frame::identity`] overrides it.
     pub identity: Identity,
-    /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge.
+    /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge, where y is largest.
     pub starts: Option<Vec<Vec2>>,
-    /// File name of the music, which the screen plays.
+    /// File name of the music, which the screen plays; `None`: the show has no music.
     pub music: Option<String>,
     /// Number of spare robots, which wait beside the floor to replace robots that fail.
     pub spares: u32,
@@ -79,26 +79,27 @@ pub enum Identity {
     /// Any robot may show any pixel.
     #[default]
     Any,
-    /// Pixel id n is the same robot in every frame.
+    /// Pixels with equal ids in different frames are shown by one robot.
     Fixed,
 }
 
 /// A picture of the show.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
-    /// Id by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names it.
+    /// Id by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names the frame.
     pub id: Option<String>,
     /// Name for people; may be empty.
     pub name: String,
     /// Air time, seconds: how long the frame stays.
     pub air_time_s: f64,
-    /// Moment at which the air time begins, seconds; `None`: as soon as the transition is over.
+    /// Moment at which the air time must begin, seconds from the start of the first frame's air time; `None`: as soon as
+    /// the transition is over.
     pub at_s: Option<f64>,
-    /// Wanted duration of the transition to the frame, seconds; `None`: the shortest that the limits allow.
+    /// Wanted duration of the transition to the frame, seconds; `None`: the shortest that the robots' limits allow.
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
-    /// How robots drive from the picture before; `None`: the shortest drive that the planner finds.
+    /// How robots drive from the previous frame's picture to this one; `None`: the shortest drive that the planner finds.
     pub motion: Option<PictureMotion>,
     /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
@@ -129,7 +130,7 @@ pub struct Pixel {
     pub color: Rgb,
     /// Name of the only robot that may show the pixel; `None`: any robot may.
     pub robot: Option<String>,
-    /// The part of a source that the pixel belongs to; `None`: it was drawn by hand.
+    /// The part of a source that the pixel belongs to; `None`: the pixel was drawn by hand.
     pub part: Option<SourcePart>,
     /// Name of a group of pixels of the frame that are edited as one; `None`: the pixel is in no group.
     pub group: Option<String>,
@@ -141,7 +142,8 @@ impl Default for Stage {
     }
 }
 
-/// Returns the show on a floor of `width_m` by `depth_m` metres, for files without a stage. Obstacles and robots stay.
+/// Returns the show with a floor of `width_m` by `depth_m` metres, for files without a stage. No-go areas and limits of
+/// robots are unchanged.
 pub fn with_floor(mut show: Show, width_m: f64, depth_m: f64) -> Show {
     show.stage.width_m = width_m;
     show.stage.depth_m = depth_m;

@@ -1,16 +1,16 @@
-//! How robots drive to a frame, for example so that the picture before it moves as one.
+//! How robots drive to a frame, for example so that the previous picture moves as one formation.
 
 use lightbots_base::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// How robots drive from the picture before a frame to the frame, in place of the planner's shortest drive. Places are
-/// stage metres, angles radians counter-clockwise.
+/// How robots drive from the previous frame's picture to a frame, instead of the planner's shortest drive. Places are in
+/// stage metres. Angles are in radians, counter-clockwise; directions count from the x axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum PictureMotion {
-    /// The formation travels, and each robot keeps its place in it.
+    /// The formation travels without turning, and each robot keeps its place in the formation.
     Travel {
-        /// Offsets from the formation's first place, in order. The formation moves along a smooth curve from `(0, 0)`
-        /// through all of them.
+        /// Displacements of the formation from where it starts, metres, in order. The formation moves along a smooth
+        /// curve from `(0, 0)` through all of them.
         along: Vec<Vec2>,
     },
     /// The formation turns about a point, and may grow or shrink meanwhile.
@@ -19,25 +19,26 @@ pub enum PictureMotion {
         center: Vec2,
         /// Angle of the whole turn, radians.
         turn: f64,
-        /// Factor on distances from the centre at the end of the turn.
+        /// Factor by which the distances from the centre have changed at the end of the turn.
         size: f64,
     },
     /// The formation grows or shrinks about a point, and returns.
     Breathe {
         /// Centre of the change of size.
         center: Vec2,
-        /// Factor on distances from the centre at the largest or smallest size.
+        /// Factor on the distances from the centre when the formation is largest or smallest.
         size: f64,
         /// How often the formation changes its size and returns.
         times: u32,
     },
-    /// The robots form a line and follow the first of them along a curve. The first is the robot that is nearest to the
-    /// begin of the curve. Each next robot is the one nearest to the robot before it.
+    /// The robots form a line and follow a leader along a curve. The leader is the robot nearest to the start of the
+    /// curve. Each further place in the line goes to the remaining robot that is nearest to the robot before it.
     Follow {
-        /// Places that the leader drives through, in order.
+        /// Places through which the leader drives, in order.
         along: Vec<Vec2>,
     },
-    /// Each robot drives circles. How late it begins depends on its place, so that a wave runs through the formation.
+    /// Each robot drives circles. The farther a robot stands in a direction, the later it begins, so that a wave runs
+    /// through the formation.
     Wave {
         /// Radius of the circles, metres.
         radius_m: f64,
@@ -48,16 +49,16 @@ pub enum PictureMotion {
         /// Number of circles of each robot.
         times: u32,
     },
-    /// The planner's drive, but robots start one after another, in order of their places along a direction.
+    /// The planner's drive, but robots start one after another, in the order of their places along a direction.
     Stagger {
-        /// The direction in which starts run through the formation, radians.
+        /// The direction in which the starts of robots run through the formation, radians.
         direction: f64,
-        /// Time from the first start to the last, seconds.
+        /// Time from the start of the first robot to the start of the last one, seconds.
         delay_s: f64,
     },
     /// A drive through further pictures, without a stop.
     Morph {
-        /// The pictures in order. Each is a list of places.
+        /// The pictures in order. Each picture is a list of places.
         through: Vec<Vec<Vec2>>,
     },
 }
@@ -80,7 +81,8 @@ impl PictureMotion {
         Self::NAMES[index]
     }
 
-    /// Whether each robot keeps its pixel: the frame has the pixels of the frame before, by their ids, at other places.
+    /// Whether the picture moves as one formation, so that each robot keeps its pixel. The frame then has the pixel ids of
+    /// the previous frame at other places. False for `Stagger` and `Morph`.
     pub fn is_of_formation(&self) -> bool {
         !matches!(self, Self::Stagger { .. } | Self::Morph { .. })
     }

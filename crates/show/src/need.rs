@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::{MAX_PIXELS, Show};
 
-/// Number of different robots that pixels name.
+/// Number of different robots that the pixels of all frames name.
 pub fn robots_asked_for(show: &Show) -> usize {
     let pixels = show.frames.iter().flat_map(|frame| &frame.pixels);
     pixels.filter_map(|pixel| pixel.robot.as_deref()).collect::<BTreeSet<_>>().len()
@@ -15,8 +15,8 @@ pub fn most_pixels(show: &Show) -> usize {
     show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
 }
 
-/// Number of robots that a show is made for, spare ones included: one for each pixel of the largest frame, and at least
-/// the robots that pixels name. The show also plays without the spare ones.
+/// Number of robots that a show is made for, including spare robots. Without spare robots, it is the number of pixels of
+/// the largest frame, or the number of robots that pixels name if that is larger. The show also plays without spares.
 pub fn robots_needed(show: &Show) -> usize {
     let spares = usize::try_from(show.spares).unwrap_or(MAX_PIXELS).min(MAX_PIXELS);
     most_pixels(show).max(robots_asked_for(show)) + spares

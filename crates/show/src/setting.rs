@@ -1,6 +1,6 @@
 //! Settings of sources and layers. A later version of the program may give a meaning to further values.
 
-/// A value of a setting: what JSON can hold. Files keep it exactly.
+/// A value of a setting: any JSON value. Reading and writing a file does not change it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Setting {
     /// No value.
@@ -20,7 +20,7 @@ pub enum Setting {
 /// Named values in the order of the file; names are unique.
 pub type NamedSettings = Vec<(String, Setting)>;
 
-/// The value of a setting with that name.
+/// Returns the value of the setting called `name`; `None` if there is no such setting.
 pub fn setting<'a>(settings: &'a NamedSettings, name: &str) -> Option<&'a Setting> {
     settings.iter().find(|(key, _)| key == name).map(|(_, value)| value)
 }

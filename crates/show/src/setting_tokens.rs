@@ -7,10 +7,11 @@ use crate::setting::{NamedSettings, Setting};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Deepest value that is read. Documents have at most 8 levels.
+/// Deepest nesting of values that is read. Settings of a valid document nest at most 8 deep.
 const DEEPEST: u32 = 16;
 
-/// A value, or the beginning of one: `List(n)` is followed by n items, `Object(n)` by n pairs of a text and a value.
+/// A simple value, or the start of a list or object. `List(n)` is followed by n values, `Object(n)` by n pairs of a text
+/// and a value.
 #[derive(Serialize, Deserialize)]
 enum Token {
     Null,

@@ -2,12 +2,14 @@
 
 use crate::{PictureMotion, Show};
 
-/// Lowest speed, percent of the usual one. Below it, a drive of a metre takes longer than most air times.
+/// Lowest speed of drives, percent of the usual speed. At a lower speed, a drive of a metre would take longer than most air
+/// times.
 pub const SPEED_MIN_PERCENT: u32 = 20;
 
-/// Returns the show with drives at `percent` of the usual speed, but at least [`SPEED_MIN_PERCENT`]. All paths take
-/// 100/`percent` times as long. Speed and turning rate are multiplied by that share, and acceleration by its square.
-/// Air times stay. From 100 % on, the show is unchanged.
+/// Returns the show with drives at `percent` of the usual speed; less than [`SPEED_MIN_PERCENT`] counts as that. Times
+/// that the show prescribes for drives are multiplied by 100/`percent`. Limits of speed and turning rate are multiplied
+/// by `percent`/100, the limit of acceleration by its square. Air times do not change. At 100 percent or more, the show
+/// is unchanged.
 pub fn slowed(show: &Show, percent: u32) -> Show {
     let mut slow = show.clone();
     if percent >= 100 {

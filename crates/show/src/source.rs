@@ -11,20 +11,22 @@ use crate::setting::NamedSettings;
 pub struct FrameSource {
     /// Kind of source.
     pub kind: SourceKind,
-    /// The file behind the source; `None`: the settings suffice.
+    /// The file that the source is made from; `None`: `settings` say everything.
     pub asset: Option<AssetHash>,
-    /// Seed of all random choices in placing its pixels.
+    /// Seed of all random choices in placing the source's pixels.
     pub seed: u32,
     /// Where the picture of the source lies on the floor; `None`: the whole floor.
     pub floor_box: Option<FloorBox>,
-    /// Ids of pixels that a user moved by hand. They keep their place when the others are placed anew. Sorted, unique.
+    /// Ids of the pixels that a user moved by hand, sorted and unique. When the source is made anew, these pixels keep
+    /// their places.
     pub moved: Vec<u32>,
-    /// Name that frames share which were made together from one source, such as frames of one word each from a text.
+    /// Name that all frames made together share, such as one frame for each word of a text; `None`: the frame was made
+    /// alone.
     pub series: Option<String>,
-    /// Moment of an animation that the frame shows, seconds from its start.
+    /// Moment of the animation that the frame shows, seconds from the start of the animation; `None`: no animation.
     pub moment_s: Option<f64>,
-    /// Settings, such as the text and its font. Serde skips them: they nest, and untrusted input could nest them
-    /// without a bound.
+    /// Settings, such as the text and its font. Serde skips them, because untrusted input could nest settings without a
+    /// bound.
     #[serde(skip)]
     pub settings: NamedSettings,
 }
@@ -60,8 +62,8 @@ pub struct FloorBox {
 pub struct SourcePart {
     /// Index of the source in [`Frame::sources`](crate::Frame::sources), counted from 0.
     pub source: u32,
-    /// Name of the part, such as a letter of a word; may be empty. When pixels are made anew, a pin moves to a pixel of
-    /// the same part.
+    /// Name of the part, such as a letter of a word; may be empty. When the source is made anew, a robot that is pinned
+    /// to a pixel is pinned to a new pixel of the same part.
     pub name: String,
 }
 

@@ -5,16 +5,17 @@ use lightbots_base::Vec2;
 /// Two places that are close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseApproach {
-    /// The smaller index.
+    /// Index of one place in the list of places; less than `second`.
     pub first: usize,
-    /// The greater index.
+    /// Index of the other place.
     pub second: usize,
     /// Distance between the places, metres.
     pub gap_m: f64,
 }
 
-/// All pairs of places closer than `reach_m` (positive), ordered by their indices. The search ends after the place that
-/// completes `most` pairs. Places that are not finite or farther than `FARTHEST_M` from the origin are left out.
+/// All pairs of places closer to each other than `reach_m`, which must be positive, ordered by their indices. The search
+/// ends once there are `most` pairs or a few more. Places with a coordinate that is not finite, or beyond ±`FARTHEST_M`,
+/// are left out.
 pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseApproach> {
     let cells = sorted_cells(places, reach_m);
     let mut pairs = Vec::new();
@@ -41,11 +42,11 @@ pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseAppro
     pairs
 }
 
-/// Largest coordinate of a place that is compared, metres: five times the largest floor. Far beyond it row numbers
-/// would overflow.
+/// Largest magnitude of a coordinate of a place that is compared, metres: five times the largest floor. Numbers of the
+/// grid's rows would overflow far beyond it.
 const FARTHEST_M: f64 = 1e3;
 
-/// Row, column and index of every place, sorted.
+/// Row and column of the grid cell of every place, and the index of the place, sorted. A cell has the side `reach_m`.
 fn sorted_cells(places: &[Vec2], reach_m: f64) -> Vec<(i64, i64, usize)> {
     let cell = |metres: f64| (metres / reach_m).floor() as i64;
     let near = |place: &Vec2| place.x.abs() <= FARTHEST_M && place.y.abs() <= FARTHEST_M;

@@ -1,7 +1,7 @@
 //! What stands on the timeline besides frames: light layers, sections, markers, beats, cues, prescribed trajectories.
 //!
-//! Seconds count from the start of the first frame's air time. A frame, its cue and the music then agree, however long
-//! the drive to the first frame takes.
+//! Seconds count from the start of the first frame's air time. Music begins at that moment too, so that times do not
+//! depend on how long the drive to the first frame takes.
 
 use lightbots_base::Vec2;
 use serde::{Deserialize, Serialize};
@@ -32,16 +32,16 @@ pub enum LayerSpan {
     Frames {
         /// Id of the first frame.
         first: String,
-        /// Id of the last frame; the same id for one frame.
+        /// Id of the last frame, included; equal to `first` for a single frame.
         last: String,
         /// The part of each frame's time in which the layer shines.
         phase: FramePhase,
     },
     /// A stretch of time.
     Seconds {
-        /// Start, seconds.
+        /// Start, seconds from the start of the first frame's air time.
         from_s: f64,
-        /// End, seconds.
+        /// End, seconds from the start of the first frame's air time.
         to_s: f64,
     },
 }
@@ -85,17 +85,17 @@ pub struct Cue {
     pub name: String,
     /// Where the show waits.
     pub at: CuePlace,
-    /// Id of the frame where a loop begins, for a cue at that frame or a later one. The show then does not wait, but
-    /// repeats all frames from there to the cue until GO. `None`: it waits.
+    /// Id of the first frame of a loop, which is the cue's frame or an earlier one. The show repeats the frames from
+    /// that frame to the cue's frame until GO, instead of waiting. `None`: the show waits.
     pub loop_from: Option<String>,
 }
 
 /// Where the show waits for a cue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CuePlace {
-    /// At the end of the air time of the frame with this id.
+    /// At the end of the air time of a frame, which is given by its id.
     Frame(String),
-    /// At a moment, seconds.
+    /// At a moment, seconds from the start of the first frame's air time.
     Seconds(f64),
 }
 
@@ -108,29 +108,29 @@ pub struct Beats {
     pub per_bar: u32,
 }
 
-/// Where beats are, in seconds of the music file.
+/// Where beats are, in seconds from the start of the music file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BeatGrid {
     /// A steady tempo.
     Steady {
         /// Beats per minute.
         bpm: f64,
-        /// The first beat, seconds.
+        /// Time of the first beat, seconds from the start of the music file.
         offset_s: f64,
     },
-    /// Every beat, seconds, increasing.
+    /// Time of every beat, seconds from the start of the music file, increasing.
     Times(Vec<f64>),
 }
 
-/// A timed path that the show prescribes for the robot of a pixel, in place of a planned one.
+/// A timed path that the show prescribes for the robot of a pixel, instead of a path from the planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trajectory {
-    /// Id of the frame that the robot shows the pixel in; `None`: the trajectory is for the whole show.
+    /// Id of the frame to which the trajectory leads; `None`: the trajectory is for the whole show.
     pub frame: Option<String>,
-    /// Id of the pixel.
+    /// Id of the pixel whose robot drives the path.
     pub pixel: u32,
-    /// Start of the path: seconds after the transition to the frame begins. For the whole show, seconds after the show
-    /// begins.
+    /// Start of the path: seconds from the start of the transition to `frame`. Without a frame, seconds from the start of
+    /// the show.
     pub at_s: f64,
     /// Place at the start, stage metres.
     pub start: Vec2,
@@ -138,10 +138,10 @@ pub struct Trajectory {
     pub pieces: Vec<TrajectoryPiece>,
 }
 
-/// A piece of a trajectory. Its parameter is proportional to time.
+/// A piece of a trajectory: a straight line or a cubic Bézier curve, whose parameter is proportional to time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrajectoryPiece {
-    /// End of the piece, seconds after the start of the path; larger than that of the piece before.
+    /// End of the piece, seconds from the start of the path; larger than `end_s` of the previous piece.
     pub end_s: f64,
     /// Control points of a cubic Bézier curve, stage metres; `None`: a straight line.
     pub controls: Option<[Vec2; 2]>,

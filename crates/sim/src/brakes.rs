@@ -3,10 +3,12 @@
 use lightbots_base::Vec2;
 use serde::Serialize;
 
-/// A brake after at least this many steps (0.16 s) without one begins a new episode. Fewer would count one brake of a
-/// noisy sensor several times, more would join brakes for different robots.
+/// Least number of steps without braking (10 steps: 0.16 s) between two braking episodes of a robot. A smaller number
+/// would split one braking into several episodes, because sensors are noisy. A larger number would join brakings for
+/// different neighbours.
 const FREE_STEPS: u64 = 10;
-/// A robot farther than this from the place of its route is off its route, metres. Planned clearances are about as wide.
+/// A robot is off its route if it is farther than this from where its route wants it at the moment, metres. Planned
+/// gaps between robots are about this wide.
 const OFF_ROUTE_M: f64 = 0.01;
 /// Distance beyond the range of the proximity sensors at which a robot still counts as ahead, metres. Both robots move
 /// by at most 9 mm between the reading and the classification.
@@ -22,14 +24,14 @@ pub struct BrakeCounts {
     pub unfounded: u64,
 }
 
-/// Counts braking episodes. Each is classified one step after its begin: only then has the world reached the time for
-/// which routes state robots' places.
+/// Counts braking episodes. An episode is classified one step after it began, because a robot's route place is that of
+/// the next step of the world.
 #[derive(Debug)]
 pub(crate) struct Brakes {
     counts: BrakeCounts,
-    /// `[robot]`: the first step in which a brake begins a new episode.
+    /// `[robot]`: number of the first step in which braking would begin a new episode.
     new_from: Vec<u64>,
-    /// Episodes to be classified.
+    /// Episodes that began and are not classified yet.
     begun: Vec<Brake>,
     sight_m: f64,
 }
@@ -38,12 +40,12 @@ pub(crate) struct Brakes {
 #[derive(Clone, Copy, Debug)]
 struct Brake {
     robot: usize,
-    /// Direction of the cause, a unit vector in the stage.
+    /// Direction from the robot to the neighbour for which it brakes, a unit vector in stage axes.
     towards: Vec2,
 }
 
 impl Brakes {
-    /// A counter for a number of robots whose proximity sensors see centres at most `sight_m` away.
+    /// A counter for `robots` robots whose proximity sensors detect robots with centres at most `sight_m` metres away.
     pub fn new(robots: usize, sight_m: f64) -> Self {
         Self {
             counts: BrakeCounts::default(),
@@ -53,7 +55,8 @@ impl Brakes {
         }
     }
 
-    /// Notes that a robot brakes in a step for a neighbour in this direction of the stage.
+    /// Notes that `robot` brakes in step number `step` for a neighbour. `towards`: unit vector from the robot to the
+    /// neighbour, in stage axes.
     pub fn note(&mut self, step: u64, robot: usize, towards: Vec2) {
         if step >= self.new_from[robot] {
             self.begun.push(Brake { robot, towards });
@@ -61,8 +64,8 @@ impl Brakes {
         self.new_from[robot] = step + FREE_STEPS + 1;
     }
 
-    /// Classifies the episodes that began in the step before. `is_amiss(robot, off_m)` returns whether the robot is
-    /// faulty, or farther than `off_m` from its route.
+    /// Classifies the episodes that began in the step before. `places[robot]`: centre of the robot now, stage metres.
+    /// `is_amiss(robot, off_m)` returns whether the robot is faulty, or farther than `off_m` from its route.
     #[inline]
     pub fn classify(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
         for Brake { robot, towards } in self.begun.drain(..) {

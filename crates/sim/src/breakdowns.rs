@@ -11,7 +11,7 @@ use crate::timetable::Timetable;
 pub(crate) enum Fate {
     /// Its power fails.
     Killed,
-    /// Its messages are lost from now on; it still receives.
+    /// Messages from the robot are lost from now on. The robot still receives messages.
     Muted,
     /// Its wheels stop turning.
     Stuck,
@@ -28,7 +28,7 @@ pub(crate) enum Fate {
 /// All breakdowns of a rehearsal.
 #[derive(Clone, Debug)]
 pub(crate) struct Breakdowns {
-    /// Robots and what happens to them, by the time after the first departure.
+    /// Index of each affected robot and what happens to it, sorted by the time since the first departure.
     coming: Timetable<(usize, Fate)>,
     broke_down: Vec<usize>,
     mute: Vec<bool>,
@@ -36,8 +36,9 @@ pub(crate) struct Breakdowns {
 }
 
 impl Breakdowns {
-    /// Makes the breakdowns of the conditions. Random times lie between a tenth and eight tenths of the planned
-    /// duration. Breakdowns of robots beyond the last one are dropped.
+    /// Makes the breakdowns in `conditions`. A breakdown without a time gets a random time between a tenth and eight
+    /// tenths of `planned_s` after the first departure. `planned_s`: planned duration of the show, seconds. Breakdowns
+    /// whose robot index is `robots` or more are dropped.
     pub fn new(conditions: &Conditions, robots: usize, planned_s: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Breakdowns);
         let mut fate_of = |breakdown: &Breakdown, fate| {
@@ -66,7 +67,8 @@ impl Breakdowns {
         }
     }
 
-    /// Takes the next breakdown or recovery that is due at a time after the first departure. `None` if none is due.
+    /// Removes and returns the next breakdown or recovery: the robot's index, and what happens. `None` if none is due
+    /// at `since_begin`, the time since the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<(usize, Fate)> {
         let (robot, fate) = self.coming.next_until(since_begin)?;
         match fate {
@@ -80,7 +82,7 @@ impl Breakdowns {
         Some((robot, fate))
     }
 
-    /// Whether the messages of a robot are lost.
+    /// Whether messages from a robot are lost.
     #[inline]
     pub fn is_mute(&self, robot: usize) -> bool {
         self.mute[robot] || self.cut[robot]
@@ -92,7 +94,7 @@ impl Breakdowns {
         self.cut[robot]
     }
 
-    /// Number of robots that have broken down.
+    /// Number of robots that have broken down until now, including robots that have recovered.
     pub fn count(&self) -> usize {
         self.broke_down.len()
     }

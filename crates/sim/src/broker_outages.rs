@@ -6,15 +6,16 @@ use crate::conditions::{Conditions, Outage};
 use crate::dice::{Dice, Purpose};
 use crate::timetable::Timetable;
 
-/// Longest time until a client finds a broker that is back, seconds: clients look for it at this interval.
+/// Longest time from the return of the broker until a client has reconnected, seconds. Clients try to connect at this
+/// interval.
 const RECONNECTS_WITHIN_S: f64 = 2.0;
 
-/// What happens to links because of the broker.
+/// Effects of a broker outage on connections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BrokerEvent {
     /// The broker stops passing on messages, for this long. Connections stay.
     Freezes(Span),
-    /// All connections break; what is under way is lost.
+    /// All connections break, and messages under way are lost.
     Dies,
     /// A robot has found the broker again.
     RobotBack(usize),
@@ -26,13 +27,14 @@ pub(crate) enum BrokerEvent {
 #[derive(Clone, Debug)]
 pub(crate) struct BrokerOutages {
     coming: Timetable<BrokerEvent>,
-    /// `[robot]`: whether it has no connection.
+    /// `[robot]`: whether the robot has no connection to the broker.
     is_away: Vec<bool>,
     is_controller_away: bool,
 }
 
 impl BrokerOutages {
-    /// The outages of the conditions.
+    /// Schedules the outages in `conditions` for `robots` robots. After each absence of the broker, every client
+    /// reconnects at a random time.
     pub fn new(conditions: &Conditions, robots: usize, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Broker);
         let freezes = |outage: &Outage| (outage.at, BrokerEvent::Freezes(outage.over));
@@ -46,7 +48,7 @@ impl BrokerOutages {
         Self { coming: Timetable::new(coming), is_away: vec![false; robots], is_controller_away: false }
     }
 
-    /// Takes the next event that is due at a time after the first departure. `None` if none is due.
+    /// Removes and returns the next event. `None` if none is due at `since_begin`, the time since the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<BrokerEvent> {
         let event = self.coming.next_until(since_begin)?;
         match event {
@@ -61,12 +63,13 @@ impl BrokerOutages {
         Some(event)
     }
 
-    /// Whether the controller has no connection.
+    /// Whether the controller has no connection to the broker.
     pub fn is_controller_away(&self) -> bool {
         self.is_controller_away
     }
 
-    /// Whether messages between a robot and the controller are lost.
+    /// Whether messages between a robot and the controller are lost, because one of the two has no connection to the
+    /// broker.
     #[inline]
     pub fn is_cut(&self, robot: usize) -> bool {
         self.is_controller_away || self.is_away[robot]

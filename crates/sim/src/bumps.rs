@@ -1,13 +1,14 @@
-//! Contacts of robots with walls and no-go areas: how often they touch, and how far they press on.
+//! Contacts of robots with walls and no-go areas: how often robots touch them, and how far robots are pressed against
+//! them.
 
 use lightbots_base::Vec2;
 
 use crate::contacts::PARTED_M;
 use crate::floor::{Floor, FloorObject};
 
-/// Distance over the floor's edge above which a robot counts in [`Bumps::over`], metres. Pixels may lie at the edge,
-/// and robots that drive along it come 5 mm over it with standard noise. A larger value would overlook robots that
-/// leave the floor.
+/// A robot that was pressed over the floor's edge by more than this counts in [`Bumps::over`], metres. Pixels may lie
+/// at the edge, and robots that drive along it come 5 mm over it with standard noise. A larger value would overlook
+/// robots that leave the floor.
 pub const EDGE_SLACK_M: f64 = 0.01;
 
 /// Numbers of contacts with walls and no-go areas. A robot that parted and touches again counts again.
@@ -15,11 +16,11 @@ pub const EDGE_SLACK_M: f64 = 0.01;
 pub struct Bumps {
     /// Touches of the floor's edge.
     pub edges: u64,
-    /// Contacts with the edge in which the robot was pressed on by more than [`EDGE_SLACK_M`].
+    /// Number of contacts with the edge in which the robot was pressed over it by more than [`EDGE_SLACK_M`].
     pub over: u64,
     /// Touches of no-go areas.
     pub obstacles: u64,
-    /// Largest distance by which a robot would have come over the floor's edge, metres.
+    /// Largest distance by which a robot would have crossed the floor's edge if the edge had not held it back, metres.
     pub edge_most_m: f64,
     fresh: Vec<Bump>,
 }
@@ -31,8 +32,8 @@ pub struct Bump {
     pub robot: usize,
     /// What it touches.
     pub thing: FloorObject,
-    /// Whether the wall has kept the robot from coming over the floor's edge by more than [`EDGE_SLACK_M`]. `false`:
-    /// the contact begins.
+    /// `true`: in this contact the robot would by now have crossed the floor's edge by more than [`EDGE_SLACK_M`].
+    /// `false`: the contact begins.
     pub over: bool,
 }
 
@@ -40,12 +41,13 @@ pub struct Bump {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Against {
     thing: FloorObject,
-    /// Distance by which the robot would have gone on since the contact began, metres.
+    /// Sum of the distances by which the robot was moved back in each step since the contact began, metres.
     pressed_m: f64,
 }
 
 impl Bumps {
-    /// The contacts that began in the last step.
+    /// What happened in the last step: contacts that began, and contacts in which the robot came over the edge
+    /// ([`Bump::over`]).
     pub fn fresh(&self) -> &[Bump] {
         &self.fresh
     }
@@ -55,8 +57,9 @@ impl Bumps {
         self.fresh.clear();
     }
 
-    /// Updates the contact of a robot at `place`. `out_of`: the thing that the robot was moved out of, and by what
-    /// distance in metres. Returns `None` if the robot touches nothing.
+    /// Updates the contact of a robot whose centre is at `place`, and counts it if it is new. `against`: the robot's
+    /// contact before this step. `out_of`: the edge or no-go area that the robot was moved out of in this step, and how
+    /// far, in metres. Returns the present contact, `None` if the robot touches nothing.
     pub(crate) fn update(
         &mut self,
         robot: usize,

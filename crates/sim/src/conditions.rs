@@ -8,7 +8,7 @@ use crate::mishap::Mishap;
 /// All conditions of a rehearsal. The default is the standard conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
-    /// Mean share of a wheel's turning that does not move the body; 0 to 0.5.
+    /// Mean share of a wheel's turning that does not move the body, 0 to 0.5.
     pub slip: f64,
     /// Largest drift of the robots' clocks, parts per million.
     pub clock_ppm: f64,
@@ -24,30 +24,31 @@ pub struct Conditions {
     pub muted: Vec<Breakdown>,
     /// Robots whose wheels stop turning. They still receive and send.
     pub stuck: Vec<Breakdown>,
-    /// Robots with a bent or worn left wheel, and the share of its turning that moves the body.
+    /// Robots with a worn left wheel: index of the robot, and the share of that wheel's turning that moves the body.
     pub worn: Vec<(usize, f64)>,
-    /// Robots whose markers are turned on them, and the error of the headings of their fixes, radians.
+    /// Robots whose tracking marker is mounted at a wrong angle: index of the robot, and the constant error of its
+    /// heading fixes, radians.
     pub turned_markers: Vec<(usize, f64)>,
-    /// Robots whose link breaks, and for how long.
+    /// Robots whose link breaks, each with the duration of the break.
     pub cut: Vec<(Breakdown, Span)>,
-    /// Robots that get no fixes, and for how long.
+    /// Robots that get no position fixes for a while, each with the duration of this.
     pub blind: Vec<(Breakdown, Span)>,
-    /// Times at which the broker passes nothing on. Connections stay, and messages wait.
+    /// Times during which the broker passes nothing on. Connections stay, and messages wait.
     pub frozen: Vec<Outage>,
-    /// Times at which the broker is gone and all connections are broken.
+    /// Times during which the broker is gone and all connections are broken.
     pub gone: Vec<Outage>,
-    /// Times without a controller: it is killed, and another one then continues its run.
+    /// Times without a controller. The controller is killed at the start, and another one continues its run at the end.
     pub crashed: Vec<Outage>,
-    /// Mishaps, by their times after the first departure.
+    /// Mishaps, each with its time after the first departure.
     pub mishaps: Vec<(Span, Mishap)>,
-    /// Frames, counted from 0, that the operator sends robots to. Each time robots have reached a frame, the operator
-    /// chooses the next of these.
+    /// Indices of the frames that the operator jumps to, in this order. Each time robots have reached a frame, the
+    /// operator jumps to the next one.
     pub visits: Vec<usize>,
-    /// How long the operator lets a frame wait for GO.
+    /// Time from the moment at which a frame is ready for GO until the operator gives GO.
     pub go_after: Span,
-    /// Largest difference between robots' lights and the colours of layers.
+    /// Largest allowed difference between a robot's light and the colour that the show's layers give it.
     pub light_tolerance: Tolerance,
-    /// How many rounds of a loop are played before the operator gives GO.
+    /// Number of rounds of a loop after which the operator gives GO, so that the show leaves the loop.
     pub loop_rounds: u32,
 }
 
@@ -58,13 +59,14 @@ pub struct FixConditions {
     pub place_sigma_m: f64,
     /// Noise of the heading, radians (1 sigma).
     pub heading_sigma_rad: f64,
-    /// Largest constant error of a robot's place, metres.
+    /// Largest constant error of a robot's fixes along each axis, metres.
     pub bias_m: f64,
-    /// Steps of 16 ms from one fix to the next; at least 1.
+    /// Number of steps of 16 ms from one fix to the next; at least 1.
     pub every: u32,
     /// Age of a fix when the robot gets it; at most 1 s.
     pub delay: Span,
-    /// Duration of a drop-out of fixes, about every 20 s for each robot; zero: no drop-outs.
+    /// Duration of a drop-out of fixes; zero: no drop-outs. With a fix in every step, a drop-out begins about every 20
+    /// s for each robot.
     pub dropout: Span,
     /// Probability that a fix is an outlier, off by up to 1 m along each axis.
     pub outliers: f64,
@@ -77,13 +79,15 @@ pub struct LinkConditions {
     pub delay_min: Span,
     /// Largest delay of a message without jitter.
     pub delay_max: Span,
-    /// Largest additional delay, which one message in ten has. It holds up the messages behind that one.
+    /// Largest additional delay, which one message in ten gets. Later messages of the same link wait behind the delayed
+    /// message.
     pub jitter: Span,
     /// Probability that a message is lost.
     pub loss: f64,
     /// Probability that a message is duplicated.
     pub double: f64,
-    /// Probability that later messages may overtake a message. All others keep their order, as with TCP.
+    /// Probability that a message is held back so that later messages may overtake it. All other messages keep their
+    /// order, as with TCP.
     pub reorder: f64,
 }
 
@@ -99,7 +103,7 @@ pub struct Breakdown {
 /// A time without a working broker, or without a controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outage {
-    /// When it begins, after the first departure.
+    /// Time from the first departure until the outage begins.
     pub at: Span,
     /// How long it lasts.
     pub over: Span,

@@ -1,17 +1,17 @@
-//! Contact resolution: discs that overlap are moved apart, each as far as its wheels allow.
+//! Contact resolution: discs that overlap are moved apart. A standing robot yields only as far as its wheels allow.
 
 use lightbots_base::Vec2;
 
-/// Distance by which a standing robot can be pushed along its wheels' direction before it no longer yields, metres.
+/// Distance by which a standing robot can be pushed along the direction of its wheels before it stops yielding, metres.
 /// Measured in Webots R2023b on 2026-11-21.
 const SLACK_M: f64 = 0.01;
-/// Distance that a standing robot moves sideways in a step when it is pushed, metres: 0.06 m/s, measured in Webots
-/// R2023b on 2026-11-21.
+/// Largest distance that a pushed standing robot moves sideways in a step, metres: 0.06 m/s, measured in Webots R2023b
+/// on 2026-11-21.
 const SIDEWAYS_M: f64 = 0.06 * 0.016;
-/// Distance of rims from which robots that touched have parted, metres. A smaller value would count one contact several
-/// times.
+/// Gap between the rims of two robots from which their contact has ended, metres. A smaller value would count one
+/// contact several times.
 pub(crate) const PARTED_M: f64 = 0.0005;
-/// Rounds over the list of pairs in a step. Each passes a push on to the next robot of a chain.
+/// Largest number of rounds over the list of pairs in a step. Each round passes a push on to the next robot of a chain.
 const ROUNDS: usize = 4;
 
 /// How a robot resists a push.
@@ -21,7 +21,7 @@ pub(crate) struct ContactState {
     pub forward: Vec2,
     /// Whether its wheels stand.
     pub stands: bool,
-    /// Distance by which it can still be pushed along its wheels' direction, metres.
+    /// Distance by which the robot can still be pushed along the direction of its wheels during this contact, metres.
     pub slack_m: f64,
 }
 
@@ -43,11 +43,12 @@ impl ContactState {
     }
 }
 
-/// Contacts between robots: which pairs touch, how many came to touch, and the least distance of two centres.
+/// Contacts between robots: which pairs touch, how many contacts began, and the least distance of two centres until
+/// now.
 #[derive(Clone, Debug)]
 pub struct Contacts {
     contact_m: f64,
-    /// Distance of centres below which two robots see each other with proximity sensors, metres.
+    /// Distance of centres below which the proximity sensors of two robots detect each other, metres.
     sight_m: f64,
     /// Pairs within sight.
     in_sight: Vec<(u32, u32)>,
@@ -62,8 +63,8 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// Contacts of discs that touch if their centres are closer than `contact_m`, and see each other if closer than
-    /// `sight_m`.
+    /// Contacts of discs. Two discs touch if their centres are closer than `contact_m`, and their sensors detect each
+    /// other if closer than `sight_m`, both in metres.
     pub(crate) fn new(contact_m: f64, sight_m: f64) -> Self {
         let (touching, now, fresh) = (Vec::new(), Vec::new(), Vec::new());
         Self {
@@ -83,7 +84,7 @@ impl Contacts {
         self.contact_m
     }
 
-    /// Number of contacts. A pair that parted and touches again counts again.
+    /// Number of contacts until now. A pair that parted and touches again counts again.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -93,22 +94,23 @@ impl Contacts {
         &self.fresh
     }
 
-    /// The least distance of two centres, metres; `None` if no two robots came near each other.
+    /// The least distance of two centres until now, metres; `None` if no two robots ever came near each other.
     pub fn closest_m(&self) -> Option<f64> {
         (self.closest_squared < f64::MAX).then(|| libm::sqrt(self.closest_squared))
     }
 
-    /// Pairs that saw each other in the last step, before robots that touched were moved apart.
+    /// Pairs within range of each other's sensors in the last step, found before touching robots were moved apart.
     pub(crate) fn in_sight(&self) -> &[(u32, u32)] {
         &self.in_sight
     }
 
-    /// Whether no robots touch.
+    /// Whether no two robots touch.
     pub fn none_touching(&self) -> bool {
         self.touching.is_empty() && self.fresh.is_empty()
     }
 
-    /// Finds the pairs that touch after a step, counts new contacts and moves the robots apart.
+    /// Finds which of `pairs` touch after a step, counts new contacts and moves overlapping robots apart. `pairs`: the
+    /// pairs of the neighbour list.
     pub(crate) fn resolve(
         &mut self,
         pairs: &[(u32, u32)],
@@ -164,7 +166,7 @@ impl Contacts {
         }
     }
 
-    /// Moves robots apart in one round over the list. Returns whether any overlapped.
+    /// Moves overlapping pairs apart, in one round over the list. Returns whether any pair overlapped.
     fn part(
         &self,
         pairs: &[(u32, u32)],

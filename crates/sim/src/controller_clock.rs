@@ -3,28 +3,29 @@
 use lightbots_base::{Instant, Span};
 use lightbots_control::{Event, EventKind, UnfinishedRun};
 
-/// Time of day at the begin of a rehearsal, microseconds since 1970. Any time will do that can be set back by hours.
+/// Time of day when a rehearsal begins, microseconds since 1970. The value is arbitrary, but must stay positive when
+/// the clock is set back by hours.
 const BEGINS_US: u64 = 1_800_000_000_000_000;
 
-/// The clocks of the controller's computer against virtual time.
+/// Differences between the clocks of the controller's computer and virtual time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControllerClock {
     /// How far the show clock is ahead of virtual time.
     ahead: Span,
-    /// How far the time of day was set ahead since the begin.
+    /// Sum of the changes that were made to the time of day; negative: it was set back.
     day_ahead: Span,
-    /// When the computer wakes up. It sleeps until this time.
+    /// Time at which the computer wakes up. Until then it sleeps.
     asleep_until: Instant,
 }
 
 impl ControllerClock {
-    /// Time on the show clock at a virtual time.
+    /// Time on the show clock at the virtual time `now`.
     #[inline]
     pub fn shows(&self, now: Instant) -> Instant {
         now + self.ahead
     }
 
-    /// Virtual time at which the show clock shows a moment. [`Instant::FAR`] stays the same.
+    /// Virtual time at which the show clock reads `shown`. [`Instant::FAR`] stays [`Instant::FAR`].
     #[inline]
     pub fn when(&self, shown: Instant) -> Instant {
         if shown == Instant::FAR { shown } else { shown - self.ahead }
@@ -39,17 +40,18 @@ impl ControllerClock {
         Event { at: self.when(at), kind }
     }
 
-    /// The time of day, microseconds since 1970.
+    /// The time of day at the virtual time `now`, microseconds since 1970.
     pub fn time_of_day_us(&self, now: Instant) -> u64 {
         (Instant(BEGINS_US + now.0) + self.day_ahead).0
     }
 
-    /// Sets the time of day forwards by a span. A running program does not notice it.
+    /// Sets the time of day forwards by a span; a negative span sets it back. The show clock of a running controller
+    /// does not change.
     pub fn set(&mut self, by: Span) {
         self.day_ahead += by;
     }
 
-    /// Lets the computer sleep until a time. Its clocks go on.
+    /// Lets the computer sleep until a virtual time. Its clocks go on.
     pub fn sleep(&mut self, until: Instant) {
         self.asleep_until = self.asleep_until.max(until);
     }
@@ -60,7 +62,7 @@ impl ControllerClock {
         now < self.asleep_until
     }
 
-    /// Sets the show clock of a new controller, which goes on from the clock of the run that it continues.
+    /// Sets the show clock of a new controller that continues `run`: it goes on from the show clock of that run.
     pub fn go_on(&mut self, now: Instant, run: &UnfinishedRun) {
         self.ahead = run.show_clock_at(self.time_of_day_us(now)) - now;
     }

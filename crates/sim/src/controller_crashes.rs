@@ -1,4 +1,4 @@
-//! Crashes of the controller: it is killed, and another one continues its run from the journal.
+//! Crashes of the controller: the controller is killed, and a new controller continues the run from the journal.
 
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_control::UnfinishedRun;
@@ -7,7 +7,7 @@ use crate::conditions::Outage;
 use crate::disk::Disk;
 use crate::timetable::Timetable;
 
-/// A robot that moves no farther than this in a step stands still, metres. At 16 ms a step this is 3 mm/s.
+/// A robot that moves by at most this in a step stands still, metres. At 16 ms a step this is 3 mm/s.
 const STANDS_M: f64 = 0.000_05;
 /// Time without a controller after which robots have stopped by themselves (R43 of docs/protocol.md).
 const STOPPED: Span = Span::from_millis(2_200);
@@ -35,17 +35,18 @@ pub(crate) struct ControllerCrashes {
 /// Measures how long robots take to stand still after a crash.
 #[derive(Clone, Debug, Default)]
 struct Stops {
-    /// Places of robots a step ago, while they are watched.
+    /// Places of robots one step ago, stage metres; up to date only while robots are watched.
     places: Vec<Vec2>,
-    /// Since when robots are watched; `None`: they are not.
+    /// Since when robots are watched; `None`: they are not watched.
     since: Option<Instant>,
     /// When a robot moved last.
     moved: Instant,
+    /// Longest time from the start of watching to the last movement; `None`: nothing was measured yet.
     longest: Option<Span>,
 }
 
 impl ControllerCrashes {
-    /// The crashes of the conditions.
+    /// Schedules crashes: the controller is killed when an outage begins, and started again when it ends.
     pub fn new(crashed: &[Outage]) -> Self {
         let events =
             |outage: &Outage| [(outage.at, CrashEvent::Killed), (outage.at + outage.over, CrashEvent::Back)];
@@ -63,19 +64,21 @@ impl ControllerCrashes {
         self.is_gone
     }
 
-    /// Takes the next event that is due at a time after the first departure. `None` if none is due.
+    /// Removes and returns the next event. `None` if none is due at `since_begin`, the time since the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<CrashEvent> {
         let event = self.coming.next_until(since_begin)?;
         self.is_gone = event == CrashEvent::Killed;
         Some(event)
     }
 
-    /// Reads the run that a new controller finds after a crash. `None` if it was over, or the journal cannot be read.
+    /// Reads from the journal the run that a new controller continues. `None` if the run was over, or the journal
+    /// cannot be read.
     pub fn unfinished_run(&self) -> Option<UnfinishedRun> {
         UnfinishedRun::read(self.disk.file()).ok().flatten()
     }
 
-    /// Watches robots from this event on, until all stand still.
+    /// Begins to watch robots at a crash or a restart, until all stand still. `places`: the robots' places now, stage
+    /// metres.
     pub fn watch(&mut self, event: CrashEvent, now: Instant, places: &[Vec2]) {
         self.stops.watch(event, now, places);
     }
@@ -88,7 +91,8 @@ impl ControllerCrashes {
         }
     }
 
-    /// Longest time until all robots stood still after the controller was killed, or came back while they still drove.
+    /// Longest time from a crash, or from a restart while robots still drove, until all robots stood still. `None`:
+    /// none measured.
     pub fn longest_stop(&self) -> Option<Span> {
         self.stops.longest
     }
@@ -104,8 +108,8 @@ impl Stops {
         self.places = places.to_vec();
     }
 
-    /// Notes whether robots move. Without a controller, watching goes on while robots stand, because a START may still
-    /// be due.
+    /// Notes whether robots move, and ends watching when they stand and there is a controller. Without a controller,
+    /// watching goes on because a START may still be due.
     fn observe(&mut self, now: Instant, places: &[Vec2], is_gone: bool) {
         let moves = places.iter().zip(&self.places).any(|(at, before)| at.distance(*before) > STANDS_M);
         self.places.copy_from_slice(places);

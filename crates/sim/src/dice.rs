@@ -1,4 +1,4 @@
-//! Random numbers: the same seed gives the same stream on every machine.
+//! Random numbers. A seed gives the same stream of numbers on every machine.
 
 use std::sync::LazyLock;
 
@@ -34,9 +34,9 @@ pub struct Dice {
     state: [u64; 4],
 }
 
-/// Quantiles of the normal distribution at (i + ½) / 4096, scaled to a standard deviation of exactly 1.
+/// Quantiles of the normal distribution at (i + ½) / 4096 for i from 0, scaled to a standard deviation of exactly 1.
 static NORMAL: LazyLock<Box<[f32; NORMAL_LEN]>> = LazyLock::new(normal_table);
-/// Length of the table. An index takes 12 bits of a draw, and the table 16 KB, half of a first-level cache.
+/// Length of [`NORMAL`]. An index takes 12 bits of a draw, and the table 16 KB, half of a first-level cache.
 const NORMAL_LEN: usize = 4096;
 
 impl Dice {
@@ -61,13 +61,13 @@ impl Dice {
         result
     }
 
-    /// Draws a number uniform in 0..1.
+    /// Draws a uniformly distributed number from 0 (included) to 1 (excluded).
     #[inline]
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Draws a number uniform in `low..high`.
+    /// Draws a uniformly distributed number from `low` to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
@@ -77,20 +77,20 @@ impl Dice {
         ((u128::from(self.bits()) * u128::from(end)) >> 64) as u64
     }
 
-    /// Returns true with this probability. Draws nothing if it is 0.
+    /// Returns true with this probability. If the probability is 0, no number is drawn.
     #[inline]
     pub fn chance(&mut self, probability: f64) -> bool {
         probability > 0.0 && self.unit() < probability
     }
 
-    /// Four independent normal numbers of deviation 1, cut off at 3.7, from one draw.
+    /// Four independent normal numbers of mean 0 and standard deviation 1, cut off at ±3.7, from one draw.
     #[inline]
     pub fn normal4(&mut self) -> [f64; 4] {
         normal_of(self.bits(), [52, 40, 28, 16])
     }
 
-    /// Three independent normal numbers of deviation 1, cut off at 3.7, from one draw and three look-ups, because every
-    /// robot needs them at every step.
+    /// Three independent normal numbers of mean 0 and standard deviation 1, cut off at ±3.7. One draw and three
+    /// look-ups are enough, because every robot needs these numbers at every step.
     #[inline]
     pub fn normal3(&mut self) -> [f64; 3] {
         normal3_of(self.bits())
@@ -103,7 +103,8 @@ pub(crate) fn normal3_of(bits: u64) -> [f64; 3] {
     normal_of(bits, [52, 40, 28])
 }
 
-/// Normal numbers, each from the 12 bits of a draw that begin at one of these positions.
+/// Normal numbers of mean 0 and standard deviation 1. Each uses 12 bits of `bits`, which begin at one of the positions
+/// `shifts`.
 #[inline]
 fn normal_of<const COUNT: usize>(bits: u64, shifts: [u32; COUNT]) -> [f64; COUNT] {
     let table: &[f32; NORMAL_LEN] = &NORMAL;
@@ -121,7 +122,7 @@ fn normal_table() -> Box<[f32; NORMAL_LEN]> {
     Box::new(raw.map(|z| (z / deviation) as f32))
 }
 
-/// Quantile of the normal distribution at probability `p`, by Newton's method from a value near it.
+/// Quantile of the standard normal distribution at probability `p`, by Newton's method from the start value `near`.
 fn quantile(p: f64, mut near: f64) -> f64 {
     for _ in 0..50 {
         let density = libm::exp(-0.5 * near * near) / libm::sqrt(core::f64::consts::TAU);

@@ -1,4 +1,4 @@
-//! The disk that the journal is written to. It may be full or slow, and a crash may leave half of a piece on it. A
+//! The disk that holds the journal. It may be full or slow, and a crash may leave only half of the last piece on it. A
 //! failure has the same effects as in the journal's thread of the server (`server/src/live/journal.rs`).
 
 use std::collections::VecDeque;
@@ -14,7 +14,7 @@ const TRY_AGAIN: Span = Span::from_millis(10_000);
 pub(crate) struct Disk {
     /// Bytes that are on the disk.
     file: Vec<u8>,
-    /// Pieces that are being written, each with the time at which it is on the disk.
+    /// Pieces that are being written, in order, each with the time at which it will be on the disk.
     pending: VecDeque<(Instant, JournalPiece)>,
     full_until: Instant,
     slow_until: Instant,
@@ -33,17 +33,18 @@ impl Disk {
         (self.slow_until, self.takes) = (until, takes);
     }
 
-    /// Whether the next piece may be written. After a failure it may not, until the journal is begun again.
+    /// Whether the next piece may be written. After a failure none may be written until the journal is begun again.
     pub fn is_ready(&self) -> bool {
         self.failed.is_none()
     }
 
-    /// Whether the journal is to be begun again now after a failure. Returns true once.
+    /// Whether the journal must be begun again now, because a failure is [`TRY_AGAIN`] ago. Returns true once for each
+    /// failure.
     pub fn begins_again(&mut self, now: Instant) -> bool {
         self.failed.take_if(|failed| now - *failed > TRY_AGAIN).is_some()
     }
 
-    /// Writes a piece. If the disk is full, the piece is lost and the disk has failed.
+    /// Begins to write a piece. If the disk is full, the piece is lost and the disk has failed.
     pub fn write(&mut self, now: Instant, piece: JournalPiece) {
         if now < self.full_until {
             self.failed = Some(now);
@@ -55,7 +56,7 @@ impl Disk {
         self.settle(now);
     }
 
-    /// Moves the pieces whose time has come into the file.
+    /// Moves the pieces that are on the disk by now from `pending` into the file.
     fn settle(&mut self, now: Instant) {
         while self.pending.front().is_some_and(|(at, _)| *at <= now)
             && let Some((_, piece)) = self.pending.pop_front()
@@ -67,8 +68,8 @@ impl Disk {
         }
     }
 
-    /// Kills the program. Half of a piece that is being appended is on the disk. A piece that replaces the file does so
-    /// as a whole or not at all.
+    /// Applies a crash of the program that writes. If the piece being written is appended, its first half is on the
+    /// disk. If it replaces the file, the old file stays. All later pieces are lost.
     pub fn crash(&mut self, now: Instant) {
         self.settle(now);
         if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins) {

@@ -1,5 +1,5 @@
-//! The drive train of an Elisa-3: motion of the body by commanded wheel rates. Fitted to measurements in Webots R2023b of
-//! 2026-11-21; docs/simulator.md has both side by side. Every constant below comes from these measurements.
+//! The drive train of an Elisa-3: how the body moves at commanded wheel rates. Fitted to measurements in Webots R2023b
+//! of 2026-11-21; docs/simulator.md shows both side by side. Every constant below comes from these measurements.
 
 use lightbots_base::braking::GRIP_MPS2;
 
@@ -7,36 +7,37 @@ use crate::track::{WHEEL_RADIUS_M, turn_radps};
 
 /// Largest change of the speed in a step of 16 ms, m/s: the grip of the tyres.
 const SPEED_CHANGE_MPS: f64 = GRIP_MPS2 * 0.016;
-/// Largest change of the speed in the third and fourth step of a braking beyond the grip, m/s: the body hops.
+/// Largest change of the speed in the third and in the fourth step of a braking that grip limits, m/s: the body hops.
 const HOP_CHANGE_MPS: [f64; 2] = [0.129, 0.076];
 /// Largest change of the turning rate in a step, rad/s.
 const TURN_CHANGE_RADPS: f64 = 3.12;
-/// A change of the turning rate up to this multiple of the largest is still made in one step.
+/// A change of the turning rate up to this multiple of [`TURN_CHANGE_RADPS`] is still made in one step.
 const TURN_SNAP: f64 = 1.2;
-/// Speed gained in a step above which the body tips over its wheels, m/s. It stumbles when it falls back. A ramp of 1 m/s²
-/// gains 0.016 m/s.
+/// The body tips over its wheels if it gains more speed than this in a step, m/s. It stumbles when it falls back. A
+/// ramp of 1 m/s² gains 0.016 m/s.
 const TIPPING_MPS: f64 = 0.0205;
-/// Speed lost in the stumble, per speed gained beyond [`TIPPING_MPS`] in the two steps before.
+/// Speed lost in the stumble, as a multiple of the speed gained beyond [`TIPPING_MPS`] in the two steps before.
 const STUMBLE: f64 = 1.053;
-/// Share of the speed lost in the stumble by which the step after it exceeds the goal.
+/// In the step after the stumble, the speed exceeds the commanded speed by this share of the speed lost in the stumble.
 const REBOUND: f64 = 0.199;
 
 /// The state of one robot's drive train.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DriveTrain {
-    /// Commanded rates that do not act yet, because the dead time is one step. Left and right, rad/s.
+    /// Wheel rates commanded in the last step, left and right, rad/s. They act from the next step on: the dead time is
+    /// one step.
     commanded: [f64; 2],
     /// Present rates of the wheels, rad/s.
     wheels: [f64; 2],
-    /// Speed along the body's front without stumbling, m/s.
+    /// Speed along the body's front, without the effect of stumbling, m/s.
     speed_mps: f64,
     /// Turning rate, rad/s.
     turn_radps: f64,
-    /// Speed gained beyond [`TIPPING_MPS`] since the body tipped, m/s.
+    /// Sum of the speed gained beyond [`TIPPING_MPS`] in each step since the body tipped, m/s.
     jolt_mps: f64,
-    /// Steps since the body tipped over its wheels; 0 if it did not.
+    /// Number of steps since the body tipped over its wheels; 0 if it is not tipped.
     tipped: u8,
-    /// Steps in a row that braking was limited by grip.
+    /// Number of successive steps, up to this one, in which grip limited the braking.
     sliding: u8,
 }
 
@@ -66,8 +67,8 @@ impl DriveTrain {
             && self.tipped == 0
     }
 
-    /// One step of 16 ms. `command`: rates from the next step on, left and right, rad/s. `grip`: share of each wheel's
-    /// turning that moves the body.
+    /// Advances the drive train by one step of 16 ms. `command`: wheel rates from the next step on, left and right,
+    /// rad/s. `grip`: share of each wheel's turning that moves the body. Returns the body's motion in this step.
     #[inline]
     pub fn step(&mut self, command: [f64; 2], grip: [f64; 2]) -> Twist {
         self.wheels = self.commanded;
@@ -84,7 +85,7 @@ impl DriveTrain {
         Twist { speed_mps: self.speed_mps + kick, turn_radps: self.turn_radps }
     }
 
-    /// Changes the speed towards its goal. Returns what stumbling adds to it in this step, m/s.
+    /// Changes the speed towards `goal_mps`. Returns what stumbling adds to the speed in this step, m/s.
     #[inline]
     fn change_speed(&mut self, goal_mps: f64) -> f64 {
         let before = self.speed_mps;
@@ -108,8 +109,9 @@ impl DriveTrain {
         self.stumble(gained)
     }
 
-    /// A body that gains speed too quickly tips over its wheels for two steps, falls back in the third and swings
-    /// forward in the fourth.
+    /// Returns what stumbling adds to the speed in this step, m/s. A body that gains speed too quickly tips over its
+    /// wheels for two steps, falls back in the third and swings forward in the fourth. `gained`: increase of the speed
+    /// in this step, m/s.
     fn stumble(&mut self, gained: f64) -> f64 {
         self.tipped += 1;
         let forward = 1f64.copysign(self.speed_mps);

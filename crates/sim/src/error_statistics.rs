@@ -1,4 +1,4 @@
-//! Statistics of errors: of estimated places, of tracking, and between the robots' clocks.
+//! Statistics of errors: of the robots' position estimates, of following routes, and between the robots' clocks.
 
 use lightbots_base::Instant;
 
@@ -6,23 +6,23 @@ use crate::firmware::Ours;
 use crate::statistics::Spread;
 use crate::world::World;
 
-/// Steps between two samples of a robot. Robots take turns, so that each step samples an eighth of them.
+/// Each robot is sampled once in this number of steps. Robots take turns, so that each step samples an eighth of them.
 const EVERY: u64 = 8;
-/// Width of a bin, metres.
+/// Width of a bin of the error histograms, metres.
 const BIN_M: f64 = 0.0001;
-/// Number of bins. Larger errors count in the last one; the largest is kept apart.
+/// Number of bins of a histogram. Larger errors count in the last bin; the largest error is stored separately.
 const BINS: usize = 1_000;
 
-/// The errors sampled until now, of robots with a route under way.
+/// The errors sampled until now. Only robots that are on a route are sampled.
 #[derive(Debug, Default)]
 pub(crate) struct ErrorStatistics {
     estimate: Tally,
     tracking: Tally,
-    /// Largest difference of two robots' clocks in each sample, seconds.
+    /// In each sample, the largest difference between the show clocks of two robots, seconds.
     clocks_s: Vec<f64>,
 }
 
-/// A histogram of distances, because a rehearsal has millions.
+/// A histogram of distances. Single distances are not stored, because a rehearsal has millions.
 #[derive(Debug)]
 struct Tally {
     bins: Vec<u32>,
@@ -31,7 +31,8 @@ struct Tally {
 }
 
 impl ErrorStatistics {
-    /// Samples the tracking error of a robot. Call it after the world moved and before the robot's step.
+    /// Samples the tracking error of a robot: its true distance from its place on the route. Call it after the world
+    /// moved and before the robot's step.
     #[inline]
     pub fn sample_tracking(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) {
@@ -42,7 +43,8 @@ impl ErrorStatistics {
         }
     }
 
-    /// Samples the error of a robot's estimated place. Call it after the robot's step.
+    /// Samples the error of a robot's estimated place: its distance from the true place. Call it after the robot's
+    /// step.
     #[inline]
     pub fn sample_estimate(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) || robot.route_place().is_none() {
@@ -53,7 +55,8 @@ impl ErrorStatistics {
         }
     }
 
-    /// Samples the largest difference of two show clocks. `shown`: the clocks of all robots at one moment.
+    /// Samples the largest difference between two show clocks. `shown`: what the robots' show clocks read at one
+    /// moment.
     pub fn sample_clocks(&mut self, shown: impl Iterator<Item = Instant>) {
         let (first, last, count) = shown
             .fold((Instant::FAR, Instant::ZERO, 0), |(first, last, count), at| {
@@ -69,12 +72,12 @@ impl ErrorStatistics {
         self.estimate.spread()
     }
 
-    /// Distance of the true place from that of the route, metres.
+    /// Distance between the robot's true place and its place on the route, metres.
     pub fn tracking_m(&self) -> Spread {
         self.tracking.spread()
     }
 
-    /// Largest difference of two robots' clocks, seconds.
+    /// Largest difference between the show clocks of two robots, one value a sample, seconds.
     pub fn clocks_s(&self) -> Spread {
         Spread::of(&self.clocks_s)
     }
@@ -95,7 +98,7 @@ impl Tally {
         self.max_m = self.max_m.max(metres);
     }
 
-    /// Median and 99th percentile are upper ends of bins.
+    /// Median, 99th percentile and maximum. The first two are upper ends of bins, but never more than the maximum.
     fn spread(&self) -> Spread {
         let rank = |percent: u64| {
             let wanted = (self.count * percent).div_ceil(100);

@@ -1,4 +1,4 @@
-//! Faults as people write them: `loss=5%,delay=100..300ms,kill=random`.
+//! Faults in the notation of the command line: `loss=5%,delay=100..300ms,kill=random`.
 
 use core::fmt;
 
@@ -44,7 +44,7 @@ enum Change {
     Crash(Outage),
 }
 
-/// Every fault, with an example of its value.
+/// All faults, each with an example of its value, for error messages.
 const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%, reorder=1%, slip=10%, gps=5mm, \
                      heading=2deg, bias=5mm, clock=100ppm, fix-delay=100ms, fix-every=5, fix-dropout=1s, \
                      fix-outlier=1%, original=30, kill=random or kill=3@12s, mute=random or mute=3@12s, \
@@ -54,9 +54,9 @@ const KNOWN: &str = "loss=5%, delay=100..300ms, jitter or jitter=50ms, double=1%
 const MOST: usize = 64;
 
 impl Faults {
-    /// Reads `name=value` separated by commas, at least one. Values carry their unit: `%`, `ms` or `s`, `mm`, `cm` or
-    /// `m`, `deg`, `ppm`. Robots are counted from 0, and `@` gives the time after the first departure. A name may occur
-    /// once, except for breakdowns and outages.
+    /// Reads faults `name=value` that are separated by commas; at least one. Values carry their unit: `%`, `ms` or `s`,
+    /// `mm`, `cm` or `m`, `deg`, `ppm`. Robots are counted from 0, and `@` gives the time after the first departure. A
+    /// name may occur only once, except for breakdowns and outages.
     pub fn parse(text: &str) -> Result<Self, FaultsError> {
         let parts: Vec<&str> = text.split(',').map(str::trim).filter(|part| !part.is_empty()).collect();
         if parts.is_empty() {
@@ -90,7 +90,7 @@ impl Faults {
 }
 
 impl Change {
-    /// Whether both set the same condition, so that the later one would silently win.
+    /// Whether both faults set the same condition, so that the later fault would silently replace the earlier.
     fn excludes(self, other: Self) -> bool {
         let of_a_robot =
             matches!(self, Self::Kill(_) | Self::Mute(_) | Self::Stuck(_) | Self::Cut(..) | Self::Blind(..));
@@ -172,12 +172,13 @@ fn change(part: &str) -> Result<Change, FaultsError> {
     })
 }
 
-/// At most 40 characters of a text, without control characters.
+/// The first 40 characters of a text, with `?` in place of control characters.
 fn shown(text: &str) -> String {
     text.chars().take(40).map(|c| if c.is_control() { '?' } else { c }).collect()
 }
 
-/// A number with its unit, 0 to `most`.
+/// Reads a number that is followed by `unit`. `None` if the text is something else, or the number is not from 0 to
+/// `most`.
 fn number(text: &str, unit: &str, most: f64) -> Option<f64> {
     let value: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
     (0.0..=most).contains(&value).then_some(value)
@@ -197,7 +198,7 @@ fn span(text: &str, most: Span) -> Option<Span> {
     Some(Span::from_secs(millis * 1e-3)).filter(|&span| span <= most)
 }
 
-/// `100..300ms`, `100ms..0.3s` or one span.
+/// Reads the least and the largest delay: `100..300ms`, `100ms..0.3s`, or one time for both.
 fn span_range(text: &str) -> Option<(Span, Span)> {
     let Some((low, high)) = text.split_once("..") else {
         return span(text, Conditions::DELAY_MAX).map(|both| (both, both));
@@ -209,7 +210,8 @@ fn span_range(text: &str) -> Option<(Span, Span)> {
     (min <= max).then_some((min, max))
 }
 
-/// `random`, `3`, `random@12s` or `3@12s`; a time without unit is in seconds.
+/// Reads `random`, `3`, `random@12s` or `3@12s`: a robot's index, and the time after the first departure. A time
+/// without unit is in seconds.
 fn breakdown(text: &str) -> Option<Breakdown> {
     let (who, when) = text.split_once('@').map_or((text, None), |(who, when)| (who, Some(when)));
     let robot = match who.trim() {
@@ -224,14 +226,14 @@ fn breakdown(text: &str) -> Option<Breakdown> {
     Some(Breakdown { robot, at })
 }
 
-/// Reads a passing breakdown, for example `3@12s+4s`. Without a duration it lasts five seconds.
+/// Reads a breakdown that ends, for example `3@12s+4s`: robot, time and duration. Without `+`, it lasts five seconds.
 fn outage(text: &str) -> Option<(Breakdown, Span)> {
     let (begins, over) = begin_and_length(text)?;
     Some((breakdown(begins)?, over))
 }
 
-/// Reads a time without a broker or a controller, after the first departure: `12s+4s`. Without a duration it lasts five
-/// seconds.
+/// Reads an outage of the broker or the controller, for example `12s+4s`: time after the first departure, and duration.
+/// Without `+`, it lasts five seconds.
 fn outage_of_all(text: &str) -> Option<Outage> {
     let (begins, over) = begin_and_length(text)?;
     let (begins, most) = (begins.trim(), Span::from_millis(86_400_000));

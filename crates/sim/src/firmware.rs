@@ -5,8 +5,8 @@ use lightbots_wire::Topic;
 
 use crate::original::Original;
 
-/// Our firmware with its routes in a box. A step reads next to nothing of the routes, and the other state of all robots
-/// then lies close together.
+/// Our firmware, with its route storage in a place of its own on the heap. A step hardly reads that storage. The other
+/// state of all robots then lies close together in memory, which helps the cache.
 pub(crate) type Ours = Robot<Box<RouteStorage>>;
 
 /// The firmware of a robot.

@@ -6,7 +6,7 @@ use crate::conditions::FixConditions;
 use crate::dice::{Dice, Purpose, normal3_of};
 use crate::world::{STEP, STEP_S};
 
-/// Mean time between two drop-outs of a robot's fixes, seconds.
+/// Mean time from the end of a robot's drop-out until its next drop-out begins, seconds, if every step has a fix.
 const DROPOUT_EVERY_S: f64 = 20.0;
 /// Largest error of an outlier along each axis, metres.
 const OUTLIER_M: f64 = 1.0;
@@ -16,20 +16,21 @@ const OUTLIER_M: f64 = 1.0;
 pub(crate) struct FixSensors {
     conditions: FixConditions,
     dice: Dice,
+    /// `[robot]`: constant error of the robot's fixes, metres.
     bias: Vec<Vec2>,
-    /// `past[step % steps][robot]`: true poses of the last steps; empty without delay.
+    /// `past[step % length][robot]`: true poses in the last steps; empty if fixes are not delayed.
     past: Vec<Vec<Pose>>,
-    /// `[robot]`: the step until which a robot gets no fix; empty if there are no drop-outs.
+    /// `[robot]`: the first step after the robot's latest drop-out; empty if there are no drop-outs.
     dark_until: Vec<u64>,
     step: u64,
-    /// Whether fixes have noise only: no bias, delay, gaps or outliers.
+    /// Whether noise is the only error of fixes: no bias, delay, skipped steps, drop-outs or outliers.
     plain: bool,
-    /// `[robot]`: random bits for this step; empty unless fixes have noise only.
+    /// `[robot]`: random bits for the robot's noise in this step; empty unless `plain`.
     draws: Vec<u64>,
 }
 
 impl FixSensors {
-    /// Fixes of robots that stand at these poses.
+    /// The position sensors of robots that stand at the poses `starts`.
     pub fn new(conditions: &FixConditions, starts: &[Pose], seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Sensors);
         let delay_steps = (conditions.delay.0.max(0) + STEP.0 / 2) / STEP.0;
@@ -54,7 +55,8 @@ impl FixSensors {
         }
     }
 
-    /// Begins the next step. Call it once before the robots' fixes.
+    /// Begins the next step. Call it before the fixes of the step are taken. `alive[robot]`: whether the robot has
+    /// power.
     pub fn next_step(&mut self, alive: &[bool]) {
         self.step += 1;
         for (draw, _) in self.draws.iter_mut().zip(alive).filter(|&(_, &alive)| alive) {
@@ -62,13 +64,14 @@ impl FixSensors {
         }
     }
 
-    /// Whether fixes may be taken in any order of the robots. Otherwise they must be taken in ascending order.
+    /// Whether the fixes of a step may be taken in any order of robots. If not, take them in ascending order, because
+    /// all robots draw from one random stream.
     pub fn in_any_order(&self) -> bool {
         self.plain
     }
 
-    /// The fix of a robot with this true pose; `None` if it gets none in this step. Call it once a step for each robot
-    /// that is alive.
+    /// The fix that `robot` gets if `pose` is its true pose; `None` if it gets no fix in this step. Call it once a step
+    /// for each robot that has power.
     #[inline]
     pub fn fix(&mut self, robot: usize, pose: Pose) -> Option<Pose> {
         if self.plain {

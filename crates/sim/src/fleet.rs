@@ -11,12 +11,13 @@ use crate::conditions::Conditions;
 use crate::robot_set::RobotSet;
 use crate::world::STEP;
 
-/// Largest number of steps made up in one call: half a second. A slower machine omits the others: bodies stand while
-/// all clocks go on. Robots are then late together, and their clocks still agree.
+/// Largest number of steps in one call of [`Fleet::advance`]: half a second. If more are due, the others are left out:
+/// bodies stand still while all clocks go on. All robots are then equally late, and their clocks still agree.
 const CATCH_UP_STEPS: i64 = 32;
-/// Largest number of messages that wait to be taken, per robot. Messages beyond this and [`WAITING`] are dropped.
+/// At most this number of messages per robot, and [`WAITING`] more, wait for [`Fleet::next_message`]. Further messages
+/// are dropped.
 const WAITING_PER_ROBOT: usize = 64;
-/// Number of further messages that may wait to be taken, for all robots together.
+/// Number of messages that may wait in addition to [`WAITING_PER_ROBOT`] per robot, for all robots together.
 const WAITING: usize = 1024;
 
 /// Configuration of a fleet.
@@ -28,7 +29,7 @@ pub struct FleetConfig {
     pub starts: Vec<Vec2>,
     /// Seed of names, clocks, slip and noise. A robot's name does not depend on the number of robots.
     pub seed: u64,
-    /// Slip, sensors and clocks. Links and breakdowns come from the real network.
+    /// Slip, sensors and clocks. Its links and breakdowns have no effect, because the network is real.
     pub conditions: Conditions,
 }
 
@@ -43,13 +44,15 @@ pub struct FleetMessage {
     pub payload: Vec<u8>,
 }
 
-/// Simulated robots in real time. Inputs, each with `now`, the microseconds since the fleet was made: [`link`](Self::link),
-/// [`receive`](Self::receive), [`advance`](Self::advance). Drain [`next_message`](Self::next_message) after each of them.
+/// Simulated robots in real time. Its inputs are [`link`](Self::link), [`receive`](Self::receive) and
+/// [`advance`](Self::advance). Each takes the time since the fleet was made. Call [`next_message`](Self::next_message)
+/// after each of them until it returns `None`.
 pub struct Fleet {
     robots: RobotSet,
     by_id: BTreeMap<RobotId, usize>,
     /// End of the last step of the world.
     world_at: Instant,
+    /// Number of steps that [`Self::advance`] left out.
     left_out: u64,
     waiting: Waiting,
 }
@@ -62,7 +65,7 @@ struct Waiting {
 }
 
 impl Fleet {
-    /// Robots that were just switched on and have no link yet.
+    /// Makes robots that were just switched on and have no link yet.
     pub fn new(config: &FleetConfig) -> Self {
         let robots = RobotSet::new(&config.stage, &config.starts, &[], &config.conditions, config.seed, true);
         let by_id = (0..robots.len()).map(|robot| (robots.id(robot), robot)).collect();
@@ -84,7 +87,7 @@ impl Fleet {
         (0..self.robots.len()).map(|robot| self.robots.id(robot)).collect()
     }
 
-    /// True poses, in starting order.
+    /// True poses of the robots in stage coordinates, in starting order.
     pub fn poses(&self) -> Vec<Pose> {
         (0..self.robots.len()).map(|robot| self.robots.world.pose(robot)).collect()
     }
@@ -101,12 +104,12 @@ impl Fleet {
         }
     }
 
-    /// Number of contacts between robots.
+    /// Number of contacts between robots until now.
     pub fn contacts(&self) -> u64 {
         self.robots.world.contacts().count()
     }
 
-    /// Number of steps omitted because `advance` came too late.
+    /// Number of steps left out until now because [`advance`](Self::advance) was called too late.
     pub fn steps_left_out(&self) -> u64 {
         self.left_out
     }
@@ -118,7 +121,7 @@ impl Fleet {
         }
     }
 
-    /// Brings the link of one robot up, or breaks it, if each robot has its own connection.
+    /// Brings the link of one robot up, or breaks it. For callers in which each robot has its own connection.
     pub fn link_of(&mut self, now: Instant, robot: usize, up: bool) {
         if robot < self.robots.len() {
             self.robots.link(now, robot, up);
@@ -127,14 +130,14 @@ impl Fleet {
         }
     }
 
-    /// Delivers a published message to the robot of its topic, or to all robots if it is a broadcast. Returns whether
-    /// there was a receiver.
+    /// Delivers a published message: to the robot named in its topic, or to all robots if the topic is the broadcast's.
+    /// Returns whether any robot received it.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
         self.receive_on(now, 0..self.robots.len(), topic, payload)
     }
 
-    /// Delivers a message from a connection that the robots `sharing` use. A broadcast reaches only these robots.
-    /// Returns whether there was a receiver.
+    /// Delivers a message from a connection that the robots with indices `sharing` share. A broadcast reaches only
+    /// these robots. Returns whether any robot received it.
     pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {
@@ -151,7 +154,8 @@ impl Fleet {
         is_received
     }
 
-    /// Runs the world up to `to` in whole steps of 16 ms, at most `CATCH_UP_STEPS`. Returns the number of steps run.
+    /// Runs the world up to `to` in whole steps of 16 ms, but at most `CATCH_UP_STEPS` of them; the rest is left out.
+    /// Returns the number of steps run.
     pub fn advance(&mut self, to: Instant) -> u64 {
         let due = ((to - self.world_at).0 / STEP.0).max(0);
         let run = due.min(CATCH_UP_STEPS);
@@ -169,7 +173,7 @@ impl Fleet {
         self.world_at + STEP
     }
 
-    /// Takes the next message that a robot sent; `None` if none waits.
+    /// Removes and returns the oldest message that waits; `None` if none waits.
     pub fn next_message(&mut self) -> Option<FleetMessage> {
         self.waiting.messages.pop_front()
     }

@@ -1,13 +1,13 @@
-//! The floor: its edge, which is a wall, and no-go areas.
+//! The floor: its edge, which acts as a wall, and no-go areas.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::nearest_in_rect;
 use lightbots_show::{Obstacle, Stage};
 
-/// The floor's edge and the things on it, for discs of one radius.
+/// The floor's edge and the no-go areas, as obstacles for discs that all have one radius.
 #[derive(Clone, Debug)]
 pub(crate) struct Floor {
-    /// Largest coordinates of a centre: half the floor less the radius, metres.
+    /// Largest absolute coordinates of a robot's centre: half the floor minus the robot's radius, metres.
     half: Vec2,
     radius_m: f64,
     obstacles: Vec<Obstacle>,
@@ -18,13 +18,13 @@ pub(crate) struct Floor {
 pub enum FloorObject {
     /// The wall around the floor: its edge.
     Edge,
-    /// A no-go area, by its index.
+    /// A no-go area, by its index in the stage, counted from 0.
     Obstacle(usize),
 }
 
 impl Floor {
-    /// The floor of a stage for robots with these starts. A start outside widens the floor, so that the robot is not
-    /// moved inside.
+    /// The floor of a stage. A start outside the floor moves the edge out to it, so that the robot is not pushed
+    /// inside.
     pub fn new(stage: &Stage, starts: &[Vec2]) -> Self {
         let radius_m = stage.limits.radius_m;
         let half = Vec2::new(0.5 * stage.width_m - radius_m, 0.5 * stage.depth_m - radius_m);
@@ -35,8 +35,8 @@ impl Floor {
         Self { half, radius_m, obstacles: stage.obstacles.clone() }
     }
 
-    /// Moves a disc out of walls and no-go areas. Returns the last of these that it was in, and how deep it was in
-    /// metres.
+    /// Moves a disc at `place` out of walls and no-go areas. Returns the last wall or area that it was moved out of,
+    /// and by what distance in metres. `None` if the disc was in none.
     #[inline]
     pub fn keep_out(&self, place: &mut Vec2) -> Option<(FloorObject, f64)> {
         let inside = self.inside(*place);
@@ -51,13 +51,13 @@ impl Floor {
         bump
     }
 
-    /// The nearest place within the floor's edge.
+    /// The place nearest to `place` at which a disc is inside the floor's edge.
     #[inline]
     fn inside(&self, place: Vec2) -> Vec2 {
         Vec2::new(place.x.clamp(-self.half.x, self.half.x), place.y.clamp(-self.half.y, self.half.y))
     }
 
-    /// Gap from a disc's rim to a thing, metres; 0 or less where they touch.
+    /// Gap from the rim of a disc at `place` to the edge or a no-go area, metres; 0 or less where they touch.
     pub fn off_m(&self, place: Vec2, thing: FloorObject) -> f64 {
         match thing {
             FloorObject::Edge => (self.half.x - place.x.abs()).min(self.half.y - place.y.abs()),
@@ -65,7 +65,8 @@ impl Floor {
         }
     }
 
-    /// The nearest place outside of an obstacle; `None` if the disc does not touch it.
+    /// The nearest place at which a disc at `place` no longer overlaps an obstacle; `None` if it does not overlap it
+    /// now.
     fn out_of(&self, obstacle: &Obstacle, place: Vec2) -> Option<Vec2> {
         let (nearest, reach) = match *obstacle {
             Obstacle::Disc { at, radius_m } => (at, radius_m + self.radius_m),
@@ -82,7 +83,7 @@ impl Floor {
         }
     }
 
-    /// The place outside of a rectangle for a disc whose centre is inside: beyond the nearest side.
+    /// The place to which a disc whose centre is inside a rectangle is moved: just beyond the nearest side.
     fn out_of_rect(&self, place: Vec2, min: Vec2, max: Vec2) -> Vec2 {
         let ways = [
             (place.x - min.x, Vec2::new(min.x - self.radius_m, place.y)),

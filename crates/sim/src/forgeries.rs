@@ -1,24 +1,24 @@
-//! Robots whose messages are not what their firmware sends: they report a false place, or flood the network.
+//! Robots whose messages are changed after their firmware wrote them: they report a false place, or flood the network.
 
 use std::borrow::Cow;
 
 use lightbots_base::Vec2;
 use lightbots_wire::{Report, Topic};
 
-/// Copies of its last report that a flooding robot sends in each step: 2,500 a second.
+/// Number of copies of its last report that a flooding robot sends in each step: 2,500 a second.
 const FLOOD: usize = 40;
 
 /// Which robots send forged messages, and how.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Forgeries {
-    /// `(robot, by how much)`: robots that report a false place.
+    /// Robots that report a false place, each with the error added to it, metres.
     lies: Vec<(usize, Vec2)>,
-    /// Robots that flood the network, with their last report.
+    /// Robots that flood the network, each with its last report; empty before its first report.
     floods: Vec<(usize, Vec<u8>)>,
 }
 
 impl Forgeries {
-    /// Makes a robot report places that are off by `off`, metres. Zero makes it report true places again.
+    /// Makes a robot report places with the error `off` (metres, stage axes). Zero makes it report true places again.
     pub fn lie(&mut self, robot: usize, off: Vec2) {
         self.lies.retain(|(liar, _)| *liar != robot);
         if off != Vec2::ZERO {
@@ -34,7 +34,8 @@ impl Forgeries {
         }
     }
 
-    /// Returns what a robot sends in place of a message of its firmware.
+    /// Returns the text that a robot sends in place of `text`, which its firmware wrote. The text is the same unless
+    /// the robot lies.
     pub fn forge<'a>(&mut self, robot: usize, topic: Topic, text: &'a [u8]) -> Cow<'a, [u8]> {
         if self.lies.is_empty() && self.floods.is_empty() || topic == Topic::Time {
             return Cow::Borrowed(text);
@@ -47,14 +48,14 @@ impl Forgeries {
         sent
     }
 
-    /// Messages that flood the network in this step, with their robots.
+    /// The additional messages of this step: the index of a flooding robot, and the text.
     pub fn floods(&self) -> impl Iterator<Item = (usize, &[u8])> {
         let reported = self.floods.iter().filter(|(_, last)| !last.is_empty());
         reported.flat_map(|(robot, last)| std::iter::repeat_n((*robot, &last[..]), FLOOD))
     }
 }
 
-/// Moves the place in a report. `None` if the text is no report with a place.
+/// Returns the report with `off` added to its place, metres. `None` if the text is no report with a place.
 fn moved(text: &[u8], off: Vec2) -> Option<Vec<u8>> {
     let mut report = Report::decode(text)?;
     report.at = Some(report.at? + off);

@@ -1,12 +1,12 @@
-//! The simulated world: seeded wheels, sensors, contacts and networks, with the real robot core and the real controller
-//! core in it. `docs/simulator.md` describes the world, beside what was measured in Webots.
+//! The simulated world: seeded wheels, sensors, contacts and networks around the real robot core and the real controller
+//! core. `docs/simulator.md` describes the world and what was measured in Webots.
 //!
-//! Deterministic: no clock, IO or thread; the same seed gives the same bits. It knows nothing of brokers, files or
-//! screens.
+//! The crate is deterministic: it uses no clock, IO or thread, and the same seed gives the same bits. It does not know
+//! MQTT, files or screens.
 //!
-//! In reading order: [`rehearse`] plays a whole show in virtual time under [`Conditions`] (with [`Faults`] as people
-//! write them) and gives a [`RehearsalReport`]; [`Fleet`] runs simulated robots in real time for a caller with a clock
-//! and a network; [`World`] is the bodies on the floor.
+//! In reading order: [`rehearse`] plays a whole show in virtual time under [`Conditions`] and returns a
+//! [`RehearsalReport`]. [`Faults`] are changes to the conditions, read from text. [`Fleet`] runs simulated robots in real
+//! time for a caller with a clock and a network. [`World`] is the bodies on the floor.
 //!
 //! ```
 //! use lightbots_sim::{Conditions, Faults, RehearsalOptions, rehearse};

@@ -5,19 +5,20 @@ use lightbots_control::Controller;
 use lightbots_lighting::Tolerance;
 use serde::Serialize;
 
-/// How late or early a light may be, from the design.
+/// Largest time by which a light may be late or early, as the design demands.
 const IN_TIME: Span = Span::from_millis(25);
-/// Moments around now at which the wanted colour counts, in quarters of [`IN_TIME`].
+/// Moments at which the colours of the layers are sampled, before (negative) and after now, in quarters of [`IN_TIME`].
 const MOMENTS: [i64; 7] = [-4, -3, -1, 0, 1, 3, 4];
 /// Steps from one comparison to the next. More frequent comparisons would slow rehearsals down.
 pub(crate) const EVERY: u64 = 10;
 
-/// Comparisons of lights with layers.
+/// Results of comparing robots' lights with the colours of layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct LightCounts {
     /// Number of comparisons: one for each robot about every sixth of a second.
     pub compared: u64,
-    /// Number of comparisons in which a light differed from all colours wanted within 25 ms before or after.
+    /// Number of comparisons in which the light differed from all colours that the layers have within 25 ms before or
+    /// after.
     pub wrong: u64,
 }
 
@@ -25,13 +26,13 @@ pub struct LightCounts {
 #[derive(Clone, Copy, Debug)]
 pub struct LightWatch {
     counts: LightCounts,
-    /// Largest difference of a colour channel that is allowed, in codes of 0 to 255.
+    /// Largest allowed difference of a colour channel, in steps of the range 0 to 255.
     codes: u8,
 }
 
 impl LightWatch {
-    /// Compares lights that are fitted with this tolerance. Two units of L* are at most seven codes, and one more is
-    /// for rounding.
+    /// Makes a comparison for lights whose records follow the layers within `tolerance`. A unit of L* counts as 3.5
+    /// steps of a channel, and one more step is allowed for rounding.
     pub fn new(tolerance: Tolerance) -> Self {
         let codes = match tolerance {
             Tolerance::OneStep => 1,
@@ -45,7 +46,8 @@ impl LightWatch {
         self.counts
     }
 
-    /// Compares the lights of all robots now. `shown` returns the light of a robot.
+    /// Compares the lights of all robots at `now`, a time on the show clock. `shown` returns the light that a robot
+    /// shows; `None`: the robot is left out.
     pub fn compare(&mut self, controller: &Controller, now: Instant, shown: impl Fn(RobotId) -> Option<Rgb>) {
         let moment = |part: i64| Instant(now.0.saturating_add_signed(IN_TIME.0 * part / 4));
         let wanted = MOMENTS.map(|part| controller.layered_lights(moment(part)));
@@ -62,7 +64,8 @@ impl LightWatch {
     }
 }
 
-/// Whether each channel lies between the least and the greatest of the colours, or at most `codes` outside.
+/// Whether each channel of `shown` is between its least and its greatest value in `colours`, or at most `codes`
+/// outside.
 fn is_among(shown: Rgb, colours: &[Rgb], codes: u8) -> bool {
     let channels: [fn(&Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
     channels.iter().all(|channel| {

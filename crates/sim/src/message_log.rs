@@ -1,5 +1,5 @@
-//! Log of the messages of one step. Robots may step in any order, but their messages are received in ascending order of
-//! robots.
+//! Log of the messages that robots send in one step. Robots may take their steps in any order, but the receiver gets
+//! the messages in ascending order of robots.
 
 use core::ops::Range;
 
@@ -8,7 +8,7 @@ use lightbots_wire::Topic;
 /// Messages of one step.
 #[derive(Default)]
 pub(crate) struct MessageLog {
-    /// Robot, topic, and range of its text in `texts`.
+    /// Robot, topic, and the range of the message's text in `texts`.
     messages: Vec<(usize, Topic, Range<usize>)>,
     texts: Vec<u8>,
 }
@@ -21,7 +21,7 @@ impl MessageLog {
         self.messages.push((robot, topic, begin..self.texts.len()));
     }
 
-    /// Passes all messages on in ascending order of robots, and empties the log.
+    /// Passes all messages to `receive` in ascending order of robots, and empties the log.
     pub fn drain(&mut self, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         // A stable sort keeps the order of each robot's messages.
         self.messages.sort_by_key(|message| message.0);

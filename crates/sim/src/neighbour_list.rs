@@ -10,16 +10,17 @@ const MARGIN_M: f64 = 0.08;
 /// The list of near pairs.
 #[derive(Clone, Debug)]
 pub(crate) struct NeighbourList {
+    /// Distance of centres below which a pair gets on the list, metres.
     reach_m: f64,
-    /// `[disc]`: its place when the list was made.
+    /// `[disc]`: place of its centre when the list was made.
     then: Vec<Vec2>,
-    /// Pairs (smaller index first), sorted.
+    /// Pairs of disc indices, the smaller index first, sorted.
     pairs: Vec<(u32, u32)>,
-    /// Scratch space of the grid: start of each cell in `order`.
+    /// Index in `order` at which each cell of the grid begins. Used only while the list is made.
     cells: Vec<u32>,
-    /// Discs ordered by cell.
+    /// Indices of the discs, ordered by cell.
     order: Vec<u32>,
-    /// `[disc]`: its cell.
+    /// `[disc]`: the cell of the grid that contains it.
     cell_of: Vec<u32>,
 }
 
@@ -36,7 +37,7 @@ impl NeighbourList {
         &self.pairs
     }
 
-    /// Whether the list is outdated because the disc `index` is at `place`.
+    /// Whether the list is no longer valid, because the disc `index` has moved to `place`.
     #[inline]
     pub fn outdated_by(&self, index: usize, place: Vec2) -> bool {
         self.then
@@ -44,7 +45,7 @@ impl NeighbourList {
             .is_none_or(|&then| (place - then).length_squared() > (0.5 * MARGIN_M) * (0.5 * MARGIN_M))
     }
 
-    /// Makes the list anew.
+    /// Makes the list anew for discs with centres at `places`.
     pub fn rebuild(&mut self, places: &[Vec2]) {
         self.then.clear();
         self.then.extend_from_slice(places);
@@ -86,7 +87,8 @@ impl NeighbourList {
         self.cells[cell as usize + 1] as usize..self.cells[cell as usize + 2] as usize
     }
 
-    /// Pairs of a cell's discs with each other and with those of the four cells after it.
+    /// Adds the near pairs of a cell's discs with each other and with the discs of four neighbouring cells: the next in
+    /// the row, and three in the next row.
     fn pair_cell(&mut self, grid: &Grid, column: u32, row: u32, places: &[Vec2]) {
         let mine = self.members(row * grid.columns + column);
         if mine.is_empty() {
@@ -114,7 +116,8 @@ impl NeighbourList {
     }
 }
 
-/// A grid whose cells are at least as wide as the reach. Their number is limited by the number of discs.
+/// A grid whose cells are at least as wide as the reach of the list. With few discs on a large area the cells are
+/// wider, which limits their number.
 struct Grid {
     origin: Vec2,
     scale: f64,

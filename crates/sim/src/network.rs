@@ -1,4 +1,4 @@
-//! The network between the controller and the robots: late, lost, doubled and overtaken messages.
+//! The network between the controller and the robots. Messages may be late, lost, doubled or overtaken.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,14 +11,15 @@ use crate::conditions::LinkConditions;
 use crate::dice::{Dice, Purpose};
 use crate::prefetch::prefetch;
 
-/// Largest number of messages under way, per robot. Messages beyond this and [`UNDER_WAY`] are lost.
+/// At most this number of messages per robot, and [`UNDER_WAY`] more, are under way at one time. Further messages are
+/// lost.
 const UNDER_WAY_PER_ROBOT: usize = 64;
-/// Number of further messages that may be under way, for all robots together.
+/// Number of messages that may be under way in addition to [`UNDER_WAY_PER_ROBOT`] per robot, for all robots together.
 const UNDER_WAY: usize = 1024;
-/// Share of messages that jitter delays.
+/// Share of the messages that jitter delays.
 const JITTERED: f64 = 0.1;
 
-/// Value that stands for the controller where a receiver is a robot's index.
+/// In `Network::queue`, this value in place of a robot's index means that the controller receives the message.
 const CONTROLLER: u32 = u32::MAX;
 
 /// Direction of a message.
@@ -37,7 +38,7 @@ pub(crate) struct NetworkMessage {
     pub way: Way,
     /// Its topic.
     pub topic: Topic,
-    /// Its bytes, shared by all copies of a broadcast.
+    /// Its bytes. Copies of a broadcast share them.
     pub payload: Rc<[u8]>,
 }
 
@@ -50,16 +51,18 @@ pub struct MessageCounts {
     pub lost: u64,
 }
 
-/// All links. Each keeps the order of its own messages.
+/// The links between the controller and all robots. A link keeps the order of its messages, except for those that may
+/// be overtaken.
 #[derive(Debug)]
 pub(crate) struct Network {
     conditions: LinkConditions,
     dice: Dice,
-    /// Messages under way: arrival, order of sending, index in `slots`, and receiving robot or [`CONTROLLER`].
+    /// Messages under way, the earliest arrival first. Each entry: arrival, number in order of sending, index in
+    /// `slots`, and receiving robot or [`CONTROLLER`].
     queue: BinaryHeap<Reverse<(Instant, u64, u32, u32)>>,
     slots: Vec<Option<NetworkMessage>>,
     free: Vec<u32>,
-    /// `[robot]`: when the last messages to it and from it arrive.
+    /// `[robot]`: when the last message to the robot, and the last one from it, arrives.
     last: Vec<[Instant; 2]>,
     /// The broker passes nothing on until this time.
     frozen_until: Instant,
@@ -98,12 +101,12 @@ impl Network {
         self.post(now, message);
     }
 
-    /// When the next message arrives.
+    /// When the next message arrives; `None` if no message is under way.
     pub fn next_at(&self) -> Option<Instant> {
         self.queue.peek().map(|&Reverse((at, ..))| at.max(self.frozen_until))
     }
 
-    /// Takes the next message that arrives until `until`, with its time of arrival.
+    /// Removes and returns the next message with its time of arrival; `None` if none arrives by `until`.
     pub fn next_until(&mut self, until: Instant) -> Option<(Instant, NetworkMessage)> {
         if self.next_at()? > until {
             return None;
@@ -116,7 +119,7 @@ impl Network {
         Some((at.max(self.frozen_until), self.slots[slot as usize].take()?))
     }
 
-    /// Freezes the broker until a time: it passes nothing on, and messages wait.
+    /// Freezes the broker until a time. Until then it passes nothing on, and messages wait.
     pub fn freeze(&mut self, until: Instant) {
         self.frozen_until = self.frozen_until.max(until);
     }

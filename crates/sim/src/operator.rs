@@ -1,4 +1,5 @@
-//! The simulated operator: presses buttons, and presses them again if there was no controller or broker.
+//! The simulated operator: presses buttons of the controller. If there was no controller or broker, the operator
+//! presses the button again later.
 
 use std::collections::VecDeque;
 
@@ -8,17 +9,17 @@ use lightbots_control::Operation;
 /// The simulated operator.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Operator {
-    /// When the operator presses Go on.
+    /// When the operator will press Go on; `None`: the operator does not intend to.
     presses_at: Option<Instant>,
-    /// Since when some robots of an interrupted run report and others do not.
+    /// Since when the run has been interrupted with some robots reporting and others missing; `None`: it is not.
     waits_since: Option<Instant>,
-    /// How long the operator lets a frame wait for GO.
+    /// Time from the moment at which a frame is ready for GO until the operator gives GO.
     go_after: Span,
-    /// Since when a frame waits for GO.
+    /// Since when the present frame has been ready for GO; `None`: it is not.
     cue_since: Option<Instant>,
-    /// Further operations that the operator wants, in this order.
+    /// Other operations that the operator still has to do, the next one first.
     wants: VecDeque<Operation>,
-    /// When the operator tries the next of these operations.
+    /// Earliest time at which the operator tries the first of [`Self::wants`].
     tries_at: Instant,
     /// Whether the operator wants the show to be paused.
     wants_pause: bool,
@@ -29,17 +30,17 @@ pub(crate) struct Operator {
 impl Operator {
     /// Time that the operator takes to read a message and to look at the floor.
     const LOOKS: Span = Span::from_millis(2_000);
-    /// Time that missing robots have to come back. Clients find a broker again within 2 s.
+    /// Time that the operator gives missing robots to come back. Clients find a broker again within 2 s.
     const WAITS: Span = Span::from_millis(10_000);
-    /// Time after which a button that did nothing is pressed again.
+    /// Time until the operator repeats an operation that had no effect.
     const TRIES_AGAIN: Span = Span::from_millis(500);
 
-    /// An operator that lets a frame wait this long for GO.
+    /// An operator that gives GO when a frame has been ready for it for `go_after`.
     pub fn new(go_after: Span) -> Self {
         Self { go_after, ..Self::default() }
     }
 
-    /// Whether the operator gives GO now. `waits`: the air time of a frame is over, and it waits for GO.
+    /// Whether the operator gives GO now. `waits`: the present frame is ready for GO, because its air time is over.
     pub fn gives_go(&mut self, now: Instant, waits: bool) -> bool {
         if !waits {
             self.cue_since = None;
@@ -52,8 +53,8 @@ impl Operator {
         self.presses_at.get_or_insert(now + Self::LOOKS);
     }
 
-    /// Notes whether some robots of an interrupted run report and others do not. After a while the operator presses Go
-    /// on, and the run goes on without the others.
+    /// Notes whether an interrupted run has some robots that report and others that are missing. After [`Self::WAITS`]
+    /// the operator presses Go on, and the run goes on without the missing robots.
     pub fn sees(&mut self, now: Instant, are_some_back: bool) {
         if !are_some_back {
             self.waits_since = None;
@@ -62,13 +63,13 @@ impl Operator {
         }
     }
 
-    /// Whether the operator presses Go on now.
+    /// Whether the operator presses Go on now. Returns true once for each decision to press it.
     pub fn presses(&mut self, now: Instant) -> bool {
         self.presses_at.take_if(|at| now >= *at).is_some()
     }
 
-    /// Whether the operator resumes the show now. A controller that was started again with an old journal may pause a
-    /// show that the operator has resumed.
+    /// Whether the operator resumes a paused show now. A controller that restarted from an old journal may pause a show
+    /// again that the operator had resumed.
     pub fn resumes(&mut self, now: Instant, is_paused: bool) -> bool {
         if !is_paused || self.wants_pause {
             self.paused_since = None;
@@ -77,7 +78,7 @@ impl Operator {
         now - *self.paused_since.get_or_insert(now) >= Self::LOOKS
     }
 
-    /// Adds an operation that the operator wants.
+    /// Adds an operation that the operator does as soon as possible, after those that are still to be done.
     pub fn does(&mut self, now: Instant, operation: Operation) {
         self.tries_at = now;
         match operation {
@@ -94,7 +95,7 @@ impl Operator {
         self.wants.push_front(operation);
     }
 
-    /// Takes the operation that the operator tries now.
+    /// Removes and returns the operation that the operator tries now; `None` if there is none.
     pub fn next_at(&mut self, now: Instant) -> Option<Operation> {
         if now >= self.tries_at { self.wants.pop_front() } else { None }
     }

@@ -12,16 +12,16 @@ pub struct RehearsalOptions {
     pub seed: u64,
     /// Faults of robots and networks.
     pub conditions: Conditions,
-    /// Number of robots; `None`: as many as the show needs, or one for each start of the show.
+    /// Number of robots. `None`: the number that the show needs, or the number of its starts if that is larger.
     pub robots: Option<usize>,
 }
 
 /// Progress of a rehearsal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress<'a> {
-    /// The show is planned, or planned anew after a fault.
+    /// Planning begins: of the show, or anew after a fault.
     Planning,
-    /// The show plays. Also sent after planning, so that callers can time both.
+    /// The show plays. Also sent when planning ends, so that callers can measure the time of planning.
     Playing {
         /// Virtual time since robots were switched on, seconds.
         at_s: f64,
@@ -30,13 +30,14 @@ pub enum Progress<'a> {
         /// Number of frames that robots have reached.
         frames: usize,
     },
-    /// Robots are about to leave, or have just left.
+    /// A drive begins: robots are about to leave, or have just left.
     Departing {
-        /// Index of the frame they drive to.
+        /// Index of the frame that robots drive to, counted from 0.
         frame: usize,
-        /// Departure, seconds after the first departure of the show. Holds delay what follows.
+        /// Time of departure, seconds after the first departure of the show. If robots are held on the way, they are
+        /// later on their paths than this time says.
         begins_s: f64,
-        /// `(robot, path)` of the robots that drive paths. A plan begins at the reported places, so it differs from
+        /// Index and path of each robot that drives on a path. Paths begin at the reported places, so they differ from
         /// seed to seed.
         paths: &'a [(usize, &'a Path)],
     },
@@ -49,7 +50,7 @@ pub enum Progress<'a> {
         /// `[robot]`: its place, stage metres.
         places: &'a [Vec2],
     },
-    /// Further bytes of the log of the controller's inputs ([`lightbots_control::replay`]).
+    /// Bytes to append to the log of the controller's inputs, which [`lightbots_control::replay`] reads.
     Logged(&'a [u8]),
 }
 
@@ -72,7 +73,8 @@ impl Default for RehearsalOptions {
     }
 }
 
-/// Largest virtual duration of a rehearsal: many times the plan, because recovery takes time.
+/// Virtual time at which a rehearsal is given up: 60 s and five times the planned duration, because recovery takes
+/// time.
 pub(crate) fn time_limit(planned_s: f64) -> Instant {
     Instant::ZERO + Span::from_secs(60.0 + 5.0 * planned_s.clamp(0.0, 1e6))
 }

@@ -5,19 +5,19 @@ use lightbots_base::{Pose, Rgb, RobotId, Vec2, wrap};
 use lightbots_robot::Message;
 use lightbots_wire::{Command, Report, Topic, commands};
 
-/// Largest distance from the target in each coordinate at which the robot has arrived, metres.
+/// The robot has arrived if no coordinate differs from the target's by more than this, metres.
 const ARRIVED_M: f64 = 0.02;
 /// Wheel rate of a straight drive, rad/s.
 const CRUISE_RADPS: f64 = 60.0;
 /// Wheel rate of a turn on the spot, rad/s.
 const SPIN_RADPS: f64 = 20.0;
-/// Heading error above which it turns on the spot, radians.
+/// Error of the heading above which the robot begins to turn on the spot, radians.
 const SPIN_FROM_RAD: f64 = 0.35;
-/// Heading error at which a turn on the spot ends, radians.
+/// Error of the heading at which a turn on the spot ends, radians.
 const SPIN_TO_RAD: f64 = 0.1;
-/// Reduction of the inner wheel's rate in a curve, per heading error, 1/s.
+/// In a curve, the inner wheel turns slower by this times the error of the heading in radians, rad/s.
 const CURVE_RADPS: f64 = 100.0;
-/// Largest number of answers that wait to be taken. More are dropped.
+/// Largest number of UUID reports that wait to be sent. Further requests are ignored.
 const WAITING: usize = 16;
 
 /// One robot, which understands only TARGET, COLOR and UUID.
@@ -80,7 +80,7 @@ impl Original {
         }
     }
 
-    /// Takes one step with a fix of the pose. Without a fix, the wheels stand.
+    /// Takes one step. `fix`: the robot's pose; without it, the wheels stand.
     pub fn step(&mut self, fix: Option<Pose>) -> OriginalOutputs {
         self.at = fix.map(|fix| fix.at).or(self.at);
         let wheels_radps = fix.filter(|_| !self.ended).map_or([0.0; 2], |pose| self.drive(pose));

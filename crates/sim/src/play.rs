@@ -1,4 +1,4 @@
-//! The loop of a rehearsal: one queue of messages, one clock, one step after the other.
+//! The loop of a rehearsal: messages and wake-ups in order of time, and a step of the world every 16 ms.
 
 mod breaking;
 mod downlink;
@@ -18,19 +18,20 @@ use crate::world::STEP;
 pub(crate) use state::Play;
 use uplink::send;
 
-/// Time that robots have to find the controller and its clock. The show then begins without the missing ones.
+/// Time since switching on that robots have to find the controller and set their clocks. Then the show begins without
+/// the missing robots.
 const GATHERING: Span = Span::from_millis(8_000);
 /// Steps between two reports of robots' places ([`Progress::Stepped`]): about a tenth of a second.
 const PLACES_EVERY: u64 = 6;
 /// Steps between two additions of the world's state to the hash: about a second.
 const HASH_EVERY: u64 = 64;
-/// Largest number of messages and wake-ups between two steps. Only a controller that wakes itself without end reaches
-/// it.
+/// Largest number of messages and wake-ups handled between two steps of the world. Only a controller that wakes itself
+/// without end reaches it; the bound ends the loop.
 const ROUNDS_PER_STEP: usize = 1_000_000;
 
 impl Play {
-    /// Plays to the end, or to the time limit, and returns the report. `log`: notes in the log of the controller's
-    /// inputs; `None`: no log.
+    /// Plays the show until it ends, or to the time limit, and returns the report. `log`: notes to write into the log
+    /// of the controller's inputs; `None`: no log.
     pub fn run(
         mut self,
         log: Option<Vec<(String, String)>>,
@@ -40,7 +41,7 @@ impl Play {
         self.report()
     }
 
-    /// Plays as [`Self::run`] does, without a report.
+    /// Plays as [`Self::run`] does, but makes no report.
     pub fn play(&mut self, log: Option<Vec<(String, String)>>, progress: &mut dyn FnMut(Progress<'_>)) {
         self.switch_on(log);
         let mut step = 0u64;
@@ -103,7 +104,7 @@ impl Play {
         }
     }
 
-    /// Handles everything up to the next step of the world, and takes that step.
+    /// Advances virtual time by one step: handles messages and wake-ups, applies what is due, and moves the robots.
     fn step(&mut self) {
         let next = self.now + STEP;
         self.pass_time(next);
@@ -130,7 +131,7 @@ impl Play {
         }
     }
 
-    /// Handles messages and wake-ups until `until`, in order of time.
+    /// Handles the messages and the controller's wake-ups that are due until `until`, in order of time.
     fn pass_time(&mut self, until: Instant) {
         for _ in 0..ROUNDS_PER_STEP {
             let wake = self.controller.wake_at().map(|at| self.clock.when(at).max(self.now));
@@ -166,7 +167,7 @@ impl Play {
         }
     }
 
-    /// Delivers a message to a robot, and sends its answers.
+    /// Delivers a message to a robot, and sends the answers of the robot.
     fn hand_over(&mut self, robot: usize, topic: Topic, payload: &[u8]) {
         if let Some(invariants) = &mut self.invariants {
             invariants.received(robot, self.now);

@@ -1,6 +1,6 @@
-//! Prefetching: while one robot has its turn, the memory of the next is loaded into the cache.
+//! Prefetching: while one robot takes its step, the memory of the next robot is loaded into the cache.
 //!
-//! It changes how long a step takes and never its result. On processors other than x86-64 it does nothing.
+//! Prefetching changes how long a step takes and never its result. On processors other than x86-64 it does nothing.
 // A prefetch takes a raw address, so its intrinsic is unsafe. Nothing else here is.
 #![allow(unsafe_code)]
 
@@ -8,7 +8,7 @@
 #[cfg(target_arch = "x86_64")]
 const LINE_BYTES: usize = 64;
 
-/// Begins to load all cache lines of a value. If the value begins within a line, its last part may not be loaded.
+/// Begins to load all cache lines of a value. If the value begins within a line, its last bytes may not be loaded.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn prefetch<T>(value: &T) {

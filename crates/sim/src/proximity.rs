@@ -5,14 +5,15 @@ use lightbots_base::Vec2;
 use crate::contacts::ContactState;
 use crate::dice::{Dice, Purpose};
 
-/// Range of a sensor from its place on the rim, metres. The Elisa-3's read up to 60 mm, with less and less certainty.
+/// Largest gap that a sensor reads, metres, measured from the sensor's place on the rim. Sensors of the Elisa-3 read up
+/// to 60 mm, with less and less certainty.
 const RANGE_M: f64 = 0.03;
-/// Constant part of a reading's noise, metres, 1 sigma. With [`NOISE_SHARE`] it fits the Elisa-3 in Webots R2023b, measured
-/// on 2026-11-21: 0.5 mm at 5 mm, 0.8 mm at 10 mm.
+/// Constant part of a reading's noise, metres, 1 sigma. Together with [`NOISE_SHARE`] it fits the Elisa-3 in Webots
+/// R2023b, measured on 2026-11-21: 0.5 mm at a gap of 5 mm, 0.8 mm at 10 mm.
 const NOISE_M: f64 = 0.0003;
-/// Part of a reading's noise that grows with the gap, as a share of it, 1 sigma.
+/// Part of a reading's noise that grows with the gap, as a share of the gap, 1 sigma.
 const NOISE_SHARE: f64 = 0.05;
-/// Cosine of half the angle of a sensor's cone: 50°.
+/// Cosine of half the angle of a sensor's cone: half the angle is 50°.
 const CONE_COS: f64 = 0.642_787_609_686_539_3;
 /// Tangent of 22.5°, half the angle between two sensors.
 const TAN_22_5: f64 = 0.414_213_562_373_095_03;
@@ -50,7 +51,7 @@ impl ProximityReadings {
         Self { radius_m, gaps_m: vec![NOTHING; robots], seeing: Vec::new(), dice }
     }
 
-    /// Distance of two centres from which two robots are out of each other's range, metres.
+    /// Distance of two centres from which on two robots are out of range of each other's sensors, metres.
     pub fn sight_m(radius_m: f64) -> f64 {
         2.0 * radius_m + RANGE_M
     }
@@ -75,7 +76,8 @@ impl ProximityReadings {
         }
     }
 
-    /// Takes the readings that a robot with front `forward` has of another one at the offset `way`.
+    /// Takes the readings that a robot with front `forward` has of one other robot. `way`: vector from the robot's
+    /// centre to the other's, stage metres. `noise`: noise of the two sensors that may detect it, in sigma.
     #[inline]
     fn see(&mut self, robot: u32, forward: Vec2, way: Vec2, noise: [f64; 2]) {
         let other_in_body = Vec2::new(forward.dot(way), forward.cross(way));
@@ -98,7 +100,7 @@ impl ProximityReadings {
     }
 }
 
-/// The sensor whose axis is nearest to a direction in body space.
+/// Index in [`SENSORS`] of the sensor whose axis is nearest to a direction in body space.
 #[inline]
 fn nearest_sensor(towards: Vec2) -> usize {
     let (x, y) = (towards.x.abs(), towards.y.abs());

@@ -17,7 +17,7 @@ use crate::robot_set::RobotSet;
 use crate::statistics::Spread;
 use crate::world::World;
 
-/// Largest number of issues listed of one kind. The others are only counted.
+/// Largest number of listed issues that have the same code. Further issues with this code are only counted.
 const OF_A_KIND_MAX: usize = 20;
 
 /// The record until now.
@@ -27,14 +27,16 @@ pub(crate) struct RehearsalRecord {
     started: Instant,
     /// Whether a drive has begun since the last call of `take_departure`.
     departed: bool,
-    /// `[robot]`: its last arrival on the way to the current frame.
+    /// `[robot]`: time of its last report of arrival since the drive to the current frame began; `None`: no report yet.
     arrivals: Vec<Option<Instant>>,
+    /// Index of the frame that robots drive to or show.
     heading_for: usize,
-    /// Whether the next drive is timed anew: robots have reached the current frame, were sent elsewhere, or get a new
-    /// plan.
+    /// Whether `started` and `arrivals` are reset when the next drive begins: robots reached the current frame, were
+    /// sent elsewhere, or get a new plan.
     stood: bool,
-    /// Number of replans since the first departure, and number of contacts of two robots after the first replan.
+    /// Number of replans since the first departure.
     replans: usize,
+    /// Number of contacts of two robots after the first replan.
     contacts_after_replan: u64,
     errors_m: Vec<f64>,
     frames: Vec<FrameRecord>,
@@ -73,12 +75,12 @@ impl RehearsalRecord {
         self.outcome.is_some()
     }
 
-    /// Time of the first departure.
+    /// Time of the first departure; `None` before it is known.
     pub fn began_at(&self) -> Option<Instant> {
         self.began
     }
 
-    /// Whether a drive has begun since the last call.
+    /// Whether a drive has begun since the last call of this function.
     pub fn take_departure(&mut self) -> bool {
         std::mem::take(&mut self.departed)
     }
@@ -99,14 +101,15 @@ impl RehearsalRecord {
         self.arrivals[robot] = Some(now);
     }
 
-    /// Time between the first and the last arrival. Only the latest arrival of each robot counts.
+    /// Time between the first and the last robot's arrival at the current frame. Only the latest arrival of each robot
+    /// counts.
     fn arrival_spread(&self) -> Span {
         let first = self.arrivals.iter().flatten().min();
         let last = self.arrivals.iter().flatten().max();
         first.zip(last).map_or(Span::ZERO, |(first, last)| *last - *first)
     }
 
-    /// Records a breakdown of a robot, or its end.
+    /// Records a breakdown of a robot, or the end of a breakdown.
     pub fn broke_down(&mut self, robot: usize, id: RobotId, fate: Fate, now: Instant) {
         let (code, what) = match fate {
             Fate::Killed => ("robot-killed", "lost its power, as asked for"),
@@ -225,7 +228,7 @@ impl RehearsalRecord {
         }
     }
 
-    /// Makes the report. The caller fills in the figures of plan, lights, network, seed and hash.
+    /// Makes the report. Figures of plan, lights, network, seed and hash are left for the caller to fill in.
     pub fn report(mut self, now: Instant, breakdowns: &Breakdowns, robots: &RobotSet) -> RehearsalReport {
         let finished = self.outcome == Some(RunOutcome::Finished);
         if self.outcome.is_none() {
@@ -272,7 +275,7 @@ impl RehearsalRecord {
         }
     }
 
-    /// Records a frame that robots have reached: its times, and the distances of robots from their pixels.
+    /// Records that robots reached a frame: when, and how far each robot is from its pixel.
     fn frame_stands(
         &mut self,
         frame: usize,
@@ -314,7 +317,7 @@ impl RehearsalRecord {
         self.errors_m.append(&mut errors_m);
     }
 
-    /// Keeps an event of the controller as an issue.
+    /// Adds an event of the controller to the issues.
     fn note(&mut self, code: &str, event: &Event) {
         let when = match self.began {
             Some(_) => format!("{:.2} s into the show", self.since(event.at)),
@@ -339,7 +342,7 @@ impl RehearsalRecord {
     }
 }
 
-/// Text of a contact of a robot at a place with a wall or a no-go area.
+/// The issue for a contact of a robot at `place` with a wall or a no-go area.
 fn bumped(bump: &Bump, place: Vec2, when: &str) -> Issue {
     let (robot, place) = (bump.robot, at(place));
     match bump.thing {

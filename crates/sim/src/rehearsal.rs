@@ -1,4 +1,4 @@
-//! A whole show in virtual time: the real controller core, the real robot cores, simulated bodies and networks.
+//! A whole show in virtual time: the real controller core and the real robot cores, with simulated bodies and networks.
 
 use std::sync::Arc;
 
@@ -22,8 +22,8 @@ pub fn rehearse(
     rehearse_with(show, options, None, progress)
 }
 
-/// Plays as [`rehearse`] does, and logs the controller's inputs as [`Progress::Logged`]. `notes` for people, names and
-/// values, are written into the log.
+/// Plays as [`rehearse`] does, and passes the log of the controller's inputs on as [`Progress::Logged`]. `notes`: pairs
+/// of name and value that are written into the log, for people.
 pub fn rehearse_recorded(
     show: &Show,
     options: &RehearsalOptions,
@@ -71,7 +71,7 @@ fn usual_robots(show: &Show) -> usize {
     robots_needed(show).max(show.starts.as_ref().map_or(0, Vec::len))
 }
 
-/// `[robot]`: the name by which a pixel is bound to it, so that bound robots take part.
+/// `[robot]`: the name that a robot must have because pixels of the show are bound to this name; `None`: any name.
 fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     let mut names = vec![None; robots];
     for (name, &robot) in &plan.names {
@@ -80,7 +80,7 @@ fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     names
 }
 
-/// The first starts of the show, or rows along the front edge if it has too few.
+/// The show's first `robots` starts; rows along the front edge of the floor if the show has fewer starts.
 fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     match &show.starts {
         Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
@@ -88,7 +88,7 @@ fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     }
 }
 
-/// Appends the issues of the plan that the validation of the show did not find.
+/// Appends those issues of the plan that `issues` does not contain yet.
 fn add_new(issues: &mut Vec<Issue>, plan: &ShowPlan) {
     for issue in &plan.issues {
         if !issues.contains(issue) {

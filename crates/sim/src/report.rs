@@ -11,7 +11,8 @@ use crate::statistics::Spread;
 /// The report of a rehearsal. The names of its fields are the keys of its JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RehearsalReport {
-    /// Whether all frames were played without a contact, and no more robots dropped out than had a breakdown.
+    /// Whether the show finished, all frames were played without a contact, and no more robots dropped out than had a
+    /// breakdown.
     pub ok: bool,
     /// Number of robots.
     pub robots: usize,
@@ -23,38 +24,40 @@ pub struct RehearsalReport {
     pub duration_s: f64,
     /// Planned duration of the show, seconds.
     pub planned_s: f64,
-    /// Lower bound of the duration of any plan, seconds.
+    /// No plan for this show can be shorter than this, seconds.
     pub lower_bound_s: f64,
-    /// Number of contacts of two robots, or of a robot with a no-go area. Going over the floor's edge by more than
-    /// [`EDGE_SLACK_M`](crate::EDGE_SLACK_M) is a contact too.
+    /// Number of contacts: of two robots, of a robot with a no-go area, and of a robot that is pressed over the floor's
+    /// edge by more than [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
     pub contacts: u64,
-    /// Number of contacts of two robots after the first replan began. Recovery is taken as their cause.
+    /// Number of contacts of two robots after the first replan began. They are attributed to recovery rather than to
+    /// the first plan.
     pub contacts_after_replan: u64,
-    /// Number of replans.
+    /// Number of replans since the first departure.
     pub replans: usize,
     /// Number of touches of the floor's edge, however light.
     pub wall_contacts: u64,
-    /// Largest distance by which a robot would have come over the floor's edge, metres.
+    /// Largest distance by which a robot would have crossed the floor's edge if the edge had not held it back, metres.
     pub wall_pressed_m: f64,
-    /// Braking episodes of the safety layers, and those with no faulty and no off-route robot ahead.
+    /// Number of braking episodes of the safety layers, and of those without a faulty or off-route robot ahead.
     pub brakes: BrakeCounts,
     /// The least distance of two centres, metres; `None` if no two robots came near each other.
     pub closest_m: Option<f64>,
-    /// Time between the first and the last arrival in a frame, one value a frame, seconds.
+    /// Time between the first and the last robot's arrival at a frame, one value a frame, seconds.
     pub arrival_spread_s: Spread,
     /// True distance of robots from their pixels when a frame was reached, one value a robot and frame, metres.
     pub position_error_m: Spread,
-    /// Distance of the estimated from the true place of driving robots, metres.
+    /// Distance between the estimated and the true place of robots on a route, metres.
     pub estimate_error_m: Spread,
-    /// Distance of the true place of driving robots from that of their routes, metres.
+    /// Distance between the true place of robots on a route and the place where the route wants them at that moment,
+    /// metres.
     pub tracking_error_m: Spread,
-    /// Largest difference of two robots' clocks, sampled once a second, seconds. Departures and lights that are meant
-    /// for one moment differ by as much.
+    /// Largest difference between the show clocks of two robots, one value a second, seconds. Departures and lights
+    /// meant for one moment differ by as much between robots.
     pub clock_spread_s: Spread,
     /// Comparisons of lights with the layers of the show; 0 without layers.
     pub lights: LightCounts,
-    /// Longest time until all robots stood still after the controller was killed, or was back while they still drove,
-    /// seconds. `None` if it was not killed.
+    /// Longest time from a crash of the controller, or from its restart while robots still drove, until all robots
+    /// stood still, seconds. `None` if it was not killed.
     pub stop_after_crash_s: Option<f64>,
     /// Numbers of messages sent and lost. A broadcast counts once for each receiver.
     pub messages: MessageCounts,
@@ -62,9 +65,9 @@ pub struct RehearsalReport {
     pub dropouts: usize,
     /// The seed: the same show, conditions and seed give the same run.
     pub seed: u64,
-    /// Hash of the whole run, 16 hexadecimal digits.
+    /// Hash of the whole run, 16 hexadecimal digits: equal runs have equal hashes.
     pub state_hash: String,
-    /// Speed as a multiple of real time. The caller fills it in, because this crate reads no clock.
+    /// Speed of the rehearsal as a multiple of real time. The caller fills it in, because this crate reads no clock.
     pub real_time_factor: Option<f64>,
     /// Faults and remarks.
     pub issues: Issues,
@@ -82,7 +85,7 @@ impl RehearsalReport {
     }
 }
 
-/// Largest distance of a robot from the pixel that it shows, metres: a third of its diameter of 57 mm.
+/// A pixel is shown if a robot is at most this far from it, metres: a third of a robot's diameter of 57 mm.
 pub const SHOWN_M: f64 = 0.019;
 
 /// One frame that robots reached.
@@ -92,11 +95,11 @@ pub struct FrameRecord {
     pub frame: usize,
     /// Its name.
     pub name: String,
-    /// Time at which it was reached, seconds after the first departure.
+    /// Time at which robots had reached the frame, seconds after the first departure.
     pub at_s: f64,
-    /// Duration of the drive to it, seconds.
+    /// Duration of the drive to the frame, seconds.
     pub drive_s: f64,
-    /// Time between the first and the last arrival, seconds.
+    /// Time between the first and the last robot's arrival at the frame, seconds.
     pub arrival_spread_s: f64,
     /// Distance of robots from their pixels, metres.
     pub position_error_m: Spread,

@@ -19,27 +19,28 @@ use crate::prefetch::prefetch;
 use crate::proximity::ProximityReadings;
 use crate::world::{STEP, World};
 
-/// Upper bound of the robots' own clocks at the begin, microseconds: an hour, so that no clock agrees with another.
+/// Each robot's own clock begins at a random value below this, microseconds: an hour, so that no two clocks agree.
 const CLOCK_BEGIN_US: u64 = 3_600_000_000;
-/// Steps in which a battery loses one percent: three minutes.
+/// Number of steps in which a battery loses one percent: three minutes.
 const STEPS_PER_PERCENT: u64 = 11_250;
-/// Number of robots up to which prefetching does not pay, because the cache still has them from the step before. Tuned on
-/// `--example speed`.
+/// Up to this number of robots, nothing is prefetched, because the cache still holds the robots from the step before.
+/// Tuned on `--example speed`.
 const CACHED: usize = 1_500;
-/// Turns ahead at which a robot is prefetched: first its begin, which tells whether it runs our firmware, then the
-/// state of its step. With fewer turns, memory has not arrived yet. With more, it has left the cache again.
+/// A robot is prefetched this number of turns before its own: first its first cache line, which tells whether it runs
+/// our firmware, later the state that a step reads. With fewer turns, memory arrives too late. With more, it has left
+/// the cache.
 const AHEAD: [usize; 2] = [5, 2];
 
 /// All robots of a rehearsal or a fleet, and their world.
 pub(crate) struct RobotSet {
     pub world: World,
     sensors: FixSensors,
-    /// `[robot]`: error of the headings of its fixes, radians; empty if no marker is turned.
+    /// `[robot]`: constant error of the headings of its fixes, radians; empty if no marker is turned.
     markers_rad: Vec<f64>,
     robots: Vec<SimulatedRobot>,
-    /// Number of robots up to which no robot is prefetched.
+    /// Up to this number of robots, no robot is prefetched.
     pub cached: usize,
-    /// `[robot]`: whether it has power. The last entry is for the person's foot, which has none.
+    /// `[robot]`: whether the robot has power. The last entry is for a person's foot, which counts as without power.
     alive: Vec<bool>,
     steps: u64,
     errors: ErrorStatistics,
@@ -48,7 +49,7 @@ pub(crate) struct RobotSet {
     log: MessageLog,
 }
 
-/// A simulated robot. Its fields keep their order, so that the first cache line says what firmware it runs.
+/// A simulated robot. The order of its fields is fixed, so that its first cache line tells which firmware it runs.
 #[repr(C, align(64))]
 struct SimulatedRobot {
     id: RobotId,
@@ -65,8 +66,9 @@ struct SimulatedRobot {
 /// The clock of one robot, which drifts against virtual time.
 #[derive(Clone, Copy, Debug)]
 struct LocalClock {
+    /// What the clock read when virtual time began, microseconds, modulo 2⁶⁴.
     begin_us: u64,
-    /// Drift, parts per thousand million.
+    /// Drift against virtual time, parts per thousand million; positive: fast.
     drift_ppb: i64,
 }
 
@@ -85,8 +87,8 @@ impl LocalClock {
 
 impl RobotSet {
     /// Robots at rest on a stage, just switched on and without a link. `names[robot]`: its name, if one is given.
-    /// `says_simulated`: robots with our firmware report `sim=1`. Rehearsals leave it out, to make messages as long as
-    /// those of real robots.
+    /// `says_simulated`: robots with our firmware add `sim=1` to their reports. Rehearsals leave it out, so that
+    /// messages are as long as those of real robots.
     pub fn new(
         stage: &Stage,
         starts: &[Vec2],
@@ -143,7 +145,7 @@ impl RobotSet {
         self.robots[robot].light
     }
 
-    /// Brings a robot's link up, or breaks it. Does nothing without power.
+    /// Brings a robot's link up, or breaks it. Does nothing if the robot has no power.
     pub fn link(&mut self, now: Instant, robot: usize, up: bool) {
         if self.alive[robot] {
             let simulated = &mut self.robots[robot];
@@ -154,7 +156,7 @@ impl RobotSet {
         }
     }
 
-    /// Delivers a message to a robot. Does nothing without power.
+    /// Delivers a message to a robot. Does nothing if the robot has no power.
     pub fn receive(&mut self, now: Instant, robot: usize, topic: Topic, payload: &[u8]) {
         if self.alive[robot] {
             let simulated = &mut self.robots[robot];
@@ -165,7 +167,7 @@ impl RobotSet {
         }
     }
 
-    /// Prefetches a robot that is about to receive a message, if there are too many robots for the cache.
+    /// Prefetches the state of a robot that is about to receive a message, if there are more than `cached` robots.
     #[inline]
     pub fn prefetch_receiver(&self, robot: usize) {
         if self.robots.len() > self.cached {
@@ -180,7 +182,7 @@ impl RobotSet {
         }
     }
 
-    /// Prefetches the robots whose turns come: the begin of one, the state of the other.
+    /// Prefetches two robots whose turns come: the first cache line of `later`, and the state of `soon`.
     #[inline]
     fn prefetch_next(&self, [later, soon]: [usize; 2]) {
         if let Some(simulated) = self.robots.get(later) {
@@ -189,7 +191,7 @@ impl RobotSet {
         self.prefetch_state(soon);
     }
 
-    /// Passes the messages that a robot sends now to `receive`.
+    /// Passes the messages that a robot has to send to `receive`.
     pub fn drain_messages(&mut self, robot: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         if self.alive[robot] {
             self.robots[robot].send_messages(robot, &mut self.payload, receive);
@@ -228,16 +230,16 @@ impl RobotSet {
         self.world.command(robot, [0.0; 2]);
     }
 
-    /// Takes a robot's fixes away, or gives them back.
+    /// Takes a robot's position fixes away, or gives them back.
     pub fn blind(&mut self, robot: usize, blind: bool) {
         self.robots[robot].blind = blind;
     }
 
-    /// One step of 16 ms that ends at `now`: all bodies move, then the robots take their steps one after the other.
+    /// Makes one step of 16 ms that ends at `now`: all bodies move, then each robot's firmware takes its turn.
     ///
-    /// More than `cached` robots take turns in ascending order in one step and in descending order in the next, if the
-    /// sensors allow any order. The cache then still has the last robots of the step before. Their messages are
-    /// received in ascending order all the same.
+    /// With more than `cached` robots, turns are in ascending and descending order in alternate steps, if the sensors
+    /// allow any order. The cache then still holds the last robots of the step before. `receive` gets the messages in
+    /// ascending order of robots all the same.
     pub fn step(&mut self, now: Instant, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         self.world.step();
         self.count_brakes();
@@ -270,7 +272,8 @@ impl RobotSet {
         brakes.classify(places, |robot, off_m| !alive[robot] || robots[robot].is_amiss(places[robot], off_m));
     }
 
-    /// One robot's turn within a step.
+    /// One robot's turn within a step: its firmware gets sensor readings, commands wheels and light, and sends
+    /// messages.
     #[inline]
     fn turn(&mut self, now: Instant, index: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         let Self { world, sensors, markers_rad, robots, alive, errors, brakes, payload, steps, .. } = self;
@@ -347,8 +350,8 @@ impl SimulatedRobot {
         Self { firmware, id, clock, battery, light: Rgb::BLACK, stuck: false, blind: false }
     }
 
-    /// Whether a robot at a place is faulty, or farther than `off_m` from the place of its route. A mute robot drives
-    /// on its route, so it is not faulty here. An original robot has no route.
+    /// Whether this robot is faulty or farther than `off_m` from its route; `place`: its true place. A mute robot
+    /// drives on its route, so it is not faulty here. An original robot has no route.
     fn is_amiss(&self, place: Vec2, off_m: f64) -> bool {
         let RobotFirmware::Ours(robot) = &self.firmware else { return self.stuck || self.blind };
         let is_off = robot.route_place().is_some_and(|due| due.distance(place) > off_m);

@@ -1,4 +1,4 @@
-//! Summary of many numbers by three.
+//! Summary of many numbers by three numbers.
 
 use lightbots_base::statistics::nearest_rank;
 use serde::Serialize;

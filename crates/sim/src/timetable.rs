@@ -4,7 +4,7 @@ use core::cmp::Reverse;
 
 use lightbots_base::Span;
 
-/// Events by their time after the first departure.
+/// Events, each with its time after the first departure.
 #[derive(Clone, Debug)]
 pub(crate) struct Timetable<E> {
     /// Sorted, latest first.
@@ -23,7 +23,7 @@ impl<E> Timetable<E> {
         self.coming.is_empty()
     }
 
-    /// Takes the next event that is due at a time after the first departure. `None` if none is due.
+    /// Removes and returns the next event. `None` if none is due at `since_begin`, the time since the first departure.
     pub fn next_until(&mut self, since_begin: Span) -> Option<E> {
         self.coming.pop_if(|(at, _)| *at <= since_begin).map(|(_, event)| event)
     }

@@ -1,11 +1,13 @@
-//! The effective track of an Elisa-3: how quickly it turns at given wheel rates.
+//! The effective track of an Elisa-3: the distance of two ideal wheels that would turn the body as quickly. It says how
+//! quickly the body turns at given wheel rates.
 
 /// Radius of a wheel, metres.
 pub(crate) const WHEEL_RADIUS_M: f64 = 0.0045;
 
-/// Rows of: half the difference of the wheel rates (rad/s), effective track on the spot (m), and its growth in a drive
-/// of [`DRIVING_RADPS`] and more (m). Linear between the rows and constant outside. From turning rates measured in
-/// Webots R2023b on 2026-11-21: see docs/simulator.md.
+/// Each row has three values. First: half the difference of the wheel rates, rad/s. Second: effective track when
+/// turning on the spot, metres. Third: increase of the track at a mean wheel rate of [`DRIVING_RADPS`] or more, metres.
+/// Between rows the values are linear, outside constant. From turning rates measured in Webots R2023b on 2026-11-21:
+/// see docs/simulator.md.
 const MEASURED: [(f64, f64, f64); 6] = [
     (1.0, 0.0400, 0.0),
     (5.0, 0.040_036, 0.000_54),
@@ -15,16 +17,18 @@ const MEASURED: [(f64, f64, f64); 6] = [
     (60.0, 0.041_38, 0.0006),
 ];
 
-/// Mean wheel rate from which driving has its full effect on the track, rad/s.
+/// Mean wheel rate from which on the track increases no further, rad/s. Below, the increase is proportional to the mean
+/// rate.
 const DRIVING_RADPS: f64 = 50.0;
 
-/// Rows of the look-up table, one for each rad/s of half the difference of wheel rates. The motors cannot differ by
-/// more.
+/// Number of rows of the look-up table, one for each whole rad/s of half the difference of wheel rates, from 0. The
+/// motors cannot differ by more.
 const ROWS: usize = 142;
 
+/// `[half the difference of wheel rates, rad/s]`: effective track on the spot, and its increase in a drive, metres.
 static ROWS_BY_RATE: [(f64, f64); ROWS] = rows_by_rate();
 
-/// Turning rate of the body at constant wheel rates: rad/s, counter-clockwise.
+/// Turning rate of the body at constant wheel rates (left and right, rad/s): rad/s, counter-clockwise.
 #[inline]
 pub(crate) fn turn_radps(left: f64, right: f64) -> f64 {
     let half = 0.5 * (right - left);

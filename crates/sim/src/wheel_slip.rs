@@ -1,8 +1,8 @@
-//! Wheel slip: each wheel moves the body less than it turns, by a share that changes slowly.
+//! Wheel slip: each wheel moves the body by less than it turns. The missing share changes slowly.
 
 use crate::dice::Dice;
 
-/// Steps after which a wheel's slip gets a new goal: half a second.
+/// Number of steps after which a wheel's slip gets a new goal: half a second.
 const STRIDE: u32 = 32;
 
 /// The slip of one robot's two wheels, left and right.
@@ -10,6 +10,7 @@ const STRIDE: u32 = 32;
 pub(crate) struct WheelSlip {
     /// Mean slip of each wheel, as a share of its turning.
     mean: [f64; 2],
+    /// Present slip of each wheel, as a share of its turning.
     now: [f64; 2],
     /// Change of the slip per step until the next goal.
     slope: [f64; 2],
@@ -17,8 +18,9 @@ pub(crate) struct WheelSlip {
 }
 
 impl WheelSlip {
-    /// Wheels that slip by `level` (a share, 0.03 is 3 %) in the mean of all robots. The mean of a wheel is uniform
-    /// between a half and one and a half of `level`. The slip deviates from it by up to half of `level`.
+    /// Wheels whose slip, averaged over all robots, is `level` (0.03 means 3 %). The mean slip of one wheel is drawn
+    /// uniformly between a half and one and a half of `level`. The present slip deviates from that mean by up to half
+    /// of `level`.
     pub fn new(level: f64, dice: &mut Dice) -> Self {
         let mean = std::array::from_fn(|_| if level > 0.0 { level * dice.between(0.5, 1.5) } else { 0.0 });
         Self { mean, now: mean, slope: [0.0; 2], steps_left: dice.below(u64::from(STRIDE)) as u32 }

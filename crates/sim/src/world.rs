@@ -12,14 +12,14 @@ use crate::neighbour_list::NeighbourList;
 use crate::proximity::ProximityReadings;
 use crate::wheel_slip::WheelSlip;
 
-/// The length of a step of the world: that of the Webots world and of a robot's control loop.
+/// Duration of a step of the world. It equals the step of the Webots world and of a robot's control loop.
 pub const STEP: Span = Span::from_millis(16);
 
 /// [`STEP`] in seconds.
 pub(crate) const STEP_S: f64 = 0.016;
 
-/// The bodies of robots on a floor. Places are stored apart, because contacts read only them. What robots read is
-/// stored apart as well.
+/// The bodies of robots on a floor. Each kind of state has its own array, indexed by robot: contacts read only places,
+/// and the firmware reads only axles.
 #[derive(Clone, Debug)]
 pub struct World {
     places: Vec<Vec2>,
@@ -35,13 +35,14 @@ pub struct World {
     bumps: Bumps,
 }
 
-/// State that firmware and body exchange.
+/// Body state that a robot's firmware reads or writes.
 #[derive(Clone, Debug)]
 struct Axle {
     /// Commanded wheel rates, left and right, rad/s.
     commanded: [f64; 2],
     /// Wheel rates in the last step, left and right, rad/s.
     wheels: [f64; 2],
+    /// Heading in the stage, radians, counter-clockwise from the x axis.
     heading: f64,
 }
 
@@ -49,20 +50,21 @@ struct Axle {
 struct Body {
     drive: DriveTrain,
     slip: WheelSlip,
-    /// Share of the left wheel's turning that moves the body, besides slip: 1 unless that wheel is worn.
+    /// Share of the left wheel's turning that moves the body, apart from slip: 1 unless that wheel is worn.
     left_share: f64,
-    /// The wall or no-go area that it is pressed against.
+    /// The contact with a wall or no-go area that the body is pressed against; `None`: it touches none.
     against: Option<Against>,
 }
 
 impl World {
-    /// Robots at rest at these poses. `slip`: mean share of a wheel's turning that does not move the body.
+    /// A world with robots at rest at the poses `starts`. `slip`: mean share of a wheel's turning that does not move
+    /// the body.
     pub fn new(stage: &Stage, starts: &[Pose], slip: f64, seed: u64) -> Self {
         Self::with_people(stage, starts, false, slip, seed)
     }
 
-    /// Makes a world as [`Self::new`] does. With people there is one more disc, a foot, which stands beside the floor
-    /// until it is put on it.
+    /// Makes a world as [`Self::new`] does. If `has_people`, one more disc follows the robots: a foot, which stands
+    /// beside the floor until [`Self::put_foot`].
     pub(crate) fn with_people(
         stage: &Stage,
         robots: &[Pose],
@@ -109,12 +111,12 @@ impl World {
         }
     }
 
-    /// Puts the person's foot on the floor; `None`: beside the floor.
+    /// Puts the person's foot at `place` on the floor; `None`: beside the floor.
     pub(crate) fn put_foot(&mut self, stage: &Stage, place: Option<Vec2>) {
         self.put(self.places.len() - 1, place.unwrap_or_else(|| beside(stage)));
     }
 
-    /// Commands the wheel rates of a robot, left and right, rad/s. They act from the step after the next.
+    /// Commands the wheel rates of a robot, left and right, rad/s. They act from the second next step on.
     #[inline]
     pub fn command(&mut self, robot: usize, wheels_radps: [f64; 2]) {
         self.axles[robot].commanded = wheels_radps;
@@ -140,13 +142,13 @@ impl World {
         Pose { at: self.places[robot], heading: self.axles[robot].heading }
     }
 
-    /// True places of all robots, stage metres.
+    /// True places of all robots, stage metres. With people, the last place is that of the foot.
     pub fn places(&self) -> &[Vec2] {
         &self.places
     }
 
-    /// Whether a robot at a place would be on the floor, outside of no-go areas, and at least `gap_m` from all others,
-    /// rim to rim.
+    /// Whether the robot could stand at `place`: on the floor, outside of no-go areas, and at least `gap_m` (metres,
+    /// rim to rim) from all others.
     pub(crate) fn is_free(&self, robot: usize, place: Vec2, gap_m: f64) -> bool {
         let clear_m = self.contacts.contact_m() + gap_m;
         let mut kept = place;
@@ -201,7 +203,7 @@ impl World {
         }
     }
 
-    /// Moves a body by one step. Returns the robot's new place; `None` if it did not move.
+    /// Moves a body by one step. Returns the new place of its centre; `None` if the body rests.
     #[inline]
     fn move_body(&mut self, robot: usize) -> Option<Vec2> {
         let body = &mut self.bodies[robot];
@@ -229,13 +231,13 @@ impl World {
     }
 }
 
-/// A place beside the floor, out of the robots' sight.
+/// A place beside the floor that no robot's sensors reach, stage metres.
 fn beside(stage: &Stage) -> Vec2 {
     Vec2::new(0.5 * stage.width_m + 1.0, 0.0)
 }
 
-/// A unit vector rotated by a small angle (below 0.3 rad): a Taylor series instead of sine and cosine. It is scaled back to
-/// length 1, because errors would add up.
+/// The vector `unit` rotated counter-clockwise by `angle`, radians, below 0.3. A Taylor series replaces sine and
+/// cosine. The result is scaled back to length 1, because errors would add up.
 #[inline]
 fn turned(unit: Vec2, angle: f64) -> Vec2 {
     if angle == 0.0 {

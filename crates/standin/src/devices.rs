@@ -2,10 +2,10 @@
 
 use crate::proximity::RAYS;
 
-/// Tag of a device, as in Webots: a small number from 1.
+/// Number of a device, as in Webots: a small number from 1; 0 is no device.
 pub type Tag = u16;
 
-/// Names of the devices; the index plus 1 is the tag.
+/// Names of the devices. The tag of a device is its index here plus 1.
 const NAMES: [&[u8]; 17] = [
     b"gps",
     b"compass",
@@ -25,7 +25,7 @@ const NAMES: [&[u8]; 17] = [
     b"ps8",
     b"ps9",
 ];
-/// Number of tags, including tag 0 for no device.
+/// Number of possible tags, including tag 0.
 pub(crate) const TAGS: usize = NAMES.len() + 1;
 
 /// Tag of the GPS in `NAMES`.
@@ -44,12 +44,13 @@ pub(crate) fn tag(name: &[u8]) -> Tag {
     NAMES.iter().position(|known| *known == name).map_or(0, |index| index as Tag + 1)
 }
 
-/// Returns the wheel of a tag: 0 left, 1 right. `None` if the tag is not in `tags`.
+/// Returns the wheel to which a tag in `tags` belongs: 0 left, 1 right. `None` if the tag is not in `tags`.
 pub(crate) fn side(tags: [Tag; 2], tag: Tag) -> Option<usize> {
     tags.iter().position(|known| *known == tag)
 }
 
-/// Returns the index of a proximity sensor by its tag, clockwise from the front. `None` for other devices.
+/// Returns the index of the proximity sensor with this tag, counted clockwise from the front, from 0. `None` for other
+/// devices.
 pub(crate) fn proximity(tag: Tag) -> Option<usize> {
     tag.checked_sub(PROXIMITY).map(usize::from).filter(|sensor| *sensor < RAYS)
 }

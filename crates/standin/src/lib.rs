@@ -23,7 +23,7 @@ use std::ffi::{CStr, c_char, c_double, c_int};
 use devices::Tag;
 use state::with;
 
-/// Connects to the floor; ends the process if there is none, as Webots' library does.
+/// Connects to the simulated floor. If there is none, ends the process, as Webots' library does.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_init() -> c_int {
     state::connect();
@@ -60,7 +60,7 @@ pub extern "C" fn wb_robot_get_basic_time_step() -> c_double {
     16.0
 }
 
-/// Tag of a device by its name; 0: no such device.
+/// Tag of the device with this name; 0: no such device.
 ///
 /// # Safety
 /// `name` must be null or a zero-terminated string.
@@ -103,7 +103,7 @@ pub extern "C" fn wb_gps_enable(tag: Tag, _millis: c_int) {
     with(|robot| robot.enable(tag));
 }
 
-/// World x, y, z, metres; the pointer is valid until the next step.
+/// World x, y and z of the robot, metres; NaN before the first sample. The pointer is valid until the next step.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_gps_get_values(_tag: Tag) -> *const c_double {
     with(|robot| robot.gps().as_ptr())
@@ -115,7 +115,7 @@ pub extern "C" fn wb_compass_enable(tag: Tag, _millis: c_int) {
     with(|robot| robot.enable(tag));
 }
 
-/// Direction of north in body space; the pointer is valid until the next step.
+/// Direction of north in body space, as x, y and z. The pointer is valid until the next step.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_compass_get_values(_tag: Tag) -> *const c_double {
     with(|robot| robot.compass().as_ptr())
@@ -133,7 +133,7 @@ pub extern "C" fn wb_distance_sensor_enable(tag: Tag, _millis: c_int) {
     with(|robot| robot.enable(tag));
 }
 
-/// Value of a proximity sensor, in the units of its table.
+/// Value of a proximity sensor, in the units of its look-up table; NaN before the first sample.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_distance_sensor_get_value(tag: Tag) -> c_double {
     with(|robot| robot.proximity(tag))
@@ -145,13 +145,13 @@ pub extern "C" fn wb_distance_sensor_get_type(_tag: Tag) -> c_int {
     0
 }
 
-/// Number of rows of a proximity sensor's table.
+/// Number of rows of a proximity sensor's look-up table.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_distance_sensor_get_lookup_table_size(_tag: Tag) -> c_int {
     proximity::TABLE.len() as c_int
 }
 
-/// Table of a proximity sensor: distance, value, noise.
+/// Look-up table of a proximity sensor: each row has distance in metres, value, and noise as a share of the value.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_distance_sensor_get_lookup_table(_tag: Tag) -> *const c_double {
     proximity::TABLE.as_ptr().cast()

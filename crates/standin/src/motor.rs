@@ -4,22 +4,23 @@
 //! motor turns at `P` times the remaining angle, but no faster than its rate; the sign of the rate is ignored. The
 //! last command stays in force when the controller ends.
 
-/// Default `controlPID` of a motor, rad/s per radian of error (stated in Webots' reference manual, `Motor`).
+/// Proportional part of a motor's default `controlPID`, rad/s per radian of error (stated in Webots' reference manual,
+/// `Motor`).
 const P: f64 = 10.0;
 /// `maxVelocity` of the LightBot's motors, rad/s (stated in `webots/protos/LightBot.proto`).
 pub const RATE_MAX_RADPS: f64 = 133.33;
 
-/// Last command of a motor.
+/// The last command that a motor got.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
-    /// Target position as the motor's sensor reads it, radians; infinite: the motor turns at its rate without end.
+    /// Target position, in radians as the motor's sensor reads them. Infinite: the motor turns at its rate without end.
     pub target_rad: f64,
-    /// Rate, rad/s. Towards a target position it is a limit, and its sign is ignored.
+    /// Commanded rate, rad/s. Towards a finite target position it is only a limit, and its sign is ignored.
     pub radps: f64,
 }
 
 impl Default for Motor {
-    /// Webots' motors begin with their highest rate towards their present position.
+    /// In Webots, motors begin with their highest rate and a target at their present position.
     fn default() -> Self {
         Self { target_rad: 0.0, radps: RATE_MAX_RADPS }
     }

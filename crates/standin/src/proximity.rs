@@ -1,9 +1,9 @@
-//! The proximity sensors: the table of `webots/protos/LightBot.proto`.
+//! The values and the noise of the proximity sensors in `webots/protos/LightBot.proto`.
 
 /// Number of sensors, one ray each, at equal angles (stated in `webots/protos/LightBot.proto`).
 pub const RAYS: usize = 10;
-/// Distance in metres, value, and noise as a share of the value; sorted by distance (stated in
-/// `webots/protos/LightBot.proto`).
+/// Look-up table of a sensor. Each row: distance in metres, value, noise as a share of the value. Sorted by distance
+/// (stated in `webots/protos/LightBot.proto`).
 pub const TABLE: [[f64; 3]; 5] = [
     [0.0, 1000.0, 0.0075],
     [0.013, 675.0, 0.03],
@@ -12,19 +12,19 @@ pub const TABLE: [[f64; 3]; 5] = [
     [0.04, 0.0, 0.0],
 ];
 
-/// Sensor value at a distance in metres: linear between the rows, and that of the last row beyond them.
+/// Sensor value at a distance in metres: linear between the rows of [`TABLE`]; beyond the last row, that row's value.
 pub(crate) fn value(distance_m: f64) -> f64 {
     between(distance_m, 1)
 }
 
-/// Noise of a distance, 1 sigma, metres.
+/// Noise of the distance that a sensor shows, metres, 1 sigma. `distance_m`: the true distance.
 #[must_use]
 pub fn sigma_m(distance_m: f64) -> f64 {
     let per_m = (TABLE[0][1] - TABLE[4][1]) / TABLE[4][0];
     between(distance_m, 1) * between(distance_m, 2) / per_m
 }
 
-/// Returns a column of the table at a distance in metres, linear between the rows.
+/// Returns the value of a column of [`TABLE`] at a distance in metres, linear between the rows.
 fn between(distance_m: f64, column: usize) -> f64 {
     let pair = TABLE.windows(2).find(|pair| distance_m < pair[1][0]);
     pair.map_or(TABLE[TABLE.len() - 1][column], |pair| {

@@ -1,18 +1,18 @@
-//! Messages on the socket between the process of a robot and the simulated floor, little-endian.
+//! Messages on the socket between the process of a robot and the simulated floor. Numbers are little-endian.
 //!
-//! A process sends its name (one length byte, then the bytes), and a [`StepCommand`] for every step. The floor answers
-//! each with a [`StepReply`] when it has the commands of all processes. The environment variable [`ADDRESS`] holds the
-//! socket's path.
+//! A process first sends its robot's name (one byte for the length, then the bytes), and then a [`StepCommand`] for
+//! every step. When the floor has the commands of all processes, it answers each with a [`StepReply`]. The environment
+//! variable [`ADDRESS`] holds the path of the socket.
 
 use std::io::{self, Read, Write};
 
 use crate::motor::Motor;
 use crate::proximity::RAYS;
 
-/// The environment variable with the socket's path.
+/// Name of the environment variable that holds the path of the socket.
 pub const ADDRESS: &str = "LIGHTBOTS_STANDIN";
 
-/// Commands of a robot at the end of a step.
+/// What a robot commands for the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepCommand {
     /// Motors, left and right.
@@ -21,12 +21,12 @@ pub struct StepCommand {
     pub colour: u32,
 }
 
-/// Answer of the floor.
+/// What the floor answers after a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReply {
     /// Whether the simulation ends.
     pub ends: bool,
-    /// Simulated seconds.
+    /// Simulated time, seconds.
     pub time_s: f64,
     /// Readings of the wheels' sensors, left and right, radians.
     pub wheels_rad: [f64; 2],
@@ -34,13 +34,13 @@ pub struct StepReply {
     pub at: [f64; 2],
     /// Heading, radians.
     pub heading: f64,
-    /// Distances of the proximity sensors, clockwise from the front, metres; infinite: nothing in sight.
+    /// Distances that the proximity sensors measure, clockwise from the front, metres; infinite: nothing in range.
     pub near_m: [f64; RAYS],
 }
 
-/// Bytes of a [`StepCommand`]: four `f64` and one `u32`, by definition.
+/// Length of a [`StepCommand`] in bytes: four `f64` and one `u32`.
 const COMMAND_BYTES: usize = 36;
-/// Bytes of a [`StepReply`]: one byte, then six `f64` and the proximity sensors.
+/// Length of a [`StepReply`] in bytes: one byte, then six `f64` and one for each proximity sensor.
 const REPLY_BYTES: usize = 1 + 8 * (6 + RAYS);
 
 impl StepCommand {
@@ -94,14 +94,14 @@ impl StepReply {
     }
 }
 
-/// Writes the name that begins a connection; names above 255 bytes are cut.
+/// Writes the name with which a connection begins. Names longer than 255 bytes are cut off.
 pub fn write_name(name: &str, out: &mut impl Write) -> io::Result<()> {
     let bytes = &name.as_bytes()[..name.len().min(255)];
     out.write_all(&[bytes.len() as u8])?;
     out.write_all(bytes)
 }
 
-/// Reads the name that begins a connection.
+/// Reads the name with which a connection begins.
 pub fn read_name(from: &mut impl Read) -> io::Result<String> {
     let mut length = [0];
     from.read_exact(&mut length)?;

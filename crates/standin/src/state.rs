@@ -1,4 +1,4 @@
-//! State of the robot of this process.
+//! State of the robot that this process controls.
 #![allow(clippy::print_stderr)]
 
 use std::ffi::CString;
@@ -26,7 +26,7 @@ pub(crate) struct RobotProcess {
 
 static ROBOT: Mutex<Option<Box<RobotProcess>>> = Mutex::new(None);
 
-/// Runs `action` on the robot, which must be connected.
+/// Runs `action` on the robot. If the process has not connected, prints an error and ends the process.
 pub(crate) fn with<T>(action: impl FnOnce(&mut RobotProcess) -> T) -> T {
     let mut guard = ROBOT.lock().unwrap_or_else(PoisonError::into_inner);
     match guard.as_mut() {
@@ -35,7 +35,7 @@ pub(crate) fn with<T>(action: impl FnOnce(&mut RobotProcess) -> T) -> T {
     }
 }
 
-/// Connects to the floor at the address in the environment. Ends the process if that fails.
+/// Connects to the simulated floor at the address in the environment. If that fails, ends the process.
 pub(crate) fn connect() {
     let name = std::env::var("WEBOTS_ROBOT_NAME").unwrap_or_default();
     let Some(address) = std::env::var_os(socket::ADDRESS) else { fail("LIGHTBOTS_STANDIN is not set") };

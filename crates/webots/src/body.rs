@@ -33,17 +33,18 @@ pub struct WebotsBody<'a> {
     steps_since_light: u32,
 }
 
-/// Steps between two changes of the light: about 100 ms. Fewer: Webots slows down, because each change costs time.
-/// More: fades look uneven. A choice, not measured.
+/// Least number of steps between two changes of the light: about 100 ms. With fewer, Webots slows down, because each
+/// change costs time. With more, fades look uneven. Chosen, not measured.
 const LIGHT_INTERVAL_STEPS: u32 = 6;
-/// Lead of a wheel's target position, seconds at the wheel's rate. Webots' motors turn at 10 rad/s per radian of error
-/// (`controlPID`, reference manual), so 0.1 s keep them at their rate. Two steps pass until the next command acts; one is
-/// spare. Below: wheels slow down. Above: a robot without its driver rolls farther than 40 mm at 0.27 m/s.
+/// A wheel's target position is ahead of its reading by the turn in this time at the commanded rate, seconds. Webots'
+/// motors turn at 10 rad/s per radian of error (`controlPID`, reference manual), so 0.1 s keep them at their rate. Two
+/// steps pass until the next command acts; one is spare. With a smaller value, wheels slow down. With a larger value, a
+/// robot without its driver rolls farther than 40 mm at 0.27 m/s.
 const AHEAD_S: f64 = 0.1 + 3.0 * 0.016;
 
 impl<'a> WebotsBody<'a> {
-    /// Finds the devices and enables the sensors every `step_ms`, without the proximity sensors if `blind`. The wheels
-    /// stand.
+    /// Finds the robot's devices, stops its wheels, and has sensors sampled every `step_ms` milliseconds. If `blind`,
+    /// the proximity sensors stay off.
     pub fn new(library: &'a LibController, step_ms: i32, blind: bool) -> Result<Self, MissingDevice> {
         let find = |name: &'static str| library.device(name).ok_or(MissingDevice(name));
         let motors = [find("left wheel motor")?, find("right wheel motor")?];
@@ -73,7 +74,8 @@ impl<'a> WebotsBody<'a> {
         })
     }
 
-    /// Turns of the wheels since the last call, left and right, radians; zero before the second sample.
+    /// Turns of the wheels since the last call of this function, left and right, radians; zero before the second
+    /// sample.
     pub fn wheel_turns_rad(&mut self) -> [f64; 2] {
         let read = self.sensors.map(|sensor| self.library.sensor_value(sensor));
         let turned = [0, 1].map(|side| wheel_turn_rad(read[side] - self.last_read_rad[side]));
@@ -81,21 +83,22 @@ impl<'a> WebotsBody<'a> {
         turned.map(|turn| if turn.is_finite() { turn } else { 0.0 })
     }
 
-    /// Place (x, y) in stage metres and heading in radians; NaN before the first sample. The world's axes are the
-    /// stage's (ENU, origin in the middle of the floor).
+    /// Place (x, y) in stage metres and heading in radians; NaN before the first sample. The axes of the Webots world
+    /// are those of the stage (ENU, origin in the middle of the floor).
     pub fn fix(&self) -> ([f64; 2], f64) {
         let [x, y, _] = self.library.gps_values(self.gps);
         let north = self.library.compass_values(self.compass);
         ([x, y], north[0].atan2(north[1]))
     }
 
-    /// Gaps to near obstacles, metres, counter-clockwise from the front; `None`: no proximity sensors.
+    /// Gaps to near obstacles in eight directions, metres, counter-clockwise from the front; `None`: no proximity
+    /// sensors.
     pub fn gaps_m(&self) -> Option<[f32; 8]> {
         self.proximity.as_ref().map(|proximity| proximity.gaps_m(self.library))
     }
 
-    /// Sets the rates of both wheels, rad/s. Webots' motors keep their last command when this process ends. The wheels
-    /// therefore turn towards a position a little ahead of the last reading of
+    /// Sets the rates of both wheels, rad/s. Webots' motors keep their last command when this process ends. Therefore
+    /// the wheels are not told to turn on without end, but to a position a little ahead of the last reading of
     /// [`wheel_turns_rad`](Self::wheel_turns_rad).
     pub fn set_wheels(&mut self, radps: [f64; 2]) {
         for side in [0, 1] {
@@ -110,7 +113,7 @@ impl<'a> WebotsBody<'a> {
         }
     }
 
-    /// Shows a colour, at most ten times a second.
+    /// Shows a colour. The light changes at most ten times a second, so call this once a step.
     pub fn set_light(&mut self, colour: Rgb) {
         self.steps_since_light = self.steps_since_light.saturating_add(1);
         if self.last_light != Some(colour) && self.steps_since_light >= LIGHT_INTERVAL_STEPS {

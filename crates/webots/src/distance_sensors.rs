@@ -1,8 +1,8 @@
 //! Gaps to near obstacles, from Webots' distance sensors.
 //!
-//! The sensors are called `ps0`, `ps1` … as on the Elisa-3. `ps0` looks ahead, and the others follow clockwise at
-//! equal angles. The Elisa-3 has eight sensors, our PROTO ten. Webots provides the table from distances to sensor
-//! values, so that a PROTO may have any table.
+//! The sensors are called `ps0`, `ps1` … as on the Elisa-3. `ps0` looks ahead, and the others follow clockwise at equal
+//! angles. The Elisa-3 has eight sensors, our PROTO ten. The table from distances to sensor values is read from Webots,
+//! so each PROTO may have its own table.
 
 use lightbots_base::Limits;
 
@@ -11,23 +11,23 @@ use crate::rays::gaps_m;
 
 /// Names of the devices, clockwise from the front.
 const NAMES: [&str; 10] = ["ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7", "ps8", "ps9"];
-/// Fewest usable sensors: as many as the robot core has directions.
+/// Least number of sensors with which the readings are used: the robot core has this number of directions.
 const LEAST: usize = 8;
 /// Distance from the robot's centre to a sensor, metres (stated in `webots/protos/LightBot.proto`).
 const SENSOR_M: f64 = 0.024;
-/// Radius of the Elisa-3's visible shape at the height of its sensors, metres: a white ring in its PROTO. Infra-red
-/// sensors see shapes and not bounding objects (stated in Webots' reference manual, `DistanceSensor`).
+/// Radius of the Elisa-3's visible shape at the height of its sensors, metres: a white ring in its PROTO. In Webots,
+/// infra-red sensors see visible shapes instead of bounding objects (reference manual, `DistanceSensor`).
 const SHAPE_M: f64 = 0.021;
-/// Factor between true and measured distance for that ring: 0.2 + 0.8 · 1 · (1 − 0.5 · 0.4) (equation in Webots' reference
+/// Factor from measured to true distance for that ring: 0.2 + 0.8 · 1 · (1 − 0.5 · 0.4) (equation in Webots' reference
 /// manual, `DistanceSensor`).
 const REFLECTION: f64 = 0.84;
 
 /// Type of a distance sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SensorKind {
-    /// Its rays end at bounding objects.
+    /// A sensor whose rays end at bounding objects.
     Bounds,
-    /// Its rays end at visible shapes, and colours change the distance.
+    /// A sensor whose rays end at visible shapes, and whose measured distance depends on the shape's colour.
     InfraRed,
 }
 
@@ -44,7 +44,7 @@ struct Sensor {
 }
 
 impl DistanceSensors {
-    /// Finds and enables the sensors; `None` if the robot has fewer than `LEAST`.
+    /// Finds the sensors and has them sampled every `step_ms` milliseconds. `None` if the robot has fewer than `LEAST`.
     pub(crate) fn find(library: &LibController, step_ms: i32) -> Option<Self> {
         // Stops at the first missing device, because Webots prints a warning for each.
         let tags: Vec<DeviceTag> = NAMES.iter().map_while(|name| library.device(name)).collect();
@@ -59,8 +59,8 @@ impl DistanceSensors {
         Some(Self { sensors })
     }
 
-    /// Gaps from rim to rim, metres, counter-clockwise from the front, in the directions of the robot core. Infinite
-    /// if nothing is in sight, and before the first sample.
+    /// Gaps from the robot's rim to the rims of other robots in the eight directions of the robot core, metres,
+    /// counter-clockwise from the front. Infinite if nothing is in range, and before the first sample.
     pub(crate) fn gaps_m(&self, library: &LibController) -> [f32; 8] {
         let along_m = self.sensors.iter().map(|Sensor { tag, kind, table }| {
             along_m(*kind, table.distance_m(library.distance_value(*tag)))
@@ -69,7 +69,8 @@ impl DistanceSensors {
     }
 }
 
-/// Gap from rim to rim for a distance straight ahead of a sensor, metres.
+/// Gap from the robot's rim to the rim of a robot straight ahead of a sensor, metres, if the sensor measures
+/// `distance_m`.
 fn along_m(kind: SensorKind, distance_m: f64) -> f64 {
     let radius_m = Limits::ELISA_3.radius_m;
     let along_m = match kind {
@@ -79,19 +80,19 @@ fn along_m(kind: SensorKind, distance_m: f64) -> f64 {
     along_m.max(0.0)
 }
 
-/// Table from distances to values, linear between its rows.
+/// Table from distances to sensor values, linear between its rows.
 struct Table {
-    /// (distance in metres, value), sorted by distance.
+    /// Pairs of distance in metres and sensor value, sorted by distance.
     rows: Vec<(f64, f64)>,
 }
 
 impl Table {
-    /// A table from rows of distance, value and noise, sorted by distance.
+    /// Makes a table from rows of distance, value and noise that are sorted by distance.
     fn new(rows: &[[f64; 3]]) -> Self {
         Self { rows: rows.iter().map(|row| (row[0], row[1])).collect() }
     }
 
-    /// Distance for a value, metres; infinite at the end of the range and for NaN.
+    /// Distance at which the sensor has a value, metres; infinite at the end of its range and for NaN.
     fn distance_m(&self, value: f64) -> f64 {
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return f64::INFINITY };
         let falls = first.1 > last.1;

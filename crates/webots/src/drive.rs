@@ -1,4 +1,5 @@
-//! The control loop, once per step of the simulation: receive, sense, calculate, act, send.
+//! The control loop of the driver. In each step of the simulation it receives messages, reads sensors, runs the robot
+//! core, commands the motors, and sends messages.
 
 use lightbots_base::{Instant, Limits, RobotId, Vec2};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent, Sender, robot_client_id};
@@ -15,19 +16,21 @@ pub struct DriverSettings {
     pub id: RobotId,
     /// Broker.
     pub broker: BrokerUrl,
-    /// Whether the proximity sensors stay disabled.
+    /// Whether the proximity sensors stay switched off.
     pub blind: bool,
 }
 
-/// Step of the robot core, milliseconds, as in the simulator (docs/simulator.md). With 32 ms, curves deviate
-/// (docs/webots.md).
+/// Wanted step of the robot core, milliseconds, as in the simulator (docs/simulator.md). With 32 ms, robots deviate on
+/// curves (docs/webots.md).
 const STEP_MS: f64 = 16.0;
-/// Most queued messages in each direction: four times `MESSAGES_PER_STEP`, more than a robot receives in a second.
+/// Largest number of queued messages in each direction: four times `MESSAGES_PER_STEP`, more than a robot receives in a
+/// second.
 const QUEUE: usize = 256;
-/// Most messages handled in one step. The others wait for the next step, so that messages never delay the wheels.
+/// Largest number of messages handled in one step. The others wait for the next step, so that messages never delay the
+/// wheels.
 const MESSAGES_PER_STEP: usize = 64;
 
-/// Drives the robot until the simulation ends. Must be called in a tokio runtime, after [`LibController::init`].
+/// Drives the robot until the simulation ends. Call it in a tokio runtime, after [`LibController::init`].
 pub fn drive(library: &LibController, settings: &DriverSettings) -> Result<(), MissingDevice> {
     let step_ms = step_ms(library.basic_time_step_ms());
     let mut body = WebotsBody::new(library, step_ms, settings.blind)?;
@@ -52,12 +55,13 @@ pub fn drive(library: &LibController, settings: &DriverSettings) -> Result<(), M
     Ok(())
 }
 
-/// Converts the real time since the start to the robot's own clock.
+/// Converts the real time since the start of this process to the robot's own clock.
 fn own(passed: std::time::Duration) -> Instant {
     Instant::from_secs(passed.as_secs_f64())
 }
 
-/// Returns the step of the driver: the smallest multiple of the world's step that is not below `STEP_MS`, milliseconds.
+/// Returns the step of the driver, milliseconds: the smallest multiple of the world's step `basic_ms` that is at least
+/// `STEP_MS`.
 fn step_ms(basic_ms: f64) -> i32 {
     let basic_ms = basic_ms.max(1.0);
     ((STEP_MS / basic_ms).ceil().max(1.0) * basic_ms) as i32

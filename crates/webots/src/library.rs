@@ -1,6 +1,6 @@
-//! The functions of libController that a robot needs, bound when the program starts.
+//! The functions of libController that a robot needs. They are looked up when the program starts.
 //!
-//! Source: Webots R2025a, `include/controller/c/webots/*.h`; R2023b has the same symbols.
+//! Source: Webots R2025a, `include/controller/c/webots/*.h`; R2023b has functions of equal names.
 #![allow(unsafe_code)]
 
 use std::ffi::{CString, c_char, c_double, c_int};
@@ -9,10 +9,11 @@ use std::path::Path;
 
 use crate::library_paths;
 
-/// Tag of a device of the robot; 0 is no device.
+/// Webots' number for a device of the robot; 0 is no device.
 pub type DeviceTag = u16;
 
-/// libController, loaded and bound. All calls come from one thread: the library holds one lock during a step.
+/// libController, loaded, with its functions. Call them all from one thread, because the library holds a lock during a
+/// step.
 pub struct LibController {
     init: extern "C" fn() -> c_int,
     step: extern "C" fn(c_int) -> c_int,
@@ -61,7 +62,8 @@ macro_rules! bind {
 }
 
 impl LibController {
-    /// Finds libController as Webots' own controllers do and binds it. `home` is the value of `WEBOTS_HOME`.
+    /// Finds libController where Webots' own controllers look for it, and loads it. `home`: value of `WEBOTS_HOME`, if
+    /// it is set.
     pub fn load(home: Option<&Path>) -> Result<Self, LoadError> {
         let mut tried = Vec::new();
         for place in library_paths::candidates(home) {
@@ -109,17 +111,18 @@ impl LibController {
         (self.init)();
     }
 
-    /// Advances the simulation by `millis`, a multiple of the basic step. Returns `false` if the simulation ends.
+    /// Advances the simulation by `millis` milliseconds, a multiple of the world's basic step. Returns `false` if the
+    /// simulation ends.
     pub fn step(&self, millis: i32) -> bool {
         (self.step)(millis) != -1
     }
 
-    /// Disconnects from the simulation. If the simulation ends, this call ends the process, so it must be the last.
+    /// Disconnects from the simulation. Make this the last call: if the simulation ends, it ends the process.
     pub fn cleanup(&self) {
         (self.cleanup)();
     }
 
-    /// The robot's name in the world.
+    /// The robot's name in the Webots world.
     pub fn name(&self) -> String {
         let text = (self.name)();
         if text.is_null() {
@@ -129,30 +132,30 @@ impl LibController {
         unsafe { std::ffi::CStr::from_ptr(text) }.to_string_lossy().into_owned()
     }
 
-    /// Simulated seconds since the start.
+    /// Simulated time since the start of the simulation, seconds.
     pub fn time_s(&self) -> f64 {
         (self.time)()
     }
 
-    /// The world's step, milliseconds.
+    /// Basic step of the Webots world, milliseconds.
     pub fn basic_time_step_ms(&self) -> f64 {
         (self.basic_time_step)()
     }
 
-    /// A device by its name; `None` if the robot lacks it.
+    /// The device with this name; `None` if the robot has no such device.
     pub fn device(&self, name: &str) -> Option<DeviceTag> {
         let name = CString::new(name).ok()?;
         Some((self.device)(name.as_ptr())).filter(|tag| *tag != 0)
     }
 
-    /// Sets a motor's target position as its sensor reads it, radians. With infinity, the motor turns at its rate
-    /// without end.
+    /// Sets a motor's target position, in radians as the motor's sensor reads them. With infinity, the motor turns at
+    /// its rate without end.
     pub fn motor_position(&self, motor: DeviceTag, radians: f64) {
         (self.motor_position)(motor, radians);
     }
 
-    /// Sets a motor's rate, rad/s. It may be negative only without a target position: towards a position, Webots
-    /// chooses the sign.
+    /// Sets a motor's rate, rad/s. It may be negative only if the target position is infinite. Towards a finite
+    /// position, Webots chooses the sign.
     pub fn motor_velocity(&self, motor: DeviceTag, radps: f64) {
         (self.motor_velocity)(motor, radps);
     }
@@ -172,7 +175,7 @@ impl LibController {
         (self.gps_enable)(gps, millis);
     }
 
-    /// World x, y, z of a GPS, metres; NaN before its first sample.
+    /// World x, y and z of a GPS, metres; NaN before its first sample.
     pub fn gps_values(&self, gps: DeviceTag) -> [f64; 3] {
         three((self.gps_values)(gps))
     }
@@ -182,7 +185,7 @@ impl LibController {
         (self.compass_enable)(compass, millis);
     }
 
-    /// Direction of north in body space; NaN before the first sample.
+    /// Direction of north in body space, as x, y and z; NaN before the first sample.
     pub fn compass_values(&self, compass: DeviceTag) -> [f64; 3] {
         three((self.compass_values)(compass))
     }
@@ -197,17 +200,18 @@ impl LibController {
         (self.distance_enable)(sensor, millis);
     }
 
-    /// Value of a distance sensor, in the units of its table; NaN before its first sample.
+    /// Value of a distance sensor, in the units of its look-up table; NaN before its first sample.
     pub fn distance_value(&self, sensor: DeviceTag) -> f64 {
         (self.distance_value)(sensor)
     }
 
-    /// Whether a distance sensor depends on colours (`WB_DISTANCE_SENSOR_INFRA_RED`).
+    /// Whether the readings of a distance sensor depend on colours (`WB_DISTANCE_SENSOR_INFRA_RED`).
     pub fn distance_is_infra_red(&self, sensor: DeviceTag) -> bool {
         (self.distance_type)(sensor) == 1
     }
 
-    /// Table of a distance sensor: distance in metres, value, noise as a share of the value; sorted by distance.
+    /// Look-up table of a distance sensor. Each row: distance in metres, value, noise as a share of the value. Sorted
+    /// by distance.
     pub fn distance_table(&self, sensor: DeviceTag) -> Vec<[f64; 3]> {
         let rows = usize::try_from((self.distance_table_size)(sensor)).unwrap_or(0);
         let table = (self.distance_table)(sensor);

@@ -1,4 +1,4 @@
-//! Paths of libController.
+//! Paths at which libController may be.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ const NAME: &str = if cfg!(windows) {
     "libController.so"
 };
 
-/// Folders of default installations of Webots.
+/// Folders in which Webots is installed by default.
 const INSTALLATIONS: [&str; 4] = [
     "/usr/local/webots",
     "/snap/webots/current/usr/share/webots",

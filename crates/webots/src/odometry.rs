@@ -1,7 +1,7 @@
 //! Wheel turns from Webots' position sensors.
 
-/// Returns the true turn of a wheel in a step for the turn that its sensor reads, radians. In a step, Webots' sensors
-/// read 2·atan(w/2) for a turn w (measured in R2023b: 60 rad/s reads 55.9 at 16 ms). NaN gives NaN.
+/// Returns the true turn of a wheel in a step, radians, for the turn `read_rad` that its sensor shows. For a turn w in
+/// a step, Webots' sensors show 2·atan(w/2) (measured in R2023b: 60 rad/s reads 55.9 at 16 ms). NaN gives NaN.
 pub(crate) fn wheel_turn_rad(read_rad: f64) -> f64 {
     2.0 * (read_rad / 2.0).tan()
 }

@@ -1,27 +1,28 @@
-//! Converts distances along rays to the gaps of the core's sensors.
+//! Converts distances along rays to the gaps that the sensors of the robot core would measure.
 //!
-//! A ray measures the distance along its line only. A sensor of the core measures the nearest point around its
-//! direction. Each obstacle is assumed to be a robot. If two neighbouring rays meet it, it is the disc with both
-//! points on its rim. If a single ray meets it, it lies straight ahead of that ray, and `BESIDE_M` nearer.
+//! A ray measures the distance along its line only. A sensor of the robot core measures the nearest point within a
+//! cone. Each obstacle is assumed to be a robot. If two neighbouring rays meet an obstacle, it is the disc that has
+//! both points on its rim. If a single ray meets an obstacle, it is a disc straight ahead of that ray, `BESIDE_M`
+//! nearer than measured.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use lightbots_base::{Limits, Vec2};
 
-/// Number of the core's sensors, 45° apart (docs/simulator.md).
+/// Number of sensors of the robot core, 45° apart (docs/simulator.md).
 const SENSORS: usize = 8;
-/// Cosine of the half cone of a sensor of the core: 50° (docs/simulator.md).
+/// Cosine of half the angle of a sensor's cone in the robot core: half the angle is 50° (docs/simulator.md).
 const CONE_COS: f64 = 0.642_787_609_686_539_3;
-/// Correction for a robot that a single ray meets, metres. A ray beside the centre reads up to 1.8 mm too far at 10 mm
-/// (measured by test `rays`). Below: robots touch others that stand 9 to 12 mm beside their path. Above, at 3 mm: the
-/// estimated position is wrong.
+/// Distance by which a robot that only one ray meets is assumed to be nearer than measured, metres. A ray beside the
+/// robot's centre reads up to 1.8 mm too far at 10 mm (measured by test `rays`). With a smaller value, robots touch
+/// others that stand 9 to 12 mm beside their path. At 3 mm, the estimated position is wrong.
 const BESIDE_M: f64 = 0.002;
 /// Radius of a robot, metres.
 const RADIUS_M: f64 = Limits::ELISA_3.radius_m;
 
-/// Gaps of the core's sensors, metres, counter-clockwise from the front. `along_m`: distance along each ray from the
-/// robot's rim, metres, infinite if the ray meets nothing. The rays leave the robot's centre at equal angles,
-/// counter-clockwise from the front.
+/// Gaps of the robot core's sensors, metres, counter-clockwise from the front; infinite if nothing is in a sensor's
+/// cone. `along_m`: distance along each ray from the robot's rim, metres, infinite if the ray meets nothing. The rays
+/// leave the robot's centre at equal angles, counter-clockwise from the front.
 pub fn gaps_m(along_m: &[f64]) -> [f32; SENSORS] {
     let rays = along_m.len();
     let met = |ray: usize| {
@@ -41,8 +42,8 @@ pub fn gaps_m(along_m: &[f64]) -> [f32; SENSORS] {
     gaps_m.map(|gap_m| gap_m.max(0.0) as f32)
 }
 
-/// Centre, in body space, of the robot with two points on its rim; `left` is counter-clockwise of `right`. `None`: the
-/// points are too far apart for one robot.
+/// Centre, in body space, of the robot that has the two points on its rim; `left` is counter-clockwise of `right`.
+/// `None` if the points are too far apart for one robot.
 fn disc_through(right: Vec2, left: Vec2) -> Option<Vec2> {
     let (middle, half) = ((right + left) * 0.5, (left - right) * 0.5);
     let beyond_m2 = RADIUS_M * RADIUS_M - half.length_squared();
@@ -50,7 +51,7 @@ fn disc_through(right: Vec2, left: Vec2) -> Option<Vec2> {
     (beyond_m2 > 0.0).then(|| middle + away * beyond_m2.sqrt())
 }
 
-/// Lowers the gaps of those sensors that see a robot around `centre`, if it is nearer.
+/// Lowers the gap of each sensor whose cone contains a robot with centre `centre`, if this robot is nearer.
 fn see(gaps_m: &mut [f64; SENSORS], centre: Vec2) {
     for (sensor, gap_m) in gaps_m.iter_mut().enumerate() {
         let looks = Vec2::unit(sensor as f64 * FRAC_PI_4);

@@ -1,56 +1,58 @@
 //! Two clocks that connect the time of the simulation with the show clock.
 //!
-//! The *own clock* is this machine's clock. It is synchronised with the show clock, so it must not be adjusted. The *world
-//! clock* counts the steps of the simulation, slightly faster or slower, so that it follows the own clock. Routes use the
-//! world clock. All robots of a simulation take its steps together and read the same machine's clock, so their world clocks
-//! agree. In a simulation that is slower than real time or pauses, the robots therefore keep their planned distances.
+//! The *own clock* is this machine's clock. It is synchronised with the show clock, so it must not be adjusted. The
+//! *world clock* counts the steps of the simulation, but runs slightly faster or slower than the simulation to follow
+//! the own clock. Routes use the world clock. All robots of a simulation step together and read one machine's clock, so
+//! their world clocks agree. Therefore robots keep their planned distances even in a simulation that pauses or is
+//! slower than real time.
 
 use std::time::Duration;
 
 use lightbots_base::{Instant, Span};
 
-/// Share of the lag that a driving robot recovers in a step. Above: a late reading of the clock on a busy machine moves the
-/// robot. Below: the lag grows. A simulation at 0.967 of real time (docs/webots.md) lags by 0.034 of a step divided by this
-/// share, which is 11 ms or 3 mm.
+/// Share of the lag (own clock minus world clock) that a driving robot makes up in a step. With a larger share, a late
+/// reading of the clock on a busy machine moves the robot. With a smaller share, the lag grows. A simulation at 0.967
+/// of real time (docs/webots.md) lags by 0.034 of a step divided by this share, which is 11 ms or 3 mm.
 const DRIVING_SHARE: f64 = 0.05;
-/// As `DRIVING_SHARE`, for a robot without a route: larger, because it does not move.
+/// Like `DRIVING_SHARE`, for a robot without a route. It is larger, because a robot at rest is not moved by it.
 const RESTING_SHARE: f64 = 0.3;
-/// Largest rate of the world clock, world seconds per simulated second, for a driving robot. Above: accelerations grow
-/// with its square, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
+/// Largest rate of the world clock for a driving robot, world seconds per simulated second. Accelerations grow with the
+/// square of this rate, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
 const DRIVING_RATE: f64 = 1.1;
-/// As `DRIVING_RATE`, for a robot without a route. The last robot to arrive has at least 0.3 s until the next `START`, in
-/// which it recovers a lag of 4 s. Below: that robot begins late.
+/// Like `DRIVING_RATE`, for a robot without a route. The last robot to arrive has at least 0.3 s until the next
+/// `START`. At this rate it makes up a lag of 4 s in that time. With a smaller rate it would begin late.
 const RESTING_RATE: f64 = 14.0;
-/// Real time of a step above which it counts as a pause, seconds: about three steps of 16 ms. Below: jitter of a busy
-/// machine counts as pauses. Above: short pauses move robots. A choice, not measured.
+/// A step that takes longer than this in real time counts as a pause, seconds: about three steps of 16 ms. With a
+/// smaller value, jitter of a busy machine counts as pauses. With a larger value, short pauses move robots. Chosen, not
+/// measured.
 const PAUSE_S: f64 = 0.05;
-/// Least advance of the world clock in a step, seconds, so that the robot core never sees the same moment twice.
+/// Least advance of the world clock in a step, seconds. Without it the robot core could see one moment twice.
 const LEAST_S: f64 = 0.000_5;
 
 /// The time of one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tick {
-    /// Own clock.
+    /// Present time on the own clock.
     pub now: Instant,
     /// Own clock minus world clock; negative if the world clock is ahead.
     pub lag: Span,
-    /// Rate of the world clock, world seconds per simulated second. Wheel rates are multiplied by it, so that speeds
-    /// per world time are those of the robot core.
+    /// Rate of the world clock, world seconds per simulated second. The driver multiplies wheel rates by it. Speeds per
+    /// world time are then those that the robot core commands.
     pub rate: f64,
 }
 
 /// The two clocks of a robot.
 #[derive(Debug, Default)]
 pub(crate) struct WorldClock {
-    /// Simulated time and world clock at the latest step, seconds.
+    /// Simulated time and world clock at the latest step, both in seconds; `None` before the first step.
     last: Option<(f64, f64)>,
     /// Own clock at the latest step, seconds.
     last_real_s: f64,
 }
 
 impl WorldClock {
-    /// Returns the time of the step at `simulated_s` seconds of the simulation, when the own clock is at `passed`.
-    /// `drives`: a route is under way.
+    /// Returns the times of a step. `simulated_s`: time of the simulation, seconds. `passed`: time on the own clock.
+    /// `drives`: whether a route is under way.
     pub(crate) fn tick(&mut self, simulated_s: f64, passed: Duration, drives: bool) -> Tick {
         let real_s = passed.as_secs_f64();
         // The first step after a pause counts as one usual step.

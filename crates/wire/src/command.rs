@@ -4,7 +4,7 @@ use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
 use crate::{LightStretch, LiveColours, LiveRelease, Neighbours};
 
-/// Most pieces of a route (R31). The controller rejects a frame whose plan has a longer path.
+/// Largest number of pieces of a route (R31). The controller rejects a frame whose plan has a longer path.
 pub const MAX_PIECES: usize = 128;
 
 /// The pieces of a route.
@@ -21,7 +21,8 @@ pub enum Command {
     Color(Rgb),
     /// `UUID`: report on `T/LightBot/UUID` at once.
     Uuid,
-    /// `PATH …`: keep this route until a `START` names its number. It replaces a route that is kept and has not begun.
+    /// `PATH …`: keep this route until a `START` names its number. The route replaces another one that is kept and has
+    /// not begun.
     Route(Route),
     /// `START seq at`: the kept route `seq` begins at this moment of the show clock.
     Start {
@@ -30,20 +31,21 @@ pub enum Command {
         /// Moment on the show clock.
         at: Instant,
     },
-    /// `HOLD at`: from this moment of the show clock on, progress along the route slows to rest within
-    /// [`Route::EASE`], the same for every robot.
+    /// `HOLD at`: from this moment of the show clock on, the rate of progress along the route falls to zero within
+    /// [`Route::EASE`]. All robots slow down in the same way.
     Hold {
         /// Moment on the show clock.
         at: Instant,
     },
-    /// `RESUME at`: from this moment on, progress along the route returns to full rate within [`Route::EASE`].
+    /// `RESUME at`: from this moment of the show clock on, progress along the route returns to its full rate within
+    /// [`Route::EASE`].
     Resume {
         /// Moment on the show clock.
         at: Instant,
     },
     /// `STOP`: wheels stop at once; target and routes are deleted.
     Stop,
-    /// `STOP at`: slow down to rest as by `HOLD at`, then stop as by `STOP`.
+    /// `STOP at`: from this moment on slow down as by `HOLD at`, and once at rest stop as by `STOP`.
     StopFrom {
         /// Moment on the show clock.
         at: Instant,
@@ -56,7 +58,7 @@ pub enum Command {
     Blink(Blink),
     /// `LIGHT …`: a stretch of the robot's light, sent ahead of time.
     Light(LightStretch),
-    /// `SLOT k`: the number by which `LIVE` and `RELEASE` address the robot.
+    /// `SLOT k`: the robot gets this number, by which `LIVE` and `RELEASE` address it.
     Slot(u16),
     /// `LIVE n first colours`: colours from a lighting desk or another program, for many robots.
     Live(LiveColours),
@@ -66,7 +68,7 @@ pub enum Command {
     Status,
 }
 
-/// A timed path that a robot keeps.
+/// A timed path that a robot keeps until its START.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
     /// Number chosen by the controller, never 0; a robot repeats it in its reports.
@@ -75,14 +77,16 @@ pub struct Route {
     pub start: Vec2,
     /// Pieces of the route in order.
     pub pieces: Pieces,
-    /// Least planned clearance to the rims of other robots, whole millimetres; `None` if it is not sent.
+    /// Least planned clearance (distance from rim to rim) to other robots, whole millimetres; `None` if it is not sent.
     pub room_mm: Option<u16>,
-    /// Robots that come into sight of the sensors by plan, with places and times.
+    /// Other robots that come into sight of this robot's sensors by plan, with their planned places and times. They are
+    /// only sent if `room_mm` is `Some`.
     pub neighbours: Neighbours,
 }
 
 impl Route {
-    /// Time in which a hold brings progress to rest, and a resume back to full rate; linear in both directions (R38).
+    /// Time in which a HOLD brings progress along routes to rest, and in which a RESUME brings it back to the full
+    /// rate. The rate changes linearly (R38).
     pub const EASE: Span = Span::from_millis(300);
 }
 

@@ -9,13 +9,13 @@ use crate::number::{instant, number, span};
 use crate::path::decode_route;
 use crate::{Blink, Command, Fade, TimeAnswer};
 
-/// Longest payload that a robot reads, bytes (R4). A route of [`crate::MAX_PIECES`] curves needs half of it.
+/// Longest payload that a robot reads, bytes (R4). A route of [`crate::MAX_PIECES`] curves needs half of these bytes.
 pub const MAX_PAYLOAD: usize = 16 * 1024;
 
 /// Longest duration of a `BLINK` (R24); a longer one is shortened.
 const LONGEST_BLINK: Span = Span::from_millis(60_000);
 
-/// Why a part of a payload is not a command. The robot counts and drops the part (R7).
+/// Why a part of a payload is not a command. The robot counts and ignores the part (R7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// The first word is not a known command.
@@ -28,7 +28,7 @@ pub enum Unknown {
     TooLong,
 }
 
-/// Iterator over the commands of a payload; decodes each when it is requested.
+/// Iterator over the commands of a payload. Each command is decoded when the caller requests it.
 #[derive(Clone, Debug)]
 pub struct Commands<'a> {
     /// Text that is not read yet.
@@ -63,8 +63,8 @@ impl Iterator for Commands<'_> {
     }
 }
 
-/// Decodes one command from its word and the fields after it. Surplus fields are ignored, so that later versions may add
-/// some.
+/// Decodes one command from its first word and the fields after it. Surplus fields are ignored, because later versions
+/// of the protocol may add some.
 // Each arm builds the whole result in place: a command has room for a route, and another move would copy all of it, even
 // for a `HOLD`.
 fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown>> {
@@ -90,7 +90,7 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
     }
 }
 
-/// Returns the command of a decoded value, or why it could not be decoded.
+/// Returns the command of a decoded value, or why it could not be decoded; always `Some`, as the iterator returns it.
 #[inline(always)]
 fn made<T>(read: Result<T, Unknown>, command: impl Fn(T) -> Command) -> Option<Result<Command, Unknown>> {
     match read {

@@ -9,8 +9,8 @@ use crate::number::{write_int, write_six_decimals};
 use crate::path::encode_route;
 use crate::text_buffer::TextBuffer;
 
-/// Appends one command between bars, as the original writes it: `|TARGET 0.500000 -1.250000|`. Several calls build one
-/// payload.
+/// Appends one command between bars, as the original program writes it: `|TARGET 0.500000 -1.250000|`. Several calls
+/// with the same `out` build one payload.
 pub fn encode(command: &Command, out: &mut dyn Write) -> fmt::Result {
     let mut buffer = TextBuffer::new(out);
     write(command, &mut buffer)?;

@@ -1,8 +1,9 @@
 //! Splits texts into fields, eight bytes at a time, because a controller reads many short messages.
 
-/// The lowest bit of each byte of a word: the multiplier that repeats a byte eight times.
+/// A word of eight bytes in which the lowest bit of each byte is set. Multiplied by a byte, it repeats this byte eight
+/// times.
 const LOW_BITS: u64 = 0x0101_0101_0101_0101;
-/// The highest bit of each byte of a word.
+/// A word of eight bytes in which the highest bit of each byte is set.
 const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
 
 /// Iterator over the fields between ASCII whitespace, equal to `str::split_ascii_whitespace`.
@@ -36,8 +37,8 @@ impl<'a> Iterator for Fields<'a> {
     }
 }
 
-/// Returns the texts before and after the first `stop`, an ASCII character. If there is no `stop`, the first is the
-/// whole text and the second `None`.
+/// Returns the texts before and after the first `stop`, an ASCII character. If the text has no `stop`, returns the
+/// whole text and `None`.
 #[inline]
 pub(crate) fn cut(text: &str, stop: u8) -> (&str, Option<&str>) {
     let pattern = LOW_BITS * u64::from(stop);
@@ -45,8 +46,9 @@ pub(crate) fn cut(text: &str, stop: u8) -> (&str, Option<&str>) {
     (&text[..end], text.get(end + 1..))
 }
 
-/// Returns the index of the first byte for which `sought` holds, or the length. `marks` sets the highest bit of
-/// candidate bytes in a word. Only its lowest mark has to be a candidate; higher ones may be wrong.
+/// Returns the index of the first byte for which `sought` holds, or the number of bytes if there is none. `marks` gets
+/// eight bytes as a word, and sets the highest bit of each byte for which `sought` may hold. Only the lowest bit that
+/// it sets has to be right; the search goes on behind that byte.
 #[inline]
 fn first(bytes: &[u8], marks: impl Fn(u64) -> u64, sought: impl Fn(u8) -> bool) -> usize {
     let mut at = 0;

@@ -11,7 +11,8 @@ use crate::text_buffer::TextBuffer;
 
 /// Most records of a light track that a robot keeps (R55).
 pub const MAX_LIGHT_RECORDS: usize = 192;
-/// Most bytes of a track: the start colour, and records of four bytes of duration and three of colour.
+/// Largest number of bytes of a track: the start colour, and for each record four bytes of duration and three of
+/// colour.
 const MAX_TRACK_BYTES: usize = 3 + 7 * MAX_LIGHT_RECORDS;
 
 /// The records of a stretch of light.
@@ -21,11 +22,11 @@ pub type LightRecords = heapless::Vec<LightRecord, MAX_LIGHT_RECORDS>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LightAnchor {
-    /// `S12`: the START of the route with this number. Time is the path time of that route.
+    /// `S12`: the START of the route with this number. The time of the stretch is then the path time of that route.
     Start(u32),
-    /// `A9000000`: this moment of the show clock, microseconds. Time stands during later holds.
+    /// `A9000000`: this moment of the show clock, microseconds. The time of the stretch stands during later holds.
     Moment(Instant),
-    /// `F9000000`: this moment of the show clock, microseconds. Time goes on during holds.
+    /// `F9000000`: this moment of the show clock, microseconds. The time of the stretch goes on during holds.
     Free(Instant),
 }
 
@@ -36,9 +37,9 @@ pub struct LightStretch {
     pub number: u32,
     /// Moment from which the time of the stretch counts.
     pub anchor: LightAnchor,
-    /// Time since the anchor at which the track begins.
+    /// Time after the anchor at which the track begins.
     pub skip: Span,
-    /// Duration of the change from the colour shown before to the colours of the track.
+    /// How long the light changes from the colour shown before to the colours of the track.
     pub over: Span,
     /// Colour at the beginning of the track.
     pub start: Rgb,

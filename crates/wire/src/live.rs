@@ -10,7 +10,8 @@ use crate::fields::Fields;
 use crate::number::write_digits;
 use crate::text_buffer::TextBuffer;
 
-/// Most colours of one `LIVE` (R60): the robots of a universe of DMX512, whose 512 channels hold 170 colours.
+/// Largest number of colours in one `LIVE` (R60): the robots of one universe of DMX512, whose 512 channels hold 170
+/// colours.
 pub const MAX_LIVE_COLOURS: usize = 170;
 /// Bytes of a colour: R, G, B.
 const COLOUR_BYTES: usize = 3;
@@ -18,16 +19,16 @@ const COLOUR_BYTES: usize = 3;
 /// `LIVE n first colours`: colours for robots in consecutive slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LiveColours {
-    /// Number chosen by the controller, never 0, rising.
+    /// Number chosen by the controller, never 0. Each message has a higher number than the messages before.
     pub number: u32,
     /// Slot of the first colour.
     pub first: u16,
-    /// Colours by slot, at least one.
+    /// Colours for the slots from `first` on, in order; at least one.
     pub colours: heapless::Vec<Rgb, MAX_LIVE_COLOURS>,
 }
 
 impl LiveColours {
-    /// Returns the colour for the robot in a slot; `None` if the message has none for that slot.
+    /// Returns the colour for the robot in a slot. `None` if the message has no colour for that slot.
     pub fn of(&self, slot: u16) -> Option<Rgb> {
         self.colours.get(usize::from(slot.checked_sub(self.first)?)).copied()
     }

@@ -13,9 +13,9 @@ use crate::fields::Fields;
 use crate::number::write_int;
 use crate::text_buffer::TextBuffer;
 
-/// Most neighbours of one route (R31).
+/// Largest number of neighbours of one route (R31).
 pub const MAX_NEIGHBOURS: usize = 64;
-/// Most knots of all neighbours of one route (R31).
+/// Largest number of knots of all neighbours of one route together (R31).
 pub const MAX_KNOTS: usize = 256;
 
 /// Planned place and velocity of a neighbour at one moment.
@@ -40,7 +40,7 @@ pub struct Neighbour {
     pub count: u16,
 }
 
-/// The neighbours of a route, the nearest first.
+/// The neighbours of a route: first those that drive, then those that stand, each group with the nearest first (R31).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Neighbours {
     /// The neighbours.

@@ -9,12 +9,13 @@ use crate::text_buffer::TextBuffer;
 
 /// Longest text read as a number, bytes (R8). `Double.toString` needs at most 24.
 const MAX_NUMBER: usize = 32;
-/// Largest mantissa that an `f64` holds exactly (IEEE 754, 53 bits). One division by a power of ten then rounds correctly.
+/// Largest mantissa that an `f64` holds exactly (IEEE 754, 53 bits). Up to it, one division by a power of ten rounds
+/// correctly.
 const EXACT_MAX: u64 = 1 << 53;
-/// Powers of ten by exponent. All are exact in an `f64` (IEEE 754), as is each up to 10²².
+/// Powers of ten by exponent, 10⁰ to 10¹⁵. An `f64` holds each of them exactly, as it does all up to 10²² (IEEE 754).
 const POWERS_OF_TEN: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
-/// Latest instant on the wire, microseconds: a difference of two instants then always fits into `i64`, by definition.
+/// Latest instant that is read, microseconds. The difference of two instants up to this one always fits into an `i64`.
 const INSTANT_MAX_US: u64 = i64::MAX as u64;
 /// Longest duration on the wire: one hour (R22, R31).
 const DURATION_MAX: Span = Span(3_600_000_000);
@@ -24,8 +25,8 @@ const COORDINATE_MAX_M: f64 = 1000.0;
 /// counts as unknown.
 pub(crate) const DOUBLE_MAX: f64 = 1e6;
 
-/// Reads a number: decimal point or comma, exponent, `NaN`, `Infinity`. `None` for all other texts and for texts longer than
-/// `MAX_NUMBER`.
+/// Reads a number, which may have a decimal point or comma and an exponent, or be `NaN` or `Infinity`. `None` for all
+/// other texts and for texts longer than `MAX_NUMBER`.
 pub fn number(text: &str) -> Option<f64> {
     let bytes = text.as_bytes();
     if bytes.len() > MAX_NUMBER {
@@ -65,7 +66,7 @@ fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     Some(if negative { -value } else { value })
 }
 
-/// Reads all other numbers with the standard library's parser, after replacing the comma by a point.
+/// Reads any other number with the parser of the standard library, after each comma was replaced by a point.
 fn any_number(bytes: &[u8]) -> Option<f64> {
     let mut buffer = [0; MAX_NUMBER];
     let copy = &mut buffer[..bytes.len()];
@@ -98,7 +99,8 @@ pub(crate) fn tenths(metres: f64) -> i32 {
     round(metres.clamp(-COORDINATE_MAX_M, COORDINATE_MAX_M) * 1e4) as i32
 }
 
-/// Returns the nearest whole number, halves away from zero. `core` has no `f64::round` before 1.90 on bare metal.
+/// Returns the nearest whole number; halves are rounded away from zero. Before Rust 1.90, `core` has no `f64::round` on
+/// bare metal.
 fn round(value: f64) -> i64 {
     (value + if value < 0.0 { -0.5 } else { 0.5 }) as i64
 }
@@ -111,7 +113,8 @@ pub(crate) fn write_int(out: &mut TextBuffer<'_>, value: i64) -> fmt::Result {
     write_digits(out, value.unsigned_abs(), 1)
 }
 
-/// Writes a whole number, with leading zeros if it has fewer than `width` digits; `width` is at most 20.
+/// Writes a whole number with leading zeros up to `width` digits, which is at most 20. Longer numbers are written in
+/// full.
 pub(crate) fn write_digits(out: &mut TextBuffer<'_>, mut value: u64, width: usize) -> fmt::Result {
     if value < 10 && width <= 1 {
         return out.bytes(&[b'0' + value as u8]);
@@ -132,8 +135,8 @@ pub(crate) fn write_digits(out: &mut TextBuffer<'_>, mut value: u64, width: usiz
     out.bytes(&digits[first..])
 }
 
-/// Writes a number as C and Java print it with `%f` in an English locale: six decimals. Values beyond 10¹² are
-/// clamped.
+/// Writes a number as C and Java print it with `%f` in an English locale: with six decimals. Values beyond ±10¹² are
+/// written as ±10¹².
 pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() {
         return write_not_finite(out, value);

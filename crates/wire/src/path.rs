@@ -11,7 +11,8 @@ use crate::number::{metres, span, tenths, write_digits, write_int};
 use crate::text_buffer::TextBuffer;
 use crate::{Neighbours, Pieces, Route};
 
-/// A place in tenths of a millimetre, as on the wire, so that both sides calculate with equal values.
+/// A place as x and y in whole tenths of a millimetre, as it is sent. Controller and robot then calculate with equal
+/// values.
 type Tenths = [i32; 2];
 
 /// Reads the route after the word `PATH`; `None` if a field is invalid or there are more than `MAX_PIECES` pieces.
@@ -48,8 +49,8 @@ fn place(fields: &mut Fields<'_>) -> Option<Vec2> {
     Some(Vec2::new(x, y))
 }
 
-/// Writes `PATH …` without the bars around a command. Rounds places to a tenth of a millimetre; durations are at least
-/// one microsecond.
+/// Writes `PATH …` without the bars around a command. Places are rounded to a tenth of a millimetre, and durations are
+/// at least one microsecond.
 pub(crate) fn encode_route(route: &Route, out: &mut TextBuffer<'_>) -> fmt::Result {
     out.write_str("PATH ")?;
     write_int(out, i64::from(route.seq))?;

@@ -16,15 +16,16 @@ pub struct Report {
 /// The fields `key=value` after the position, in any order, all optional on the wire (R10).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Details {
-    /// Heading, radians in the stage.
+    /// Heading, radians counter-clockwise from the x axis of the stage; `None` if it is not known.
     pub heading: Option<f64>,
     /// Charge of the battery, percent.
     pub battery: Option<u8>,
     /// State (R12).
     pub state: RobotState,
-    /// Number of the kept route, else of the route under way, else of the route finished last; 0 if there is none.
+    /// Number of the kept route. Without one, that of the route under way, or else of the route finished last; 0 if
+    /// there is none.
     pub route: u32,
-    /// Start of that route, show clock; `None`: not known.
+    /// When that route begins or began, show clock; `None` if this is not known.
     pub starts: Option<Instant>,
     /// Number of the stretch of light that the robot received last; 0 if there is none (R55).
     pub light: u32,
@@ -32,8 +33,8 @@ pub struct Details {
     pub slot: Option<u16>,
     /// Distance between the robot and its planned place at this moment, metres; `None` if no route is under way.
     pub off_m: Option<f64>,
-    /// Standard deviation (1 sigma) of each coordinate of the position, metres. While fixes are missing on a route: the
-    /// value predicted for half a second later.
+    /// Standard deviation (1 sigma) of each coordinate of the position, metres. While position fixes are missing on a
+    /// route, it is the value predicted for half a second later.
     pub err_m: Option<f64>,
     /// Uncertainty (2 sigma) of the robot's show clock, microseconds; `None` if the clock is not synchronised.
     pub clock_us: Option<u32>,
@@ -41,9 +42,9 @@ pub struct Details {
     pub firmware: Firmware,
     /// Commands that it supports.
     pub abilities: Abilities,
-    /// Number of commands ignored by R7 since power-on.
+    /// Number of unknown or invalid commands that the robot has ignored since power-on (R7).
     pub unknown: u32,
-    /// Obstacle for which the robot stands or brakes (R49).
+    /// Obstacle for which the robot stands or brakes (R49). `None` if there is none.
     pub blocked: Option<Blocked>,
     /// Whether it reports itself as simulated (R52).
     pub simulated: bool,
@@ -60,7 +61,8 @@ pub struct Details {
 pub struct Blocked {
     /// Distance from the robot's rim to the obstacle, metres.
     pub gap_m: f64,
-    /// Direction of the obstacle, radians in the stage, accurate to about 15°.
+    /// Direction in which the obstacle is seen, radians counter-clockwise from the x axis of the stage, accurate to
+    /// about 15°.
     pub towards: f64,
 }
 
@@ -78,7 +80,7 @@ pub enum RobotState {
     Ready,
     /// Drives, to a target or along a route.
     Driving,
-    /// Drives a route that is held.
+    /// Has a route under way that is held: it slows down or stands until RESUME.
     Held,
     /// Stands because its position is not known.
     Lost,

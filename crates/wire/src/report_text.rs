@@ -13,8 +13,8 @@ use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuest
 const MAX_REPORT: usize = 1024;
 
 impl Report {
-    /// Reads a report: a name and two numbers at least; `None` for all other payloads. Invalid fields after them are
-    /// skipped.
+    /// Reads a report: a name and two numbers, then fields `key=value`. `None` if the name or a number is missing or
+    /// invalid. Invalid fields are skipped.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         let id = RobotId::new(fields.next()?)?;
@@ -89,7 +89,7 @@ fn text(payload: &[u8]) -> Option<&str> {
         .filter(|text| text.len() <= MAX_REPORT)
 }
 
-/// Stores one `key=value` field. The first known key creates the details, also if its value is invalid.
+/// Stores one `key=value` field. The first field with a known key creates the details, even if its value is invalid.
 fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
     match key {
         "h" => known(details).heading = finite(value),

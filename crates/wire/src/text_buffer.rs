@@ -2,11 +2,11 @@
 
 use core::fmt::{self, Write};
 
-/// Size of the buffer, bytes: most messages fit as a whole. Smaller: more calls of the sink. Larger: more stack. A
-/// report with all fields and long values needs 260 bytes (2026-11-24).
+/// Size of the buffer, bytes; most messages fit as a whole. With a smaller buffer the sink is called more often, and a
+/// larger one needs more stack. A report with all fields and long values needs 260 bytes (2026-11-24).
 const BUFFER_BYTES: usize = 320;
 
-/// Collects the many short parts of a message and writes them at once, because each call of the sink is dynamic.
+/// Collects the many short parts of a message and writes them together, because each call of the sink is a dynamic one.
 pub(crate) struct TextBuffer<'a> {
     out: &'a mut dyn Write,
     /// Buffered text, in whole UTF-8 characters; only the first `len` bytes count.

@@ -7,7 +7,8 @@ use crate::plan_request::PlanRequest;
 use lightbots_base::StateHash;
 use std::fmt::Write;
 
-/// Hashes of the outputs of each kind. They are separate, because each shell takes the kinds in an order of its choice.
+/// One hash for each kind of output. The hashes are separate, because a program may take the kinds of outputs in any
+/// order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct OutputDigest {
     sends: StateHash,

@@ -3,10 +3,11 @@
 use super::replaying::{HEAD_BYTES, LogError, Replay, ReplayObserver, ReplayReport, check_head};
 use crate::block::Blocks;
 
-/// Number of bytes of a whole log that are replayed between two reports of progress.
+/// Number of bytes that are replayed between two calls of `progress`.
 const PIECE: usize = 1 << 18;
 
-/// Replays a log and compares the outputs. `progress` is called again and again with the share that is done, 0 to 1.
+/// Replays a whole log and compares the outputs with the recorded digests. `progress` is called repeatedly with the
+/// share of bytes that were replayed, 0 to 1.
 pub fn replay(log: &[u8], progress: &mut dyn FnMut(f64)) -> Result<ReplayReport, LogError> {
     replay_observed(log, progress, &mut |_, _, _| {})
 }
@@ -31,23 +32,24 @@ pub fn replay_observed(
     replay.finish()
 }
 
-/// The replay of a log while its bytes come, about a second behind the controller that writes the log.
+/// Replays a log while it is being written. Blocks last about a second, so the replay is about a second behind the
+/// recorded controller.
 #[derive(Debug, Default)]
 pub struct GrowingReplay {
-    /// Bytes that were received and are no whole block yet.
+    /// Bytes that were fed and are not replayed yet, because they are no whole block.
     pending: Vec<u8>,
-    /// Number of bytes of the log before `pending`.
+    /// Number of bytes of the log that come before `pending`.
     read: usize,
     replay: Option<Replay>,
 }
 
 impl GrowingReplay {
-    /// Whether the replay is over, so that further bytes are ignored: the log ended, or an output differed.
+    /// Whether the replay is over: the log has ended, or an output differed. Further bytes are then ignored.
     pub fn is_over(&self) -> bool {
         self.replay.as_ref().is_some_and(Replay::is_over)
     }
 
-    /// Takes in the next bytes of the log, and replays all blocks that are whole.
+    /// Appends the next bytes of the log, and replays all blocks that are whole now.
     pub fn feed(&mut self, bytes: &[u8], observe: &mut ReplayObserver<'_>) -> Result<(), LogError> {
         if self.is_over() {
             return Ok(());
@@ -76,7 +78,7 @@ impl GrowingReplay {
         Ok(())
     }
 
-    /// Ends the replay and returns its report; an error if the header never was whole.
+    /// Ends the replay and returns its report; an error if the header was not whole.
     pub fn finish(self) -> Result<ReplayReport, LogError> {
         Ok(self.replay.ok_or(LogError::NoHeader)?.report(self.read))
     }

@@ -5,16 +5,19 @@ use crate::operation::Operation;
 use lightbots_base::Span;
 use serde::{Deserialize, Serialize};
 
-/// One input, or the outputs that were taken after one. Each `after` is the time since the input before.
+/// One input, or the outputs that were taken after an input. `after`, or the single field of a variant, is the time
+/// since the input before.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Record<'a> {
     /// A call of `wake`: time passed.
     Wake(Span),
-    /// A robot's message. Its payload has the front and the back of an earlier payload.
+    /// A robot's message. Its payload consists of the first `front` bytes of an earlier payload, `middle`, and the last
+    /// `back` bytes of the earlier payload.
     Message {
         after: Span,
         topic: RobotTopic,
-        /// Number of the earlier payload in the list of `senders`, counted from 1; 0 if there is none.
+        /// Number of the earlier payload in the list of `Senders`, counted from 1; 0 if there is none, and `middle` is
+        /// the whole payload.
         like: u32,
         /// Number of bytes with which both payloads begin.
         front: u16,
@@ -34,15 +37,15 @@ pub(crate) enum Record<'a> {
     Planned {
         after: Span,
         number: u64,
-        /// Number of the planner's check at which it was cancelled, counted from 1; 0 if it was not.
+        /// Number of the planner's check at which planning was cancelled, counted from 1; 0 if it was not cancelled.
         cancelled_at: u64,
     },
-    /// Outputs of these kinds ([`OutputKinds`]) were taken. `digest`: the two lowest bytes of the digest of all outputs
-    /// up to then.
+    /// Outputs were taken. `taken`: bits of their kinds ([`OutputKinds`]). `digest`: the two lowest bytes of the digest
+    /// of all outputs until then.
     Outputs { taken: u8, digest: [u8; 2] },
-    /// A run that was cut off was taken up.
+    /// The controller took up a run that was cut off when its former controller ended.
     TakeUp { after: Span, run: Box<UnfinishedRun>, on_return: OnReturn },
-    /// The log ends here; `digest` is that of all outputs.
+    /// The log ends here. `digest`: the digest of all outputs.
     End { digest: u64 },
 }
 

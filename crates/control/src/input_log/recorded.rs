@@ -11,8 +11,8 @@ use crate::plan_request::{PlanRequest, PlanResult};
 use lightbots_base::Instant;
 use std::ops::Deref;
 
-/// A controller with a log of its inputs, if one was begun. It has the inputs and outputs of a [`Controller`] and
-/// dereferences to it. Take outputs of a kind until there are none, as a replay does.
+/// A [`Controller`] that writes a log of its inputs, once a log was begun. It has all inputs and outputs of a
+/// controller, and dereferences to it. Take outputs of a kind until `None` is returned, because a replay does so.
 #[derive(Debug)]
 pub struct RecordedController {
     controller: Controller,
@@ -33,20 +33,20 @@ impl RecordedController {
         Self { controller, recording: None }
     }
 
-    /// Begins a log, with notes for people: names and values. Drops a log that was there. Returns `false`, and begins
-    /// none, if there is a run, robots are being stopped, or outputs wait to be taken.
+    /// Begins a new log and drops the one before. `notes`: names and values for people. Returns `false` without a new
+    /// log during a run, while robots are being stopped, and if outputs wait to be taken.
     pub fn begin_log(&mut self, now: Instant, notes: Vec<(String, String)>) -> bool {
         let checkpoint = self.controller.checkpoint();
         self.recording = checkpoint.map(|checkpoint| Recording::begin(now, notes, checkpoint));
         self.recording.is_some()
     }
 
-    /// Whether inputs are recorded.
+    /// Whether a log is being written.
     pub fn is_recording(&self) -> bool {
         self.recording.is_some()
     }
 
-    /// Takes the bytes to append to the log's file since the last call; may be empty.
+    /// Takes the bytes that are ready since the last call, to append to the log's file; may be empty.
     pub fn take_log(&mut self) -> Vec<u8> {
         self.recording.as_mut().map(Recording::take).unwrap_or_default()
     }

@@ -8,31 +8,31 @@ use crate::block::append_block;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
 
-/// Longest duration of a block of records, show clock. If it were longer, more inputs would be lost when the program is
+/// Longest duration of a block of records, show clock. With longer blocks more inputs are lost when the program is
 /// killed.
 const BLOCK_LASTS: Span = Span::from_millis(1_000);
-/// Number of bytes at which a block of records ends.
+/// A block of records is closed once its content has this number of bytes.
 const BLOCK_BYTES: usize = 32 * 1024;
 
 /// A log that is being written.
 #[derive(Debug)]
 pub(crate) struct Recording {
-    /// Whole blocks that were not taken yet.
+    /// Bytes of the log that were not taken yet: head and whole blocks.
     ready: Vec<u8>,
     /// Content of the block that is not closed yet.
     open: Vec<u8>,
-    /// When that block began.
+    /// When the open block began, show clock.
     open_since: Instant,
-    /// When the last input came.
+    /// When the last input came, show clock.
     last: Instant,
     senders: Senders,
     pub digest: OutputDigest,
-    /// Kinds of outputs that were taken since the last input.
+    /// Kinds of outputs that were taken since the last input, as bits of `OutputKinds`.
     pub taken: u8,
 }
 
 impl Recording {
-    /// Begins a log at `now`.
+    /// Begins a log at `now`. `notes`: names and values for people; `checkpoint`: bytes of the controller at rest.
     pub fn begin(now: Instant, notes: Vec<(String, String)>, checkpoint: Vec<u8>) -> Self {
         let mut ready = MAGIC.to_vec();
         ready.extend_from_slice(&VERSION.to_le_bytes());
@@ -50,13 +50,14 @@ impl Recording {
         }
     }
 
-    /// Appends an input. `record` makes its record from the time since the last input.
+    /// Appends an input. `record` returns the input's record for the time since the last input.
     pub fn input<'r>(&mut self, now: Instant, record: impl FnOnce(Span) -> Record<'r>) {
         let after = self.advance(now);
         self.append(&record(after));
     }
 
-    /// Appends a message; the payload of a robot is compared with its last one.
+    /// Appends a message. Of a robot's payload only the part is stored that differs from the robot's last payload on
+    /// this topic.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         let after = self.advance(now);
         let topic_of_robots = match Topic::parse(topic) {
@@ -78,13 +79,13 @@ impl Recording {
         self.close_block();
     }
 
-    /// Takes the whole blocks since the last call.
+    /// Takes the bytes that are ready since the last call: whole blocks, and the head at first.
     pub fn take(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.ready)
     }
 
-    /// Prepares for an input: records which outputs were taken before it, and closes a block that is due. Returns the
-    /// time since the last input.
+    /// Prepares for an input. Records which outputs were taken since the last input, and closes the open block if it is
+    /// long enough. Returns the time since the last input.
     fn advance(&mut self, now: Instant) -> Span {
         self.outputs();
         if self.open.len() >= BLOCK_BYTES || now - self.open_since >= BLOCK_LASTS {

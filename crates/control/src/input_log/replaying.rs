@@ -14,24 +14,25 @@ use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
 use std::collections::BTreeMap;
 
-/// Largest number of plan requests that wait for their plans. A shell makes one plan after the other.
+/// Largest number of plan requests that wait for their plans; above it the oldest are dropped. A program around the
+/// controller makes one plan at a time, so a sound log needs few.
 const REQUESTS_MAX: usize = 64;
 
-/// Length of the head of a log, bytes: magic bytes and version.
+/// Length of the head of a log, bytes: 8 magic bytes and 2 bytes of version.
 pub const HEAD_BYTES: usize = MAGIC.len() + 2;
 
-/// Why bytes cannot be replayed.
+/// Why bytes cannot be replayed as a log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LogError {
-    /// They are no log.
+    /// The bytes are no log.
     NoLog,
-    /// They are a log of another version of the format.
+    /// The bytes are a log in another version of the format, which is named here.
     OtherVersion(u16),
-    /// Not even the header is whole.
+    /// The first block, which holds the header, is not whole or not valid.
     NoHeader,
-    /// A record is not valid although its checksum is right.
+    /// A record is not valid, although the checksum of its block is right.
     BadRecord {
-        /// Number of inputs before it.
+        /// Number of inputs that were replayed before this record or its block.
         inputs: u64,
     },
 }
@@ -39,9 +40,10 @@ pub enum LogError {
 /// Where a log ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogEnd {
-    /// At its record `End`, which the writer appended.
+    /// At the record `End`, which the writer appends to a whole log.
     Complete,
-    /// Before that record: the writer was killed, or bytes were cut or changed. Holds the number of bytes that were read.
+    /// Without the record `End`: the writer was killed, or bytes were cut off or changed. Holds the number of bytes of the
+    /// log that were read.
     Cut(u64),
     /// Unknown, because the replay stopped at a difference and read no further.
     NotReached,
@@ -50,13 +52,13 @@ pub enum LogEnd {
 /// The first place where a replay had other outputs than the recorded controller.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Number of the input after which the outputs differ, counted from 1.
+    /// Number of the input after which the outputs differ, counted from 1; 0 if they differ before the first input.
     pub input: u64,
-    /// When this input came, show clock.
+    /// Moment of this input, show clock.
     pub at: Instant,
-    /// The input, for people.
+    /// Description of this input, for people.
     pub what: String,
-    /// The first outputs of the replay after this input, for people; may be empty.
+    /// At most five outputs of the replay after this input, for people; may be empty.
     pub outputs: Vec<String>,
 }
 
@@ -73,13 +75,13 @@ pub struct ReplayReport {
     pub messages: u64,
     /// Number of plans that were made again.
     pub plans: u64,
-    /// Number of messages, events and plan requests that were compared.
+    /// Number of messages, events and plan requests of the replay that were compared with the log.
     pub outputs: u64,
-    /// Number of robots that the controller knew at the end.
+    /// Number of robots that the replayed controller knew at the end.
     pub robots: usize,
-    /// Time from the beginning of the log to the last input, show clock.
+    /// Time from the beginning of the log to the last replayed input, show clock.
     pub lasted: Span,
-    /// Digest of all outputs.
+    /// Digest of all outputs of the replay.
     pub digest: u64,
     /// Where the log ends.
     pub end: LogEnd,
@@ -97,20 +99,20 @@ pub enum ReplayStep<'a> {
         /// Its payload.
         payload: &'a [u8],
     },
-    /// Another input than time or a message comes; a description for people.
+    /// An input that is neither a message nor the passing of time is about to be handled. Holds its description for people.
     Input(&'a str),
-    /// The controller sent a message.
+    /// The controller sent this message.
     Sent(&'a Send),
-    /// The controller recorded an event.
+    /// The controller recorded this event.
     Event(&'a Event),
-    /// The controller has handled that time passed.
+    /// The controller has handled a call of `wake`.
     Woken,
 }
 
 /// A function that is called for each step of a replay, with the show clock and the controller at that moment.
 pub type ReplayObserver<'o> = dyn FnMut(Instant, &Controller, ReplayStep<'_>) + 'o;
 
-/// Checks that this program can replay a log that begins with these bytes (at least the first [`HEAD_BYTES`]).
+/// Checks that this program can replay a log that begins with `head`: at least the first [`HEAD_BYTES`] bytes of the log.
 pub fn check_head(head: &[u8]) -> Result<(), LogError> {
     let rest = head.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
     let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
@@ -133,14 +135,14 @@ pub(super) struct Replay {
     messages: u64,
     plans: u64,
     outputs: u64,
-    /// The last input, for people.
+    /// Description of the last input, for people.
     last: String,
     is_complete: bool,
     difference: Option<Difference>,
 }
 
 impl Replay {
-    /// Begins a replay with the first block of a log; `None` if the block is no valid header.
+    /// Begins a replay with the content of the first block of a log; `None` if it is no valid header.
     pub fn new(block: &[u8]) -> Option<Self> {
         let header: LogHeader = postcard::from_bytes(block).ok()?;
         Some(Self {
@@ -160,7 +162,7 @@ impl Replay {
         })
     }
 
-    /// Whether the replay is over, so that further blocks are ignored.
+    /// Whether the replay is over: the log has ended, or an output differed. Further blocks are then ignored.
     pub fn is_over(&self) -> bool {
         self.is_complete || self.difference.is_some()
     }
@@ -176,7 +178,7 @@ impl Replay {
         Ok(())
     }
 
-    /// Replays one record; `None` if no writer can have written it.
+    /// Replays one record; `None` if the record is not valid, so that no writer can have written it.
     fn record(&mut self, record: Record<'_>, observe: &mut ReplayObserver<'_>) -> Option<()> {
         match record {
             Record::Wake(after) => {
@@ -236,7 +238,7 @@ impl Replay {
         self.last = what();
     }
 
-    /// Notes an input that is neither time nor a message, and calls the observer.
+    /// Notes an input that is neither a message nor the passing of time, and calls the observer.
     fn other_input(&mut self, after: Span, what: impl FnOnce() -> String, observe: &mut ReplayObserver<'_>) {
         self.input(after, what);
         observe(self.now, &self.controller, ReplayStep::Input(&self.last));
@@ -263,7 +265,8 @@ impl Replay {
         self.controller.planned(self.now, result);
     }
 
-    /// Takes outputs as the recorded controller's shell did, and compares the digest of all outputs up to now.
+    /// Takes outputs of the recorded kinds (`taken`), as the program around the recorded controller did. Then compares the
+    /// digest of all outputs until now with the recorded `digest`.
     fn compare(&mut self, taken: u8, digest: [u8; 2], observe: &mut ReplayObserver<'_>) {
         let mut lines = Vec::new();
         let mut line = |text: &dyn Fn() -> String| {
@@ -309,7 +312,7 @@ impl Replay {
         self.difference = Some(Difference { input: self.inputs, at: self.now, what, outputs });
     }
 
-    /// Returns the report; `at`: number of bytes that were read.
+    /// Ends the replay and returns its report; `at`: number of bytes of the log that were read.
     pub fn report(self, at: usize) -> ReplayReport {
         ReplayReport {
             program: self.header.program,
@@ -331,7 +334,8 @@ impl Replay {
     }
 }
 
-/// Makes a plan again, cancelled at the same check of the planner, counted from 1; 0: not cancelled.
+/// Makes the plan of a request again. `cancelled_at`: number of the planner's check, counted from 1, at which it is
+/// cancelled; 0: it is not cancelled.
 fn again(request: PlanRequest, cancelled_at: u64) -> PlanResult {
     let asked = core::cell::Cell::new(0);
     request.run_unless(&|| {

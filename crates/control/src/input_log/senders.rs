@@ -1,36 +1,39 @@
-//! Remembers what robots sent last on each topic, because the next message of a robot differs from it in a few bytes
-//! only.
+//! Remembers each robot's last payload on each topic. The robot's next payload usually differs from it in a few bytes,
+//! and a log stores only these.
 
 use super::record::RobotTopic;
 use lightbots_base::RobotId;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
-/// Longest payload that is remembered, bytes; longer ones are stored whole.
+/// Longest payload that is remembered, bytes; a longer payload is stored whole in the log.
 const PAYLOAD_MAX: usize = 1_024;
-/// Largest number of payloads that are remembered: more than all topics of all robots that a controller remembers.
+/// Largest number of payloads that are remembered. It is more than the number of robots that a controller remembers,
+/// times the number of their topics.
 const SENDERS_MAX: usize = 100_000;
 
-/// The last payload of each robot on each topic. Writer and reader of a log fill it in the same way.
+/// The last payload of each robot on each topic. Writer and reader of a log make the same changes to it, so numbers
+/// mean the same for both.
 #[derive(Debug, Default)]
 pub(crate) struct Senders {
     number_of: HashMap<(RobotTopic, RobotId), usize, BuildHasherDefault<DefaultHasher>>,
     payloads: Vec<Vec<u8>>,
 }
 
-/// What a payload has in common with an earlier one.
+/// What a payload has in common with an earlier payload of the same robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Likeness {
-    /// Number of the earlier payload, counted from 1; 0: none.
+    /// Number of the earlier payload, counted from 1; 0 if there is none.
     pub like: u32,
-    /// Number of bytes in common at the front.
+    /// Number of bytes that both payloads have in common at the front.
     pub front: u16,
-    /// Number of further bytes in common at the back.
+    /// Number of further bytes that both payloads have in common at the back.
     pub back: u16,
 }
 
 impl Senders {
-    /// Compares a payload with the last one of its robot on this topic, and remembers it in place of that one.
+    /// Compares a payload with the last payload of its robot on this topic. Remembers the new payload in place of the
+    /// last one.
     pub fn compare(&mut self, topic: RobotTopic, payload: &[u8]) -> Likeness {
         let unlike = Likeness { like: 0, front: 0, back: 0 };
         let Some(number) = self.number(topic, payload) else { return unlike };
@@ -43,7 +46,8 @@ impl Senders {
         Likeness { like: number as u32 + 1, front: front as u16, back: back as u16 }
     }
 
-    /// Restores a payload from its likeness and its middle, and remembers it. `None` if no writer can have stored them.
+    /// Restores a payload from its likeness to an earlier payload and its middle, and remembers it. `None` if the
+    /// values are not valid, so that no writer can have stored them.
     pub fn restore(&mut self, topic: RobotTopic, likeness: Likeness, middle: &[u8]) -> Option<Vec<u8>> {
         let Likeness { like, front, back } = likeness;
         let mut payload = Vec::new();
@@ -63,8 +67,8 @@ impl Senders {
         Some(payload)
     }
 
-    /// Returns the index of the remembered payload of a message's robot; a new robot gets an empty one. `None` if the
-    /// message is not remembered.
+    /// Returns the index in `payloads` for the robot and topic of a message; a new pair gets an empty payload. `None`
+    /// if the payload is not to be remembered: it is too long, names no robot, or there are too many.
     fn number(&mut self, topic: RobotTopic, payload: &[u8]) -> Option<usize> {
         if payload.len() > PAYLOAD_MAX {
             return None;

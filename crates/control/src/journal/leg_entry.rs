@@ -1,4 +1,4 @@
-//! A leg in a journal: enough of it to know where a robot may stand that does not report any more.
+//! A leg in a journal. It holds enough to know where a robot may stand that does not report any more.
 
 use crate::leg::{Leg, LegKind, RobotLeg, Task};
 use lightbots_base::{Piece, Rgb, Span, Vec2};
@@ -7,10 +7,10 @@ use lightbots_plan::unsynchronised::StraightDrive;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Longest duration of a piece or a leg: a day. More would overflow the show clock.
+/// Longest duration of a piece or of a leg: a day. Longer values from a damaged file could overflow sums of times.
 const PIECE_MAX: Span = Span::from_millis(86_400_000);
 
-/// A leg as a journal holds it: without clearances and neighbours, which only robots need.
+/// A leg as a journal holds it. Clearances and neighbours are left out, because only robots need them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LegEntry {
     pub frame: u32,
@@ -18,13 +18,13 @@ pub(crate) struct LegEntry {
     pub pass: u32,
     /// Number of the routes of this leg.
     pub seq: u32,
-    /// Whether robots drive routes, and not by TARGET.
+    /// Whether robots drive routes; otherwise they drive by TARGET.
     pub is_routes: bool,
     pub reaches_frame: bool,
     pub duration: Span,
     /// What each robot does, by participant number.
     pub robots: Vec<RobotEntry>,
-    /// Straight drives: participant, start and end, stage metres.
+    /// Straight drives of TARGET-only robots: participant number, start and end; places in stage metres.
     pub drives: Vec<(u32, Vec2, Vec2)>,
 }
 
@@ -38,14 +38,15 @@ pub(crate) struct RobotEntry {
     pub path: Option<PathEntry>,
 }
 
-/// A path with coordinates in single precision, which is about a micrometre.
+/// A path in the stage. Its coordinates are in single precision, whose error is about a micrometre on a floor of some
+/// metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PathEntry {
     start: [f32; 2],
     pieces: Vec<PieceEntry>,
 }
 
-/// A piece of a path: its duration and its points c1, c2 and end, each as x and y, metres.
+/// A cubic Bézier piece of a path: its duration, and the points c1, c2 and end as x and y, stage metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct PieceEntry {
     duration: Span,
@@ -75,7 +76,8 @@ impl LegEntry {
         }
     }
 
-    /// Restores the leg; `None` if no controller can have written these values.
+    /// Restores the leg of a run with this number of participants. `None` if the values are not plausible, so that no
+    /// controller can have written them.
     pub fn to_leg(&self, participants: usize) -> Option<Leg> {
         if self.robots.len() > participants || self.duration < Span::ZERO || self.duration > PIECE_MAX {
             return None;

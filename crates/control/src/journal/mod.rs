@@ -1,9 +1,9 @@
-//! The journal of a run: what it takes to go on with it after the controller was killed.
+//! The journal of a run: all that a new controller needs to go on with the run after the controller was killed.
 //!
 //! A journal is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]).
-//! Each block is an [`Entry`]: all that one step of the controller changed of the [`JournalState`]. The first entry
-//! holds the whole state, the show included. A journal that was cut anywhere ends with its last whole entry. A journal
-//! that has become long is begun again with the state at that moment.
+//! Each block is an [`Entry`] with changes of the [`JournalState`]. The first entry holds the whole state, the show
+//! included. A journal that was cut anywhere ends with its last whole entry. A journal that has become long is replaced
+//! by a new one that begins with the present state.
 //!
 //! [`Journal`] writes the entries of a run, [`UnfinishedRun`] is the run read from them, and
 //! [`Controller::take_up`](crate::Controller::take_up) goes on with that run.
@@ -27,5 +27,6 @@ pub(crate) use writing::Journal;
 
 /// The first bytes of every journal.
 const MAGIC: &[u8; 8] = b"LBotsJrn";
-/// The format of journals. Raise it with every change of a type that is written: `Entry`, `JournalState`, `Show`.
+/// Version of the journal format. Raise it with every change of a type that is written: `Entry`, `JournalState`,
+/// `Show`.
 pub(crate) const VERSION: u16 = 11;

@@ -11,27 +11,29 @@ use std::sync::Arc;
 /// Why bytes cannot be read as a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalError {
-    /// They are no journal.
+    /// The bytes are no journal.
     NoJournal,
-    /// They are a journal of another version of the format.
+    /// The bytes are a journal in another version of the format, which is named here.
     OtherVersion(u16),
     /// Not even the first entry is whole.
     NoEntry,
-    /// An entry is not valid although its checksum is right.
+    /// An entry is not valid, although its checksum is right.
     BadEntry,
 }
 
-/// A run that had not ended when its controller did.
+/// A run that was still under way when its controller ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnfinishedRun {
+    /// When the last of the changes that were read was made, show clock.
     pub(crate) at: Instant,
+    /// Time of day when the last entry was written, microseconds since 1970.
     wall_us: u64,
     pub(crate) state: JournalState,
 }
 
 impl UnfinishedRun {
-    /// Reads the run of a journal up to its last whole entry; `None` if that run had ended. The bytes are untrusted
-    /// input.
+    /// Reads the run of a journal up to its last whole entry; `Ok(None)` if that run had ended. `bytes` may be
+    /// anything: this is checked.
     pub fn read(bytes: &[u8]) -> Result<Option<Self>, JournalError> {
         let rest = bytes.strip_prefix(MAGIC).ok_or(JournalError::NoJournal)?;
         let (version, _) = rest.split_first_chunk::<2>().ok_or(JournalError::NoEntry)?;
@@ -51,7 +53,7 @@ impl UnfinishedRun {
         Ok(Some(run).filter(|run| run.state.ended.is_none()))
     }
 
-    /// Returns the run after an entry; `None` if the entry does not fit.
+    /// Applies an entry to the run before it; `None` if the entry does not fit that run.
     fn after(before: Option<Self>, entry: Entry) -> Option<Self> {
         let Entry { at, wall_us, changes } = entry;
         let mut changes = changes.into_iter();
@@ -68,7 +70,7 @@ impl UnfinishedRun {
         Some(Self { at, wall_us, state })
     }
 
-    /// Whether a controller can go on from here.
+    /// Whether the values of the state are plausible and fit together, so that a controller can go on with the run.
     pub(crate) fn is_sound(&self) -> bool {
         self.state.is_sound()
     }
@@ -78,23 +80,24 @@ impl UnfinishedRun {
         &self.state.begun.show
     }
 
-    /// Returns the frame that is reached next, counted from 0; the last frame if all were reached.
+    /// Returns the frame that robots were to reach next, counted from 0; the last frame if all frames were reached.
     pub fn frame(&self) -> usize {
         self.state.progress.next.frame.min(self.show().frames.len().saturating_sub(1))
     }
 
-    /// Returns the number of frames that were reached.
+    /// Returns the number of frames that robots reached.
     pub fn frames_played(&self) -> usize {
         self.state.progress.frames_played as usize
     }
 
-    /// Returns when the controller wrote last: its show clock, and the time of day in microseconds since 1970.
+    /// Returns when the last entry was written: on the show clock, and as time of day in microseconds since 1970.
     pub fn last_written(&self) -> (Instant, u64) {
         (self.at, self.wall_us)
     }
 
-    /// Returns what the run's show clock shows at a time of day, microseconds since 1970. Robots may still drive by
-    /// that clock, so it must go on evenly. If the time of day was set back, no time counts as passed.
+    /// Returns the show clock of the run at the time of day `wall_us`, microseconds since 1970. Robots may still drive
+    /// by this show clock, so a new controller must continue it. If the time of day was set back, no time counts as
+    /// passed.
     pub fn show_clock_at(&self, wall_us: u64) -> Instant {
         Instant(self.at.0.saturating_add(wall_us.saturating_sub(self.wall_us)))
     }

@@ -1,16 +1,17 @@
-//! Checks whether a controller can have written a state. A checksum shows that bytes were not changed, but not which
-//! program wrote them.
+//! Checks whether a state is plausible, so that a controller can have written it. A checksum only shows that bytes were
+//! not changed, and not which program wrote them.
 
 use super::{JournalState, ParticipantEntry, Position};
 use crate::run::{AirTime, PathClock, Probation, StopTimes, Whereabouts};
 use lightbots_base::{Instant, Span, Vec2};
 use std::collections::BTreeSet;
 
-/// Bound of moments and spans, microseconds, so that sums of a few of them do not overflow: 36,000 years.
+/// Moments and spans must be less than this number of microseconds (36,000 years), so that sums of a few of them do not
+/// overflow.
 const TIME_MAX: u64 = 1 << 60;
 
 impl JournalState {
-    /// Whether a controller can go on from here.
+    /// Whether the values of this state are plausible and fit together, so that a controller can go on with the run.
     pub fn is_sound(&self) -> bool {
         let names: BTreeSet<_> = self.participants.iter().map(|entry| entry.id).collect();
         let leg_fits = self.leg.as_ref().is_none_or(|leg| leg.to_leg(self.participants.len()).is_some());

@@ -10,18 +10,20 @@ use lightbots_wire::Abilities;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What one step of the controller changed.
+/// Changes of a run's state that are written together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Entry {
-    /// When the last of the changes was made, show clock.
+    /// When the last of `changes` was made, show clock.
     pub at: Instant,
-    /// Time of day when the entry was written, microseconds since 1970. It shows how long the controller was away.
+    /// Time of day when the entry was written, microseconds since 1970. A later controller computes from it for how
+    /// long there was no controller.
     pub wall_us: u64,
     /// Changes in the order in which they were made.
     pub changes: Vec<Change>,
 }
 
-/// A change of the [`JournalState`]; most changes hold the new value of a part.
+/// A change of the [`JournalState`]. Most variants hold the new value of a part of the state, which replaces the old
+/// value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Change {
     /// The whole state.
@@ -32,13 +34,14 @@ pub(crate) enum Change {
     Leg(LegEntry),
     /// All pixels that the operator bound, with their robots.
     Pins(Vec<(u32, RobotId)>),
-    /// All pixels that robots showed in frames with fixed identity, with these robots.
+    /// All pixels that robots showed in frames with fixed identity, with their robots.
     Owners(Vec<(u32, RobotId)>),
-    /// Places where something was found on the floor, stage metres, and whether strangers are ignored.
+    /// `found`: places where robots met an unknown obstacle, stage metres. `ignores_strangers`: whether robots that
+    /// came during the run are ignored by plans.
     Obstacles { found: Vec<Vec2>, ignores_strangers: bool },
     /// How far the run is.
     Progress(RunProgress),
-    /// The operator requested an operation; its short name.
+    /// The operator requested the operation of this short name.
     Operated(String),
     /// The run is over; the text says how it ended, for people.
     Ended(String),
@@ -47,14 +50,14 @@ pub(crate) enum Change {
 /// How a run began.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RunBegun {
-    /// When the run began, show clock; this also identifies the run.
+    /// When the run began, show clock. The moment also identifies the run.
     pub at: Instant,
     /// The show that is played.
     #[serde(with = "crate::shared_show")]
     pub show: Arc<Show>,
     /// What the run is for: a show, one frame, the drive home, or a preflight.
     pub purpose: RunPurpose,
-    /// What happens to pixels without a robot.
+    /// What happens to pixels that no robot can show.
     pub missing: MissingPolicy,
 }
 
@@ -63,46 +66,47 @@ pub(crate) struct RunBegun {
 pub(crate) struct RunProgress {
     /// The frame that is reached next.
     pub next: FrameCursor,
-    /// Last frame of a loop that the show leaves, because GO was given; `None` if there is none.
+    /// Last frame of the loop that the show leaves after this frame, because the operator gave GO. `None` if GO was not
+    /// given.
     pub leaves_loop: Option<FrameCursor>,
     /// Whether the show starts again after its last frame.
     pub looping: bool,
     /// Whether the operator paused the run.
     pub paused: bool,
-    /// Whether the run pauses again at the next frame.
+    /// Whether the run pauses when the next frame is reached.
     pub stepping: bool,
-    /// Whether the frame that was reached last waits for GO.
+    /// Whether the frame that robots reached last waits for GO.
     pub waits_for_go: bool,
     /// Number of frames reached.
     pub frames_played: u32,
     /// Number of dropouts; a robot that dropped out twice counts twice.
     pub dropouts: u32,
-    /// How often the run was taken up by another controller.
+    /// How many times another controller took up this run.
     pub taken_up: u32,
-    /// What robots do, or did when they were stopped.
+    /// Whether robots drive or stand, and since when.
     pub position: Position,
 }
 
-/// What robots do, or did when they were stopped.
+/// Whether robots drive or stand, and since when.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Position {
-    /// Path clock of the drive, if robots drive the leg or are about to. A silent robot may then stand anywhere along
-    /// its path.
+    /// Path clock of the drive, if robots drive the leg, are about to, or were stopped on it. A robot that has fallen
+    /// silent since may stand anywhere along its path.
     pub drive: Option<PathClock>,
-    /// When robots on the drive stopped, if the drive was broken off. Kept until they drive again, through any number
-    /// of outages.
+    /// When robots stopped, if the drive was broken off. The value is kept until robots drive again, even if the run is
+    /// interrupted again meanwhile.
     pub stops: Option<StopTimes>,
-    /// Air time, if robots stand in a frame or where a drive was broken off.
+    /// The air time under way. `None` unless robots stand in a frame or where a drive was broken off.
     pub stood: Option<AirTime>,
 }
 
 impl Position {
-    /// Whether robots stand at the goals of the leg.
+    /// Whether robots stand at the goals of the leg in the journal.
     pub fn is_at_goals(&self) -> bool {
         self.stood.is_some_and(|air| air.is_at_goals)
     }
 
-    /// Whether the leg says where robots are: on their way, or at its goals.
+    /// Whether the places of robots follow from the leg in the journal: robots are on its paths or at its goals.
     pub fn is_in_leg(&self) -> bool {
         self.drive.is_some() || self.is_at_goals()
     }
@@ -114,11 +118,11 @@ pub(crate) struct ParticipantEntry {
     /// Name of the robot.
     pub id: RobotId,
     pub abilities: Abilities,
-    /// Where the robot reported to be when this was written, stage metres.
+    /// Last reported place of the robot when this entry was written, stage metres; `None` if it was not known.
     pub at: Option<Vec2>,
     pub membership: Membership,
     pub probation: Probation,
-    /// Where the robot may stand, if it fell silent.
+    /// Where the robot may stand, if it dropped out and its reported place may be outdated.
     pub last_seen: Whereabouts,
 }
 
@@ -128,23 +132,24 @@ pub(crate) struct JournalState {
     pub begun: RunBegun,
     /// Participants by number.
     pub participants: Vec<ParticipantEntry>,
-    /// The leg that is driven, was driven last, or is about to be.
+    /// The leg that robots drive, are about to drive, or drove last; `None` if there was none yet.
     pub leg: Option<LegEntry>,
     /// Pixels that the operator bound, with their robots, sorted by pixel.
     pub pins: Vec<(u32, RobotId)>,
-    /// Pixels that robots showed in frames with fixed identity, with these robots; the oldest first.
+    /// Pixels that robots showed in frames with fixed identity, with their robots; the pair noted longest ago comes
+    /// first.
     pub owners: Vec<(u32, RobotId)>,
-    /// Places where robots met something that is no known robot, stage metres.
+    /// Places where robots met an obstacle that is no known robot, stage metres.
     pub found: Vec<Vec2>,
-    /// Whether robots that came during the run are ignored, and not driven around.
+    /// Whether plans ignore robots that came during the run, instead of driving around them.
     pub ignores_strangers: bool,
     pub progress: RunProgress,
-    /// How the run ended; `None`: it has not.
+    /// How the run ended, for people; `None` if it has not ended.
     pub ended: Option<String>,
 }
 
 impl JournalState {
-    /// Applies a change; `None` if it does not fit this state.
+    /// Applies a change to this state; `None` if the change does not fit it.
     pub fn apply(&mut self, change: Change) -> Option<()> {
         match change {
             Change::State(state) => *self = *state,

@@ -1,4 +1,4 @@
-//! Takes up a run from its journal: this controller goes on with it, from where its robots stand.
+//! Takes up a run from its journal: this controller goes on with the run, from where its robots stand.
 
 use super::{JournalState, ParticipantEntry, Position, UnfinishedRun};
 use crate::context::Context;
@@ -11,33 +11,33 @@ use crate::run::{Participant, PlayedShow, Roster, Run, RunPurpose, StopTimes};
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Longest silence of a robot on a drive when the controller wrote its last entry. After a longer one the controller
-/// holds all robots.
+/// Longest silence of a driving robot at the moment of the journal's last entry. After a longer silence the controller would
+/// have held all robots.
 const UNHEARD: Span = Span::from_millis(1_500);
-/// Time after the last entry by which all robots stand. The next entry would have come after 2 s, and 2.5 s later a
-/// robot has stopped (R43 of docs/protocol.md).
+/// Time after the journal's last entry by which all robots stand. The controller ended at most 2 s after the entry. At most
+/// 2.5 s later each robot has stopped (R43 of docs/protocol.md).
 const STANDS_AFTER: Span = Span::from_millis(4_500);
 /// A time that is longer than any run.
 const FOR_EVER: Span = Span::from_millis(86_400_000_000);
 
-/// What happens to a run that was cut off, once a controller is back. A preflight is always over.
+/// What a new controller does with a run that was cut off. A preflight never goes on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OnReturn {
-    /// It goes on by itself if little time has passed (`WaitBounds::goes_on_within`), otherwise the operator is asked.
+    /// The run goes on by itself if at most `WaitBounds::goes_on_within` has passed. Otherwise the operator is asked.
     #[default]
     GoOrAsk,
-    /// It goes on by itself.
+    /// The run goes on by itself.
     Go,
     /// The operator is asked.
     Ask,
-    /// It is over. Robots are told to stop.
+    /// The run is over. Robots are told to stop.
     Stop,
 }
 
 impl Controller {
-    /// Takes up a run whose controller is gone. The run stands still until its robots report, and is then planned from
-    /// where they stand. If it does not go on, its robots are told to stop. Refused while there is another run. Call
-    /// this before [`connected`](Self::connected), with a show clock that goes on from
+    /// Takes up a run whose former controller is gone. The run is interrupted until its robots report, and is then planned
+    /// from where robots stand. If `on_return` lets it not go on, all robots are told to stop instead. Refused during
+    /// another run. Call this before [`connected`](Self::connected), with `now` from
     /// [`show_clock_at`](UnfinishedRun::show_clock_at).
     pub fn take_up(
         &mut self,
@@ -82,7 +82,8 @@ fn restore_mapping(context: &mut Context, state: &JournalState) {
 }
 
 impl Run {
-    /// Returns the run of a journal, interrupted as if its robots had been out of reach until now.
+    /// Returns the run of a journal in the phase Interrupted, as if its robots had been out of reach until now. `by_itself`:
+    /// longest interruption after which the run goes on without the operator.
     fn take_up(context: &mut Context, now: Instant, unfinished: &UnfinishedRun, by_itself: Span) -> Self {
         let UnfinishedRun { at, state, .. } = unfinished;
         let (begun, progress) = (&state.begun, &state.progress);
@@ -133,13 +134,14 @@ impl Run {
     }
 }
 
-/// Whether a participant stands at its goal in the leg of a journal: all do once they have arrived, and a robot that the
-/// leg leaves where it is does so on the drive too.
+/// Whether a participant stands at its goal in the leg of a journal. All participants do after the leg. During the leg, only
+/// those do that the leg leaves where they are.
 fn stands_at_goal(leg: &Leg, position: Position, participant: usize) -> bool {
     position.is_at_goals() || position.drive.is_some() && !leg.is_driven_by(participant)
 }
 
-/// Sets what the journal says of a robot of the fleet. A robot that stood counts as at its `goal` until it reports.
+/// Stores what the journal says of a robot. Until the robot reports, its place is `goal` (stage metres) if it takes part and
+/// `goal` is given, otherwise the place in the journal.
 fn expect(context: &mut Context, robot: usize, entry: &ParticipantEntry, goal: Option<Vec2>) {
     let robot = context.fleet.robot_mut(robot);
     robot.reported.abilities = entry.abilities;

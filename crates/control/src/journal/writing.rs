@@ -9,18 +9,19 @@ use crate::mutant::Mutant;
 use crate::run::Run;
 use lightbots_base::{Instant, Span};
 
-/// Longest time between two entries.
+/// Longest time between two entries of a journal. A later controller computes from it by when robots stood.
 const ALIVE: Span = Span::from_millis(2_000);
-/// A journal is begun again once it has more than this number of bytes, and more than this multiple of its first piece.
-/// It thus stays small while a show loops for days.
+/// A journal is replaced by a new one once it is too long: longer than this number of bytes, and than this multiple of
+/// its first piece. It thus stays small while a show loops for days.
 const BEGUN_AGAIN: (usize, usize) = (4 << 20, 8);
 
 /// Bytes for a journal's file, in order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JournalPiece {
-    /// Whether the bytes are a whole journal, which replaces the file; otherwise they are appended.
+    /// Whether the bytes are the beginning of a new journal, which replaces the file. Otherwise they are appended to
+    /// the file.
     pub begins: bool,
-    /// Whether the run is over: no more bytes follow.
+    /// Whether the run is over. If so, no more bytes of this journal follow.
     pub ends: bool,
     /// The bytes.
     pub bytes: Vec<u8>,
@@ -30,20 +31,21 @@ pub struct JournalPiece {
 #[derive(Debug, Default)]
 pub(crate) struct Journal {
     is_kept: bool,
-    /// The state after all changes, taken or pending; `None` if no run is recorded.
+    /// The state of the run after all changes, whether they were taken or not; `None` if no run is recorded.
     state: Option<JournalState>,
-    /// Changes that were not taken yet.
+    /// Changes that were not written to a piece yet.
     pending: Vec<Change>,
     at: Instant,
-    /// Whether the next piece is a whole journal.
+    /// Whether the next piece begins a new journal with the whole state.
     begins: bool,
-    /// Whether pins, owners and obstacles were compared with the state since the operator's last operation.
+    /// Whether pins, owners and obstacles were compared with `state` since the operator's last operation.
     is_mapping_checked: bool,
-    /// The roster's number of changes when it was last recorded.
+    /// `Roster::changes` at the moment when participants were last recorded.
     roster_changes: u64,
     alive_at: Instant,
-    /// Number of bytes since the journal was begun, and of its first piece.
+    /// Number of bytes of the journal.
     bytes: usize,
+    /// Number of bytes of the journal's first piece.
     first_bytes: usize,
 }
 
@@ -53,13 +55,14 @@ impl Journal {
         self.is_kept = true;
     }
 
-    /// Makes the next piece a whole journal, because pieces were lost on their way to the disk.
+    /// Makes the next piece begin a new journal with the whole state. Needed if a piece was lost on its way to the
+    /// disk.
     pub fn begin_again(&mut self) {
         self.begins = self.state.is_some();
         self.pending.clear();
     }
 
-    /// Records that the operator requested an operation; `what` is its short name.
+    /// Records that the operator requested an operation. `what`: short name of the operation.
     pub fn operated(&mut self, now: Instant, what: &str) {
         if self.state.is_some() {
             self.is_mapping_checked = false;
@@ -67,7 +70,7 @@ impl Journal {
         }
     }
 
-    /// Records what the controller's last step changed of this run.
+    /// Records all that changed in this run since the last call.
     pub fn note(&mut self, now: Instant, run: &Run, context: &Context) {
         if !self.is_kept {
             return;
@@ -88,7 +91,7 @@ impl Journal {
         }
     }
 
-    /// Records that the run is over; `how` it ended, for people.
+    /// Records that the run is over. `how`: how the run ended, for people.
     pub fn end(&mut self, now: Instant, how: &str) {
         if self.state.is_some() {
             self.push(now, Change::Ended(how.to_owned()));
@@ -177,8 +180,8 @@ impl Journal {
         self.note_participants(now, run, context, |known, entry| known.membership != entry.membership);
     }
 
-    /// Records where participants stand once robots are neither on a drive nor at its goals, because then no leg says
-    /// it.
+    /// Records the places of participants once robots are no longer on the leg or at its goals. Their places then do
+    /// not follow from the leg.
     fn note_places(&mut self, now: Instant, run: &Run, context: &Context, position: Position) {
         let was_in_leg = self.state.as_ref().is_some_and(|state| state.progress.position.is_in_leg());
         if was_in_leg && !position.is_in_leg() {
@@ -186,7 +189,7 @@ impl Journal {
         }
     }
 
-    /// Records participants that are new, or whose entry `differs` from the recorded one.
+    /// Records participants that are new, or for which `differs(recorded entry, present entry)` is true.
     fn note_participants(
         &mut self,
         now: Instant,
@@ -202,7 +205,7 @@ impl Journal {
         }
     }
 
-    /// Records the leg of the run if it is new, and returns whether it is.
+    /// Records the leg of the run if it is not recorded yet. Returns whether it was recorded now.
     fn note_leg(&mut self, now: Instant, run: &Run) -> bool {
         let Some(leg) = run.phase.left_leg(&run.pipeline) else { return false };
         let known = self.state.as_ref().and_then(|state| state.leg.as_ref());
@@ -249,7 +252,7 @@ fn participants(run: &Run, context: &Context) -> Vec<ParticipantEntry> {
 }
 
 impl Run {
-    /// Returns how far the run is.
+    /// Returns how far the run is, as the journal holds it.
     fn journal_progress(&self) -> RunProgress {
         let (playback, tally) = (&self.playback, &self.tally);
         RunProgress {

@@ -1,31 +1,35 @@
 //! Compares the headings that a robot reports on a drive with the direction in which it really drove.
 //!
-//! A robot whose marker is turned still reaches its goals, because feedback corrects its path. While it drives, its
-//! estimated place follows its wheels along its heading. Once it stands, fixes measure its place, and thus the
-//! direction of the drive.
+//! A robot whose marker is mounted askew still reaches its goals, because feedback corrects its path. While the robot
+//! drives, it estimates its place from its wheels and its heading. Once the robot stands, position fixes measure its
+//! place, and thus the direction of the drive.
 
 use lightbots_base::{Vec2, difference};
 
-/// Displacements between two reports below this are noise or turns on the spot, metres.
+/// A displacement between two reports that is less than this is noise or a turn on the spot, metres.
 const STANDS_M: f64 = 0.001;
-/// Least displacement that counts, metres; shorter ones of a robot that drives add up until they reach it.
+/// Least displacement that is added to the track, metres. Shorter displacements of a driving robot accumulate until
+/// they reach it.
 const COUNTS_M: f64 = 0.003;
-/// Between two reports whose headings differ by more, the robot turned, radians.
+/// If the headings of two reports differ by more than this, the robot turned and the displacement is not counted,
+/// radians.
 const TURNS_RAD: f64 = 0.2;
-/// Shortest drive that shows a direction, metres. An error of a place of 1 mm is two degrees on it.
+/// Shortest drive whose direction is computed, metres. On this length a place error of 1 mm turns the direction by two
+/// degrees.
 const LEAST_M: f64 = 0.03;
 
-/// One drive of one robot by its reports.
+/// One drive of one robot, as its reports show it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrivenTrack {
-    /// Place and heading from which the next displacement counts.
+    /// Place (stage metres) and heading (radians) of the report from which the next displacement counts; `None` before
+    /// the first report.
     from: Option<(Vec2, f64)>,
-    /// Sum of the displacements along the reported headings, stage metres.
+    /// Sum of the displacements, each projected onto the reported heading, stage metres.
     along: Vec2,
 }
 
 impl DrivenTrack {
-    /// Adds a report of the robot: its place, stage metres, and its heading, radians.
+    /// Adds a report of the robot: its place, stage metres, and its heading in the stage, radians.
     pub fn add(&mut self, at: Vec2, heading: f64) {
         let Some((from, before)) = self.from else {
             self.from = Some((at, heading));
@@ -43,8 +47,9 @@ impl DrivenTrack {
         }
     }
 
-    /// Returns the angle from the reported headings to the direction of the drive, radians; `None` if the drive was too
-    /// short. `displacement`: from where the robot stood before to where it stands after, stage metres.
+    /// Returns the angle from the reported headings to the true direction of the drive, radians, counter-clockwise;
+    /// `None` if the drive was too short. `displacement`: vector from the measured place before the drive to the one
+    /// after it, stage metres.
     pub fn askew_rad(&self, displacement: Vec2) -> Option<f64> {
         let is_long = self.along.length() >= LEAST_M && displacement.length() >= LEAST_M;
         is_long.then(|| difference(displacement.angle(), self.along.angle()))

@@ -15,21 +15,22 @@ pub(crate) use rounds::{TestedRobot, rounds};
 use lightbots_base::{Rgb, RobotId, Vec2};
 use lightbots_show::{Frame, Pixel, Show, Stage};
 
-/// Id of the first pixel. Pixels of shows count from 0, so that no pin of the operator concerns these.
+/// Id of the first pixel of a preflight. Pixels of shows count from 0, so no binding by the operator concerns pixels of a
+/// preflight.
 const FIRST_ID: u32 = 4_100_000_000;
-/// Colour of robots that stand.
+/// Colour of robots that stand during the present round.
 const RESTS: Rgb = Rgb::new(0x18, 0x18, 0x18);
-/// Colour of robots that drive.
+/// Colour of robots that drive in the present round.
 const DRIVES: Rgb = Rgb::new(0x20, 0x60, 0xa0);
-/// Duration of each drive, seconds. 50 mm take 0.5 s at full speed. A robot that is not known yet is driven slowly,
-/// with time for a stop on its way.
+/// Duration of each drive, seconds. At full speed 50 mm would take 0.5 s. A robot that is not tested yet drives slowly,
+/// which leaves time for a stop on its way.
 const DRIVE_S: f64 = 2.5;
-/// How long robots stand after a drive, seconds. Their places settle, and several questions are asked and answered
-/// before the next START is sent.
+/// How long robots stand after a drive, seconds. In this time the reported places settle, and robots are asked for their
+/// places several times.
 const STANDS_S: f64 = 4.6;
 
-/// Returns the show of a preflight. Each round has a frame with the goals of the robots, and one with their places
-/// before. `robots`: names and places of the robots, stage metres; `rounds`: their goals as [`rounds()`] returns them.
+/// Returns the show of a preflight. Each round has two frames: one with the goals of the robots, and one that leads back to
+/// their places. `robots`: names and places of the robots, stage metres; `rounds`: their goals as [`rounds()`] returns them.
 pub(crate) fn show(
     name: String,
     stage: Stage,

@@ -1,12 +1,12 @@
-//! What a preflight found, robot by robot, with cause and remedy for people.
+//! What a preflight found for each robot, with cause and remedy for people.
 
 use crate::event::Trouble;
 use core::fmt;
 use lightbots_base::RobotId;
 
-/// A robot that stands farther than this from its planned place does not pass, metres.
+/// Largest distance from its planned place at which a robot passes, metres.
 pub(crate) const OFF_M: f64 = 0.005;
-/// A robot that is turned by more than this from its planned heading does not pass, radians: three degrees.
+/// Largest angle from its planned heading at which a robot passes, radians: three degrees.
 pub(crate) const OFF_RAD: f64 = 3.0 * core::f64::consts::PI / 180.0;
 
 /// The result of a preflight.
@@ -18,48 +18,49 @@ pub struct PreflightReport {
     pub robots: Vec<PreflightRobot>,
 }
 
-/// What a preflight found of one robot.
+/// What a preflight found for one robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreflightRobot {
     /// Its name.
     pub id: RobotId,
-    /// What is wrong with it; empty: it passed.
+    /// What is wrong with the robot; empty if it passed.
     pub findings: Vec<PreflightFinding>,
-    /// Largest distance from its planned places, metres; `None` if it was not measured.
+    /// Largest measured distance from a planned place, metres; `None` if none was measured.
     pub off_m: Option<f64>,
-    /// Largest angle from its planned headings, radians; `None` if it was not measured.
+    /// Largest measured angle from a planned heading, radians; `None` if none was measured.
     pub off_rad: Option<f64>,
-    /// Whether it has the original firmware (TARGET and COLOR only): its heading, Stop and blinking were not tested.
+    /// Whether the robot has the original firmware (TARGET and COLOR only). If so, its heading, STOP and blinking were
+    /// not tested.
     pub limited: bool,
 }
 
-/// What is wrong with a robot. `Display` is the cause for people.
+/// What is wrong with a robot. `Display` writes it for people.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PreflightFinding {
-    /// It stood too far from its planned place.
+    /// The robot stood too far from its planned place.
     OffPlace {
         /// Metres.
         off_m: f64,
     },
-    /// It was turned too far from its planned heading.
+    /// The robot was turned too far from its planned heading.
     OffHeading {
         /// Radians.
         off_rad: f64,
     },
-    /// The heading that it reports is not the direction in which it drives.
+    /// The heading that the robot reports is not the direction in which it drives.
     DrivesAskew {
         /// Radians.
         off_rad: f64,
     },
-    /// It did not stop when it was told to, or not where it should.
+    /// The robot did not stop when it was told to, or stopped at a wrong place.
     DidNotStop,
-    /// Whether it stops on its way could not be tested: the link is too slow, or the stop came too late.
+    /// It could not be tested whether the robot stops on its way: the link is too slow, or the stop came too late.
     StopNotTested,
-    /// It could not take part, or not to the end.
+    /// The robot dropped out of the preflight, or could not take part.
     Failed(Trouble),
-    /// There is no room around it to drive.
+    /// There is no free floor around the robot for its test drive.
     NoRoom,
-    /// The preflight ended before it was tested.
+    /// The preflight ended before the robot was tested.
     Unfinished,
 }
 
@@ -69,7 +70,7 @@ impl PreflightReport {
         self.robots.iter().filter(|robot| robot.passed()).count()
     }
 
-    /// Returns the result of a robot; `None` if it was not to be tested.
+    /// Returns the result for a robot; `None` if the robot was not to be tested.
     pub fn of(&self, robot: RobotId) -> Option<&PreflightRobot> {
         self.robots.iter().find(|tested| tested.id == robot)
     }
@@ -83,7 +84,7 @@ impl PreflightRobot {
 }
 
 impl PreflightFinding {
-    /// Returns what people can do about it, in one sentence.
+    /// Returns in one sentence what people can do about this finding.
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::OffPlace { .. } => {

@@ -1,8 +1,8 @@
 //! Chooses the direction in which each robot drives out, and the robots that drive in the same round.
 //!
-//! The robots are not tested yet: one of them may not stop, or may drive too far. The lines of robots that drive in one
-//! round are therefore apart, along their whole lengths, from each other and from all robots that stand. Whatever a
-//! robot does on its line, it meets no other.
+//! The robots are not tested yet: a robot may not stop, or may drive too far. So the lines of robots that drive in one
+//! round keep a gap from each other and from all standing robots, along their whole lengths. At any place on its line,
+//! a robot meets no other robot.
 
 use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
@@ -13,34 +13,36 @@ use std::f64::consts::FRAC_PI_4;
 
 /// How far each robot drives out, metres.
 pub(crate) const OUT_M: f64 = 0.05;
-/// Least gap between rims, wherever robots are on their lines, metres. It is twice the 5 mm by which a robot that
-/// passes may be off.
+/// Least gap between the rims of two robots, wherever they are on their lines, metres. It is twice the 5 mm by which a
+/// robot may be off its place and still pass.
 const GAP_M: f64 = 0.01;
-/// Least gap to the floor's edge, metres: the planner's gap at goals, and its rounding.
+/// Least gap between a robot's rim and the floor's edge at its goal, metres: the planner's gap at goals, and its
+/// rounding.
 const EDGE_M: f64 = 0.004;
-/// Directions to try, the preferred one first, in eighths of a turn from straight ahead: ahead, back, left, right, and
-/// those between.
+/// Directions to try, the preferred one first. Unit: eighths of a turn, counter-clockwise from the robot's heading.
+/// Ahead, back, left and right come before the diagonals.
 const DIRECTIONS: [i32; 8] = [0, 4, 2, 6, 1, 7, 3, 5];
-/// Distance by which a robot that drives away from another one beside it may come closer first, metres, because its
-/// heading is not exact.
+/// Tolerance for two robots that already stand closer than [`GAP_M`], metres: the line of one may come this much closer
+/// to the other. Without it, inexact headings would rule out driving away from the other robot.
 const NEARER_M: f64 = 0.000_5;
-/// Largest number of rounds; more would take minutes. Robots that have not driven by then are not tested.
+/// Largest number of rounds; more would take minutes. Robots that find no place in these rounds are not tested.
 const ROUNDS_MAX: usize = 12;
-/// Side of the squares in which robots are looked up, metres. Two robots farther apart than this never come near each
-/// other.
+/// Side of the grid squares in which neighbours of a robot are looked up, metres. Two robots farther apart than this
+/// cannot meet on their lines.
 const CELL_M: f64 = 0.25;
 
-/// A robot that is to be tested.
+/// Place and heading of a robot that is to be tested.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TestedRobot {
     /// Its place, stage metres.
     pub at: Vec2,
-    /// Its heading, radians; 0 if it does not report one.
+    /// Its heading in the stage, radians; 0 if it does not report one.
     pub heading: f64,
 }
 
-/// Returns `[round][robot]`: the goal of the robot in that round, stage metres; `None` if it stands. Robots without
-/// room have no goal in any round. `standing`: centres of other discs on the floor, stage metres.
+/// Returns `[round][robot]`: the goal of the robot in that round, stage metres; `None` if it stands in that round.
+/// Robots without enough free floor have no goal in any round. `standing`: centres of discs of robots that are not
+/// tested, stage metres.
 pub(crate) fn rounds(stage: &Stage, robots: &[TestedRobot], standing: &[Vec2]) -> Vec<Vec<Option<Vec2>>> {
     let floor = TestFloor::new(stage, robots, standing);
     let mut left: Vec<(usize, Vec<Vec2>)> =
@@ -58,14 +60,14 @@ pub(crate) fn rounds(stage: &Stage, robots: &[TestedRobot], standing: &[Vec2]) -
     rounds
 }
 
-/// The floor, and what stands near each robot.
+/// The floor with its obstacles, and what is near each robot.
 struct TestFloor<'a> {
     space: FreeSpace<'a>,
     gap_m: f64,
     robots: &'a [TestedRobot],
-    /// Indices of the other robots within [`CELL_M`] of each robot.
+    /// For each robot, the indices of the other tested robots within [`CELL_M`] of it.
     near: Vec<Vec<usize>>,
-    /// Centres of the other discs within [`CELL_M`] of each robot, stage metres.
+    /// For each robot, the centres of standing discs within [`CELL_M`] of it, stage metres.
     near_standing: Vec<Vec<Vec2>>,
 }
 
@@ -92,7 +94,8 @@ impl<'a> TestFloor<'a> {
         }
     }
 
-    /// Returns the goals of a robot whose lines are clear of all that stands, the preferred one first.
+    /// Returns the goals to which a robot can drive without meeting a standing robot, an obstacle or the floor's edge;
+    /// the preferred goal first.
     fn free_goals(&self, robot: usize) -> Vec<Vec2> {
         let TestedRobot { at, heading } = self.robots[robot];
         let goal = |eighths: &i32| at + Vec2::unit(heading + f64::from(*eighths) * FRAC_PI_4) * OUT_M;
@@ -110,7 +113,8 @@ impl<'a> TestFloor<'a> {
         at.x.abs() <= most.x && at.y.abs() <= most.y
     }
 
-    /// Whether the line of a robot is apart from the lines that others drive in the same round.
+    /// Whether the line of a robot to `goal` keeps its gap from the lines of robots that already drive in the same
+    /// round. `goals_of[robot]`: goal of a robot that drives in the round; `None` if it does not drive yet.
     fn is_apart(&self, robot: usize, goal: Vec2, goals_of: &[Option<Vec2>]) -> bool {
         let at = self.robots[robot].at;
         self.near[robot].iter().all(|&other| {
@@ -118,8 +122,8 @@ impl<'a> TestFloor<'a> {
         })
     }
 
-    /// Whether the distance between two lines keeps the gap. Robots that already stand closer only have to keep their
-    /// distance, less [`NEARER_M`].
+    /// Whether two lines keep the gap; each is given by start and end. Robots that already stand closer only have to
+    /// keep their present distance, less [`NEARER_M`].
     fn are_apart(&self, one: (Vec2, Vec2), other: (Vec2, Vec2)) -> bool {
         let needed_m = self.gap_m.min(one.0.distance(other.0) - NEARER_M);
         segment_to_segment(one, other) >= needed_m

@@ -1,33 +1,35 @@
-//! Robots that dropped out and still report. People may put them aside, or they find their position again. A plan
-//! then may not know where they stand.
+//! Robots that dropped out and still report. People may put them aside, or robots find their position again, so that
+//! plans do not know where they stand.
+//!
+//! A leg is the drive of all robots between two moments at which all stand.
 
 use crate::leg::Leg;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Span, Vec2};
 use std::sync::Arc;
 
-/// Largest distance between a reported place and a place that the plan drives around at which both count as one,
-/// metres. This is 4 sigma of two fixes.
+/// A reported place and a place that the plan drives around count as the same if they are closer than this, metres.
+/// This is 4 sigma of two position fixes.
 const SAME_M: f64 = 0.008;
-/// Share of the contact distance: a path that comes closer to a robot leads through it. Plans keep the whole distance
-/// and more; fixes are off by a few millimetres.
+/// Share of the contact distance (between the centres of two robots that touch). A path that comes closer to a robot
+/// than this share leads through the robot. Plans keep the whole distance and more; position fixes are off by a few
+/// millimetres.
 const THROUGH: f64 = 0.9;
-/// Least time between two sampled places of a path: 14 mm at full speed.
+/// Least time between two sampled places of a path; in it a robot drives 14 mm at full speed.
 const STEP: Span = Span::from_millis(50);
-/// Largest number of times that all is planned again because of one robot. A robot that is somewhere else each time
-/// must not hold up the show.
+/// How often all is planned again because of one robot. After that its reports are ignored, because a robot that is
+/// somewhere else each time must not hold up the show.
 const REPLANS_MAX: u8 = 3;
-/// Least time between two comparisons of the paths of a drive with the reports of one robot. To compare 10,000 paths
-/// takes milliseconds, and a robot that stands reports every 2 s (R41).
+/// Least time between two comparisons of paths with the reports of one robot. It takes milliseconds to compare 10,000
+/// paths, and a robot that stands reports only every 2 s (R41).
 const LOOK_EVERY: Span = Span::from_millis(500);
 
-/// The places where robots that dropped out report to stand. Plans drive around them.
+/// The places where robots that dropped out stand, by their reports, stage metres. Plans drive around them.
 pub(crate) fn places(cx: &RunContext) -> Arc<[Vec2]> {
     (0..cx.roster.len()).filter_map(|participant| place(cx, participant)).collect()
 }
 
-/// Whether the first leg of the queue leads through a robot that dropped out. If it does, a replan is counted for
-/// that robot.
+/// Whether the first leg of the queue leads through a robot that dropped out. If so, counts a replan for that robot.
 pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
     let obstructing = cx.pipeline.queue.front().and_then(|leg| {
         (0..cx.roster.len()).find(|&participant| {
@@ -37,9 +39,9 @@ pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
     obstructing.inspect(|&participant| plan_around(cx, participant)).is_some()
 }
 
-/// Whether a leg leads through a participant that dropped out and reports. With `driven` this is the driven leg from
-/// that path time on; otherwise it is the first leg of the queue. Answers `false` within `LOOK_EVERY` of the last
-/// comparison.
+/// Whether a leg leads through a participant that dropped out and reports its place. With `driven`, the leg is the one
+/// that robots drive, from this path time on. With `None` it is the first leg of the queue. `false` without a
+/// comparison, if the last one is less than `LOOK_EVERY` ago.
 pub(crate) fn obstructs(cx: &mut RunContext, participant: usize, driven: Option<Span>) -> bool {
     let leg = if driven.is_some() { cx.pipeline.leg() } else { cx.pipeline.queue.front() };
     let from = driven.unwrap_or(Span::ZERO);
@@ -56,21 +58,21 @@ pub(crate) fn obstructs(cx: &mut RunContext, participant: usize, driven: Option<
     is_through
 }
 
-/// Counts a replan because of a robot.
+/// Counts a replan that a robot makes necessary.
 fn plan_around(cx: &mut RunContext, participant: usize) {
     cx.roster.participants[participant].bystander.replans += 1;
 }
 
-/// Where a participant that dropped out stands, by its own report. `None` if it may be moving, or if its name is
-/// shared.
+/// Where a participant that dropped out stands by its own report, stage metres. `None` if it may be moving, if it
+/// reports no place, or if another robot shares its name.
 fn place(cx: &RunContext, participant: usize) -> Option<Vec2> {
     let (known, robot) = (cx.participant(participant), cx.robot(participant));
     let says_where = known.is_excluded() && known.last_seen.possible.is_empty();
     robot.reported.at.filter(|_| says_where && !robot.may_move() && !robot.namesakes.are_there())
 }
 
-/// Where a participant that dropped out stands, unless the plan of a leg drives around that place. `None` also once
-/// it has caused too many replans.
+/// The place from [`place`], unless the plan of `leg` drives around it. `None` also if the robot has caused too many
+/// replans.
 fn unexpected(cx: &RunContext, leg: &Leg, participant: usize) -> Option<Vec2> {
     let may_cost = cx.participant(participant).bystander.replans < REPLANS_MAX;
     let is_known = |at: Vec2| leg.around.iter().any(|known| known.distance(at) < SAME_M);

@@ -1,4 +1,4 @@
-//! Robots that may take part from the next frame on: new ones, and participants that dropped out and report again.
+//! Candidates: robots that may take part from the next frame on. They are new, or dropped out and report again.
 
 use crate::event::EventKind;
 use crate::run::playback::RunPurpose;
@@ -6,8 +6,8 @@ use crate::run::probation;
 use crate::run::readiness::is_ready;
 use crate::run::run_context::RunContext;
 
-/// Makes a robot a candidate for the next frame if it may take part. The robot reports, and takes no part or is
-/// excluded. `is_stopping`: all robots are being stopped.
+/// Makes a robot a candidate for the next frame, if it may take part. Called when a robot that takes no part or dropped
+/// out has reported. `is_stopping`: all robots are being stopped.
 pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
     let is_welcome = match participant {
@@ -25,14 +25,14 @@ pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     }
 }
 
-/// Whether a robot that has not taken part yet may do so. It has to be admitted. Without a list of admitted robots,
-/// it must have been found before the run began.
+/// Whether a robot that was never in the run may take part. It has to be admitted. If there is no list of admitted
+/// robots, it must have been found before the run began.
 fn is_expected(cx: &RunContext, robot: usize) -> bool {
     let known = cx.io.fleet.robot(robot);
     known.is_admitted && !(cx.io.config.admitted.is_none() && cx.roster.is_stranger(known))
 }
 
-/// Lets ready candidates take part, while all stand. Returns whether any was admitted.
+/// Lets candidates that are ready take part; called while all robots stand. Returns whether any joined.
 pub(crate) fn admit(cx: &mut RunContext) -> bool {
     if cx.roster.candidates.is_empty() || cx.playback.is_ended() {
         return false;

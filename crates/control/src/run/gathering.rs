@@ -1,4 +1,4 @@
-//! The phase in which all robots stop and report where they stand. Robots that do not answer drop out.
+//! The phase in which all robots are stopped and report where they stand. Robots that do not answer drop out.
 
 use crate::context::Context;
 use crate::event::Trouble;
@@ -20,45 +20,47 @@ use lightbots_wire::{Command, Route};
 
 /// How many copies of HOLD and STOP are sent, and the time between them.
 const COPIES: (u32, Span) = (4, Span::from_millis(40));
-/// How long after STOP reports begin to count: all copies have arrived by then, and robots stand.
+/// Time from when robots stand after STOP until their reports begin to count; a round trip comes on top. All copies
+/// have arrived by then.
 const SETTLE: Span = Span::from_millis(200);
 /// Time between requests to robots that have not answered.
 const ASK: Span = Span::from_millis(300);
 /// Time between two checks of the phase.
 const CHECK_EVERY: Span = Span::from_millis(50);
 
-/// How long robots that are not ready may take.
+/// How long a robot may take to become ready. After that it drops out.
 struct Bounds {
-    /// To answer, beyond the silence after which a robot drops out. TARGET-only robots (they understand the command
-    /// TARGET but no routes) have three times as long: question and answer must both be delivered.
+    /// Time to answer; it comes on top of the silence after which a robot drops out. TARGET-only robots (they
+    /// understand the command TARGET but no routes) have three times as long, because both the question and the answer
+    /// must be delivered.
     answer: Span,
-    /// To stop, for a TARGET-only robot that does not receive its halt: it drives on to its target.
+    /// Time to stop, for a TARGET-only robot that does not receive the command to halt and drives on to its target.
     stop: Span,
-    /// To set its clock: ten answers to time questions.
+    /// Time to set its clock, for which a robot needs ten answers to time questions.
     clock: Span,
 }
 
-/// A shorter time drops robots on a lossy link; a longer one keeps all waiting for a dead robot.
+/// With shorter times, robots on a lossy link drop out; with longer ones, all wait for a dead robot.
 const BOUNDS: Bounds = Bounds {
     answer: Span::from_millis(1_500),
     stop: Span::from_millis(20_000),
     clock: Span::from_millis(8_000),
 };
 
-/// The state while robots stop and are asked where they stand.
+/// The state while robots are stopped and asked where they stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gathering {
-    /// When robots that receive messages stand.
+    /// The moment at which robots that received STOP or HOLD stand.
     since: Instant,
-    /// When reports begin to count.
+    /// Reports from this moment on count.
     fresh_from: Instant,
     /// When robots that have not answered are asked next.
     ask_at: Instant,
-    /// When STOP is sent, if progress is held first. `None` if STOP has been sent.
+    /// When STOP is sent, if a HOLD comes first, so that robots slow down on their paths. `None` once STOP was sent.
     stop_at: Option<Instant>,
-    /// Whether nothing was driven yet. Too few robots are then a reason not to begin.
+    /// Whether nothing was driven yet in this run. Too few robots are then a reason to end it.
     is_first: bool,
-    /// What was broken off.
+    /// The drive, or the stay in a frame, that was interrupted.
     pub left: Position,
 }
 
@@ -75,7 +77,7 @@ impl Gathering {
         }
     }
 
-    /// Stops all robots. `left` is the drive that is broken off, or the frame in which robots stood.
+    /// Stops all robots. `left` is the drive that is interrupted, or the stay in a frame.
     pub fn begin(cx: &mut RunContext, mut left: Position) -> Self {
         cx.io.outbox.stop_repeating();
         let held_from = left.drive.and_then(|clock| hold_before_stop(cx, &clock));
@@ -96,12 +98,13 @@ impl Gathering {
         }
     }
 
-    /// When progress is held, if STOP is still to come.
+    /// The moment at which robots begin to slow down in the HOLD before STOP. `None` once STOP was sent, or without a
+    /// HOLD.
     pub fn held_from(&self) -> Option<Instant> {
         self.stop_at.map(|at| at - Route::EASE)
     }
 
-    /// Ends the air time of the frame in which robots stood: they leave as soon as all are ready.
+    /// Ends the air time of the frame in which robots stood, so that they leave it as soon as all are ready.
     pub fn leave_now(&mut self) {
         self.left.stood = None;
     }
@@ -125,7 +128,8 @@ impl Gathering {
         now + CHECK_EVERY
     }
 
-    /// Does what is due: sends STOP, asks robots for what they lack, drops those that are overdue, or ends the phase.
+    /// Does what is due: sends STOP, asks robots for missing reports, drops robots that take too long, or ends the
+    /// phase.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if let Some(stop_at) = self.stop_at {
             if cx.now >= stop_at {
@@ -159,7 +163,7 @@ impl Gathering {
         Next::Stay
     }
 
-    /// How long a robot may take if it is not ready because of `why`.
+    /// How long after `since` a robot may take to become ready if it is not ready because of `why`.
     fn bound(&self, cx: &RunContext, participant: usize, why: Trouble) -> Span {
         let is_original = cx.robot(participant).is_original();
         let bound = match why {
@@ -174,7 +178,7 @@ impl Gathering {
         if reports { bound.max(cx.link.patience(self.since)) } else { bound }
     }
 
-    /// Ends the phase, because all stand and their places are known. The run fails if too few robots are left.
+    /// Ends the phase, because all robots stand at known places. The run fails if too few robots are left.
     fn end(&self, cx: &RunContext) -> Next {
         let active = cx.roster.active().count();
         let frame = cx.playback.show.frames.get(cx.playback.next.frame);
@@ -201,15 +205,16 @@ impl Gathering {
         }
     }
 
-    /// Where a participant that fell silent on the broken-off drive may stand.
+    /// Where a participant that fell silent on the interrupted drive may stand.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         outdated_journal::whereabouts_after(cx, &self.left, participant)
     }
 }
 
-/// When a drive is held before STOP. Without a hold, a robot that misses the first STOP stops 40 ms later than the
-/// others. That is 11 mm at full speed and more than plans leave. `None` for legs of TARGETs, and if robots rest
-/// already or the drive ends before.
+/// The moment of a HOLD before STOP, if all robots are to be stopped now on the drive of `clock`. In a hold all slow
+/// down together. Without it, a robot that misses the first copy of STOP stops 40 ms later than the others. At full
+/// speed that is 11 mm, more than plans leave. `None` (STOP is sent at once) for legs of TARGETs, if robots stand
+/// already, or if the drive ends before the hold.
 pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Instant> {
     if cx.pipeline.leg().is_none_or(|leg| leg.kind == LegKind::Targets) {
         return None;
@@ -231,8 +236,8 @@ pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Ins
     (cx.now < at + Route::EASE && at < clock.ends).then_some(at)
 }
 
-/// Whether the run waits for robots whose clocks are not precise yet. An event names the one with the least precise
-/// clock, once.
+/// Whether the run still waits for robots whose clocks are not precise yet. When the wait begins, an event names the
+/// robot with the least precise clock.
 fn waits_for_clocks(cx: &mut RunContext) -> bool {
     let clocks = cx.roster.active().map(|(one, known)| (clock_us(cx.io, known.robot), one));
     let worst = clocks.max().filter(|&(us, _)| us > PRECISE_US);
@@ -242,7 +247,7 @@ fn waits_for_clocks(cx: &mut RunContext) -> bool {
         cx.tally.clock_wait.end();
         return false;
     };
-    // The link costs this time, and not a robot that dropped out.
+    // This time is lost because of the link, and not because of a robot that dropped out.
     cx.tally.recovery.put_off(passed);
     if begins {
         cx.report_waiting(worst, Trouble::Clock);
@@ -250,7 +255,7 @@ fn waits_for_clocks(cx: &mut RunContext) -> bool {
     true
 }
 
-/// Error of a robot's clock, 2 sigma, microseconds; 0 if the robot did not report it.
+/// Error of a robot's clock, 2 sigma, microseconds; 0 if its report contains none.
 fn clock_us(io: &Context, robot: usize) -> u32 {
     io.fleet.robot(robot).reported.clock_us.unwrap_or(0)
 }

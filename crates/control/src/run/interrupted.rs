@@ -1,7 +1,7 @@
-//! The phase in which the run stands still because its robots are out of reach. The run goes on once they report
-//! where they are.
+//! The phase in which the run is interrupted because its robots are out of reach: the broker is away, or many robots
+//! are silent. The run goes on once robots report where they are.
 //!
-//! Robots stop by themselves (R43 of docs/protocol.md), so a robot that is out of reach is no dropout. After a short
+//! Robots that are out of reach stop by themselves (R43 of docs/protocol.md), so they do not drop out. After a short
 //! interruption the run goes on by itself. After a longer one the operator has to agree, because people may be on the
 //! floor by then.
 
@@ -17,45 +17,47 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Route, Topic};
 
-/// Time between two checks for robots that are back.
+/// Time between two checks whether robots report again.
 const CHECK_EVERY: Span = Span::from_millis(100);
 /// How many copies of HOLD and STOP are sent, and the time between them.
 const COPIES: (u32, Span) = (4, Span::from_millis(40));
-/// Time between requests to all robots to report. TARGET-only robots (they understand the command TARGET but no
-/// routes) do not report of their own accord.
+/// Time between two broadcasts that ask all robots to report. TARGET-only robots (they understand the command TARGET
+/// but no routes) report only when asked.
 const ASK_EVERY: Span = Span::from_millis(2_000);
-/// Time from the last message to a robot until a HOLD would stop it where it stops by itself (R43: it slows down after
-/// 1.9 s, and HOLD takes 50 ms longer to the same place).
+/// Time from the last message to a robot to the moment of a HOLD that stops it where it would stop by itself. A robot
+/// without messages slows down after 1.9 s (R43). HOLD needs 50 ms longer to the same place.
 const SLOWS_AFTER: Span = Span::from_millis(1_850);
-/// Least time between two HOLDs or STOPs for robots that come back. Robots answer each STOP with a report.
+/// Least time between two broadcasts of HOLD or STOP for robots that report again. Robots answer each STOP with a
+/// report.
 const HALT_AGAIN: Span = Span::from_millis(300);
-/// How long the run waits for one more robot while robots come back. Clients look for a broker every 2 s.
+/// How long the run waits for one more robot while robots report again. Clients look for a broker every 2 s.
 const ONE_MORE: Span = Span::from_millis(3_000);
 
 /// The state of a run that stands still.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interrupted {
-    /// When the run was interrupted. Reports from before do not count.
+    /// When the run was interrupted. Only later reports count.
     pub since: Instant,
-    /// When the link broke: about when the last report of a silent robot came.
+    /// About when the link broke: when the last report of a robot that is now silent was received.
     broke: Instant,
-    /// What was broken off.
+    /// The drive, or the stay in a frame, that was interrupted.
     pub left: Position,
-    /// Until when robots have to be back for the run to go on without the operator.
+    /// The run goes on without the operator if enough robots report again by this moment.
     by_itself_until: Instant,
-    /// When enough robots had reported for the run to go on.
+    /// When enough robots had reported again for the run to go on. `None` until then.
     back_at: Option<Instant>,
-    /// Number of robots that have reported, and when that number last grew.
+    /// Number of robots that have reported since the interruption, and when that number last grew.
     reported: (usize, Instant),
     ask_at: Instant,
-    /// When robots that report again were told to hold or stop last.
+    /// When robots that report again were last sent HOLD or STOP.
     halted: Option<Instant>,
     /// Whether the operator agreed that the run goes on.
     is_agreed: bool,
 }
 
 impl Interrupted {
-    /// Begins the phase at `now`. The run goes on by itself if robots are back within `by_itself`.
+    /// Begins the phase at `now`. `left` is what was interrupted. The run goes on without the operator if enough robots
+    /// report again within `by_itself`.
     pub fn begin(now: Instant, mut left: Position, by_itself: Span) -> Self {
         left.stops.get_or_insert(StopTimes { began: now, stood: now });
         Self {
@@ -81,7 +83,7 @@ impl Interrupted {
         now + CHECK_EVERY
     }
 
-    /// Whether robots are back and the run waits for the operator alone.
+    /// Whether enough robots report again and only the operator's agreement is missing.
     pub fn asks_operator(&self) -> bool {
         !self.is_agreed && self.back_at.is_some_and(|back| back > self.by_itself_until)
     }
@@ -91,7 +93,7 @@ impl Interrupted {
         self.reported.0 > 0
     }
 
-    /// Does what is due: counts robots that are back, asks for reports, and goes on or ends the run.
+    /// Does what is due: counts robots that report again, asks for reports, and goes on or ends the run.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         let robots = cx.roster.active().count();
         let missing = self.missing(cx).len();
@@ -117,7 +119,7 @@ impl Interrupted {
         if self.back_at.is_none() || self.asks_operator() { Next::Stay } else { Next::GoOn }
     }
 
-    /// Lets the run go on for the operator. Robots that do not report drop out.
+    /// Continues the run because the operator agrees. Returns the dropout of all robots that have not reported.
     pub fn go_on(&mut self, cx: &RunContext) -> Next {
         self.is_agreed = true;
         self.back_at.get_or_insert(cx.now);
@@ -128,9 +130,9 @@ impl Interrupted {
         Next::Drop(missing.into_iter().map(|participant| (participant, Trouble::Silent)).collect())
     }
 
-    /// Stops robots that report again and may still drive. Each robot that comes back may have missed the commands that
-    /// were sent for those before it. Robots hold when those out of reach slow down by themselves, so that all stay
-    /// where the plan keeps them apart.
+    /// Stops robots that report again and may still drive. Called again when more robots report, because these may have
+    /// missed earlier commands. On routes, HOLD stops robots when those out of reach slow down by themselves. All then
+    /// stay where the plan keeps them apart.
     fn halt(&mut self, cx: &mut RunContext) {
         let is_first = self.halted.replace(cx.now).is_none();
         let slows_at = self.broke + SLOWS_AFTER;
@@ -140,8 +142,8 @@ impl Interrupted {
                     target_commands::halt_all(cx);
                 }
             }
-            // Later, robots that drive would roll on into those that have already stopped by themselves. STOP before all
-            // rest in a hold would halt some of them sooner than others.
+            // After this moment, robots in a hold would roll on into those that have already stopped by themselves.
+            // STOP before all rest in a hold would halt some of them sooner than others.
             Some(clock) if cx.now <= slows_at.max(clock.rests_from().unwrap_or(slows_at)) => {
                 let at = slows_at.max(cx.now + cx.link.hold_lead());
                 let at = clock.open_hold().map_or(at, |hold| hold.at);
@@ -166,12 +168,13 @@ impl Interrupted {
         cx.roster.active().map(|(one, _)| one).filter(is_missing).collect()
     }
 
-    /// Whether enough robots report for the silent ones to count as lost robots rather than a lost link.
+    /// Whether enough robots report for the silent ones to count as lost. While many are silent, or the broker is away,
+    /// the link counts as lost.
     fn is_back(&self, cx: &RunContext, robots: usize, missing: usize) -> bool {
         cx.io.outbox.linked() && missing < robots && missing < many_of(robots)
     }
 
-    /// Notes that robots are back, and records an event.
+    /// Notes that enough robots report again, and records an event.
     fn come_back(&mut self, cx: &mut RunContext, robots: usize) {
         self.back_at = Some(cx.now);
         let (reported, _) = self.reported;
@@ -179,7 +182,7 @@ impl Interrupted {
         cx.io.log.record(cx.now, EventKind::LinkBack { reported, robots, after, asks_operator });
     }
 
-    /// Ends the run if robots have stayed away for longer than the bound.
+    /// Ends the run if robots have been out of reach for longer than the configured bound.
     fn give_up(&self, cx: &RunContext) -> Next {
         if cx.now - self.since <= cx.io.config.waits.outage {
             return Next::Stay;

@@ -1,4 +1,4 @@
-//! The operator's choice of the next frame. Robots are planned there from where they stand, as after a dropout.
+//! The operator's choice of the next frame. The drive to it is planned from where robots stand, as after a dropout.
 
 use crate::context::Context;
 use crate::event::EventKind;
@@ -9,7 +9,7 @@ use crate::run::phase::RunPhase;
 use lightbots_base::Instant;
 
 impl Run {
-    /// Whether the operator may choose the next frame: robots stand, or are held.
+    /// Whether the operator may choose the next frame: robots stand, are held on their drive, or the run is paused.
     pub fn may_jump(&self) -> bool {
         match &self.phase {
             RunPhase::Standing(_) | RunPhase::Gathering(_) => true,
@@ -36,7 +36,7 @@ impl Run {
         self.plan_chosen(io, now);
     }
 
-    /// Leaves out the next frame for the operator.
+    /// Leaves out the next frame, because the operator skips it.
     pub fn skip(&mut self, io: &mut Context, now: Instant) {
         io.log.record(now, EventKind::Skipped { frame: self.playback.next.frame });
         self.playback.music.lead();
@@ -59,7 +59,7 @@ impl Run {
         }
     }
 
-    /// The frame after the one that robots drive to or stand in, counted from 0. `None` if there is none.
+    /// Index of the frame that is reached after the one that robots drive to or stand in. `None` if there is none.
     pub fn next_frame(&self) -> Option<usize> {
         let next = self.playback.next;
         let next = if self.is_frame_reached() { Some(next) } else { self.playback.after(next) };

@@ -7,14 +7,15 @@ use crate::run::{MusicTime, Run, RunPhase, RunPurpose};
 use crate::snapshot::ShowPosition;
 use lightbots_base::{Instant, Span};
 
-/// Least air time of a late frame, unless the show gives it less.
+/// Least air time (stay of robots in a frame) of a late frame, unless the show gives it less.
 const STANDS: Span = Span::from_millis(500);
-/// Delay up to which shorter air times alone catch up, seconds. Above, the next frame is left out.
+/// If the show is behind the music by more than this, the next frame is left out, seconds. Up to this delay, shorter
+/// air times alone catch up.
 const LATE_MAX_S: f64 = 2.0;
 
 impl Run {
-    /// Where the music of the show is on the timeline. Without music this is the position of the show. `None` if no
-    /// show is played or its first drive has not begun.
+    /// Where the music is on the timeline of the show. Without music it is the position of the show. `None` if no show
+    /// is played or its first drive has not begun.
     pub fn music_position(&self, now: Instant) -> Option<ShowPosition> {
         let show = self.show_position(now)?;
         let MusicTime { seen, runs, .. } = self.playback.music;
@@ -23,8 +24,8 @@ impl Run {
         Some(ShowPosition { show_s: music_s + since_s, runs })
     }
 
-    /// Moves the position of the music on to `now`. From the first reached frame on it runs with the show clock,
-    /// whether robots drive or are held.
+    /// Notes where the music is at `now`. Once the first frame was reached, the music goes on with the show clock,
+    /// whether robots drive or are held. It stands while the run is paused or interrupted.
     pub fn follow_music(&mut self, now: Instant) {
         let show = self.show_position(now).filter(|_| self.playback.show.music.is_some());
         let (Some(show), Some(music)) = (show, self.music_position(now)) else {
@@ -50,8 +51,8 @@ impl Run {
         }
     }
 
-    /// Shortens the air time of a frame that robots have just reached, so that the show catches up with the music.
-    /// Leaves out the next frame if that is not enough.
+    /// If robots have just reached a frame, shortens its air time so that the show catches up with the music. Leaves
+    /// out the next frame if that is not enough.
     pub fn keep_up_with_music(&mut self, io: &mut Context, now: Instant) {
         if std::mem::replace(&mut self.playback.music.stood, self.tally.frames_played)
             == self.tally.frames_played
@@ -79,8 +80,8 @@ impl Run {
         }
     }
 
-    /// Whether the next frame may be left out: it is not the last, and the operator neither chose it nor waits for
-    /// it.
+    /// Whether the next frame may be left out for the music: it is not the last one, not in a loop, has no cue, and the
+    /// operator did not choose it.
     fn may_leave_out_next(&self) -> bool {
         let playback = &self.playback;
         let frame = playback.next.frame;

@@ -1,5 +1,8 @@
 //! The light of one leg, from the beginning of its drive until robots leave the frame: moments of show time, and
 //! colours at these.
+//!
+//! A leg is the drive of all robots between two moments at which all stand. A hold is a common stop during a drive.
+//! Show time stands during holds.
 
 use crate::config::Config;
 use crate::frame_cursor::FrameCursor;
@@ -10,38 +13,38 @@ use lightbots_lighting::{DrivenLight, FrameLight, LightMoment, ShowLight, fit};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, MAX_LIGHT_RECORDS};
 use std::sync::Arc;
 
-/// A stretch of light. Each robot is sent its own colours for it.
+/// A stretch: the next seconds of light. Each robot is sent its own colours for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlannedStretch {
     /// Number of the stretch, by which robots acknowledge it.
     pub number: u32,
-    /// Beginning of the stretch, as time since the drive began without holds.
+    /// Beginning of the stretch, as time since the drive began, without the time of holds.
     pub from: Span,
-    /// Duration of the stretch in ticks.
+    /// Duration of the stretch in ticks of 10 ms ([`TICK`]).
     pub ticks: u32,
-    /// How long robots blend from what they show to the colours of the stretch.
+    /// How long robots blend from the colours that they show to the colours of the stretch.
     pub over: Span,
-    /// Moment at which the stretch begins if it runs through holds, show clock. `None` if it stands still in holds.
+    /// Show-clock moment at which the stretch begins, if it goes on during holds. `None` if it stands still in holds.
     pub free_at: Option<Instant>,
 }
 
-/// Where a leg is on the timeline, and how show time goes on after it.
+/// Where a leg is on the timeline of the show, and how show time goes on after it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LegTimes {
-    /// Show time at the beginning of the drive, seconds.
+    /// Show time when the drive begins, seconds.
     pub show_s: f64,
-    /// Show time at which robots are to reach the frame by the timeline, seconds. If robots are late, show time is
-    /// later by then.
+    /// Show time at which robots are to reach the frame by the timeline, seconds. If robots are late, they reach it at
+    /// a later show time.
     pub due_s: f64,
-    /// Whether the music jumps to this leg: the operator chose the frame, or frames repeat.
+    /// Whether the music jumps to this leg, because the operator chose the frame, or because frames repeat.
     pub leads_music: bool,
     /// Duration of the drive by plan.
     pub drive: Span,
-    /// Air time of the frame by the show; zero if the leg does not reach the frame.
+    /// Air time (stay of robots) that the show gives the frame; zero if the leg does not reach the frame.
     pub air: Span,
-    /// Whether the frame has a cue. Show time then goes on until GO.
+    /// Whether the frame has a cue. Show time then goes on until the operator gives GO.
     pub waits_for_go: bool,
-    /// How long show time had stood still until the drive began, seconds.
+    /// How long show time had stood still in the run until the drive began, seconds.
     pub lead_s: f64,
 }
 
@@ -56,35 +59,36 @@ pub(crate) struct LegLight {
     pub reaches_frame: bool,
     /// Where the leg is on the timeline.
     pub times: LegTimes,
-    /// `[participant]`: the number of its robot in effects.
+    /// `[participant]`: the number by which effects know its robot.
     pub numbers: Arc<[u32]>,
-    /// `[participant]`: colour before the leg, and whether layers shone on the robot then.
+    /// `[participant]`: its colour before the leg, and whether layers of light shone on its robot then.
     pub before: Vec<(Rgb, bool)>,
-    /// `[participant]`: colour at the end of the leg, and whether layers may shine on the robot then.
+    /// `[participant]`: its colour at the end of the leg, and whether layers of light may shine on its robot then.
     pub after: Vec<(Rgb, bool)>,
-    /// The layers that may shine during the leg.
+    /// The layers of light that may shine during the leg.
     pub layers: FrameLight,
     /// The first stretch of the leg.
     pub first: PlannedStretch,
-    /// The time base of the drive. `None` before it begins, and after it was broken off.
+    /// The time base of the drive. `None` before the drive begins, and after it was interrupted.
     pub clock: Option<PathClock>,
-    /// Time since the drive began, as last noted.
+    /// Time since the drive began, without holds, when it was last noted.
     pub seen: Span,
 }
 
 impl LegLight {
-    /// The end of show time in this leg, as time since the drive began. `None` if show time goes on until GO.
+    /// When show time ends in this leg, as time since the drive began, without holds. `None` if show time goes on until
+    /// GO.
     pub fn end(&self) -> Option<Span> {
         (!self.times.waits_for_go).then_some(self.times.drive + self.times.air)
     }
 
-    /// Time since the drive began, without holds. `None` before the drive begins, and after it was broken off.
+    /// Time since the drive began, without holds. `None` before the drive begins, and after it was interrupted.
     pub fn elapsed(&self, now: Instant) -> Option<Span> {
         self.clock.map(|clock| clock.path_time(now)).filter(|elapsed| *elapsed >= Span::ZERO)
     }
 
-    /// The [`LightMoment`] at a time since the drive began, from which layers compute colours. `lost`: how long the
-    /// drive was held.
+    /// The [`LightMoment`], from which layers compute colours, at `elapsed` after the drive began. `elapsed` does not
+    /// contain holds; `lost` is how long the drive was held.
     pub fn moment(&self, elapsed: Span, lost: Span) -> LightMoment {
         let shown = self.end().map_or(elapsed, |end| elapsed.min(end));
         let lead_s = self.times.lead_s + (lost + (elapsed - shown)).as_secs();
@@ -93,23 +97,23 @@ impl LegLight {
         LightMoment { elapsed, show_s: self.times.show_s + shown.as_secs(), lead_s, clock_s }
     }
 
-    /// The [`LightMoment`] at a moment of the show clock, by the holds that are known.
+    /// The [`LightMoment`] at a moment of the show clock, with the holds that are known now.
     pub fn moment_at(&self, at: Instant) -> LightMoment {
         self.moment(self.elapsed(at).unwrap_or(Span::ZERO), self.lost(at))
     }
 
-    /// How long holds have delayed the drive until now.
+    /// How much holds have delayed the drive until `now`.
     pub fn lost(&self, now: Instant) -> Span {
         self.clock.map_or(Span::ZERO, |clock| (now - clock.began - clock.path_time(now)).max(Span::ZERO))
     }
 
-    /// How long show time has stood still by the end of the leg, seconds. Only holds that are over count.
+    /// How long show time has stood still in the run by the end of the leg, seconds. Only holds that are over count.
     pub fn lead_s_after(&self) -> f64 {
         self.times.lead_s + self.clock.map_or(0.0, |clock| clock.lost.as_secs())
     }
 
-    /// What determines the light of a participant. `next`: the leg to the frame after. `None` if the participant is
-    /// not in the leg.
+    /// What determines the light of a participant in this leg. `next` is the leg to the next frame. `None` if the
+    /// participant is not in the leg.
     pub fn driven<'a>(
         &self,
         leg: &'a Leg,
@@ -131,7 +135,7 @@ impl LegLight {
         })
     }
 
-    /// The message with a participant's colours for a stretch.
+    /// The message to a participant with its colours for a stretch.
     pub fn command(
         &self,
         config: &Config,
@@ -146,8 +150,8 @@ impl LegLight {
                 Some(at) => self.moment_at(at + time),
                 None => self.moment(stretch.from + time, lost),
             });
-        // Robots interpolate linearly between the colours that they get. Colours are therefore corrected for the lamp
-        // first and fitted afterwards.
+        // Robots interpolate linearly between the colours that they receive. Colours are therefore corrected for the
+        // lamp before records are fitted to them.
         if !config.lamp.changes_nothing() {
             samples.iter_mut().for_each(|colour| *colour = config.lamp.sent(*colour));
         }
@@ -164,9 +168,10 @@ impl LegLight {
         })
     }
 
-    /// The moment from which robots count the time of a stretch, and the time from there to its beginning. Until
-    /// robots stand, that moment is the START, because holds may still come. After that it is a fixed moment, because
-    /// a frame may wait for GO for any time.
+    /// The moment from which robots count the time of a stretch, and the time from that moment to the beginning of the
+    /// stretch. Before the drive begins, the moment is the START of the leg's routes. During the drive it is the
+    /// beginning of the drive, and robots add the holds. Once robots stand it is a fixed moment, because a frame may
+    /// wait for GO for any time. A stretch that goes on during holds counts from its own beginning.
     fn anchor(&self, stretch: &PlannedStretch, now: Instant) -> (LightAnchor, Span) {
         let Some(clock) = self.clock else { return (LightAnchor::Start(self.seq), stretch.from) };
         if let Some(at) = stretch.free_at {
@@ -179,8 +184,8 @@ impl LegLight {
         (LightAnchor::Moment(clock.began), stretch.from)
     }
 
-    /// The stretch that begins at a time since the drive began and takes `longest` at most. `None` if show time is
-    /// over by then.
+    /// The stretch that begins at `from`, time since the drive began without holds, and takes `longest` at most. `None`
+    /// if show time of the leg is over by then.
     pub fn stretch(&self, number: u32, from: Span, longest: Span, over: Span) -> Option<PlannedStretch> {
         let left = self.end().map_or(longest, |end| (end - from).min(longest));
         // Layers that run freely go on after show time is over.

@@ -1,6 +1,7 @@
-//! Changes of light: colours change over the last part of a drive, by the show clock.
+//! Changes of light in shows without layers of light: colours change over the last part of a drive (a fade), by the
+//! show clock.
 //!
-//! A change outlives its drive: it is sent along with the next route until that route is acknowledged.
+//! A change is kept after its drive: it is sent along with the next route until that route is acknowledged.
 
 use crate::context::Context;
 use crate::leg::Leg;
@@ -9,20 +10,20 @@ use crate::run::upload::Upload;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Fade, Topic};
 
-/// Longest time that a colour takes to change; longer fades look like a fault of the light.
+/// Longest time that a colour takes to change. A longer fade looks like a fault of the light.
 const FADE_MAX: Span = Span::from_millis(1_000);
 
-/// How changes of light that were sent without a route are repeated. Reports do not acknowledge these.
+/// How changes of light that were sent without a route are repeated. No report acknowledges these.
 struct Repeats {
-    /// Time between two repeats. Two copies that are closer together are lost in one burst.
+    /// Time between two repeats. If copies were closer together, one burst of losses would take them all.
     every: Span,
-    /// Number of repeats in small fleets, and in larger ones, where the link is busy with routes.
+    /// Number of repeats in small fleets, and in larger ones, whose link is busy with routes.
     times: (u32, u32),
     /// Largest number of robots in a small fleet.
     few: usize,
 }
 
-/// With 5 % of messages lost, five copies leave one robot of 3 million in the wrong light.
+/// With 5 % of messages lost, five copies (the first and four repeats) leave one robot of 3 million in the wrong light.
 const REPEATS: Repeats = Repeats { every: Span::from_millis(300), times: (4, 1), few: 200 };
 
 /// Changes of light, by participant.
@@ -30,13 +31,13 @@ const REPEATS: Repeats = Repeats { every: Span::from_millis(300), times: (4, 1),
 pub(crate) struct Lights {
     /// `[participant]`: a change that the robot may not have received yet. Participants that joined later have none.
     pending: Vec<Option<Fade>>,
-    /// Deliveries of the pending changes that are repeated.
+    /// Which pending changes are repeated, and when.
     repeats: Option<Upload>,
     /// When the pending changes are repeated next, all at once.
     repeat_at: Instant,
     /// Number of repeats that are left.
     repeats_left: u32,
-    /// When robots that cannot fade change their colour.
+    /// When robots that cannot fade are sent their new colour.
     colors_at: Instant,
 }
 
@@ -53,8 +54,9 @@ impl Default for Lights {
 }
 
 impl Lights {
-    /// Sends robots their changes of light for a drive from `began` to `ends`. If a next route follows, the change is
-    /// sent along with that route, which is acknowledged. Otherwise it is sent at once and repeated.
+    /// Sends robots their changes of light for a drive from `began` to `ends`. If a robot has a route in the `next`
+    /// leg, its change is sent along with that route, which is acknowledged. Otherwise the change is sent at once and
+    /// repeated.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -101,25 +103,25 @@ impl Lights {
         self.repeats = Some(repeats);
     }
 
-    /// Forgets the changes of the drive before.
+    /// Forgets the changes of the drive before, and makes room for those of `participants`.
     pub fn forget(&mut self, participants: usize) {
         *self = Self { pending: vec![None; participants], ..Self::default() };
     }
 
-    /// Starts to repeat pending changes without routes, because the routes that were to carry them were dropped.
+    /// Starts to repeat pending changes by themselves, because the routes that were to carry them were dropped.
     pub fn send_again(&mut self, now: Instant) {
         if self.pending.iter().any(Option::is_some) {
             self.begin_repeats(now);
         }
     }
 
-    /// Ends the drive: pending changes are only sent along with the next routes.
+    /// Ends the repeats of a drive. Its pending changes are now sent only along with the next routes.
     pub fn end_drive(&mut self) {
         let pending = std::mem::take(&mut self.pending);
         *self = Self { pending, ..Self::default() };
     }
 
-    /// Sends repeats and colours that are due.
+    /// Sends repeats of changes and new colours that are due.
     pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, leg: &Leg) {
         self.repeat(context, roster, now);
         if now >= self.colors_at {
@@ -150,12 +152,13 @@ impl Lights {
         self.repeat_at.min(self.colors_at)
     }
 
-    /// The change to send along with the next route of a participant.
+    /// The change of light to send along with the next route of a participant. `None` if it has received all.
     pub fn pending(&self, participant: usize) -> Option<Fade> {
         self.pending.get(participant).copied().flatten()
     }
 
-    /// Forgets the pending change of a participant, because it acknowledged the route with the change or dropped out.
+    /// Forgets the pending change of a participant, because its robot acknowledged the route with the change, or
+    /// dropped out.
     pub fn settle(&mut self, participant: usize) {
         if let Some(pending) = self.pending.get_mut(participant) {
             *pending = None;
@@ -163,7 +166,7 @@ impl Lights {
     }
 }
 
-/// Sends the new colour to robots that follow paths and cannot fade.
+/// Sends the new colour to robots that follow routes and cannot fade.
 fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
     for (participant, step) in leg.robots.iter().enumerate() {
         let known = &roster.participants[participant];
@@ -175,8 +178,8 @@ fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
     }
 }
 
-/// Sends TARGET-only robots (they understand the command TARGET but no routes) their colours, all at once as they
-/// leave.
+/// Sends TARGET-only robots (they understand the command TARGET but no routes) the colours of their pixels, all at once
+/// as they leave.
 pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &Leg) {
     for (participant, step) in leg.robots.iter().enumerate() {
         let known = &roster.participants[participant];
@@ -187,7 +190,7 @@ pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &
     }
 }
 
-/// Sends a robot that was switched off and on the colour of its pixel again.
+/// Sends a robot that was switched off and on again the colour that it has in the leg.
 pub(crate) fn relight(context: &mut Context, roster: &Roster, leg: &Leg, participant: usize) {
     let Some(step) = leg.robots.get(participant) else { return };
     let robot = roster.participants[participant].robot;

@@ -1,4 +1,5 @@
-//! Link lost or robots lost: many robots that fall silent at once have lost their link, a few have died.
+//! Decides whether the link or robots are lost. Many robots that fall silent at once have lost their link; a few have
+//! died.
 
 use crate::event::Trouble;
 use crate::mutant::Mutant;
@@ -8,11 +9,11 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, RobotState};
 
-/// How many robots that fall silent at once count as a lost link.
+/// How many robots that fall silent at once count as a lost link. Both bounds have to be reached.
 struct Many {
     /// Least number of silent robots.
     least: usize,
-    /// Least share of the run's robots that are silent, percent. Both bounds have to be reached.
+    /// Least share of the run's active robots that are silent, percent.
     percent: usize,
 }
 
@@ -26,36 +27,38 @@ struct ReportInterval {
     driving: Span,
     /// While the robot stands.
     standing: Span,
-    /// Added for the time that a report takes to arrive.
+    /// Allowance for the time that a report takes to arrive.
     late: Span,
 }
 
+/// Report intervals of R41, and an allowance for slow links.
 const REPORTS: ReportInterval = ReportInterval {
     driving: Span::from_millis(500),
     standing: Span::from_millis(2_000),
     late: Span::from_millis(300),
 };
 
-/// How many copies of the question to all robots are sent, and the time between them. With one message in ten lost,
-/// two robots of 100 miss both the questions and their reports.
+/// Number of copies of the question that is sent to all robots, and the time between them. With one message in ten
+/// lost, two robots of 100 still fail to answer.
 const COPIES: (u32, Span) = (3, Span::from_millis(150));
-/// Time after the question within which a robot must report, or it counts as silent; a round trip comes on top. It is
-/// shorter than the time from the hold for a silent robot to its dropout. The question therefore costs no time.
+/// A robot counts as silent if it sends no report within this time after the question; a round trip is added. The
+/// question delays no dropout, because this time is shorter than the time from the hold for a silent robot to its
+/// dropout.
 const ANSWER: Span = Span::from_millis(600);
 
 /// What the silence of robots means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// These robots are lost; enough of the others answer.
+    /// The silent robots are lost, because enough other robots answer.
     RobotsLost,
-    /// The others have not had enough time to answer.
+    /// It is not known yet: the other robots have not had enough time to answer.
     Unknown,
     /// The link is lost. Holds the number of silent robots.
     LinkLost(usize),
 }
 
-/// Whether a robot drops out because it is silent, and not because of what it reports. What a silent robot reported last
-/// may be different by now.
+/// Whether a dropout counts as caused by silence. A reason from the robot's last report counts too if the robot is
+/// silent by now, because that report may be out of date.
 pub(crate) fn is_by_silence(cx: &RunContext, &(participant, why): &Dropout) -> bool {
     let silent =
         || cx.now - cx.robot(participant).contact.heard > cx.io.config.silence + cx.link.round_trip * 2;
@@ -63,9 +66,9 @@ pub(crate) fn is_by_silence(cx: &RunContext, &(participant, why): &Dropout) -> b
     why == Trouble::Silent || is_reported && silent()
 }
 
-/// Finds out what it means that these participants are silent. First all robots are asked for a report, and the
-/// verdict is `Unknown` until they have had time to answer. With `is_starting` they are not asked: robots in reach
-/// have confirmed a START lately, and the next one must not pass meanwhile.
+/// Decides what it means that these participants are silent. First all robots are asked for a report, and the verdict
+/// is `Unknown` until they have had time to answer. With `is_starting` they are not asked: robots within reach have
+/// lately confirmed a START, whose moment must not pass during the wait.
 pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) -> Verdict {
     if cx.roster.active().count() < MANY.least || Mutant::LinkLossIsDeath.is_planted() {
         return Verdict::RobotsLost;
@@ -88,9 +91,9 @@ pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) 
     many(cx, is_silent).map_or(Verdict::RobotsLost, Verdict::LinkLost)
 }
 
-/// Participants that are stale: they have missed three reports. While a frame waits for GO, these drop out at once,
-/// so that GO does not wait for a plan without them. At other times the next START finds them. TARGET-only robots
-/// (they understand the command TARGET but no routes) are left out, because they may report only when asked.
+/// Participants that are stale: they have missed three reports. While a frame waits for GO they drop out at once, so
+/// that GO does not wait for a new plan. At other times the next START finds them. TARGET-only robots (they understand
+/// the command TARGET but no routes) are left out, because they may report only when asked.
 pub(crate) fn stale(cx: &RunContext) -> Vec<usize> {
     let is_stale = |&one: &usize| {
         let robot = cx.robot(one);
@@ -99,13 +102,14 @@ pub(crate) fn stale(cx: &RunContext) -> Vec<usize> {
     cx.roster.active().map(|(one, _)| one).filter(is_stale).collect()
 }
 
-/// Number of silent robots, if the link seems lost without asking: many robots are stale, having missed three
-/// reports. `None` otherwise.
+/// Number of robots that have missed three reports (stale robots), if enough of them fell silent at once for a lost
+/// link. `None` otherwise. Robots are not asked for reports first.
 pub(crate) fn apparent(cx: &RunContext) -> Option<usize> {
     many(cx, |one| cx.robot(*one).contact.age != Age::Active)
 }
 
-/// Asks all robots for a report, because some are silent. Does nothing if a run is too small for a lost link.
+/// Asks all robots for a report, because some are silent. Does nothing if fewer robots take part than a lost link
+/// needs.
 pub(crate) fn ask_all(cx: &mut RunContext) {
     if cx.roster.active().count() < MANY.least {
         return;
@@ -114,19 +118,20 @@ pub(crate) fn ask_all(cx: &mut RunContext) {
     cx.io.outbox.broadcast(cx.now, Command::Uuid, COPIES.0, COPIES.1);
 }
 
-/// Asks all robots for a report, unless they were asked at `since` or later.
+/// Asks all robots for a report, unless all were already asked at `since` or later.
 pub(crate) fn ask_all_once(cx: &mut RunContext, since: Instant) {
     if cx.link.all_asked.is_none_or(|asked| asked < since) {
         ask_all(cx);
     }
 }
 
-/// The least number of silent robots that counts as many in a run of `robots`.
+/// The least number of silent robots, of `robots` in the run, that counts as a lost link.
 pub(crate) fn many_of(robots: usize) -> usize {
     MANY.least.max((robots * MANY.percent).div_ceil(100))
 }
 
-/// Number of silent participants, if many of them may have fallen silent at one moment. `None` otherwise.
+/// Number of silent participants, if enough of them for a lost link may have fallen silent at one moment. `None`
+/// otherwise.
 fn many(cx: &RunContext, is_silent: impl Fn(&usize) -> bool) -> Option<usize> {
     let silent = cx.roster.active().map(|(one, _)| one).filter(is_silent);
     let silences: Vec<Silence> = silent.map(|one| silence_of(cx, one)).collect();
@@ -135,7 +140,7 @@ fn many(cx: &RunContext, is_silent: impl Fn(&usize) -> bool) -> Option<usize> {
     (silent >= many && most_at_once(silences) >= many).then_some(silent)
 }
 
-/// When a robot fell silent: after its last report, and before the next one was due.
+/// When a robot fell silent: after its last report was received, and before the next report was due.
 #[derive(Clone, Copy, Debug)]
 struct Silence {
     after: Instant,
@@ -147,14 +152,14 @@ fn silence_of(cx: &RunContext, participant: usize) -> Silence {
     let interval = match robot.reported.state {
         Some(RobotState::Driving | RobotState::Held) => REPORTS.driving,
         Some(_) => REPORTS.standing,
-        // TARGET-only robots are asked for reports that often.
+        // TARGET-only robots are asked for reports at this interval.
         None => cx.io.config.ageing.stale_after / 2,
     };
     let after = robot.contact.heard;
     Silence { after, before: after + interval + REPORTS.late + cx.link.round_trip }
 }
 
-/// Largest number of robots that may have fallen silent at one moment: the most intervals that overlap.
+/// Largest number of robots that may have fallen silent at one moment: the most intervals that contain the same moment.
 fn most_at_once(silences: Vec<Silence>) -> usize {
     let begins = silences.iter().map(|silence| (silence.after, false));
     let mut ends: Vec<(Instant, bool)> =

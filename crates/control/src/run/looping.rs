@@ -1,4 +1,4 @@
-//! Frames that repeat until GO: which ones, in which round, and how the run leaves them.
+//! Loops: frames that repeat until GO. Which frames repeat, in which pass they are, and how the run leaves them.
 
 use crate::context::Context;
 use crate::event::EventKind;
@@ -19,8 +19,8 @@ impl Run {
         }
     }
 
-    /// The loop under way, and the last frame of its present pass. A loop begins once robots have reached its first
-    /// frame. A GO that is pressed twice at the cue before it therefore does not end it.
+    /// The loop whose frames are played, and the last frame of its present pass. A loop begins once robots have reached
+    /// its first frame. A second GO at the cue before the loop therefore does not end the loop.
     fn present_loop(&self) -> Option<(FrameLoop, FrameCursor)> {
         let present = self.present();
         let repeats = self.playback.loop_at(present.frame)?;
@@ -35,8 +35,8 @@ impl Run {
         Some(RepeatView { first, last, round: end.pass.saturating_add(1), leaves })
     }
 
-    /// Handles the operator's GO while frames repeat: the show goes on after the last frame of the present pass.
-    /// Plans beyond that frame are dropped. Returns `false` if no frames repeat or GO was given before.
+    /// Handles the operator's GO while frames repeat: the show goes on after the last frame of the present pass. Drops
+    /// plans beyond that frame. Returns `false` if no frames repeat or GO was given in this pass already.
     pub fn leave_loop(&mut self, io: &mut Context, now: Instant) -> bool {
         let Some((repeats, end)) = self.present_loop() else { return false };
         if self.playback.leaves_loop == Some(end) {
@@ -49,7 +49,7 @@ impl Run {
     }
 }
 
-/// Plans what comes after the last frame of a pass, in place of the drive back to the first.
+/// After the last frame of a pass, plans the frame behind the loop instead of the drive back to the loop's first frame.
 fn plan_on(cx: &mut RunContext, repeats: FrameLoop, end: FrameCursor) {
     let is_in_pass = |at: FrameCursor| at.is_in_pass_of(end) && repeats.has(at.frame);
     let after = cx.playback.after(end);

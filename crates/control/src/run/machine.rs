@@ -1,4 +1,7 @@
-//! The changes of phase of a run; nothing else changes a phase.
+//! All changes of phase of a run; no other file changes a phase.
+//!
+//! A phase returns [`Next`] to request a change. A leg is the drive of all robots between two moments at which all
+//! stand. A participant is a robot that takes part in the run, or took part before it dropped out.
 
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
@@ -38,7 +41,7 @@ pub(crate) struct Run {
     pub link: LinkEstimate,
     /// The present phase.
     pub phase: RunPhase,
-    /// Counts of frames, dropouts and arrivals, and bounds on recovery.
+    /// Counts of frames, dropouts and arrivals, and bounds on what recovery from dropouts may cost.
     pub tally: Tally,
     /// The checks of a preflight. `None` if the run is no preflight.
     pub preflight: Option<PreflightCheck>,
@@ -164,8 +167,8 @@ impl Run {
         if was_gathering { self.next_at_tick(io, now) } else { Next::Stay }
     }
 
-    /// Returns the dropouts that count now. Robots that are silent drop out only if the link is not lost. `Err` holds
-    /// what the run does instead.
+    /// Returns those of `dropped` that drop out now. Silent robots drop out only if the link is known to work: they are
+    /// left out while that is unknown. `Err` holds the run's next change instead, if no robot drops out now.
     fn without_lost_link(
         &mut self,
         io: &mut Context,
@@ -211,7 +214,7 @@ impl Run {
         self.regather(io, now);
     }
 
-    /// Where a robot that drops out now may stand. Empty if that is only the place that it reported.
+    /// All places where a robot that drops out now may stand. Empty if it stands at the place that it reported last.
     fn whereabouts(
         &mut self,
         io: &mut Context,
@@ -270,8 +273,8 @@ impl Run {
         self.gather_what_moves(io, now);
     }
 
-    /// Stops robots that may be driving and asks where they are. Robots that stand and report of their own accord
-    /// need neither.
+    /// Stops all robots and asks where they are. In phase Standing neither is needed, unless TARGET-only robots take
+    /// part: robots stand and report of their own accord. Then only notes that robots may stand off their goals.
     pub fn gather_what_moves(&mut self, io: &mut Context, now: Instant) {
         // TARGET-only robots (they understand the command TARGET but no routes) report only when asked: their last
         // reports may be old.
@@ -289,8 +292,8 @@ impl Run {
         self.enter(RunPhase::Gathering(gathering));
     }
 
-    /// Interrupts the run until robots report again. `silent` is the number of silent robots, `None` if the broker is
-    /// lost.
+    /// Interrupts the run until robots report again. `silent` is the number of silent robots; `None` if the connection
+    /// to the broker is lost. Does nothing if the run is interrupted already or over.
     fn interrupt(&mut self, io: &mut Context, now: Instant, silent: Option<usize>) {
         if matches!(self.phase, RunPhase::Interrupted(_) | RunPhase::Over(..)) {
             return;
@@ -307,7 +310,7 @@ impl Run {
             io.log.record(now, EventKind::LinkLost { silent, robots });
         }
         let by_itself = io.config.waits.goes_on_within;
-        // If a part of the robots fell silent, these were received last when the link broke.
+        // If only some robots fell silent, the link broke about when the last of their reports was received.
         let silence = if silent.is_some() { io.config.silence } else { Span::ZERO };
         let heard = self.roster.active().map(|(_, known)| io.fleet.robot(known.robot).contact.heard);
         let broke = heard.filter(|heard| now - *heard >= silence).max();
@@ -315,7 +318,8 @@ impl Run {
         self.enter(RunPhase::Interrupted(interrupted));
     }
 
-    /// Gathers all robots once they report again. All is then planned from where they stand.
+    /// Leaves phase Interrupted for Gathering, because robots report again. Everything is then planned from where they
+    /// stand.
     fn go_on_from_where_robots_stand(&mut self, io: &mut Context, now: Instant) {
         let RunPhase::Interrupted(interrupted) = &self.phase else { return };
         let left = interrupted.left;
@@ -326,7 +330,7 @@ impl Run {
         self.enter(RunPhase::Gathering(gathering));
     }
 
-    /// Drops plans and requests, because robots will not be where these plans begin.
+    /// Drops all queued legs and the plan request, because robots will not stand where these begin.
     pub fn drop_plans(&mut self, io: &mut Context) {
         let next = (!self.playback.is_ended()).then_some(self.playback.next);
         self.pipeline.clear(next);
@@ -366,7 +370,8 @@ impl Run {
         }
     }
 
-    /// The frame that robots drive to or stand in, counted from 0.
+    /// Index, from 0, of the frame that robots drive to, are about to start for, or stand in. For a run that is over:
+    /// the frame at which it ended.
     pub fn frame(&self) -> usize {
         let reached = self.pipeline.leg().map(|leg| leg.frame);
         match &self.phase {
@@ -377,8 +382,8 @@ impl Run {
         }
     }
 
-    /// Whether robots have reached [`frame`](Self::frame). `false` while they are on their way, and once the run is
-    /// over.
+    /// Whether robots have reached [`frame`](Self::frame) and are not leaving it. `false` in phases Starting, Driving
+    /// and Over, and while robots are to leave at once for a frame that the operator chose.
     pub fn is_frame_reached(&self) -> bool {
         let Some(leg) = self.pipeline.leg().filter(|leg| leg.reaches_frame) else { return false };
         let towards = self.playback.jump.map_or(self.playback.next, |jump| jump.instead_of);

@@ -4,7 +4,7 @@ use crate::event::Trouble;
 use lightbots_base::Instant;
 use serde::{Deserialize, Serialize};
 
-/// Most dropouts of a robot that may still come back in a run: each dropout costs a new plan.
+/// A robot that dropped out more often than this does not come back in the run, because each dropout costs a new plan.
 const DROPOUTS_MAX: u8 = 3;
 
 /// Whether a robot that dropped out has to show that it drives, and the state of that test.
@@ -14,7 +14,7 @@ pub(crate) enum Probation {
     None,
     /// The robot has yet to be tested.
     Due,
-    /// The robot was told to turn: its heading at that time, radians, the time itself, and how often it was told.
+    /// The robot was told to turn. Holds its heading at that time in radians, that time, and how often it was told.
     Turning { from: f64, since: Instant, tries: u8 },
     /// The robot did not turn in any try.
     Failed,
@@ -25,15 +25,15 @@ pub(crate) enum Probation {
 pub(crate) struct Membership {
     /// Whether the robot dropped out. It then stands somewhere on the floor.
     pub excluded: bool,
-    /// How often the robot dropped out. A dropout because it did not drive as told counts twice.
+    /// How often the robot dropped out. A dropout because the robot did not drive as told counts twice.
     pub dropouts: u8,
-    /// Number of frames that must have been played before the robot may come back.
+    /// The robot may come back once the run has played this many frames.
     pub eligible_from_frame: usize,
 }
 
 impl Membership {
-    /// Excludes the robot after `frames_played` frames. A robot that did not drive as told may come back once, after
-    /// the next frame, to see whether it then does.
+    /// Excludes the robot after `frames_played` frames. If it did not drive as told, it may come back only once, and
+    /// only after the next frame.
     pub fn exclude(&mut self, why: Trouble, frames_played: usize) {
         let fails = fails_to_drive(why);
         self.excluded = true;
@@ -41,7 +41,7 @@ impl Membership {
         self.eligible_from_frame = if fails { frames_played + 1 } else { 0 };
     }
 
-    /// Whether the robot dropped out seldom enough to take part again.
+    /// Whether the robot may take part again, because it dropped out at most `DROPOUTS_MAX` times.
     pub fn may_return(&self) -> bool {
         self.dropouts <= DROPOUTS_MAX
     }
@@ -54,7 +54,7 @@ impl Probation {
     }
 }
 
-/// Whether the robot did not drive as told, though it could be reached.
+/// Whether the reason of a dropout is that the robot did not drive as told, although it could be reached.
 fn fails_to_drive(why: Trouble) -> bool {
     matches!(why, Trouble::Late | Trouble::Missed | Trouble::Blocked)
 }

@@ -7,19 +7,19 @@ use crate::run::run_context::RunContext;
 use lightbots_base::Vec2;
 use lightbots_wire::RobotState;
 
-/// Distance from where a robot may have arrived to where it counts as moved, metres. Below, the noise of fixes moves
-/// robots that arrived at the limit of the tolerance.
+/// How far beyond the arrival tolerance a robot counts as moved, along x and along y, metres. With less, the noise of
+/// position fixes makes robots count as moved that arrived at the edge of the tolerance.
 const SLACK_M: f64 = 0.005;
 
-/// What to do instead of a START because a robot stands elsewhere, by its last report; `None` if none does. All is planned
-/// again also if the robot moved on since it caused the last plan.
+/// What to do instead of a START because a robot does not stand where its route begins, by its last report. `None` if
+/// all robots do. All is planned again also if the robot moved on after it caused the last plan.
 pub(crate) fn prevents_start(cx: &mut RunContext) -> Option<Next> {
     let stands = |&one: &usize| is_at_rest(cx, one) && off(cx, one, 0.0).is_some();
     let misplaced = cx.roster.active().map(|(participant, _)| participant).find(stands)?;
     Some(check(cx, misplaced, 0.0).or_else(|| Next::Regather))
 }
 
-/// Compares the last status report of a robot that stands with the plan; see [`check`].
+/// Compares the last reported place of a robot with the plan, if it reports that it stands; see [`check`].
 pub(crate) fn check_status(cx: &mut RunContext, participant: usize) -> Next {
     if is_at_rest(cx, participant) { check(cx, participant, 0.0) } else { Next::Stay }
 }
@@ -28,8 +28,8 @@ fn is_at_rest(cx: &RunContext, participant: usize) -> bool {
     matches!(cx.robot(participant).reported.state, Some(RobotState::Idle | RobotState::Ready))
 }
 
-/// Compares the reported place of a robot that stands with the plan. If the robot stands elsewhere, all is planned
-/// again; if that happens too often, the robot drops out. `noise_m`: error of the reported place, metres.
+/// Compares the reported place of a standing robot with the plan. If the robot stands elsewhere, all is planned again.
+/// If that happens too often, the robot drops out. `noise_m`: error of the reported place, metres.
 pub(crate) fn check(cx: &mut RunContext, participant: usize, noise_m: f64) -> Next {
     let Some(off_m) = off(cx, participant, noise_m) else { return Next::Stay };
     match cx.roster.participants[participant].misplaced.count(cx.now) {
@@ -43,7 +43,8 @@ pub(crate) fn check(cx: &mut RunContext, participant: usize, noise_m: f64) -> Ne
     Next::Regather
 }
 
-/// How far from where the plan has it a robot stands, metres; `None` if it is there.
+/// Distance between where a robot stands and where the plan has it, metres. `None` if it is there, or if either place
+/// is unknown.
 fn off(cx: &RunContext, participant: usize, noise_m: f64) -> Option<f64> {
     let (at, expected) = cx.robot(participant).reported.at.zip(expected(cx, participant))?;
     let is_there = is_there(at, expected, cx.io.config.arrival_tolerance_m + SLACK_M + noise_m);

@@ -1,16 +1,16 @@
-//! How often one robot stood elsewhere than the plan had it.
+//! Counts how often one robot stood elsewhere than the plan had it.
 
 use lightbots_base::{Instant, Span};
 
-/// Largest number of times that all is planned again because one robot stands elsewhere; then it drops out. A robot
-/// that is somewhere else each time must not hold up the show.
+/// Largest number of times that all is planned again because one robot stands elsewhere. The next time the robot drops
+/// out. A robot that is somewhere else each time must not hold up the show.
 const REPLANS_MAX: u8 = 5;
-/// Time until all is planned again because of the same robot. Below, one push counts several times.
+/// Least time between two counts for one robot. With less, one push counts several times.
 const SETTLES: Span = Span::from_millis(1_000);
-/// Time after which earlier replans because of the same robot no longer count.
+/// After this time without a count, earlier counts of the robot are forgotten.
 const FORGOTTEN: Span = Span::from_millis(60_000);
 
-/// How often all was planned again because a robot stood elsewhere than the plan had it.
+/// How often all was planned again because one robot stood elsewhere than the plan had it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Misplacements {
     times: u8,
@@ -18,7 +18,8 @@ pub(crate) struct Misplacements {
 }
 
 impl Misplacements {
-    /// Counts a replan. `None` if the last one was just before; otherwise whether the robot may cost this one.
+    /// Counts that the robot stands elsewhere. Returns whether all may be planned again for it; `false` if it did so
+    /// too often. `None` if the last count is less than `SETTLES` ago, so that this one does not count.
     pub fn count(&mut self, now: Instant) -> Option<bool> {
         let since = self.last.map(|last| now - last);
         if since.is_some_and(|since| since < SETTLES) {

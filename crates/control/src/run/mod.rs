@@ -1,7 +1,12 @@
-//! A run of a show on live robots: its phases, which own their data, and the state that outlives a phase.
+//! A run plays one show on live robots. This module has its phases (robots stand, start, drive …), which own their
+//! data, and the state that outlives a phase.
 //!
-//! This file passes each input of a run to the present phase, which returns [`Next`]; `machine` then changes the
-//! phase. A phase reaches the rest of the run through a [`RunContext`]; it never sees [`Run`].
+//! This file passes each input of a run to the present phase. The phase returns [`Next`], the change of phase that it
+//! requests, and `machine` makes that change. A phase reaches the rest of the run through a [`RunContext`]; it never
+//! sees [`Run`].
+//!
+//! A leg is the drive of all robots between two moments at which all stand; a drive to a frame takes one leg or
+//! several. A participant is a robot that takes part in the run, or took part before it dropped out.
 
 mod bystanders;
 mod candidates;
@@ -81,8 +86,8 @@ use tally::Tally;
 use target_progress::TargetProgress;
 
 impl Run {
-    /// Creates the run with all robots of the fleet that can take part. If any of them may be driving, all are
-    /// stopped and asked where they are.
+    /// Creates a run with all robots of the fleet that can take part. If any of them may be driving, the run begins by
+    /// stopping all of them and asking where they are.
     pub fn begin(context: &mut Context, now: Instant, playback: PlayedShow) -> Self {
         context.mapping.shown.clear();
         let roster = Roster::of_fleet(context, now);
@@ -117,9 +122,9 @@ impl Run {
         run
     }
 
-    /// Creates a run whose robots are out of reach at present. `leg` is the leg that they drive or drove last, and
-    /// `left` is what was broken off. The run goes on without the operator if robots are back within `by_itself`.
-    /// `broke` is about when the link broke.
+    /// Creates a run in phase Interrupted: its robots are out of reach at present. `leg` is the leg that they drive or
+    /// drove last. `left` is the drive, or the stay in a frame, that was interrupted. The run goes on without the
+    /// operator if robots report again within `by_itself`. `broke` estimates when the link broke.
     pub fn interrupted(
         now: Instant,
         playback: PlayedShow,
@@ -139,8 +144,8 @@ impl Run {
         }
     }
 
-    /// Releases the robots at the end of the run. Notes for each robot its pixel, its goal and whether it may keep a
-    /// route.
+    /// Releases the robots at the end of the run. Notes for each robot in the fleet its pixel, its goal and whether it
+    /// may still keep a route.
     pub fn leave(&mut self, context: &mut Context) {
         for (participant, known) in self.roster.participants.iter().enumerate() {
             let step = self.pipeline.leg().and_then(|leg| leg.robots.get(participant));
@@ -169,7 +174,7 @@ impl Run {
         self.apply(io, now, next);
     }
 
-    /// When [`on_tick`](Self::on_tick) has to be called next.
+    /// The time at which [`on_tick`](Self::on_tick) has to be called next; [`Instant::FAR`] if no call is due.
     pub fn due(&self, io: &Context, now: Instant) -> Instant {
         let checked = self.preflight.as_ref().map_or(Instant::FAR, PreflightCheck::due);
         checked.min(self.phase_due(io, now))
@@ -195,7 +200,7 @@ impl Run {
         }
     }
 
-    /// Takes in the result of a plan request.
+    /// Takes in the result of a plan request, and continues the phase with the new plan.
     pub fn on_plan(&mut self, io: &mut Context, now: Instant, result: PlanResult) {
         let is_standing = matches!(self.phase, RunPhase::Standing(_));
         let (_, mut cx) = self.split(io, now);
@@ -214,7 +219,8 @@ impl Run {
         }
     }
 
-    /// Resumes the run for the operator. With `step` robots go to the next frame, where the run pauses again.
+    /// Resumes a paused run for the operator. With `step`, robots leave at once, even if they wait for GO, and the run
+    /// pauses again in the next frame. Without `step`, a wait for GO goes on.
     pub fn resume(&mut self, io: &mut Context, now: Instant, step: bool) {
         (self.playback.paused, self.playback.stepping) = (false, step);
         self.playback.waits_for_go &= !step;
@@ -226,8 +232,8 @@ impl Run {
         }
     }
 
-    /// Handles the operator's GO: robots that stand leave at once, without the rest of the air time or the wait at a
-    /// cue.
+    /// Handles the operator's GO, which ends the wait at a cue. Robots that stand leave at once, unless the run is
+    /// paused: air time (how long the show keeps them in a frame) that is left is dropped.
     pub fn go(&mut self, now: Instant) {
         self.playback.waits_for_go = false;
         self.playback.music.seen = None;
@@ -236,13 +242,14 @@ impl Run {
         }
     }
 
-    /// Applies the operator's change of live light.
+    /// Applies the operator's change of live light (light layers that are added while the show plays).
     pub fn set_live_light(&mut self, io: &mut Context, now: Instant, live: LiveLayers) {
         let Pipeline { light, driven, .. } = &mut self.pipeline;
         light.set_live(io, (&self.roster, driven.as_ref().map(|driven| &driven.leg)), now, live);
     }
 
-    /// Ends live light because the show was played to its end. Robots then show the light of their frame alone.
+    /// Ends live light because the show was played to its end. Robots then show only the light that the show has for
+    /// their frame.
     pub fn end_live_light(&mut self, io: &mut Context, now: Instant) {
         let Pipeline { light, driven, .. } = &mut self.pipeline;
         if let Some(driven) = driven {
@@ -261,8 +268,9 @@ impl Run {
         self.apply(io, now, Next::Over(RunOutcome::Aborted));
     }
 
-    /// The moment at which progress is held before STOP, if all robots are to be stopped now. `None` if robots rest
-    /// already or are to halt at once.
+    /// If all robots are to be stopped now: the moment at which a HOLD lets them slow down on their paths, before STOP
+    /// is sent. `None` if STOP is sent at once: robots stand, have not started, drive by TARGET, or end their drive
+    /// before a HOLD could act.
     pub fn holds_before_stop(&mut self, io: &mut Context, now: Instant) -> Option<Instant> {
         let (phase, cx) = self.split(io, now);
         match phase {
@@ -281,8 +289,8 @@ impl Run {
         self.apply(io, now, Next::Interrupt(None));
     }
 
-    /// Lets an interrupted run go on for the operator, without robots that do not report. Returns `false` if the run
-    /// is not interrupted, the broker is away, or no robot has reported.
+    /// Continues an interrupted run because the operator asks, without robots that do not report. Returns `false` and
+    /// does nothing if the run is not interrupted, the broker is away, or no robot has reported since the interruption.
     pub fn go_on(&mut self, io: &mut Context, now: Instant) -> bool {
         let (phase, cx) = self.split(io, now);
         let RunPhase::Interrupted(interrupted) = phase else { return false };
@@ -294,8 +302,8 @@ impl Run {
         true
     }
 
-    /// The leg of routes that robots drive or are about to start, and when it begins. `None` in other phases and for
-    /// legs of TARGETs.
+    /// The leg that robots drive, or are about to start, and the show-clock time at which it begins. `None` in other
+    /// phases, and for legs that are driven by TARGETs instead of routes.
     pub fn driven_paths(&self) -> Option<(&Leg, Instant)> {
         let (leg, began) = match &self.phase {
             RunPhase::Starting(starting) => (self.pipeline.queue.front(), starting.at),

@@ -1,42 +1,44 @@
-//! The transition that a phase requests. A phase never changes the phase of its run: it returns a [`Next`].
+//! The change of phase that a phase requests. A phase never changes the phase of its run: it returns a [`Next`].
 
 use crate::event::{RunOutcome, Trouble};
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// When robots may leave the frame in which they stand.
+/// When robots may leave the frame in which they stand. Air time is how long the show keeps robots in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct AirTime {
     /// When the phase Standing began.
     pub since: Instant,
     /// The earliest moment at which robots leave the frame.
     pub until: Instant,
-    /// Air time that is left; `Some` while the run is paused.
+    /// Air time that remains; `Some` only while the run is paused. When the pause ends, `until` is set from it.
     pub left: Option<Span>,
-    /// Whether robots stand at the goals of the last drive, and not where it was broken off.
+    /// Whether robots stand at the goals of the last drive. `false`: that drive was interrupted, or robots may have
+    /// been moved.
     pub is_at_goals: bool,
 }
 
-/// A participant that cannot go on, and why.
+/// Number of a participant that cannot go on in the run, and why.
 pub(crate) type Dropout = (usize, Trouble);
 
-/// The transition that a phase requests.
+/// The change of phase that a phase requests. A leg is the drive of all robots between two moments at which all stand.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Next {
     /// The phase goes on.
     Stay,
-    /// All robots have arrived, or all have stopped and reported their places.
+    /// Robots stand from now on: all have arrived, or all have stopped and reported their places.
     Stand(AirTime),
-    /// START is to be sent for the first leg of the queue, for this moment at the earliest.
+    /// START is to be sent for the first leg of the queue. It names the moment at which robots begin, which is not
+    /// before this one.
     Start(Instant),
-    /// Robots have driven the first leg of the queue since this moment.
+    /// Robots drive the first leg of the queue. They began it at this moment.
     Drive(Instant),
     /// Robots stop and report where they are, and all is planned again from there.
     Regather,
-    /// The link to robots is lost: the run stands still until they report again. Holds the number of silent robots,
-    /// `None` if the broker is lost.
+    /// The link to robots is lost: the run is interrupted until robots report again. Holds the number of silent robots;
+    /// `None` if the connection to the broker is lost.
     Interrupt(Option<usize>),
-    /// Robots report again. They are gathered, and all is planned again from where they stand.
+    /// Robots report again after an interruption. They are gathered, and all is planned again from where they stand.
     GoOn,
     /// These participants drop out; the others are planned again without them. Never empty.
     Drop(Vec<Dropout>),
@@ -45,7 +47,7 @@ pub(crate) enum Next {
 }
 
 impl Next {
-    /// Ends the run as failed; `why` is for people, without a full stop.
+    /// Ends the run as failed. `why` is a text for people, without a full stop.
     pub fn failed(why: impl Into<String>) -> Self {
         Self::Over(RunOutcome::Failed(why.into()))
     }

@@ -1,4 +1,7 @@
-//! What plans drive around: robots that take no part, places of silent ones, and what robots met in their paths.
+//! What plans drive around: robots that take no part, places where silent robots may stand, and what robots met in
+//! their paths.
+//!
+//! A disc is the outline of a robot at a place on the floor.
 
 use crate::frame_cursor::FrameCursor;
 use crate::mutant::Mutant;
@@ -9,21 +12,23 @@ use crate::snapshot::Age;
 use crate::unsure_places::REST_CLEARANCE_M;
 use lightbots_base::Vec2;
 
-/// Share of the contact distance below which two places cannot both hold a robot: one of them is out of date.
+/// If two places are closer than this share of the contact distance, they cannot both hold a robot: one of them is out
+/// of date. The contact distance is between the centres of two robots that touch.
 const SAME_PLACE: f64 = 0.9;
 
 /// How an inferred disc is moved out of robots that reported their places.
 struct Displacement {
-    /// Farthest that a disc is moved, metres. Inferred places are off by 20 mm.
+    /// Farthest that a disc is moved, metres, because inferred places are off by up to 20 mm.
     most_m: f64,
-    /// Number of sweeps over the robots around the disc, which lies between three at most.
+    /// Number of times that the disc is moved out of each robot around it in turn. At most three robots are around a
+    /// disc.
     sweeps: usize,
 }
 
-/// A disc that is not moved makes the plan infeasible; one that is moved farther hides a dead robot.
+/// If a disc is not moved, there is no plan. If it is moved farther, plans lead through a dead robot.
 const DISPLACEMENT: Displacement = Displacement { most_m: 0.03, sweeps: 10 };
 
-/// Discs that do not move during a drive, stage metres.
+/// Discs that stand still during a drive: their centres, stage metres.
 pub(crate) struct Discs {
     /// Places of robots that reported them.
     pub reported: Vec<Vec2>,
@@ -31,8 +36,8 @@ pub(crate) struct Discs {
     pub inferred: Vec<Vec2>,
 }
 
-/// The discs of everything on the floor that takes no part in the next plan. A disc inside a robot that takes part is
-/// out of date and left out.
+/// The discs of everything on the floor that takes no part in the next plan. A disc that overlaps the start of a robot
+/// that takes part is out of date, and left out.
 pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     let contact_m = cx.playback.contact_m();
     let near_m = contact_m * SAME_PLACE;
@@ -51,30 +56,30 @@ pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     }
 }
 
-/// Where a robot that dropped out may stand. Robots that share a name have stood since STOP, so the places that they
-/// report count.
+/// Where a robot that dropped out may stand. If several robots share its name, these are the places that they have
+/// reported: they have stood since STOP.
 fn places_of(cx: &RunContext, known: &Participant) -> Vec<Vec2> {
     let namesakes = &cx.io.fleet.robot(known.robot).namesakes;
     let is_shared = namesakes.are_there() && !known.last_seen.possible.is_empty();
     if is_shared { namesakes.places() } else { known.last_seen.possible.clone() }
 }
 
-/// Whether a robot takes no part and stands where it reported.
+/// Whether plans drive around the place that a robot reported, because it stands there and takes no part.
 fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
     let known = robot.participant.map(|participant| cx.participant(participant as usize));
     let is_ignored = cx.pipeline.obstacles.ignores_strangers && cx.roster.is_stranger(robot);
     match known {
-        // The possible places of a silent robot count rather than its last report.
+        // The possible places of a silent robot count, and not the place of its last report.
         Some(_) if Mutant::ForgetDeadRobot.is_planted() => false,
         Some(known) => known.is_excluded() && !known.is_unplaced(),
         None => robot.contact.age != Age::Gone && !is_ignored,
     }
 }
 
-/// Drops obstacles, because there is no plan to the next frame from where robots stand. Each call drops the first
-/// kind that is left. First come robots that came during the run and take no part, because any client can claim to be
-/// a robot. Then come the unlikely places of silent robots, then all inferred places, and at last the frame itself.
-/// Returns whether there was anything to drop.
+/// Drops obstacles, because no plan leads from where robots stand to the next frame. Each call drops the first of these
+/// that is left: robots that came during the run and take no part (any client can claim to be a robot); unlikely places
+/// of silent robots; all inferred places; the next frame itself, so that robots go to the one after it. Returns whether
+/// anything was dropped.
 pub(crate) fn relax(cx: &mut RunContext) -> bool {
     let participants = &cx.roster.participants;
     let is_any_silent = participants.iter().any(|known| !known.last_seen.possible.is_empty());
@@ -102,8 +107,8 @@ pub(crate) fn relax(cx: &mut RunContext) -> bool {
     true
 }
 
-/// Moves the inferred place of a disc until the disc touches none of the robots at `starts`. Returns `place` if that
-/// is too far: the disc then overlaps a robot and is dropped.
+/// Moves the inferred place of a disc until the disc touches none of the robots at `starts`. Returns `place` unchanged
+/// if it would move too far. The disc then overlaps a robot, and the caller drops it.
 fn displaced(place: Vec2, starts: &[Vec2], contact_m: f64) -> Vec2 {
     let near: Vec<Vec2> =
         starts.iter().copied().filter(|start| start.distance(place) < 2.0 * contact_m).collect();

@@ -1,22 +1,25 @@
-//! Path time: how far along their paths robots are by plan. It is the time since the drive began, minus what holds
-//! cost.
+//! Path time: how far along their paths robots should be by plan. It is the time since the drive began, minus the time
+//! that holds (common stops) have cost.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 use serde::{Deserialize, Serialize};
 
-/// A hold: the progress of all robots along their paths falls to zero.
+/// A hold: all robots slow down together along their paths, stand, and later pick up speed together. HOLD and RESUME
+/// are the messages that name the two moments.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Hold {
-    /// When progress begins to fall to zero.
+    /// When robots begin to slow down, show clock. They stand [`Route::EASE`] later.
     pub at: Instant,
     /// Whether the operator asked for the hold.
     pub by_operator: bool,
-    /// When progress picks up again. `None` until RESUME was sent.
+    /// When robots begin to pick up speed again. `None` until RESUME was sent.
     pub until: Option<Instant>,
-    /// When RESUME is to be sent: shortly before it must be, so that a new trouble can still prolong the hold.
+    /// When RESUME is to be sent, if the hold was to end before robots stand. RESUME then names the moment at which
+    /// they stand. It is not sent earlier, because until then a new trouble can still prolong the hold. `None`
+    /// otherwise.
     pub release_at: Option<Instant>,
-    /// When to check whether all robots stand.
+    /// When to check next whether all robots stand.
     pub check_at: Instant,
 }
 
@@ -27,7 +30,7 @@ pub(crate) struct PathClock {
     pub began: Instant,
     /// When the drive ends by plan, holds included.
     pub ends: Instant,
-    /// The hold, until progress has fully picked up again. `None` if there is none.
+    /// The present hold, until robots are back at full speed. `None` if there is no hold.
     pub hold: Option<Hold>,
     /// Time lost by holds that are over.
     pub lost: Span,
@@ -49,12 +52,13 @@ impl PathClock {
         self.open_hold().is_some()
     }
 
-    /// When robots come to rest in a hold for which no RESUME was sent yet.
+    /// When robots stand in the present hold. `None` if there is no hold, or RESUME was sent for it.
     pub fn rests_from(&self) -> Option<Instant> {
         self.open_hold().map(|hold| hold.at + Route::EASE)
     }
 
-    /// Holds progress from `at` on, for an unknown time. Does nothing if a hold without RESUME is there already.
+    /// Begins a hold at `at`, or later if robots are still picking up speed after the hold before. Its end is not known
+    /// yet. Does nothing during a hold for which no RESUME was sent.
     pub fn stand(&mut self, at: Instant) {
         let mut at = at;
         if let Some(Hold { at: before, until, .. }) = self.hold {
@@ -66,7 +70,7 @@ impl PathClock {
         self.hold = Some(Hold { at, by_operator: false, until: None, release_at: None, check_at: at });
     }
 
-    /// Adds a hold to the lost time and forgets it, once progress has picked up again by `now`.
+    /// Removes the hold and adds its duration to `lost`, if robots are back at full speed by `now`.
     pub fn end_hold(&mut self, now: Instant) {
         if let Some(Hold { at, until: Some(until), .. }) = self.hold
             && now >= until + Route::EASE
@@ -76,7 +80,8 @@ impl PathClock {
         }
     }
 
-    /// How far along their paths robots are by plan. Progress falls and rises linearly over [`Route::EASE`].
+    /// Path time at `now`: how far along their paths robots should be. In a hold its rate falls linearly from 1 to 0
+    /// within [`Route::EASE`]. After RESUME the rate rises in the same way.
     pub fn path_time(&self, now: Instant) -> Span {
         let free = now - self.began - self.lost;
         let Some(hold) = self.hold.filter(|hold| now > hold.at) else { return free };

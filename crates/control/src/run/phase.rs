@@ -1,4 +1,7 @@
 //! The phases of a run: what its robots do.
+//!
+//! A leg is the drive of all robots between two moments at which all stand. START is the message that names the moment
+//! at which all robots begin their routes.
 
 use crate::event::RunOutcome;
 use crate::journal::Position;
@@ -18,7 +21,7 @@ use crate::run::starting::Starting;
 pub(crate) enum RunPhase {
     /// Robots stop and are asked where they stand.
     Gathering(Gathering),
-    /// All robots stand, in a frame or before the first; the next leg is planned and uploaded meanwhile.
+    /// All robots stand, in a frame or before the first one. The next leg is planned and sent to robots meanwhile.
     Standing(Standing),
     /// The START of the next leg was sent, and its moment is still to come.
     Starting(Starting),
@@ -26,13 +29,14 @@ pub(crate) enum RunPhase {
     Driving(Driving),
     /// Robots are out of reach.
     Interrupted(Interrupted),
-    /// The run is over: how it ended, and at which frame. There is no way out of this phase.
+    /// The run is over, and no other phase follows. Holds how the run ended, and the index of the frame at which it
+    /// ended.
     Over(RunOutcome, usize),
 }
 
 impl RunPhase {
-    /// What is broken off if robots stop now. A START that was sent counts as a drive while its leg is in the queue,
-    /// because robots may have begun it.
+    /// The drive, or the stay in a frame, that would be interrupted if all robots stopped now. In phase Starting it is
+    /// the drive of the first leg in the queue, because robots may have begun that leg.
     pub fn left(&self, pipeline: &Pipeline) -> Position {
         match self {
             Self::Gathering(gathering) => gathering.left,
@@ -48,7 +52,7 @@ impl RunPhase {
         }
     }
 
-    /// The leg to which [`left`](Self::left) refers.
+    /// The leg of the interrupted drive or stay that [`left`](Self::left) describes.
     pub fn left_leg<'a>(&self, pipeline: &'a Pipeline) -> Option<&'a Leg> {
         match self {
             Self::Starting(_) => pipeline.queue.front(),
@@ -56,7 +60,8 @@ impl RunPhase {
         }
     }
 
-    /// Where a participant that fell silent may stand. Empty if that is only the place that it reported.
+    /// All places where a participant that fell silent may stand. Empty if it stands at the place that it reported
+    /// last.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         match self {
             Self::Driving(drive) => drive.whereabouts(cx, participant),

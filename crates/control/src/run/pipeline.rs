@@ -1,4 +1,7 @@
 //! From a plan to wheels: legs that are planned, uploaded, and driven, and changes of light beside them.
+//!
+//! A leg is the drive of all robots between two moments at which all stand. A participant is a robot's part in the run;
+//! the numbers of participants count from 0.
 
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
@@ -17,47 +20,48 @@ use lightbots_wire::{Command, Details, Pieces, Route, Topic};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Largest clearance that a route contains, millimetres: farther than proximity sensors see.
+/// Largest clearance (gap to the rims of other robots) that is sent with a route, millimetres. It stands for any larger
+/// clearance too (R31), because it is farther than proximity sensors see.
 const ROOM_MAX_MM: f64 = 40.0;
 
-/// The leg that is driven or was driven last. Also the progress of TARGET-only robots (they understand the command
-/// TARGET but no routes) on it.
+/// The leg that is driven or was driven last, and how far TARGET-only robots are on it. TARGET-only robots understand
+/// the command TARGET but no routes.
 #[derive(Clone, Debug)]
 pub(crate) struct DrivenLeg {
     pub leg: Leg,
     pub targets: TargetProgress,
 }
 
-/// What is planned, and from where.
+/// What is planned next, and from where robots then set out.
 #[derive(Clone, Debug)]
 pub(crate) struct Planning {
     /// The frame that is planned next. `None` if nothing more is to be planned.
     pub next: Option<FrameCursor>,
-    /// The last frame that is planned or being planned.
+    /// The last frame that is planned, or that the pending request plans.
     pub last: FrameCursor,
-    /// `[participant]`: where its robot stands when the drive to `next` begins, stage metres. Empty if it is to be
-    /// read from reports.
+    /// `[participant]`: where its robot stands when the drive to `next` begins, stage metres. Empty if the next request
+    /// takes these places from reports.
     pub from: Vec<Vec2>,
-    /// Number of the plan request that is being worked on, and when it was made.
+    /// Number of the plan request whose result is awaited, and when it was made. `None` if none is.
     pub pending: Option<(u64, Instant)>,
-    /// Where robots that dropped out stood when that request was made, stage metres.
+    /// Places where robots that dropped out stood when that request was made, stage metres.
     pub around: Arc<[Vec2]>,
-    /// Whether robots wait for the plan. Only one frame is planned then.
+    /// Whether robots wait for the next plan. It then contains one frame only, because that is planned sooner.
     pub is_urgent: bool,
-    /// Whether robots stand too far from where the next leg begins.
+    /// Whether some robots stand too far from where the queued legs begin, so that all has to be planned again.
     pub is_outdated: bool,
-    /// Whether pixels of the last plan stay dark.
+    /// Whether some pixels of the last plan have no robot and stay dark.
     pub is_dark: bool,
-    /// Why there is no plan beyond the queue.
+    /// Why no frame after those in the queue could be planned, as a text for people. `None` if no plan failed.
     pub failure: Option<String>,
 }
 
 /// What plans drive around, besides the robots of the fleet.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Obstacles {
-    /// Where robots met something that no robot of the fleet explains, stage metres.
+    /// Places where robots met something that no robot of the fleet explains, stage metres.
     pub found: Vec<Vec2>,
-    /// Whether plans ignore robots that came during the run and take no part, because there was no path with them.
+    /// Whether plans ignore robots that came during the run and take no part, because no path was found past them.
     /// Reset when robots reach the next frame.
     pub ignores_strangers: bool,
 }
@@ -75,13 +79,13 @@ pub(crate) struct Pipeline {
     pub upload: Option<Upload>,
     pub lights: Lights,
     pub light: LightPlayer,
-    /// When routes that were put off are sent.
+    /// When routes are sent that were left for later, because too much light is computed at once.
     pub again_at: Instant,
     /// The leg that is driven, or that has brought robots to where they stand.
     pub driven: Option<DrivenLeg>,
 }
 
-/// Why a robot does not acknowledge, although its route was sent as often as allowed.
+/// Why a robot does not acknowledge its route, although the route was sent as often as allowed.
 enum Unacknowledged {
     /// The robot does not receive messages.
     Deaf,
@@ -119,7 +123,7 @@ impl Pipeline {
         }
     }
 
-    /// Drops legs and requests. `next` is then planned from where robots are.
+    /// Drops all queued legs, the upload and the pending plan request. `next` is then planned from where robots stand.
     pub fn clear(&mut self, next: Option<FrameCursor>) {
         self.upload = None;
         self.light.halt();
@@ -131,7 +135,7 @@ impl Pipeline {
         self.planning.from.clear();
     }
 
-    /// Makes the first leg of the queue the one that is driven. `None` if the queue is empty.
+    /// Takes the first leg from the queue as the one that is driven now. `None` if the queue is empty.
     pub fn drive_next(&mut self) -> Option<&Leg> {
         let leg = self.queue.pop_front()?;
         let targets = TargetProgress::new(&leg);
@@ -151,14 +155,14 @@ impl Pipeline {
         }
     }
 
-    /// When the upload has something to do next.
+    /// When the upload has something to do next; [`Instant::FAR`] if nothing is due.
     pub fn due(&self) -> Instant {
         self.upload.as_ref().and_then(Upload::due).unwrap_or(Instant::FAR).min(self.again_at)
     }
 
-    /// Sends routes that may be sent now: first those that were not acknowledged, then those that were not sent yet.
-    /// Returns a dropout for a robot that does not acknowledge, and a failure if the link does not deliver for too
-    /// long.
+    /// Sends routes of the first queued leg that may be sent now. Routes without acknowledgement are sent again first,
+    /// and then those that were not sent yet. Returns a dropout for a robot that does not acknowledge, and the end of
+    /// the run if the link does not deliver for too long.
     pub fn pump(
         &mut self,
         context: &mut Context,
@@ -190,8 +194,8 @@ impl Pipeline {
         {
             left -= 1;
             let tries = upload.tries(participant);
-            // Recorded also for a robot that drops out. The dropout may be put off until it is known whether the
-            // others answer.
+            // Also recorded for a robot that drops out, because the dropout may be put off until it is known whether
+            // the others answer.
             upload.record_sent(now, participant, now + again_after);
             if tries >= context.config.upload.tries {
                 match judge(context, roster, link, upload, (now, participant)) {
@@ -218,7 +222,8 @@ impl Pipeline {
         Next::Stay
     }
 
-    /// Takes in a report, which names the route that its robot keeps. Returns whether more routes can be sent now.
+    /// Takes in a report, which names the route that its robot keeps and so acknowledges it. Returns whether routes
+    /// that were not sent yet can be sent now.
     pub fn acknowledge(
         &mut self,
         link: &mut LinkEstimate,
@@ -239,8 +244,8 @@ impl Pipeline {
         upload.has_unserved()
     }
 
-    /// Lets the route be sent again to a robot that lost the route it acknowledged. Does nothing without an
-    /// acknowledgement.
+    /// Makes the route of a participant due at once, because its robot lost the route after acknowledging it. Does
+    /// nothing if the robot has not acknowledged.
     pub fn upload_again(&mut self, now: Instant, participant: usize) {
         if let Some(upload) = &mut self.upload {
             upload.reopen(now, participant);
@@ -248,8 +253,8 @@ impl Pipeline {
     }
 }
 
-/// Decides what it means that a robot does not acknowledge. Messages may not be delivered: no robot acknowledges
-/// though this one reports, or the broker came back only recently. The robot is then kept, for as long as a run may
+/// Decides what it means that a robot does not acknowledge. If no robot does, though this one reports, messages may not
+/// be delivered; the same holds if the broker came back only recently. The robot is then kept, for as long as a run may
 /// wait for its broker.
 fn judge(
     context: &mut Context,
@@ -273,8 +278,8 @@ fn judge(
     Unacknowledged::LinkFails
 }
 
-/// Sends a participant its route of a leg. Along with it goes the first stretch of light, or else a change of light
-/// that the robot may not have received yet.
+/// Sends a participant its route of a leg. The first stretch of light (colours over time) goes along with the route.
+/// Without one, a change of light that the robot may not have received goes along.
 fn send_route(
     context: &mut Context,
     roster: &Roster,

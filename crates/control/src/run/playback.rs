@@ -1,4 +1,6 @@
 //! What is played: the show, the frame that is reached next, and whether the operator paused.
+//!
+//! GO is the operator's command that ends the wait at a cue, or lets the show leave a loop of frames.
 
 use crate::frame_cursor::FrameCursor;
 use crate::operation::MissingPolicy;
@@ -31,7 +33,8 @@ impl RunPurpose {
     }
 }
 
-/// What to restore if the frame that the operator chose cannot be reached. Kept until robots leave for that frame.
+/// A jump: the operator chose which frame is next. Holds what to restore if no path leads to the chosen frame. Kept
+/// until robots begin to drive there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Jump {
     /// The frame that would have been next.
@@ -40,8 +43,8 @@ pub(crate) struct Jump {
     pub waited_for_go: bool,
     /// The value of [`PlayedShow::leaves_loop`] before the jump.
     pub left_loop: Option<FrameCursor>,
-    /// Whether robots leave as soon as they can. Otherwise the air time, a pause and the wait for GO stay as they
-    /// were.
+    /// Whether robots leave for the chosen frame as soon as they can. If `false`, air time, a pause and a wait for GO
+    /// go on as before the choice.
     pub leaves: bool,
 }
 
@@ -60,15 +63,17 @@ pub(crate) struct PlayedShow {
     pub next: FrameCursor,
     /// Whether the operator paused the run.
     pub paused: bool,
-    /// Whether the run pauses again at the next frame.
+    /// Whether the run pauses when robots reach the next frame, because the operator steps from frame to frame.
     pub stepping: bool,
-    /// Whether robots stay in the frame that was reached last until GO, because it has a cue.
+    /// Whether robots stay in the frame that they reached last until the operator gives GO, because that frame has a
+    /// cue.
     pub waits_for_go: bool,
-    /// The operator's choice of the next frame, until robots leave for it.
+    /// The operator's choice of the next frame, until robots begin to drive there.
     pub jump: Option<Jump>,
-    /// The loops: ranges of frames that repeat until GO.
+    /// The loops of the show: ranges of frames that repeat until GO. Empty unless the purpose is [`RunPurpose::Play`].
     pub loops: Vec<FrameLoop>,
-    /// The last frame of the present pass of a loop, if GO was given in that pass. The show goes on after this frame.
+    /// The last frame of the present pass of a loop, if GO was given in that pass. After this frame the show goes on
+    /// behind the loop.
     pub leaves_loop: Option<FrameCursor>,
     /// Where the music is on the timeline.
     pub music: MusicTime,
@@ -93,7 +98,8 @@ impl PlayedShow {
         }
     }
 
-    /// The frame that follows `cursor` in this run. `None` after the last one.
+    /// The frame that follows `cursor` in this run, with loops and rounds of the show. `None` if `cursor` is the last
+    /// frame.
     pub fn after(&self, cursor: FrameCursor) -> Option<FrameCursor> {
         let FrameCursor { frame, round, pass } = cursor;
         let repeats = self.loop_at(frame);
@@ -119,7 +125,8 @@ impl PlayedShow {
         self.loops.iter().copied().find(|repeats| repeats.has(frame))
     }
 
-    /// Makes the frame after `next` the next one, because robots have reached `next`.
+    /// Makes the frame after `next` the next one, because robots have reached `next`. After the last frame, the index
+    /// of `next` is `usize::MAX`.
     pub fn advance(&mut self) {
         match self.after(self.next) {
             Some(next) => self.next = next,
@@ -128,7 +135,7 @@ impl PlayedShow {
     }
 
     /// Makes `next` the frame that is reached next, as the operator chose. `None`: no further frame is reached. With
-    /// `leaves` robots leave for it at once.
+    /// `leaves`, robots leave for it at once: a pause and a wait for GO end.
     pub fn choose(&mut self, next: Option<FrameCursor>, leaves: bool) {
         let begun = Jump {
             instead_of: self.next,
@@ -145,8 +152,8 @@ impl PlayedShow {
         }
     }
 
-    /// Takes a jump back, because no path leads to the chosen frame: the frame that would have been next is next
-    /// again. If robots were to leave at once, the run waits for GO as before the jump, or else is paused.
+    /// Undoes a jump, because no path leads to the chosen frame: `next` is again what it was before the jump. If robots
+    /// were to leave at once, the run now waits for GO if it did before the jump, and is paused otherwise.
     pub fn give_up(&mut self, jump: Jump) {
         self.jump = None;
         (self.next, self.leaves_loop) = (jump.instead_of, jump.left_loop);
@@ -156,7 +163,7 @@ impl PlayedShow {
         }
     }
 
-    /// Whether robots are about to leave for the frame that the operator chose.
+    /// Whether robots are to leave at once for the frame that the operator chose.
     pub fn leaves(&self) -> bool {
         self.jump.is_some_and(|jump| jump.leaves)
     }
@@ -176,7 +183,8 @@ impl PlayedShow {
         self.next.frame.min(self.show.frames.len().saturating_sub(1))
     }
 
-    /// The name of the cue at which a frame waits for GO in this run; it may be empty. `None`: the frame does not wait.
+    /// The name of the cue for which robots wait for GO in a frame; the name may be empty. `None` if they do not wait
+    /// there: the frame has no cue or ends a loop, or the purpose is not [`RunPurpose::Play`].
     pub fn cue(&self, frame: usize) -> Option<&str> {
         if self.loops.iter().any(|repeats| repeats.last == frame) {
             return None;
@@ -186,14 +194,14 @@ impl PlayedShow {
         cues.find(|cue| matches!(&cue.at, CuePlace::Frame(at) if at == id)).map(|cue| cue.name.as_str())
     }
 
-    /// The air time of a frame by the show, at most a day. Zero if the show has no such frame or the value is not
-    /// finite.
+    /// The air time (stay of robots in a frame) that the show gives a frame, at most a day. Zero if the index is beyond
+    /// the last frame, or the value is not finite.
     pub fn air_time(&self, frame: usize) -> Span {
         let air_s = self.show.frames.get(frame).map_or(0.0, |frame| frame.air_time_s);
         Span::from_secs(if air_s.is_finite() { air_s.clamp(0.0, AIR_TIME_MAX_S) } else { 0.0 })
     }
 
-    /// The air time of a frame in this run: zero in a preview and on the way home.
+    /// The air time of a frame in this run: zero in a preview and on the way home, and as in the show otherwise.
     pub fn standing_time(&self, frame: usize) -> Span {
         let stands = matches!(self.purpose, RunPurpose::Play | RunPurpose::Preflight);
         if stands { self.air_time(frame) } else { Span::ZERO }

@@ -1,8 +1,8 @@
-//! A robot that did not drive as told has to show that it can before it takes part again. Otherwise plans would rely
-//! on it to leave its place, and it would stand in the way of others once more.
+//! A robot that dropped out because it did not drive as told is tested before it takes part again. Without the test,
+//! plans would rely on it to leave its place, and it would block others once more.
 //!
-//! The robot is sent a route that is never started. While it waits for the START it turns on the spot into the
-//! direction of the route. A turn needs no room, whatever other robots do meanwhile.
+//! The robot is sent a route that is never started. While it waits for the START it turns on the spot towards the
+//! route. A turn needs no room, whatever other robots do meanwhile.
 
 use crate::run::membership::Probation;
 use crate::run::run_context::RunContext;
@@ -15,18 +15,18 @@ struct Test {
     turn: f64,
     /// Least turn that passes the test, radians: more than the error of the heading.
     turned: f64,
-    /// Longest time of one try: several times as long as the turn.
+    /// Longest duration of one try: several times as long as the turn takes.
     bound: Span,
-    /// Number of tries after which the robot stays excluded. There are several, because all robots may be stopped
-    /// during one.
+    /// Number of tries; if all fail, the robot stays excluded. One try is not enough, because all robots may be stopped
+    /// during it.
     tries: u8,
     /// Length of the route, metres. The route is never started.
     route_m: f64,
-    /// Duration of the route.
+    /// Planned duration of the route.
     route: Span,
 }
 
-/// A smaller turn could be an error of the heading; more tries would keep the next frame waiting.
+/// A smaller turn could be an error of the heading. More tries would delay the next frame.
 const TEST: Test = Test {
     turn: 1.2,
     turned: 0.6,
@@ -38,8 +38,9 @@ const TEST: Test = Test {
 
 const _: () = assert!(TEST.turned < TEST.turn && TEST.turn < std::f64::consts::FRAC_PI_2);
 
-/// Whether an excluded robot that reports may take part again as far as its driving is concerned. Sends the route of
-/// the next try if one is due. `is_stopping`: all robots are being stopped, so the robot cannot be tested.
+/// Whether the driving test allows an excluded robot that reports to take part again. A robot that needs no test
+/// passes, and so does one that reports no heading. Sends the route of the next try if one is due. `is_stopping`: all
+/// robots are being stopped, so no try can begin.
 pub(crate) fn passes(cx: &mut RunContext, participant: usize, is_stopping: bool) -> bool {
     let robot = cx.robot(participant);
     let probation = cx.participant(participant).probation;
@@ -70,7 +71,7 @@ pub(crate) fn passes(cx: &mut RunContext, participant: usize, is_stopping: bool)
     let Ok(pieces) = Pieces::from_slice(&[piece]) else { return false };
     let seq = cx.io.number_route();
     let route = Route { seq, start: at, pieces, room_mm: None, neighbours: Default::default() };
-    // After an outage a robot turns only towards a route that follows STOP (R43).
+    // After an outage, a robot turns only towards a route that was sent after STOP (R43).
     cx.send(participant, &[Command::Stop, Command::Route(route)]);
     cx.roster.participants[participant].probation =
         Probation::Turning { from: heading, since: cx.now, tries: tries + 1 };

@@ -6,12 +6,12 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::RobotState;
 
-/// A TARGET-only robot (it understands the command TARGET but no routes) counts as standing once it has reported one
-/// place for this long. Within a shorter time it may be turning on the spot before it drives.
+/// A TARGET-only robot (it understands the command TARGET but no routes) counts as standing once it has reported the
+/// same place for this long. A robot with shorter standstill may be turning on the spot before it drives.
 const STILL: Span = Span::from_millis(1_200);
 
-/// What a robot of the fleet lacks before it can be planned for. `None` if nothing. Reports from before `fresh_from`
-/// do not count.
+/// What a robot (index into the fleet) lacks before it can be planned for, as a reason. `None` if it lacks nothing.
+/// Reports from before `fresh_from` do not count.
 pub(crate) fn missing(context: &Context, robot: usize, fresh_from: Instant) -> Option<Trouble> {
     let robot = context.fleet.robot(robot);
     let (reported, heard) = (&robot.reported, robot.contact.heard);
@@ -32,7 +32,7 @@ pub(crate) fn missing(context: &Context, robot: usize, fresh_from: Instant) -> O
     }
 }
 
-/// Whether a robot of the fleet could be planned for now.
+/// Whether a robot (index into the fleet) lacks nothing to be planned for and has reported lately.
 pub(crate) fn is_ready(context: &Context, robot: usize) -> bool {
     context.fleet.robot(robot).contact.age == Age::Active && missing(context, robot, Instant::ZERO).is_none()
 }

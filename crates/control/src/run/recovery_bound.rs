@@ -1,4 +1,5 @@
-//! The bound on recovery: replans for each robot that dropped out, and time. Beyond it the run ends with a reason.
+//! The bound on recovery from dropouts: a number of replans for each robot that dropped out, and a time. If it is
+//! exceeded, the run ends with a reason.
 
 use std::collections::BTreeMap;
 
@@ -6,34 +7,34 @@ use lightbots_base::{Instant, RobotId, Span};
 
 use crate::event::Trouble;
 
-/// Largest number of replans for each robot that dropped out. Two are enough where a dead robot was pushed beside its
-/// path. A robot that still obstructs others after three is not where others see it.
+/// Largest number of replans for each robot that dropped out. Two are enough if a dead robot was pushed beside its
+/// path. If a robot still obstructs others after three, it is not where they see it.
 const REPLANS: usize = 3;
-/// Least bound on the time of recovery, also in shows that are shorter. A robot that falls silent, a drive that is
-/// broken off and a slow drive around the robot take 10 s.
+/// Least bound on the time of recovery for each dropout, for shows that are shorter than this. A robot that falls
+/// silent, a drive that is interrupted and a slow drive around the robot take 10 s.
 const LEAST: Span = Span::from_millis(10_000);
 
-/// Replans and time that dropouts have cost until now.
+/// Replans and time that dropouts have cost, compared with their bounds.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RecoveryBound {
-    /// Number of robots that dropped out; `last` is the latest of them.
+    /// Number of dropouts. `last` is the robot that dropped out last, and why.
     dropouts: usize,
     last: Option<(RobotId, Trouble)>,
     /// Whether the next plan is made because of a dropout.
     replanning: bool,
     replans: usize,
-    /// `[frame]`: duration of the drive to it plus its air time, as first planned.
+    /// `[frame]`: planned duration of the drive to the frame, plus its air time (stay of robots in it), by the first
+    /// plan.
     planned: BTreeMap<usize, Span>,
-    /// When the present frame would have been reached without recovery.
+    /// When the present frame would have been reached without recovery. `None` if recovery does not delay it.
     due: Option<Instant>,
-    /// Time that recovery has cost in earlier frames.
+    /// Time by which recovery delayed earlier frames, in all.
     lost: Span,
     paused: Option<Instant>,
 }
 
 impl RecoveryBound {
-    /// Notes how long the drive to a frame and its air time are planned to take. Later plans of the frame change
-    /// nothing.
+    /// Notes the planned duration of the drive to a frame plus its air time. Only the first plan of a frame counts.
     pub fn planned(&mut self, frame: usize, takes: Span) {
         self.planned.entry(frame).or_insert(takes);
     }
@@ -44,8 +45,8 @@ impl RecoveryBound {
         self.last = Some((robot, why));
     }
 
-    /// Notes that robots are about to be planned anew because one dropped out now, or because an earlier one stands
-    /// in their way. `due`: when robots would have reached the frame. Does nothing before the first dropout.
+    /// Notes that all is about to be planned again, because a robot dropped out now or because an earlier one stands in
+    /// the way. `due`: when robots would have reached the frame. Does nothing before the first dropout.
     pub fn begins(&mut self, due: Instant) {
         if self.dropouts > 0 {
             self.replanning = true;
@@ -53,19 +54,19 @@ impl RecoveryBound {
         }
     }
 
-    /// Counts the new plan from where robots stopped, if it was made because of a dropout.
+    /// Counts a new plan, if it was made because of a dropout.
     pub fn replanned(&mut self) {
         self.replans += usize::from(std::mem::take(&mut self.replanning));
     }
 
-    /// Adds the delay of the frame that robots have reached to the lost time.
+    /// Adds the delay of the frame that robots have reached to the time lost by recovery.
     pub fn reached(&mut self, now: Instant) {
         if let Some(due) = self.due.take() {
             self.lost += (now - due).max(Span::ZERO);
         }
     }
 
-    /// Begins or ends a pause by the operator. The time of a pause does not count.
+    /// Notes at each call whether the run is paused. The time of a pause does not count as lost.
     pub fn pause(&mut self, now: Instant, paused: bool) {
         match self.paused {
             None if paused => self.paused = Some(now),
@@ -77,15 +78,15 @@ impl RecoveryBound {
         }
     }
 
-    /// Excludes a time from the bound, for example because the broker was away.
+    /// Excludes the time `by` from what recovery has cost, for example because the broker was away.
     pub fn put_off(&mut self, by: Span) {
         if let Some(due) = &mut self.due {
             *due += by;
         }
     }
 
-    /// The reason to end the run if recovery has cost too much, or will have by `until`; for people, without a full
-    /// stop. `None` also during a pause.
+    /// The reason to end the run if recovery has cost too much, or will have by `until`; a text for people, without a
+    /// full stop. `None` if it has not, and during a pause.
     pub fn exceeded(&self, until: Instant) -> Option<String> {
         let (robot, why) = self.last.filter(|_| self.paused.is_none())?;
         let advice = "take it off the floor, then play on from this frame";

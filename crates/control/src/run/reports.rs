@@ -1,4 +1,5 @@
-//! What a run does with a report of a robot: it acknowledges what the robot has received, and the present phase handles it.
+//! What a run does with a report of a robot: it notes what the robot has acknowledged, and the present phase handles
+//! the report.
 
 use crate::context::Context;
 use crate::event::Trouble;
@@ -10,7 +11,7 @@ use lightbots_base::Instant;
 use lightbots_wire::{Report, Topic};
 
 impl Run {
-    /// Handles a report of a robot of the fleet. The fleet table has already taken it in, with the result `received`.
+    /// Handles a report of a robot. The fleet table has taken in the report before, with the result `received`.
     pub fn on_report(
         &mut self,
         io: &mut Context,
@@ -37,8 +38,8 @@ impl Run {
         self.on_status(io, now, participant, received.restarted, report);
     }
 
-    /// Handles a report of a robot that takes no part or dropped out. It may become a candidate, or all are planned
-    /// again because it obstructs a path.
+    /// Handles a report of a robot that takes no part or dropped out. The robot may become a candidate for the next
+    /// frame. If it obstructs a path, all is planned again.
     fn on_bystander(&mut self, io: &mut Context, now: Instant, robot: usize) {
         let (phase, mut cx) = self.split(io, now);
         candidates::consider(&mut cx, robot, matches!(phase, RunPhase::Gathering(_)));

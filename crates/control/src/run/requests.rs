@@ -1,4 +1,7 @@
-//! Plan requests, and what becomes of their results.
+//! Plan requests, and what the run does with their results.
+//!
+//! A leg is the drive of all robots between two moments at which all stand. A jump is the operator's choice of the next
+//! frame.
 
 use crate::event::EventKind;
 use crate::frame_cursor::FrameCursor;
@@ -13,15 +16,14 @@ use crate::run::run_context::RunContext;
 use lightbots_base::Span;
 use std::ops::ControlFlow;
 
-/// Largest number of routes that one request plans, so that planning ends in bounded time: 40 frames of 10,000
-/// robots.
+/// Largest number of routes that one request plans, so that planning ends in bounded time: 40 frames for 10,000 robots.
 const ROUTES_A_REQUEST: usize = 400_000;
-/// Least number of planned frames in the queue. More frames are planned while there are fewer.
+/// Number of planned frames that the queue should hold. While it holds fewer, more frames are planned.
 const FRAMES_AHEAD: usize = 3;
-/// Most pixels that an event lists.
+/// Largest number of dark pixels that an event lists.
 const LISTED: usize = 16;
 
-/// Makes the next plan request, if one is due.
+/// Makes the next plan request, if the queue is short, no request is pending and a frame is left to plan.
 pub(crate) fn plan_ahead(cx: &mut RunContext) {
     let ahead = cx.pipeline.queue.iter().filter(|leg| leg.reaches_frame).count();
     let planning = &cx.pipeline.planning;
@@ -51,7 +53,8 @@ pub(crate) fn plan_ahead(cx: &mut RunContext) {
     cx.pipeline.planning.pending = Some((cx.io.plan_number, cx.now));
 }
 
-/// Takes at most `most` frames from `first` on, all of one round and one pass of a loop. They then count as planned.
+/// Takes at most `most` frames for one request, from `first` on. All are in the same round of the show and the same
+/// pass of a loop. The frames then count as planned.
 fn take_frames(cx: &mut RunContext, first: FrameCursor, most: usize) -> Vec<FrameCursor> {
     let planning = &mut cx.pipeline.planning;
     let mut frames = vec![first];
@@ -75,8 +78,8 @@ fn planned_robots(cx: &RunContext) -> Vec<PlannedRobot> {
 }
 
 /// Takes in the result of a plan request and queues its legs. `Break`: the caller applies this [`Next`] and does
-/// nothing else. `Continue`: the caller applies it and works with the queue. `is_standing`: the run is in Standing,
-/// so robots wait for the plan.
+/// nothing else. `Continue`: the caller applies it and then works with the queue. `is_standing`: robots stand and wait
+/// for the plan.
 pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool) -> ControlFlow<Next, Next> {
     if cx.pipeline.planning.pending.is_none_or(|(number, _)| number != result.number) {
         return ControlFlow::Break(Next::Stay);
@@ -111,7 +114,7 @@ pub(crate) fn accept(cx: &mut RunContext, result: PlanResult, is_standing: bool)
     }
 }
 
-/// Notes where all robots stand at the end of the last leg. The next request plans from there.
+/// Notes where all robots stand at the end of the last leg, because the next request plans from there.
 fn remember_ends(cx: &mut RunContext, legs: &[Leg]) {
     let Some(last) = legs.last() else { return };
     cx.pipeline.planning.from = last.robots.iter().map(|robot| robot.goal).collect();
@@ -131,7 +134,8 @@ fn report_dark(cx: &mut RunContext, dark: &[(usize, Vec<u32>)]) {
 
 fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>, stopped: bool) {
     let last = cx.pipeline.queue.back().or(cx.pipeline.leg());
-    // Robots that were stopped do not set out from the frame before, so this drive is no measure for the timeline.
+    // Robots that were stopped do not leave from the frame before. The duration of this drive does not count for the
+    // timeline.
     let mut before = last.map(|leg| leg.frame).filter(|_| !stopped);
     let mut takes = Span::ZERO;
     for mut leg in legs {
@@ -149,8 +153,9 @@ fn queue_legs(cx: &mut RunContext, legs: Vec<Leg>, stopped: bool) {
     }
 }
 
-/// Handles that there is no plan to `frame`. The run ends, a jump is taken back, obstacles are dropped, or the reason
-/// is kept for later.
+/// Handles that there is no plan to `frame`. The run ends if nothing was driven yet. If robots stand and nothing is
+/// queued, a jump is undone, or else obstacles are dropped and all is planned again. Otherwise the reason is kept: the
+/// run fails once nothing is left to drive.
 fn on_failure(
     cx: &mut RunContext,
     (frame, message): (usize, String),
@@ -176,8 +181,8 @@ fn on_failure(
     ControlFlow::Continue(Next::Stay)
 }
 
-/// Takes the operator's jump back, because no path leads to that frame. The frame that would have been next is
-/// planned again.
+/// Undoes the operator's jump, because no path leads to `frame`. The frame that was next before the jump is planned
+/// again.
 fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
     cx.playback.give_up(jump);
     cx.io.log.record(cx.now, EventKind::JumpGivenUp { frame });
@@ -187,8 +192,8 @@ fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
     planning.from.clear();
 }
 
-/// Checks whether recovery has cost too much, or would with this plan. If so, returns that all is planned again with
-/// fewer obstacles, or that the run ends.
+/// Checks whether recovery from dropouts has cost too much time, or would with this plan. If so, returns that all is
+/// planned again with fewer obstacles, or that the run ends. `None` if not.
 fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> {
     let takes = result.legs.iter().fold(Span::ZERO, |sum, leg| sum + leg.duration);
     let why = cx.tally.recovery.exceeded(cx.now + takes)?;
@@ -199,8 +204,8 @@ fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> 
     Some(if is_hopeless { Next::failed(why) } else { Next::Regather })
 }
 
-/// Sets whether the show starts again after its last frame, and plans the next round or drops its plans.
-/// `is_starting`: the first leg of the queue is about to begin.
+/// Sets whether the show starts again after its last frame. If so, plans the next round; otherwise drops plans for it.
+/// `is_starting`: START was sent for the first leg of the queue.
 pub(crate) fn set_looping(cx: &mut RunContext, looping: bool, is_starting: bool) {
     let (playback, pipeline) = (&mut *cx.playback, &mut *cx.pipeline);
     let planning = &mut pipeline.planning;

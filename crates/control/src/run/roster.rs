@@ -1,4 +1,4 @@
-//! The robots that take part in a run, and what is kept of each from drive to drive.
+//! The robots that take part in a run (its participants), and what is kept of each from drive to drive.
 
 use crate::context::Context;
 use crate::robot::KnownRobot;
@@ -7,8 +7,8 @@ use crate::run::misplacements::Misplacements;
 use lightbots_base::{Instant, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Where a robot that fell silent on its way may stand, stage metres. Empty if that is only the place that it
-/// reported.
+/// Where a robot that dropped out may stand, stage metres. Both lists are empty if it stands at the place that it
+/// reported last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Whereabouts {
     /// All possible places.
@@ -17,7 +17,7 @@ pub(crate) struct Whereabouts {
     pub likely: Vec<Vec2>,
 }
 
-/// What a robot that dropped out has cost by reporting from places that no plan expects.
+/// How often a robot that dropped out made new plans necessary, because it reported places where no plan expected it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bystander {
     /// How often all was planned again because a path led through the robot.
@@ -26,36 +26,36 @@ pub(crate) struct Bystander {
     pub look_at: Instant,
 }
 
-/// A robot's part in a run; it outlives a drive.
+/// A robot's part in a run. It is kept from drive to drive, also after the robot dropped out.
 #[derive(Clone, Debug)]
 pub(crate) struct Participant {
     /// Index into the fleet.
     pub robot: usize,
     /// Whether the robot takes part now.
     pub membership: Membership,
-    /// Whether the robot has to show that it drives before it comes back.
+    /// Whether the robot has to pass a test of its wheels, a turn on the spot, before it takes part again.
     pub probation: Probation,
-    /// Where the robot may stand, if it fell silent.
+    /// Where the robot may stand, if it dropped out and its last report does not tell its place.
     pub last_seen: Whereabouts,
     /// How often an obstacle in the robot's path led to a new plan.
     pub replans: u8,
-    /// How often all was planned again because the robot stood elsewhere than the plan had it.
+    /// How often all was planned again because the robot did not stand where the plan had it.
     pub misplaced: Misplacements,
-    /// What the robot has cost since it dropped out.
+    /// New plans that the robot has made necessary since it dropped out.
     pub bystander: Bystander,
 }
 
-/// All robots that take part in a run. Participants are numbered in the order in which they joined.
+/// All robots that take part in a run. Their numbers count from 0 in the order in which they joined.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Roster {
     /// All robots that take part or took part. They are never removed, so that their numbers stay valid.
     pub participants: Vec<Participant>,
-    /// Robots (indices into the fleet) that may take part from the next frame on.
+    /// Robots (indices into the fleet) that join the run when all robots stand next, if they are ready then.
     pub candidates: Vec<usize>,
     /// When the run began.
     pub begun: Instant,
-    /// How often a participant joined, dropped out, came back or was located. The journal writes the participants
-    /// after such a change.
+    /// How often a participant joined, dropped out, came back, or was found again by its report. The journal writes the
+    /// participants after each of these changes.
     pub changes: u64,
 }
 
@@ -78,14 +78,15 @@ impl Participant {
         self.membership.excluded
     }
 
-    /// Whether the robot dropped out and its place is only inferred.
+    /// Whether the robot dropped out and its place is only inferred, because its last report does not tell it.
     pub fn is_unplaced(&self) -> bool {
         self.is_excluded() && !self.last_seen.possible.is_empty()
     }
 }
 
 impl Roster {
-    /// Creates the roster of all robots of the fleet that can take part, and sets their numbers in the fleet.
+    /// Creates the roster of all robots of the fleet that can take part, and notes each one's participant number in the
+    /// fleet.
     pub fn of_fleet(context: &mut Context, now: Instant) -> Self {
         let mut participants = Vec::new();
         for index in 0..context.fleet.robots().len() {
@@ -128,7 +129,7 @@ impl Roster {
         robot.participant.is_none() && robot.contact.found > self.begun
     }
 
-    /// Forgets where a robot that dropped out may have stood, once it reports where it stands.
+    /// Clears the possible places of a robot that dropped out, once the robot reports where it stands.
     pub fn locate(&mut self, robot: &KnownRobot) {
         let Some(participant) = robot.participant else { return };
         let known = &mut self.participants[participant as usize];
@@ -139,7 +140,7 @@ impl Roster {
         }
     }
 
-    /// Lets a robot of the fleet take part, for the first time or again.
+    /// Lets a robot (index into the fleet) take part, for the first time or again.
     pub fn admit(&mut self, context: &mut Context, robot: usize) {
         self.changes += 1;
         match context.fleet.robot(robot).participant {

@@ -1,4 +1,8 @@
 //! What a phase works with: the moment, the controller's context, and the parts of the run that outlive a phase.
+//!
+//! A leg is the drive of all robots between two moments at which all stand. The present leg is the leg that robots
+//! drive, or drove last. The next leg is the first one in the queue. Participants are numbered in the order in which
+//! they joined the run.
 
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
@@ -41,19 +45,21 @@ impl RunContext<'_> {
         self.io.send(self.participant(participant).robot, commands);
     }
 
-    /// Whether a participant has to arrive for the present leg to end.
+    /// Whether the present leg ends only after this participant has arrived. `false` for robots that dropped out or
+    /// that have no drive in the leg.
     pub fn is_awaited(&self, participant: usize) -> bool {
         let drives = self.pipeline.leg().is_some_and(|leg| leg.is_driven_by(participant));
         !self.roster.is_excluded(participant) && drives
     }
 
-    /// The goal of a participant at the end of the present leg, stage metres.
+    /// The goal of a participant in the present leg, stage metres. `None` if there is no leg, or the participant joined
+    /// after the leg was planned.
     pub fn goal(&self, participant: usize) -> Option<Vec2> {
         self.pipeline.leg().and_then(|leg| leg.goal(participant))
     }
 
-    /// Where a participant's robot last reported to be, stage metres. Its goal if it never reported a place, and the
-    /// origin without a goal.
+    /// The place that a participant's robot reported last, stage metres. Without one: its goal in the present leg, or
+    /// the stage's origin if it has no goal either.
     pub fn place(&self, participant: usize) -> Vec2 {
         let said = self.robot(participant).reported.at;
         said.or_else(|| self.goal(participant)).unwrap_or(Vec2::ZERO)
@@ -64,24 +70,25 @@ impl RunContext<'_> {
         self.pipeline.leg().is_some_and(|leg| leg.kind == LegKind::Targets)
     }
 
-    /// How long before its moment a START is to be sent.
+    /// How long before its moment a START is to be sent. START names the moment at which all robots begin their routes.
     pub fn start_lead(&self) -> Span {
         self.link.start_lead(&self.io.config, self.roster.len())
     }
 
-    /// Sends routes of the next leg that may be sent now.
+    /// Sends those routes of the next leg that may be sent now. Returns a dropout or a failure if robots do not
+    /// acknowledge.
     pub fn pump(&mut self) -> Next {
         self.pipeline.pump(self.io, (self.playback, self.roster), self.link, self.now)
     }
 
-    /// Sends the route of the next leg again to a participant that lost it.
+    /// Sends the route of the next leg again to a participant that lost the route.
     pub fn upload_again(&mut self, participant: usize) -> Next {
         self.pipeline.upload_again(self.now, participant);
         self.pump()
     }
 
-    /// Lets all robots stop and be planned again, together with a participant that lost its route or began alone. An
-    /// event says that all wait for it.
+    /// Requests that all robots stop and are planned again, because a participant lost its route or began to drive
+    /// alone. Records an event that names this participant.
     pub fn replan_with(&mut self, participant: usize) -> Next {
         self.report_waiting(participant, Trouble::Cut);
         Next::Regather
@@ -98,7 +105,7 @@ impl RunContext<'_> {
         }
     }
 
-    /// Records the event that all wait for a participant.
+    /// Records an event, at a bounded rate: all robots wait for this participant because of `why`.
     pub fn report_waiting(&mut self, participant: usize, why: Trouble) {
         let robot = self.robot(participant).id;
         self.io.log.record_limited(self.now, EventKind::Waiting { robot, why });

@@ -1,11 +1,11 @@
-//! Where a run is on the timeline. The music follows this position.
+//! Where a run is on the timeline of its show. The music follows this position.
 
 use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::ShowPosition;
 use lightbots_base::{Instant, Span};
 
 impl Run {
-    /// Where the run is on the timeline. `None` if no show is played or its first drive has not begun.
+    /// Where the run is on the timeline of its show. `None` if no show is played or its first drive has not begun.
     pub fn show_position(&self, now: Instant) -> Option<ShowPosition> {
         let light = self.pipeline.light.current().filter(|_| self.playback.purpose == RunPurpose::Play)?;
         let end = light.times.drive + light.times.air;
@@ -26,7 +26,7 @@ impl Run {
                     (until_end(left), is_reached && left > Span::ZERO)
                 }
             },
-            // The drive before was broken off, and a new one begins.
+            // The drive before was interrupted, and a new one is about to begin.
             RunPhase::Starting(_) if light.clock.is_none() => (light.seen, false),
             RunPhase::Starting(starting) => {
                 let left = (starting.at - now).max(Span::ZERO);

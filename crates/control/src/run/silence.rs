@@ -1,7 +1,7 @@
 //! Where a robot that fell silent on a drive may stand.
 //!
-//! The robot may have died. Or its reports are lost, and it holds with the others. Or its link broke, and it drives
-//! on along its path until it stops by itself.
+//! The robot may have died. Or its reports are lost, and it stops with the others. Or its link broke, and it drives on
+//! along its path until it stops by itself.
 
 use crate::journal::Position;
 use crate::leg::Leg;
@@ -16,49 +16,54 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::Path;
 use lightbots_wire::RobotState;
 
-/// Longest time from the last report of a robot until it died: driving robots report every 500 ms (R41).
+/// Longest time that a robot drives on between its last report and its death: driving robots report every 500 ms (R41).
 const UNREPORTED: Span = Span::from_millis(600);
 
-/// How long a robot drives on after its link broke, by R43 of docs/protocol.md. It slows down from 1.9 s after the
-/// last message that it received. It comes to rest where it would have been after 2 s.
+/// How long a robot drives on after its link broke, counted from its last report. By R43 of docs/protocol.md it slows
+/// down from 1.9 s after the last message that it received. It comes to rest where it would have been after 2 s.
 pub(crate) struct LinkLoss {
     /// Least time that the robot drives on after its last report.
     pub drives_on: Span,
-    /// How much longer than `drives_on` the robot may drive on.
+    /// Largest time that the robot drives on beyond `drives_on`.
     pub at_most_longer: Span,
 }
 
 impl LinkLoss {
-    /// Longest time after the last report until the robot stands.
+    /// Longest time after its last report until the robot stands.
     pub const fn stands_after(&self) -> Span {
         Span(self.drives_on.0 + self.at_most_longer.0)
     }
 }
 
-/// The last message that a robot received is at most 500 ms older or newer than its last report.
+/// The last message that a robot received is at most 500 ms older or newer than its last report. The 2 s of R43 are
+/// therefore 1.5 to 2.5 s after that report.
 pub(crate) const LINK_LOSS: LinkLoss =
     LinkLoss { drives_on: Span::from_millis(1_500), at_most_longer: Span::from_millis(1_000) };
 
 /// Time between two sampled places of a path: 14 mm at full speed.
 const PATH_STEP: Span = Span::from_millis(50);
-/// Number of steps of `PATH_STEP` by which a robot that receives STOP may stop later than the others.
+/// Number of steps of `PATH_STEP` by which a robot that receives STOP may stop later than the other robots.
 const STEPS_UNTIL_STOP: i64 = 2;
 /// Distance between two sampled places of a straight drive, metres.
 const STRAIGHT_STEP_M: f64 = 0.03;
-/// Largest distance of a reported place from a path on which the robot was then, metres. Robots keep within 10 mm of
-/// their paths, and sampled places are up to 14 mm apart.
+/// Largest distance, metres, between a reported place and the path on which the robot was at that time. Robots keep
+/// within 10 mm of their paths, and sampled places are up to 14 mm apart.
 pub(crate) const OFF_PATH_M: f64 = 0.03;
-/// Largest difference of distances, metres: of moments as close to a reported place as that, the first one counts.
+/// Moments of a path count as equally close to a reported place if their distances differ by at most this, metres. The
+/// first of the closest moments is taken.
 const SAME_MOMENT_M: f64 = 0.005;
-/// Places closer to each other than this count as one, metres. The disc of a dropped place must not stick out of the
-/// kept discs, because other robots pass these as closely as the planner allows.
+/// Sampled places closer to each other than this count as one, metres. Other robots pass the discs of the kept places
+/// as closely as the planner allows. The disc of a dropped place must therefore not stick out of the kept ones.
 const SAME_PLACE_M: f64 = 0.002;
 
-/// Where a silent robot may stand. Likely places: on its path near its last report, if it died, and where its path was
-/// when all stopped, if only its reports are lost. Possible places also include those where it stops by itself (R43), if
-/// it receives no messages either. If its last report came after all began to stop, the whole stretch of path from the
-/// reported place on counts: a frozen broker may have held the report back, or the clock of a restarted controller is
-/// wrong, and robots that stopped may have blocked this one.
+/// Where a silent robot may stand. Likely places: on its path near its last report, if it died; and where its path was
+/// when all stopped, if only its reports are lost. Possible places are also those where it stops by itself (R43), if it
+/// receives no messages either.
+///
+/// If its last report came after all began to stop, the path from the reported place on counts too. A frozen broker may
+/// have held the report back, or the clock of a restarted controller is wrong. Stopped robots may also have blocked
+/// this one.
+///
 /// Empty if the robot has reported since the drive began that it stands: it is where it reported.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
@@ -80,7 +85,7 @@ pub(crate) fn whereabouts(
     let since = clock.path_time(placed).max(Span::ZERO);
     let is_late = placed > stop.began;
     let reached = robot.reported.at.filter(|_| is_late).and_then(|at| reached(path, at));
-    // A robot that reported before the drive began drives for less long until it stops by itself.
+    // A robot that reported before the drive began stops by itself sooner after the beginning.
     let early = (clock.began - placed).max(Span::ZERO);
     let died = [since].into_iter().chain(reached).flat_map(|from| steps(from, from + UNREPORTED));
     let likely = thinned(died.chain(stopped(clock, stop)).map(place));
@@ -92,18 +97,18 @@ pub(crate) fn whereabouts(
     Whereabouts { possible, likely }
 }
 
-/// Path times at which robots may have stopped that received what stopped all.
+/// Path times at which a robot may have stopped if it received the command that stopped all.
 pub(crate) fn stopped(clock: &PathClock, stop: StopTimes) -> impl Iterator<Item = Span> {
     let until = (stop.stood - stop.began).0 / PATH_STEP.0 + STEPS_UNTIL_STOP;
     (0..=until).map(move |step| clock.path_time(stop.began + PATH_STEP * step))
 }
 
-/// Moments from one path time to another, one every `PATH_STEP`.
+/// Path times from `from` to `to`, one every `PATH_STEP`.
 fn steps(from: Span, to: Span) -> impl Iterator<Item = Span> {
     (0..=(to - from).0 / PATH_STEP.0).map(move |step| from + PATH_STEP * step)
 }
 
-/// The first path time at which a path leads through a reported place. `None` if the path does not lead there.
+/// The first path time at which a path leads through the reported place `at`. `None` if the path does not lead there.
 fn reached(path: &Path, at: Vec2) -> Option<Span> {
     let path = path.as_ref();
     let off_m = |time: Span| path.at(time).position.distance(at);
@@ -112,7 +117,7 @@ fn reached(path: &Path, at: Vec2) -> Option<Span> {
     steps(Span::ZERO, path.duration()).find(is_there).filter(|_| least_m <= OFF_PATH_M)
 }
 
-/// [`whereabouts`] of a participant after a drive was broken off. Empty if no drive was.
+/// [`whereabouts`] of a participant after its drive was interrupted. Empty if no drive was.
 pub(crate) fn whereabouts_after(cx: &RunContext, left: &Position, participant: usize) -> Whereabouts {
     let (Position { drive: Some(clock), stops: Some(stops), .. }, Some(DrivenLeg { leg, targets })) =
         (left, &cx.pipeline.driven)
@@ -122,7 +127,7 @@ pub(crate) fn whereabouts_after(cx: &RunContext, left: &Position, participant: u
     whereabouts((leg, targets), clock, *stops, participant, cx.robot(participant))
 }
 
-/// Drops each place that is closer than `SAME_PLACE_M` to the last one kept before it.
+/// Drops each place that is closer than `SAME_PLACE_M` to the last kept one before it.
 fn thinned(places: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = places.collect();
     places.dedup_by(|a, b| a.distance(*b) < SAME_PLACE_M);

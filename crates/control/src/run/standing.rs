@@ -1,5 +1,7 @@
-//! The phase in which all robots stand: the air time runs, what comes is planned and uploaded, and the next drive
-//! starts in time.
+//! The phase in which all robots stand. Meanwhile the air time (how long the show keeps robots in a frame) runs, and
+//! the next legs are planned and uploaded. The next drive is started in time.
+//!
+//! A leg is the drive of all robots between two moments at which all stand.
 
 use crate::event::{RunOutcome, Trouble};
 use crate::leg::LegKind;
@@ -15,7 +17,7 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Details, RobotState};
 
-/// How much earlier than necessary START is sent, because the shell may wake the controller late.
+/// How much earlier than necessary START is sent, because the program around this core may call it late.
 const EARLY: Span = Span::from_millis(20);
 /// Longest time between two checks of the phase.
 const CHECK_EVERY: Span = Span::from_millis(1_000);
@@ -35,8 +37,8 @@ impl Standing {
         Self { air, check_at: now + CHECK_EVERY }
     }
 
-    /// When [`on_tick`](Self::on_tick) has something to do next. START is sent `start_lead` before its moment.
-    /// `waits`: the run is paused or waits for GO.
+    /// When [`on_tick`](Self::on_tick) has something to do next. START is sent `start_lead` before its moment. `waits`:
+    /// the run is paused or waits for GO, so that no START is due.
     pub fn due(&self, pipeline: &Pipeline, start_lead: Span, now: Instant, waits: bool) -> Instant {
         let start = match pipeline.queue.front().map(|leg| leg.kind) {
             _ if waits => Instant::FAR,
@@ -52,7 +54,7 @@ impl Standing {
         (self.air.left, self.air.until) = (None, now);
     }
 
-    /// Handles a status report of a participant that is to stand.
+    /// Handles a status report of a participant, which should stand where the plan has it.
     pub fn on_report(
         &mut self,
         cx: &mut RunContext,
@@ -67,7 +69,7 @@ impl Standing {
         next.or_else(|| misplaced::check_status(cx, participant))
     }
 
-    /// Does what is due: checks the link, plans, uploads, and leaves the frame.
+    /// Does what is due: checks the link, plans and uploads the next legs, and leaves the frame.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if cx.now >= self.check_at {
             self.check_at = cx.now + CHECK_EVERY;
@@ -100,7 +102,8 @@ impl Standing {
         self.leave(cx)
     }
 
-    /// Leaves the frame, if its air time is over and there is a next leg.
+    /// Returns the change to the next drive, if the air time is over and the next leg is ready. Returns the end of the
+    /// run if nothing more is planned.
     fn leave(&self, cx: &mut RunContext) -> Next {
         if cx.playback.waits_for_go {
             return Next::Stay;
@@ -124,19 +127,20 @@ impl Standing {
     }
 }
 
-/// Ends the run because nothing more is planned, unless obstacles are left that another plan can ignore.
+/// Ends the run, because nothing more is planned: as failed if the next frame has no plan, and otherwise as finished.
+/// If the failed plan drove around obstacles that another plan can ignore, all is planned again instead.
 fn end(cx: &mut RunContext) -> Next {
     // A plan that failed ahead does not matter once all frames were reached after all.
     let failure = cx.pipeline.planning.failure.take().filter(|_| !cx.playback.is_ended());
     match failure {
         None => Next::Over(RunOutcome::Finished),
-        // What blocked that plan, which was made ahead, may have gone.
+        // The plan was made ahead, and what blocked it may have gone since.
         Some(_) if obstacles::relax(cx) => Next::Regather,
         Some(why) => Next::failed(why),
     }
 }
 
-/// Drops a standing participant that is faulty or does not know its place.
+/// Returns the dropout of a robot that reports a fault or does not know its place.
 pub(crate) fn drop_if_unfit(participant: usize, details: &Details) -> Next {
     match details.state {
         RobotState::Faulty => Next::drop(participant, Trouble::Faulty),

@@ -1,5 +1,6 @@
-//! The phase of START: its moment is sent ahead to all robots at once, repeated, and confirmed by reports. START is
-//! postponed while some robots do not confirm.
+//! The phase of START, the message that names the moment at which all robots begin their routes. START is sent ahead of
+//! that moment to all robots at once, repeated, and confirmed by their reports. It is postponed while some robots do
+//! not confirm it.
 
 use crate::event::Trouble;
 use crate::run::link::{ASK_AGAIN, REPEAT};
@@ -15,23 +16,23 @@ use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
-/// When robots that did not confirm are first asked individually, in percent of the lead after START was sent. By
-/// then the confirmations of the broadcast have arrived.
+/// When robots that did not confirm a START are first asked individually: this percentage of the time from sending
+/// START to its moment (the lead), counted from sending. By then the confirmations of the broadcast have arrived.
 const ASK_FIRST_PERCENT: i64 = 27;
-/// Largest number of robots that are asked individually, or one in `MANY` if that is more. If more robots did not
-/// confirm, the repeated broadcast asks them.
+/// If at most this many robots did not confirm, each is asked individually; one in `MANY` of the robots that start, if
+/// that is more. If more did not confirm, only the repeated broadcast asks them.
 const ASKED_MAX: usize = 64;
-/// Largest number of robots without confirmation that counts as lost messages, or one in `MANY` if that is more.
-/// Above, the link counts as slow.
+/// If at most this many robots did not confirm, messages count as lost; one in `MANY` of the robots that start, if that
+/// is more. If more did not confirm, the link counts as slow.
 const LOST_MAX: usize = 2;
-/// Replaces the two bounds above in large fleets: one robot in this many of those that start.
+/// Share that replaces `ASKED_MAX` and `LOST_MAX` in large fleets: one robot in this many of those that start.
 const MANY: usize = 8;
-/// Time between repeats of a START that was postponed. It is short, because a robot that misses the new moment starts
-/// alone.
+/// Time between two copies of a START that was postponed. It is short, because a robot that does not receive the new
+/// moment starts alone at the old one.
 const REPEAT_POSTPONED: Span = Span::from_millis(15);
-/// How often a START is postponed before robots that did not confirm drop out.
+/// How often a START is postponed. After that, robots that did not confirm it drop out.
 const POSTPONED_MAX: u32 = 12;
-/// How often a START is postponed before an event names the robots that did not confirm.
+/// After this many postponements of a START, an event names the robots that did not confirm it.
 const POSTPONED_NAMED: u32 = 4;
 
 /// A START that was sent and whose moment is still to come.
@@ -39,16 +40,16 @@ const POSTPONED_NAMED: u32 = 4;
 pub(crate) struct Starting {
     /// The moment of the START, show clock.
     pub at: Instant,
-    /// Number of the routes that begin.
+    /// Number of the routes that begin with this START.
     seq: u32,
     /// When to check whether all robots have confirmed: early enough to postpone the START for all.
     check_at: Instant,
     repeat_at: Instant,
     /// When robots that did not confirm are asked individually next.
     ask_at: Instant,
-    /// When this START was first sent, and the round-trip estimate at that time.
+    /// When this START was first sent, and the round-trip estimate of the link at that time.
     first: (Instant, Span),
-    /// The moment of this START as first sent, before it was postponed.
+    /// The moment that this START named when it was first sent.
     first_at: Instant,
     postponed: u32,
     /// Whether all robots had confirmed at the last check.
@@ -58,8 +59,8 @@ pub(crate) struct Starting {
 }
 
 impl Starting {
-    /// Sends START for the first leg of the queue, for the earliest possible moment that is not before `earliest`.
-    /// Panics if no leg is queued.
+    /// Sends START for the first leg of the queue. Its moment is the earliest possible one that is not before
+    /// `earliest`. A leg is the drive of all robots between two moments at which all stand. Panics if no leg is queued.
     pub fn begin(cx: &mut RunContext, earliest: Instant) -> Self {
         let seq = cx.pipeline.queue.front().map_or(0, |leg| leg.seq);
         assert!(seq != 0, "a START needs a queued leg");
@@ -115,13 +116,14 @@ impl Starting {
         next.or_else(|| if may_have_driven { Next::Stay } else { misplaced::check_status(cx, participant) })
     }
 
-    /// Handles the arrival of a participant. If it started alone, all stop and are planned again.
+    /// Handles the arrival of a participant. If it started alone, at a moment before the present one, all robots stop
+    /// and are planned again.
     pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
         if self.began_alone(cx, participant, details) { cx.replan_with(participant) } else { Next::Stay }
     }
 
-    /// Whether a robot has started at a moment that was postponed, because it did not receive the later moment in
-    /// time. It may have finished its route since. A route without movement does not count.
+    /// Whether a robot has begun its route at an earlier moment of this START, because the postponed moment reached it
+    /// too late. Its route may have ended since. A route without movement does not count.
     fn began_alone(&self, cx: &RunContext, participant: usize, details: &Details) -> bool {
         let elsewhen = match details.state {
             RobotState::Driving | RobotState::Held => details.starts != Some(self.at),
@@ -132,8 +134,9 @@ impl Starting {
         elsewhen && details.route == self.seq && path.is_some_and(|path| !path.as_ref().rests())
     }
 
-    /// Where a silent participant may stand. If it ever confirmed, it may have started at the moment that was sent
-    /// first. Empty if it has not left the place that it reported.
+    /// Where a silent participant may stand. If it confirmed any moment of this START, it may have started at the
+    /// moment that was sent first. If it confirmed none, the result is empty: it has not left the place that it
+    /// reported.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         let leg = cx.pipeline.queue.front().filter(|_| self.confirmed[participant].is_some());
         let Some(leg) = leg else { return Whereabouts::default() };
@@ -181,9 +184,9 @@ impl Starting {
         Next::Stay
     }
 
-    /// Participants that did not confirm the present moment. A robot whose route has no movement may have begun it
-    /// already, because its clock was ahead of a postponed moment. No later START changes that (R33), so its report
-    /// counts as confirmation.
+    /// Participants that have not confirmed the present moment of START. A route without movement also counts as
+    /// confirmed once its robot reports that it runs: the robot's clock was ahead of a moment that was postponed later.
+    /// No later START changes that (R33).
     fn unconfirmed(&self, cx: &RunContext) -> Vec<usize> {
         let Some(leg) = cx.pipeline.queue.front() else { return Vec::new() };
         let owes = |&participant: &usize| {
@@ -197,8 +200,8 @@ impl Starting {
         cx.roster.active().map(|(one, _)| one).filter(owes).collect()
     }
 
-    /// Sends START and STATUS to each robot that did not confirm, unless there are too many. Their confirmations may
-    /// have been lost.
+    /// Sends START and STATUS to each robot that did not confirm, unless there are too many. The confirmation of a
+    /// robot may have been lost.
     fn ask_unconfirmed(&self, cx: &mut RunContext) {
         let unconfirmed = self.unconfirmed(cx);
         if unconfirmed.len() > ASKED_MAX.max(starters(cx) / MANY) {
@@ -209,11 +212,12 @@ impl Starting {
         }
     }
 
-    /// Unconfirmed robots that have sent no report for longer than a bound, although they were asked again and again.
-    /// They count as dead: the fleet waits less long for them than for robots that report over a slow link.
+    /// Those of `unconfirmed` that have sent no report for longer than a bound, although they were asked again and
+    /// again. They count as dead: the fleet waits less long for them than for robots that report over a slow link.
+    /// Empty while the broker may still be restoring subscriptions.
     fn silent(&self, cx: &RunContext, unconfirmed: &[usize]) -> Vec<usize> {
         let (first, round_trip) = self.first;
-        // By then a robot whose link broke after it received START has stopped by itself.
+        // A robot whose link broke after it received START has stopped by itself when this bound is over.
         let bound = cx.io.config.silence + LINK_LOSS.stands_after() + round_trip * 2;
         if cx.link.patience(first) > cx.now - first {
             return Vec::new();
@@ -222,8 +226,9 @@ impl Starting {
         unconfirmed.iter().copied().filter(is_silent).collect()
     }
 
-    /// Sends a later moment to all robots. Robots that did not confirm also get it individually, and those without
-    /// the route get that again. Returns dropouts instead if robots are silent or START was postponed too often.
+    /// Postpones START: sends a later moment to all robots. Robots that did not confirm also get it individually, and
+    /// those without the route get the route again. Returns dropouts instead if robots are silent or START was
+    /// postponed too often.
     fn postpone(&mut self, cx: &mut RunContext, unconfirmed: &[usize]) -> Next {
         self.postponed += 1;
         let silent = self.silent(cx, unconfirmed);

@@ -3,11 +3,11 @@
 use lightbots_base::Instant;
 use serde::{Deserialize, Serialize};
 
-/// When robots stopped on a drive, show clock.
+/// When all robots stopped during a drive, show clock.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StopTimes {
-    /// When robots began to stop.
+    /// When robots began to slow down.
     pub began: Instant,
-    /// When robots stood.
+    /// When robots stood still.
     pub stood: Instant,
 }

@@ -4,19 +4,20 @@ use crate::run::clock_wait::ClockWait;
 use crate::run::recovery_bound::RecoveryBound;
 use lightbots_base::Instant;
 
-/// What a run counts.
+/// What a run counts, from its beginning on.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tally {
     /// Number of frames that robots have reached.
     pub frames_played: usize,
     /// Number of dropouts; a robot that dropped out twice counts twice.
     pub dropouts: usize,
-    /// How often another controller continued the run after the one before was killed.
+    /// How often another controller continued the run after the controller before was killed.
     pub taken_up: u32,
-    /// Bound on the replans and the time of recovery.
+    /// Replans and time that recovery from dropouts has cost, and their bounds.
     pub recovery: RecoveryBound,
     /// How long the run has waited for precise clocks.
     pub clock_wait: ClockWait,
-    /// When the first and the last robot arrived at a place in the next frame, over all legs that lead there.
+    /// When the first and the last robot arrived at its place in the next frame, over all legs (drives) that lead to
+    /// that frame. `None` if none has arrived.
     pub arrivals: Option<(Instant, Instant)>,
 }

@@ -1,5 +1,8 @@
-//! Commands to TARGET-only robots (they understand the command TARGET but no routes). Each is sent as far as it may
-//! go, and farther as the robots to which it yields make progress.
+//! Commands to TARGET-only robots (they understand the command TARGET but no routes). Each of these robots is sent a
+//! target only as far as it may safely go on its straight drive. It is sent on when the robots to which it yields have
+//! made progress.
+//!
+//! In this file, `place` is the index of a straight drive in the leg's list of drives.
 
 use crate::run::pipeline::{DrivenLeg, Pipeline};
 use crate::run::run_context::RunContext;
@@ -7,27 +10,28 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Command;
 
-/// Least distance by which a robot is sent farther, metres: it would not move for less than its tolerance of 20 mm.
+/// Least distance by which a robot is sent farther, metres. For less than its tolerance of 20 mm it would not move.
 const STEP_M: f64 = 0.025;
-/// Largest error of the progress that a robot reports, metres.
+/// Largest error of a robot's progress on its straight drive, as computed from its report, metres.
 pub(crate) const PASSED_ERROR_M: f64 = 0.01;
-/// Time between requests to TARGET-only robots for their places. A robot without progress is sent its target again as
-/// often.
+/// Time between requests to a TARGET-only robot for its place. A robot without progress is sent its target again at the
+/// same interval.
 pub(crate) const ASK: Span = Span::from_millis(500);
 
-/// How a TARGET-only robot is brought to rest: its target is set a little ahead of it, so that it does not turn
+/// How a TARGET-only robot is brought to rest: it gets a target a little ahead of its place, so that it does not turn
 /// round.
 struct Stopping {
     /// Highest speed of the robot, m/s.
     speed_mps: f64,
-    /// Time from a message to the robot's reaction.
+    /// Time from sending a message until the robot reacts to it.
     reaction: Span,
 }
 
 /// A lower speed or a shorter reaction would send a robot back to a place that it has passed.
 const STOPPING: Stopping = Stopping { speed_mps: 0.3, reaction: Span::from_millis(150) };
 
-/// Sends a robot farther on a straight drive, if it may go farther by now. Does nothing while progress is held.
+/// Sends a robot farther on its straight drive `place`, if it may go farther by now. Does nothing during a hold, or if
+/// `place` is not the drive that the robot is on or begins next.
 pub(crate) fn grant_farther(cx: &mut RunContext, is_held: bool, place: Option<usize>) {
     let Pipeline { driven: Some(DrivenLeg { leg, targets }), .. } = &mut *cx.pipeline else { return };
     let Some(place) = place else { return };
@@ -49,7 +53,7 @@ pub(crate) fn grant_farther(cx: &mut RunContext, is_held: bool, place: Option<us
     send_target(cx, place);
 }
 
-/// Sends a robot the target up to which it may go, and its colour.
+/// Sends a robot the target on its straight drive up to which it may go, and its colour.
 pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
     if let Some(driven) = &mut cx.pipeline.driven {
         driven.targets.states[place].sent_at = cx.now;
@@ -62,8 +66,8 @@ pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
     cx.send(participant, &[Command::Target(target), Command::Color(color)]);
 }
 
-/// The target of a robot that stops `short_m` before its targets, so that it stands where its straight drive ends.
-/// Kept inside the stage.
+/// The target for a robot that stops `short_m` metres before its targets, so that it stands where its straight drive
+/// ends. The target is inside the stage.
 pub(crate) fn beyond(cx: &RunContext, drive: &StraightDrive, short_m: f64) -> Vec2 {
     let stage = &cx.playback.show.stage;
     let inset = Vec2::new(stage.limits.radius_m, stage.limits.radius_m);
@@ -73,7 +77,7 @@ pub(crate) fn beyond(cx: &RunContext, drive: &StraightDrive, short_m: f64) -> Ve
     Vec2::new(inside(target.x, drive.to.x, most.x), inside(target.y, drive.to.y, most.y))
 }
 
-/// Sends each TARGET-only robot off, as far as no robot is in its way.
+/// Sends each TARGET-only robot off on its first straight drive, as far as no other robot is in its way.
 pub(crate) fn begin(cx: &mut RunContext) {
     let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
     for participant in 0..participants {
@@ -82,7 +86,7 @@ pub(crate) fn begin(cx: &mut RunContext) {
     }
 }
 
-/// Asks TARGET-only robots where they stand, if they have not reported for `ASK`.
+/// Asks TARGET-only robots where they stand, if they have not reported for longer than `ASK`.
 pub(crate) fn ask_places(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         let is_asked = !cx.roster.is_excluded(participant) && cx.robot(participant).is_original();
@@ -92,7 +96,7 @@ pub(crate) fn ask_places(cx: &mut RunContext) {
     }
 }
 
-/// Stops robots on straight drives a little ahead of where they last reported to be, and asks for their places.
+/// Stops all robots on straight drives a little ahead of the places that they reported last, and asks for their places.
 pub(crate) fn halt_all(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         halt(cx, participant);
@@ -113,7 +117,7 @@ pub(crate) fn halt(cx: &mut RunContext, participant: usize) {
     cx.send(participant, &[Command::Target(target), Command::Uuid]);
 }
 
-/// Lets robots that were halted drive on.
+/// Lets robots that were halted on straight drives drive on.
 pub(crate) fn resume_all(cx: &mut RunContext) {
     let participants = cx.pipeline.driven.as_ref().map_or(0, |driven| driven.targets.present.len());
     for participant in 0..participants {

@@ -1,47 +1,50 @@
 //! Progress of TARGET-only robots (they understand the command TARGET but no routes) on their straight drives.
+//!
+//! A straight drive yields to another one if its robot has to wait for that one's robot to pass. In this file, `place`
+//! is the index of a straight drive in the leg's list of drives.
 
 use crate::leg::Leg;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_plan::unsynchronised::StraightDrive;
 
-/// Distance to the point up to which it may go: a robot that stands closer has done what it was told, metres. The
-/// robot stops up to 20 mm before its target, and its last report may be 10 mm behind.
+/// A robot closer than this to the point up to which it may go has done what it was told, metres. It stops up to 20 mm
+/// before its target, and its last report may be 10 mm behind.
 const RESTS_M: f64 = 0.06;
 
 /// Progress of all straight drives of a leg.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TargetProgress {
-    /// `[straight drive]`: its progress.
+    /// `[straight drive]`: how far its robot is.
     pub states: Vec<DriveState>,
-    /// `[straight drive]`: the straight drives that yield to it.
+    /// `[straight drive]`: indices of the straight drives that yield to it.
     pub followers: Vec<Vec<usize>>,
-    /// `[participant]`: the straight drive that its robot is on or begins next. `None` after the last one.
+    /// `[participant]`: index of the straight drive that its robot is on or begins next. `None` after the last one.
     pub present: Vec<Option<usize>>,
-    /// Whether the leg is from a journal, which does not say how far robots are on their drives.
+    /// Whether the leg is from a journal, which does not say how far robots are on their straight drives.
     pub is_of_journal: bool,
 }
 
 /// Progress of one straight drive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DriveState {
-    /// Share of the drive that the robot has surely passed, 0 to 1.
+    /// Share of the drive's length that the robot has surely passed, 0 to 1.
     pub passed: f64,
-    /// Share of the drive up to which the robot may go, 0 to 1. It is 0 before the robot was sent off.
+    /// Share of the drive's length up to which the robot may go, 0 to 1. It is 0 until the robot is sent off.
     pub granted: f64,
     /// When a target was last sent to the robot.
     pub sent_at: Instant,
-    /// When the robot was last allowed to go farther or made progress.
+    /// When the robot was last allowed to go farther, or last made progress.
     pub moved_at: Instant,
     /// How often the target was sent again because the robot stood beside its goal.
     pub corrections: u8,
-    /// Whether the drive is over.
+    /// Whether the robot has completed the drive.
     pub done: bool,
     /// Whether an event has reported that the robot makes no progress or is silent.
     pub is_stalled: bool,
 }
 
 impl TargetProgress {
-    /// The progress of a leg of which no straight drive has begun.
+    /// The progress of a leg (drive of all robots) whose straight drives have not begun.
     pub fn new(leg: &Leg) -> Self {
         let state = DriveState {
             passed: 0.0,
@@ -66,33 +69,34 @@ impl TargetProgress {
         Self { is_of_journal: true, ..Self::new(leg) }
     }
 
-    /// The straight drive that a participant is on. `None` if it was sent on none, or has ended the last one.
+    /// Index of the straight drive that a participant is on. `None` if it was not sent off yet, or has ended its last
+    /// one.
     pub fn under_way(&self, participant: usize) -> Option<usize> {
         let place = self.present.get(participant).copied().flatten()?;
         let state = &self.states[place];
         (state.granted > 0.0 && !state.done).then_some(place)
     }
 
-    /// Whether a robot that yields to this straight drive is not yet allowed to drive to the end of its own.
+    /// Whether any robot that yields to the straight drive `place` may not yet drive to the end of its own.
     pub fn is_awaited(&self, place: usize) -> bool {
         self.followers[place].iter().any(|&follower| self.states[follower].granted < 1.0)
     }
 
-    /// Whether the robot has made no progress for longer than `bound`, although it may go on.
+    /// Whether a robot has made no progress on its straight drive for longer than `bound`, although it may go on.
     pub fn stands(&self, place: usize, drive: &StraightDrive, now: Instant, bound: Span) -> bool {
         let state = &self.states[place];
         let rests = state.granted < 1.0 && (state.granted - state.passed) * drive.length_m() < RESTS_M;
         !rests && now - state.moved_at > bound
     }
 
-    /// Whether an event has reported that a participant makes no progress on its present drive or is silent.
+    /// Whether an event has reported that a participant makes no progress on its present straight drive or is silent.
     pub fn is_stalled(&self, participant: usize) -> bool {
         let present = self.present.get(participant).copied().flatten();
         present.is_some_and(|place| self.states[place].is_stalled)
     }
 
-    /// Share of the lengths of all straight drives that robots have passed by their reports, 0 to 1. It is 1 if there
-    /// are none.
+    /// Share of the lengths of all straight drives that robots have passed, by their reports, 0 to 1. It is 1 if there
+    /// are no drives.
     pub fn share(&self, leg: &Leg) -> f64 {
         let whole_m: f64 = leg.drives.iter().map(StraightDrive::length_m).sum();
         let passed_m: f64 = leg
@@ -105,7 +109,7 @@ impl TargetProgress {
     }
 
     /// Places where a robot that fell silent on its straight drive may stand, stage metres, at most `step_m` apart.
-    /// Empty if it is on no straight drive. By a journal a robot may be anywhere on its straight drives.
+    /// Empty if it is on none. If the leg is from a journal, the robot may be anywhere on all its straight drives.
     pub fn whereabouts(&self, leg: &Leg, participant: usize, step_m: f64) -> Vec<Vec2> {
         if self.is_of_journal {
             let drives = leg.drives.iter().filter(|drive| drive.robot == participant);
@@ -117,7 +121,8 @@ impl TargetProgress {
     }
 }
 
-/// Places on a straight drive from one share of it to another, stage metres, at most `step_m` apart.
+/// Places on a straight drive from the share `first` of its length to the share `last`, stage metres, at most `step_m`
+/// apart.
 fn places(drive: &StraightDrive, (first, last): (f64, f64), step_m: f64) -> impl Iterator<Item = Vec2> {
     let steps = ((last - first) * drive.length_m() / step_m).ceil().max(1.0);
     (0..=steps as usize).map(move |step| drive.at(first + (last - first) * step as f64 / steps))

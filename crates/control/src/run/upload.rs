@@ -1,32 +1,34 @@
-//! Messages on their way to participants: sent within a window, acknowledged by reports, sent again until they are.
+//! Messages on their way to participants: at most `window` of them are open at once. Reports acknowledge them, and a
+//! message is sent again until it is acknowledged.
 //!
 //! MQTT's quality of service 1 would do this between each client and the broker. It does not show whether the robot
-//! took the message, and a broker that restarts forgets the message. The acknowledgement here is therefore end to
-//! end.
+//! took the message, and a broker that restarts forgets the message. The acknowledgement here therefore comes from the
+//! robot itself.
 
 use crate::mutant::Mutant;
 use lightbots_base::{Instant, Span};
 use std::collections::VecDeque;
 
-/// One message for each participant, and which of them acknowledged it.
+/// One message for each participant, and which participants acknowledged it.
 #[derive(Clone, Debug)]
 pub(crate) struct Upload {
-    /// Number of the routes or of the stretch of light that is uploaded; 0 for changes of light.
+    /// Number of the routes, or of the stretch of light, that the messages contain; 0 for changes of light.
     pub number: u32,
     /// When the upload began.
     pub began: Instant,
-    /// Whether an event has reported that no robot acknowledges.
+    /// Whether an event has reported that no robot acknowledges its message.
     pub is_announced: bool,
     /// `[participant]`: the message to its robot.
     deliveries: Vec<Delivery>,
-    /// The next participant to which nothing was sent yet.
+    /// The next participant for which no message was sent yet (an unserved one). Messages are sent in the order of
+    /// participants.
     unserved: usize,
-    /// Messages that were sent and may not be acknowledged: when each is due again, and its participant. In order of
-    /// time.
+    /// Messages that were sent and may not be acknowledged: when each is to be sent again, and its participant. In
+    /// order of time.
     sent: VecDeque<(Instant, usize)>,
-    /// Number of participants with a message that they have not acknowledged.
+    /// Number of messages that were sent and not yet acknowledged.
     open: usize,
-    /// Acknowledgements of messages that were sent once.
+    /// Acknowledgements of messages that were sent only once.
     once: Answers,
     /// Acknowledgements of messages that were sent more than once.
     again: Answers,
@@ -40,7 +42,7 @@ struct Delivery {
     acknowledged: bool,
 }
 
-/// How many robots acknowledged, and the longest time from the first sending to the acknowledgement.
+/// Number of robots that acknowledged, and the longest time from the first sending to the acknowledgement.
 #[derive(Clone, Copy, Debug, Default)]
 struct Answers {
     count: usize,
@@ -48,7 +50,7 @@ struct Answers {
 }
 
 impl Upload {
-    /// An upload of which nothing is sent yet.
+    /// An upload whose messages are all still to be sent.
     pub fn new(number: u32, now: Instant, participants: usize) -> Self {
         Self {
             number,
@@ -63,22 +65,22 @@ impl Upload {
         }
     }
 
-    /// When the next message may have to be sent again. `None` if no message is out.
+    /// When the first of the sent messages may have to be sent again. `None` if no sent message is left.
     pub fn due(&self) -> Option<Instant> {
         self.sent.front().map(|(due, _)| *due)
     }
 
-    /// Whether every participant was served and every message acknowledged.
+    /// Whether all messages were sent where needed, and all sent messages were acknowledged.
     pub fn is_done(&self) -> bool {
         self.open == 0 && self.unserved >= self.deliveries.len()
     }
 
-    /// Whether participants are left that were not served yet.
+    /// Whether some participants have not had their turn yet.
     pub fn has_unserved(&self) -> bool {
         self.unserved < self.deliveries.len()
     }
 
-    /// Whether more than one message is out and no message was acknowledged.
+    /// Whether more than one message is open and none was ever acknowledged.
     pub fn is_unanswered(&self) -> bool {
         self.open > 1 && self.once.count + self.again.count == 0
     }
@@ -88,8 +90,8 @@ impl Upload {
         self.deliveries[participant].tries
     }
 
-    /// Removes the next overdue message from the queue and returns its participant. Messages that need no repeat are
-    /// removed on the way. `None` if none is overdue.
+    /// Takes the next overdue message from the list of sent ones and returns its participant. Messages that need no
+    /// repeat are removed on the way. `None` if none is overdue.
     pub fn next_overdue(&mut self, now: Instant, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
         while let Some(&(due, participant)) = self.sent.front() {
             let settled = needs_none(participant) || self.deliveries[participant].acknowledged;
@@ -128,13 +130,13 @@ impl Upload {
         self.sent.push_back((due, participant));
     }
 
-    /// Restarts the time measurement of a participant, because its wait until now does not measure the link.
+    /// Measures the answer time of a participant from `now` on, because its wait until now says nothing about the link.
     pub fn restart_clock(&mut self, now: Instant, participant: usize) {
         self.deliveries[participant].first_sent = now;
     }
 
-    /// Notes the acknowledgement of a participant. Returns `false` if nothing was sent to it or it had acknowledged
-    /// before.
+    /// Notes that a participant acknowledged its message. Returns `false` if nothing was sent to it, or if it had
+    /// acknowledged before.
     pub fn acknowledge(&mut self, now: Instant, participant: usize) -> bool {
         let Some(delivery) = self.deliveries.get_mut(participant) else { return false };
         let is_overlooked = Mutant::DropAcknowledgement.is_planted() && participant == 6;
@@ -149,7 +151,7 @@ impl Upload {
         true
     }
 
-    /// Makes the message to a participant due at once, because it lost what it had acknowledged.
+    /// Makes the message to a participant due at once, because the robot lost what it had acknowledged.
     pub fn reopen(&mut self, now: Instant, participant: usize) {
         let Some(delivery) = self.deliveries.get_mut(participant) else { return };
         if std::mem::take(&mut delivery.acknowledged) {
@@ -158,9 +160,9 @@ impl Upload {
         }
     }
 
-    /// The slowest round trip. By Karn's rule only messages that were sent once count. If most were sent again, the
-    /// link is slow rather than lossy, and the repeated ones count instead. Otherwise a slow link would never be
-    /// measured.
+    /// The longest time to an acknowledgement. By Karn's rule only messages that were sent once count. If more were
+    /// sent again than once, the link is slow rather than lossy, and the repeated messages count instead. Otherwise a
+    /// slow link would never be measured.
     pub fn slowest(&self) -> Span {
         if self.again.count > self.once.count { self.again.slowest } else { self.once.slowest }
     }

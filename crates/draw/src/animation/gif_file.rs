@@ -1,5 +1,5 @@
-//! Reads GIF files and composes their pictures at reduced size. In a GIF, each picture changes a part of the one
-//! before.
+//! Reads GIF files and composes their pictures at reduced size. In a GIF, each picture changes only a part of the
+//! picture before.
 
 use std::num::NonZeroU64;
 
@@ -11,7 +11,7 @@ use crate::animation::still::{
 use crate::error::DrawError;
 use crate::picture::Bitmap;
 
-/// Longest side of the canvas, pixels.
+/// Largest allowed width and height of the file's canvas, pixels.
 const CANVAS_MAX: u32 = 4096;
 /// Largest memory of the decoder for one picture, bytes.
 const MEMORY_MAX: NonZeroU64 = NonZeroU64::new(64 << 20).expect("64 MiB are not zero");
@@ -53,7 +53,7 @@ pub fn stills(bytes: &[u8]) -> Result<Stills, DrawError> {
     if found.stills.is_empty() { Err(damaged("it has no pictures")) } else { Ok(found) }
 }
 
-/// What is on the canvas of a GIF, at reduced size.
+/// What the canvas of a GIF shows, at reduced size.
 struct SmallCanvas {
     width: usize,
     height: usize,
@@ -66,7 +66,8 @@ impl SmallCanvas {
         Self { width, height, shown: Bitmap { columns, rows, pixels: vec![[0; 4]; columns * rows] } }
     }
 
-    /// Draws a frame on the canvas and returns the result. The canvas is left as the frame's disposal method says.
+    /// Draws a frame on the canvas and returns what the canvas shows then. Afterwards the canvas is left for the next
+    /// frame as this frame's disposal method says.
     fn show(&mut self, frame: &Frame) -> Bitmap {
         let before = self.shown.clone();
         let mut after = before.clone();

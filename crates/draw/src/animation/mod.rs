@@ -17,13 +17,14 @@ use crate::sniff::{FileKind, sniff, unsupported};
 /// A picture of an animation with its time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnimationFrame {
-    /// When it begins, seconds from the start.
+    /// Time at which the picture begins, seconds from the start of the animation.
     pub at_s: f64,
-    /// How long it is shown, seconds.
+    /// Duration of the picture, seconds.
     pub lasts_s: f64,
-    /// What it shows, in pixels of the animation, y upwards. All frames have the same origin.
+    /// What the picture shows. Unit: pixels of the reduced picture, y upwards. All frames have the same origin.
     pub drawing: Drawing,
-    /// Brightness of the picture in the cells of a coarse grid, to compare it with other pictures.
+    /// Mean density of lights in each cell of a coarse grid, 0 to 1, row by row from the top. It is compared between
+    /// pictures.
     shade: Vec<f32>,
 }
 
@@ -32,16 +33,16 @@ pub struct AnimationFrame {
 pub struct Animation {
     /// The frames in order of time; at least one.
     pub frames: Vec<AnimationFrame>,
-    /// Notes about what is missing.
+    /// Notes about pictures that are missing from the animation.
     pub notes: Vec<Note>,
 }
 
-/// Number of cells of the coarse grid along each side.
+/// Number of cells along each side of the coarse grid.
 const GRID: usize = 24;
 
 impl Animation {
-    /// Returns how much two frames differ, from 0 for equal frames to 1 for opposite ones: half of 1 minus the
-    /// correlation of their brightness.
+    /// Returns how much the frames with indices `a` and `b` differ, from 0 for equal frames to 1 for opposite frames.
+    /// The value is half of 1 minus the correlation of their brightness.
     pub fn change(&self, a: usize, b: usize) -> f64 {
         let shade = |n: usize| self.frames.get(n).map_or(&[][..], |frame| frame.shade.as_slice());
         (1.0 - correlation(shade(a), shade(b))) / 2.0
@@ -53,11 +54,8 @@ impl Animation {
     }
 }
 
-/// Reads the pictures of a file: one picture of a PNG, JPEG or WebP file, all pictures of a GIF or animated WebP file.
-/// There is at least one.
-///
-/// # Errors
-/// Files without pixels, damaged files, and pictures that are too large.
+/// Reads the pictures of a file: the only picture of a PNG, JPEG or WebP file, or all pictures of a GIF or animated
+/// WebP file. Returns at least one picture.
 pub fn stills(bytes: &[u8]) -> Result<Vec<Still>, DrawError> {
     let alone = |bitmap| vec![Still { bitmap, lasts_s: 1.0 }];
     match sniff(bytes) {
@@ -72,7 +70,7 @@ pub fn stills(bytes: &[u8]) -> Result<Vec<Still>, DrawError> {
     }
 }
 
-/// Whether a WebP file is an animation. Its header has a flag for that, bit 1.
+/// Whether a WebP file is an animation. Bit 1 of a byte in its header says so.
 pub fn webp_moves(bytes: &[u8]) -> bool {
     bytes.get(12..16) == Some(b"VP8X") && bytes.get(20).is_some_and(|flags| flags & 2 != 0)
 }
@@ -94,8 +92,8 @@ pub fn read(bytes: &[u8], settings: &PictureSettings) -> Result<Animation, DrawE
     drawn(stills, settings)
 }
 
-/// Makes an animation of pictures that are each shown for `lasts_s` seconds. All pictures are scaled to the size of the
-/// first.
+/// Makes an animation of the pictures in `files`. Each picture is shown for `lasts_s` seconds, and all are scaled to
+/// the size of the first.
 pub fn of_pictures(
     files: &[&[u8]],
     lasts_s: f64,
@@ -126,7 +124,7 @@ fn resized(bitmap: &Bitmap, columns: usize, rows: usize) -> Bitmap {
     Bitmap { columns, rows, pixels: (0..columns * rows).map(pixel).collect() }
 }
 
-/// Draws all pictures in the same way, each silhouette smoothed over three pictures.
+/// Draws all pictures in the same way. Each silhouette is smoothed over three successive pictures.
 fn drawn(stills: Stills, settings: &PictureSettings) -> Result<Animation, DrawError> {
     let separations: Vec<Separation> =
         stills.stills.iter().map(|still| picture::separated(&still.bitmap, settings)).collect();
@@ -165,8 +163,9 @@ fn notes(cut: bool, empty: usize, frames: usize) -> Vec<Note> {
     cut.into_iter().chain(empty).collect()
 }
 
-/// Returns the pixels that are inside in at least two of three consecutive masks. If that leaves less than half of the
-/// mask `at`, returns that mask unchanged.
+/// Smooths the mask with index `at`. The result has the pixels that are inside in at least two of three masks: this
+/// one, the one before and the one after. If that leaves fewer than half of the mask's pixels, or a neighbour is
+/// missing, the mask is returned unchanged.
 fn smoothed(masks: &[BitMask], at: usize) -> BitMask {
     let own = masks[at].clone();
     let sides = at.checked_sub(1).and_then(|before| masks.get(before)).zip(masks.get(at + 1));
@@ -179,8 +178,8 @@ fn smoothed(masks: &[BitMask], at: usize) -> BitMask {
     if mixed.count() * 2 < own.count() { own } else { mixed }
 }
 
-/// Returns the mean brightness of what robots show in the cells of a coarse grid. Outside the thing that is shown it is
-/// 0.
+/// Returns the mean weight of the drawing's picture in each cell of a coarse grid. Outside the thing that the picture
+/// shows, the weight is 0.
 fn shade(bitmap: &Bitmap, drawing: &Drawing) -> Vec<f32> {
     let weights = drawing.parts.first().and_then(|part| part.raster.as_ref()).map(|raster| &raster.weights);
     let mut sums = vec![(0.0f32, 0.0f32); GRID * GRID];
@@ -196,7 +195,8 @@ fn shade(bitmap: &Bitmap, drawing: &Drawing) -> Vec<f32> {
     sums.into_iter().map(|(sum, count)| sum / count.max(1.0)).collect()
 }
 
-/// Normalised cross-correlation, −1 to 1. It is 1 if both pictures have no contrast, 0 if only one has none.
+/// Correlation coefficient of two pictures' values, −1 to 1. It is 1 if both pictures have no contrast, 0 if only one
+/// has none.
 fn correlation(a: &[f32], b: &[f32]) -> f64 {
     let mean =
         |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len().max(1) as f64;

@@ -1,8 +1,10 @@
-//! Chooses the pictures of an animation that robots show: key frames with enough time to move between them.
+//! Chooses the pictures of an animation that robots show (key frames), so that robots have enough time to move between
+//! them.
 
-/// Cost of a move, in units of change. It makes few long moves better than many short ones, because they look calmer.
+/// Cost of a move between two pictures, in units of change. Because of it, few long moves are better than many short
+/// moves, which look less calm.
 const MOVE_PRICE: f64 = 0.01;
-/// Least share of the change that a faithful animation shows.
+/// An animation is shown faithfully if robots show at least this share of its change.
 const FAITHFUL: f64 = 0.8;
 /// Factors of slow motion that are tried.
 const SLOWDOWNS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0];
@@ -12,12 +14,13 @@ const SLOWDOWNS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0];
 pub struct KeyMoments {
     /// Indices of the pictures that robots show, ascending. The first and the last picture are among them.
     pub moments: Vec<usize>,
-    /// Factor by which the animation must be slowed down to give robots time for the moves. 1 if it need not be slowed
-    /// down.
+    /// Factor by which the animation must be slowed down so that robots have time for the moves; 1 if it need not be
+    /// slowed down.
     pub slowdown: f64,
-    /// Share of the change between pictures that robots show at `slowdown`, 0 to 1.
+    /// Share of the animation's change that robots show if it is slowed down by `slowdown`, 0 to 1.
     pub kept: f64,
-    /// Smallest of the tried factors at which robots show 80 % of the change. `None` if 16 is not enough.
+    /// Smallest of the tried factors, at least `slowdown`, at which robots show 80 % of the change. `None` if no tried
+    /// factor (up to 16) is enough.
     pub faithful_slowdown: Option<f64>,
 }
 
@@ -30,10 +33,12 @@ struct Step {
     slowness: f64,
 }
 
-/// Chooses the key frames with most of the change between which robots have enough time. `times_s` are the times of the
-/// pictures, ascending. `change` returns how much two pictures differ, 0 to 1. `cost_s` returns how long robots move
-/// from one to the other, seconds. Both are called once for each pair of pictures that are at most `reach` apart.
-/// `None` if there are no pictures or the times do not ascend.
+/// Chooses key frames: of all sequences in which robots have enough time for each move, the sequence that shows most
+/// change.
+///
+/// `times_s`: time at which each picture begins, ascending, seconds. `change` returns how much two pictures differ, 0
+/// to 1. `cost_s` returns how long robots take from one picture to another, seconds. Both are called once for each pair
+/// of pictures whose indices differ by at most `reach`. `None` if there are no pictures or the times do not ascend.
 pub fn key_moments(
     times_s: &[f64],
     reach: usize,
@@ -70,7 +75,7 @@ pub fn key_moments(
     Some(KeyMoments { moments, slowdown, kept, faithful_slowdown })
 }
 
-/// Returns the least factor, 1 or more, at which a chain of moves leads from the first picture to the last.
+/// Returns the least slowdown, at least 1, at which a chain of moves leads from the first picture to the last.
 fn least_slowdown(steps: &[Vec<Step>]) -> f64 {
     let mut least: Vec<f64> = Vec::with_capacity(steps.len());
     for (to, moves) in steps.iter().enumerate() {
@@ -81,8 +86,9 @@ fn least_slowdown(steps: &[Vec<Step>]) -> f64 {
     least.last().map_or(1.0, |slowness| slowness.max(1.0))
 }
 
-/// Finds the chain of moves with the largest sum of gains, of moves whose slowness is at most `slowdown`. Returns the
-/// sum and the pictures of the chain. `None` if there is no chain.
+/// Finds the chain of moves from the first picture to the last with the largest sum of gains. Only moves with a
+/// slowness of at most `slowdown` are allowed. Returns the sum and the indices of the pictures in the chain. `None` if
+/// there is no chain.
 fn best(steps: &[Vec<Step>], slowdown: f64) -> Option<(f64, Vec<usize>)> {
     let mut sums: Vec<Option<(f64, usize)>> = Vec::with_capacity(steps.len());
     for (to, moves) in steps.iter().enumerate() {

@@ -1,13 +1,13 @@
-//! Reduced pictures with times.
+//! Pictures of an animation at reduced size, with their durations.
 
 use crate::error::DrawError;
 use crate::picture::Bitmap;
 
-/// Longer side of the reduced pictures, pixels. With 300 pictures, masks and colours take 150 MB.
+/// Largest length of a reduced picture's longer side, pixels. With 300 pictures, masks and colours take 150 MB.
 pub const SIDE_MAX: usize = 192;
-/// Largest number of pictures of an animation.
+/// Largest number of pictures that are read from an animation. Further pictures are left out.
 pub const STILLS_MAX: usize = 300;
-/// Largest number of pixels of all pictures in the file together. 200 million take about 2 s.
+/// Largest number of pixels that are decoded, summed over all pictures of the file. 200 million take about 2 s.
 pub const PIXELS_MAX: u64 = 200_000_000;
 
 /// A picture of an animation.
@@ -24,11 +24,11 @@ pub struct Still {
 pub struct Stills {
     /// The pictures in order of time.
     pub stills: Vec<Still>,
-    /// Whether the file has more pictures, or is cut off.
+    /// Whether the file has further pictures that were not read, or is cut off.
     pub cut: bool,
 }
 
-/// Returns columns and rows of the reduced picture.
+/// Returns the number of columns and rows of the reduced picture. The longer side is at most [`SIDE_MAX`].
 pub fn small(width: usize, height: usize) -> (usize, usize) {
     let longer = width.max(height).max(1);
     if longer <= SIDE_MAX {
@@ -38,17 +38,17 @@ pub fn small(width: usize, height: usize) -> (usize, usize) {
     (scaled(width), scaled(height))
 }
 
-/// Returns the index along a large side that corresponds to the middle of pixel `at` of the small side.
+/// Returns the index, among `large` pixels, that corresponds to the middle of pixel `at` among `small` pixels.
 pub fn sample(at: usize, small: usize, large: usize) -> usize {
     ((2 * at + 1) * large / (2 * small.max(1))).min(large.saturating_sub(1))
 }
 
-/// Returns how long a picture is shown, seconds. As in browsers, up to 10 ms become 100 ms.
+/// Converts a picture's duration in the file to seconds. As in browsers, durations up to 10 ms become 100 ms.
 pub fn lasts_s(milliseconds: u32) -> f64 {
     if milliseconds <= 10 { 0.1 } else { f64::from(milliseconds) / 1000.0 }
 }
 
-/// The error for an animation without pictures, or one cut off before its first picture ends.
+/// The error for an animation without pictures, or an animation cut off before its first picture ends.
 pub fn damaged(reason: &str) -> DrawError {
     let message = format!("The animation is damaged or cut off: {reason}. Copy or download the file again.");
     DrawError::new("animation-cut-off", message)

@@ -11,14 +11,15 @@ use crate::animation::still::{
 use crate::error::DrawError;
 use crate::picture::Bitmap;
 
-/// Longest side of the canvas, pixels. The decoder then holds several canvases of 17 MB each.
+/// Largest allowed width and height of the file's canvas, pixels. The decoder then holds several canvases of 17 MB
+/// each.
 const CANVAS_MAX: u32 = 2048;
 
 /// Reads the pictures of an animated WebP file. A file that is cut off in its middle gives the pictures before that
 /// point.
 ///
 /// # Errors
-/// A canvas that is too large, a single picture, or a file without a whole picture.
+/// A canvas that is too large, a file with a single picture, or a file without a whole picture.
 pub fn stills(bytes: &[u8]) -> Result<Stills, DrawError> {
     let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| damaged(&error.to_string()))?;
     let (width, height) = decoder.dimensions();

@@ -22,17 +22,17 @@ pub struct BitMask {
     pub inside: Vec<bool>,
 }
 
-/// A colour in Oklab (Ottosson 2020): lightness 0 to 1, green to red, blue to yellow. Equal distances look about
-/// equally large.
+/// A colour in Oklab (Ottosson 2020): lightness 0 to 1, then the axes green to red and blue to yellow. Equal distances
+/// between colours look about equally large.
 pub type Oklab = [f32; 3];
 
 impl Bitmap {
-    /// Colours without opacity.
+    /// Colours of the pixels, without opacity.
     pub fn colors(&self) -> impl Iterator<Item = Rgb> + '_ {
         self.pixels.iter().map(|[r, g, b, _]| Rgb::new(*r, *g, *b))
     }
 
-    /// Indices of the pixels along the edge.
+    /// Indices of the pixels along the edge of the picture.
     pub fn edge(&self) -> impl Iterator<Item = usize> + '_ {
         let (columns, rows) = (self.columns, self.rows);
         (0..columns * rows).filter(move |index| {
@@ -54,7 +54,8 @@ impl BitMask {
     }
 }
 
-/// Returns the indices of the pixels above, to the left, to the right and below, as far as they exist.
+/// Returns the indices of the neighbours of pixel `index`: above, left, right and below, as far as they exist.
+/// `columns`: pixels in a row; `pixels`: number of all pixels.
 pub fn neighbours(index: usize, columns: usize, pixels: usize) -> impl Iterator<Item = usize> {
     let x = index % columns.max(1);
     let above = index.checked_sub(columns);
@@ -64,7 +65,7 @@ pub fn neighbours(index: usize, columns: usize, pixels: usize) -> impl Iterator<
     [above, left, right, below].into_iter().flatten()
 }
 
-/// Converts a channel of sRGB to linear light, 0 to 1 (IEC 61966-2-1).
+/// Converts a channel of sRGB, 0 to 255, to linear light, 0 to 1 (IEC 61966-2-1).
 pub fn linear(channel: u8) -> f64 {
     srgb_decoded(f64::from(channel) / 255.0)
 }
@@ -89,7 +90,7 @@ pub fn oklab(colors: impl Iterator<Item = Rgb>) -> Vec<Oklab> {
         .collect()
 }
 
-/// Returns the distance of two colours. 0.02 is just visible; black and white are 1 apart.
+/// Returns the distance of two colours. A distance of 0.02 is just visible; black and white are 1 apart.
 pub fn difference(a: Oklab, b: Oklab) -> f32 {
     let square = |n: usize| (a[n] - b[n]) * (a[n] - b[n]);
     (square(0) + square(1) + square(2)).sqrt()

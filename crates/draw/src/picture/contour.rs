@@ -1,19 +1,19 @@
-//! Traces the border of a thing as smooth rings.
+//! Traces the border of the thing that a mask marks, as smooth rings.
 
 use lightbots_base::Vec2;
 
 use crate::picture::bitmap::BitMask;
 
-/// Rounds of smoothing before the border of a mask is traced, each over three pixels. They remove the steps of slanted
-/// edges.
+/// Number of rounds in which the mask is smoothed before its border is traced. Each round averages over three pixels.
+/// Smoothing removes the steps of slanted edges.
 const SMOOTHINGS: usize = 2;
 /// Largest distance of a dropped point from the simplified ring, pixels.
 const TOLERANCE: f64 = 0.5;
-/// Least number of points of a ring.
+/// Rings with fewer points than this are dropped.
 const POINTS_MIN: usize = 3;
 
-/// Returns the border of a mask as rings, in pixels with y upwards from the lower edge. Outer rings run
-/// counter-clockwise, holes clockwise.
+/// Returns the border of a mask as rings. Unit: pixels; origin at the lower left, y upwards. Outer rings run
+/// counter-clockwise, rings around holes clockwise.
 pub fn rings(mask: &BitMask) -> Vec<Vec<Vec2>> {
     let field = Field::new(mask);
     let top = mask.rows() as f64;
@@ -26,10 +26,10 @@ pub fn rings(mask: &BitMask) -> Vec<Vec<Vec2>> {
         .collect()
 }
 
-/// Width of the empty frame around the picture, pixels: one more than smoothing fills.
+/// Width of the empty frame around the picture, pixels: one pixel wider than smoothing spreads.
 const FRAME: usize = SMOOTHINGS + 1;
 
-/// How much of the thing is at each pixel, 0 to 1, with an empty frame around the picture.
+/// Share of each pixel that belongs to the thing, 0 to 1, with an empty frame around the picture.
 struct Field {
     columns: usize,
     rows: usize,
@@ -63,8 +63,8 @@ impl Field {
         }
     }
 
-    /// Finds rings by marching squares: each cell of four pixels adds the segments between the thing and the rest. The
-    /// border crosses an edge between two pixels at most once. The edge's number therefore identifies the crossing.
+    /// Finds rings by marching squares: each cell of four pixels adds the segments of the border within it. The border
+    /// crosses an edge between two pixels at most once, so the edge's number identifies the crossing.
     fn rings(&self) -> Vec<Vec<Vec2>> {
         const NONE: u32 = u32::MAX;
         let mut next = vec![NONE; self.values.len() * 2];
@@ -95,8 +95,9 @@ impl Field {
         self.values[index] >= 0.5
     }
 
-    /// Returns the segments in the cell whose upper left pixel is `corner`, from edge to edge. An edge has twice the
-    /// index of its upper or left pixel as its number, plus one if it is vertical.
+    /// Returns the segments of the border in the cell whose upper left pixel is `corner`, each from one edge of the
+    /// cell to another. The number of an edge is twice the index of its upper or left pixel, plus one if the edge is
+    /// vertical.
     fn pieces(&self, corner: usize) -> Vec<(usize, usize)> {
         let below = corner + self.columns;
         let [a, b, c, d] = [corner, corner + 1, below + 1, below].map(|index| self.is_inside(index));
@@ -121,7 +122,8 @@ impl Field {
         }
     }
 
-    /// Where the border crosses an edge between two pixels, in pixels of the mask from its upper left corner.
+    /// Where the border crosses an edge between two pixels. Unit: pixels of the mask; origin at its upper left corner,
+    /// y downwards.
     fn crossing(&self, edge: usize) -> Vec2 {
         let from = edge / 2;
         let vertical = edge % 2 == 1;
@@ -134,8 +136,8 @@ impl Field {
     }
 }
 
-/// Returns a ring without the points that are within [`TOLERANCE`] of the lines between the remaining ones (Douglas and
-/// Peucker 1973).
+/// Returns a ring without the points that are within [`TOLERANCE`] of the segments between the remaining points
+/// (Douglas and Peucker 1973).
 fn simplified(ring: &[Vec2]) -> Vec<Vec2> {
     let Some(first) = ring.first() else { return Vec::new() };
     let farthest =

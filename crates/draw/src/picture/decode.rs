@@ -1,5 +1,5 @@
-//! Decodes files of pictures into small upright bitmaps, within limits of size and memory. Pictures that are cut off
-//! are refused.
+//! Decodes files of pictures into small upright bitmaps, within limits of size and memory. Files that are cut off are
+//! refused.
 
 use std::io::Cursor;
 
@@ -9,11 +9,11 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Li
 use crate::error::DrawError;
 use crate::picture::bitmap::Bitmap;
 
-/// Longer side of the bitmap, pixels: about five for each robot in a row of 100.
+/// Largest length of the reduced bitmap's longer side, pixels: about five pixels for each robot in a row of 100.
 pub const SIDE_MAX: u32 = 512;
-/// Longest side of the file's picture, pixels.
+/// Largest width and height of the picture in the file, pixels.
 const FILE_SIDE_MAX: u32 = 8192;
-/// Largest memory of the decoded picture, bytes: 44 million pixels of three channels.
+/// Largest memory of the decoded picture, bytes: 44 million pixels with three channels.
 const MEMORY_MAX: u64 = 128 << 20;
 
 /// Decodes the picture in a PNG, JPEG or WebP file and reduces it to at most [`SIDE_MAX`].
@@ -47,7 +47,7 @@ pub fn decode(bytes: &[u8]) -> Result<Bitmap, DrawError> {
     Ok(Bitmap { columns, rows, pixels: small.pixels().map(|pixel| pixel.0).collect() })
 }
 
-/// Whether a JPEG has its end marker. That of the small preview which cameras put at the beginning does not count.
+/// Whether a JPEG file has its end marker. The end marker of a preview that a camera put into the file does not count.
 fn ends(bytes: &[u8]) -> bool {
     let mut at = 2;
     while let (Some(0xff), Some(marker)) = (bytes.get(at), bytes.get(at + 1)) {
@@ -71,7 +71,7 @@ fn ends(bytes: &[u8]) -> bool {
     false
 }
 
-/// Returns the number of bytes before the next marker.
+/// Returns the number of bytes before the next marker, or of all bytes if there is none.
 fn to_marker(data: &[u8]) -> usize {
     let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0x00 | 0xd0..=0xd7);
     data.windows(2).position(is_marker).unwrap_or(data.len())

@@ -5,24 +5,26 @@ use lightbots_base::{Rgb, Vec2};
 use crate::drawing::Raster;
 use crate::picture::bitmap::{BitMask, Bitmap, neighbours};
 
-/// Least value of a light's brightest channel, 0 to 255. A darker light is hardly visible beside others.
+/// Least value of a light's brightest channel, 0 to 255. A darker light is hardly visible beside other lights.
 const BRIGHT_MIN: u8 = 90;
-/// A pixel below this in all channels, 0 to 255, is black. A thing that is mostly black is shown in white.
+/// A pixel is black if all its channels are below this, 0 to 255. A thing that is mostly black is shown in white.
 const BLACK: u8 = 40;
-/// Number of rounds in which colours of the thing spread across its border, by one pixel in each round. At the border,
-/// pixels mix with the background.
+/// Number of rounds in which colours from inside the thing spread outwards, by one pixel in each round. They replace
+/// the colours at the border, where pixels mix with the background.
 const CARRIES: usize = 6;
-/// Shares of all pixels that are darker than the values taken as black and as white.
+/// The values below which these shares of all pixels lie are taken as black and as white.
 const ENDS: [f64; 2] = [0.02, 0.98];
-/// Least difference of brightness between black and white, 0 to 1. Flatter pictures are not stretched to full contrast.
+/// Least difference of brightness between black and white, 0 to 1. Pictures with less contrast are not stretched to
+/// full contrast.
 const CONTRAST_MIN: f64 = 0.1;
-/// Exponent from stored brightness to density of robots, chosen by eye. It lies between that of measured light, 2.2,
-/// and that of perceived light, 1.
+/// Density of robots is the stored brightness to this power, chosen by eye. It lies between the exponent of measured
+/// light, 2.2, and that of perceived light, 1.
 const DENSITY: f64 = 1.5;
-/// Weights below this become 0: no robots stand where the picture is nearly black.
+/// Weights (densities of robots) below this become 0: no robots stand where the picture is nearly black.
 const WEIGHT_MIN: f64 = 0.05;
 
-/// Returns the colours of a thing, spread across its border. Weights are 1 inside and 0 outside.
+/// Returns the colours of the thing that `mask` marks, spread across its border. Weights are 1 inside the mask and 0
+/// outside.
 pub fn painted(bitmap: &Bitmap, mask: &BitMask) -> Raster {
     let mut colors: Vec<Rgb> = bitmap.colors().collect();
     let core = eroded(mask);
@@ -37,7 +39,8 @@ pub fn painted(bitmap: &Bitmap, mask: &BitMask) -> Raster {
     raster(bitmap, colors, weights)
 }
 
-/// Returns the tones of a picture. Robots stand densely where it is light, or where it is dark if `inverted`.
+/// Returns colours and weights that show the tones of a picture. Robots stand densely where the picture is light, or
+/// where it is dark if `inverted`.
 pub fn tones(bitmap: &Bitmap, inverted: bool) -> Raster {
     let value = |[r, g, b, _]: &[u8; 4]| {
         (0.2126 * f64::from(*r) + 0.7152 * f64::from(*g) + 0.0722 * f64::from(*b)) / 255.0
@@ -62,21 +65,21 @@ fn raster(bitmap: &Bitmap, colors: Vec<Rgb>, weights: Vec<f32>) -> Raster {
     Raster { min: Vec2::ZERO, max, columns: bitmap.columns, colors, weights }
 }
 
-/// Returns the values below which the shares [`ENDS`] of all values are.
+/// Returns the two values below which the shares in [`ENDS`] of all values lie.
 fn ends(values: &[f64]) -> [f64; 2] {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     ENDS.map(|share| sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0))
 }
 
-/// Whether most pixels of a thing are black.
+/// Whether most pixels inside the mask are black.
 fn is_black(colors: &[Rgb], mask: &BitMask) -> bool {
     let black = |color: &Rgb| color.r.max(color.g).max(color.b) < BLACK;
     let inside = colors.iter().zip(&mask.inside).filter(|(_, inside)| **inside);
     inside.filter(|(color, _)| black(color)).count() * 2 > mask.count()
 }
 
-/// Makes a colour bright enough for a light. Dark colours keep their hue; nearly black becomes grey.
+/// Makes a colour bright enough for a light. Dark colours keep their hue; nearly black colours become grey.
 pub fn lifted(color: Rgb) -> Rgb {
     let brightest = color.r.max(color.g).max(color.b);
     if brightest >= BRIGHT_MIN {
@@ -89,7 +92,8 @@ pub fn lifted(color: Rgb) -> Rgb {
     Rgb::new(lift(color.r), lift(color.g), lift(color.b))
 }
 
-/// Returns the light for a dark place of an inverted picture: its hue at full brightness, or white for greys and black.
+/// Returns the colour of a light at a dark place of an inverted picture: the hue of the place at full brightness. For
+/// greys and black it is white.
 fn opposite(color: Rgb) -> Rgb {
     let (brightest, darkest) = (color.r.max(color.g).max(color.b), color.r.min(color.g).min(color.b));
     if brightest < BLACK || brightest - darkest < BLACK {
@@ -99,7 +103,7 @@ fn opposite(color: Rgb) -> Rgb {
     Rgb::new(lift(color.r), lift(color.g), lift(color.b))
 }
 
-/// Returns the pixels of a mask whose neighbours are all inside.
+/// Returns the pixels of a mask whose four neighbours are all inside as well.
 fn eroded(mask: &BitMask) -> BitMask {
     let surrounded = |index: usize| {
         mask.inside[index]

@@ -1,4 +1,5 @@
-//! Turns pictures into drawings: the silhouette of the thing they show, its outline, or the tones from dark to light.
+//! Turns pictures into drawings: the silhouette of the thing that a picture shows, the outline of the thing, or the
+//! tones.
 
 mod bitmap;
 mod contour;
@@ -23,7 +24,7 @@ pub enum PictureWay {
     /// The silhouette if a plain background is found, else the tones.
     #[default]
     Auto,
-    /// The area of the thing, in its colours, without the background.
+    /// The area of the thing in the picture, in its colours, without the background.
     Silhouette,
     /// The border of the thing.
     Outline,
@@ -34,7 +35,7 @@ pub enum PictureWay {
 /// How to show a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PictureSettings {
-    /// What robots show of it.
+    /// What robots show of the picture.
     pub way: PictureWay,
     /// For a silhouette or an outline: the background is shown instead of the thing. For tones: robots stand densely
     /// where it is dark.
@@ -52,13 +53,13 @@ pub fn draw(bytes: &[u8], settings: &PictureSettings) -> Result<Made, DrawError>
     drawn(&bitmap, separation.mask, settings, clear)
 }
 
-/// Decodes a picture in PNG, JPEG or WebP into a small bitmap.
+/// Decodes a picture in PNG, JPEG or WebP into a bitmap of reduced size.
 pub(crate) fn bitmap(bytes: &[u8]) -> Result<Bitmap, DrawError> {
     decode::decode(bytes)
 }
 
-/// Separates the thing in a bitmap from its background. If the settings are inverted, the background is returned as the
-/// thing.
+/// Separates the thing in a bitmap from its background. If the settings are inverted, the returned mask marks the
+/// background instead.
 pub(crate) fn separated(bitmap: &Bitmap, settings: &PictureSettings) -> Separation {
     let mut separation = separate::separate(bitmap);
     if settings.inverted {
@@ -67,7 +68,8 @@ pub(crate) fn separated(bitmap: &Bitmap, settings: &PictureSettings) -> Separati
     separation
 }
 
-/// Draws a bitmap in which `mask` is the thing. `clear` says whether its background is plain.
+/// Draws a bitmap in which `mask` marks the thing. `clear`: whether the thing was clearly separated from its
+/// background.
 pub(crate) fn drawn(
     bitmap: &Bitmap,
     mask: BitMask,

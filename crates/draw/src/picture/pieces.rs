@@ -1,15 +1,16 @@
-//! Drops small spots of a thing and fills its small holes.
+//! Drops small separate spots of a mask and fills its small holes.
 
 use crate::picture::bitmap::{BitMask, neighbours};
 
-/// Least size of a piece or a hole, as a share of the largest piece.
+/// Pieces and holes smaller than this share of the largest piece are removed or filled.
 const SMALLEST: f64 = 0.004;
-/// Least size of a piece or a hole, pixels.
+/// Pieces and holes with fewer pixels than this are removed or filled in any case.
 const PIXELS_MIN: usize = 12;
-/// Largest number of pieces; smaller ones are dropped.
+/// Largest number of pieces that stay. If there are more, the smallest pieces are removed.
 const PIECES_MAX: usize = 200;
 
-/// Removes small pieces and fills small holes. The largest piece always stays. Returns the number of removed pieces.
+/// Removes small pieces of a mask and fills small holes in it. The largest piece always stays. Returns the number of
+/// removed pieces.
 pub fn tidy(mask: &mut BitMask) -> usize {
     let mut pieces = connected(mask, true);
     pieces.sort_by_key(|piece| std::cmp::Reverse(piece.len()));
@@ -37,7 +38,8 @@ fn on_edge(mask: &BitMask, index: usize) -> bool {
     x == 0 || y == 0 || x + 1 == mask.columns || y + 1 == mask.rows()
 }
 
-/// Returns sets of pixels that are connected at their sides: pixels of the thing if `inside`, else all others.
+/// Returns sets of pixels that are connected by common sides: sets of pixels inside the mask if `inside`, else of all
+/// others.
 fn connected(mask: &BitMask, inside: bool) -> Vec<Vec<usize>> {
     let mut seen = vec![false; mask.inside.len()];
     let mut pieces = Vec::new();

@@ -2,24 +2,27 @@
 
 use crate::picture::bitmap::{BitMask, Bitmap, Oklab, difference, neighbours, oklab};
 
-/// Least opacity of a pixel of the thing, 0 to 255.
+/// Pixels with less opacity than this, 0 to 255, count as transparent and do not belong to the thing.
 const OPAQUE: u8 = 128;
-/// Share of transparent pixels above which opacity alone separates the thing from its background.
+/// If more than this share of the pixels is transparent, opacity alone separates the thing from its background.
 const TRANSPARENT: f32 = 0.005;
-/// Largest difference from the median colour of the edge at which a pixel of the edge is background.
+/// A pixel at the edge of the picture is background if its colour differs by less than this from the edge's median
+/// colour, in Oklab.
 const EDGE_ALIKE: f32 = 0.15;
-/// Range to which Otsu's threshold between background and thing is limited.
+/// Least and largest value of the threshold between background and thing, as a difference of colours in Oklab. Otsu's
+/// threshold is limited to this range.
 const THRESHOLDS: [f32; 2] = [0.06, 0.35];
-/// Share of the variance that Otsu's threshold explains for values without two groups, and for two clear groups.
-/// Measured on 25 pictures on 2026-11-24.
+/// Share of the variance that Otsu's threshold explains: first for values without two groups, then for two clear
+/// groups. Measured on 25 pictures on 2026-11-24.
 const SEPARABLE: [f32; 2] = [0.6, 0.9];
-/// Number of bins of the histogram of differences from 0 to 1.
+/// Number of bins of the histogram of colour differences from 0 to 1.
 const BINS: usize = 200;
 
-/// Least certainty of a background, 0 to 1, for a silhouette. On 2026-11-24 photographs of whole scenes reached 0.0 to
-/// 0.6, things before sky or paper 0.7 to 1.0. A brick wall was taken for a background, with 0.75.
+/// Least certainty of a separation, 0 to 1, for which the silhouette is shown. On 2026-11-24 photographs of whole
+/// scenes reached 0.0 to 0.6, things before sky or paper 0.7 to 1.0. A brick wall was taken for a background, with
+/// 0.75.
 const CERTAIN: f32 = 0.65;
-/// Least and largest share of the picture that the thing covers, for a silhouette.
+/// Least and largest share of the picture that the thing may cover if its silhouette is shown.
 const COVERS: [f64; 2] = [0.005, 0.95];
 
 /// The thing in a picture, and how certain its separation from the background is.
@@ -27,20 +30,21 @@ const COVERS: [f64; 2] = [0.005, 0.95];
 pub struct Separation {
     /// The pixels of the thing.
     pub mask: BitMask,
-    /// 0 if no background was found, 1 if thing and background are clearly different.
+    /// Certainty of the separation: 0 if no background was found, 1 if thing and background are clearly different.
     pub certainty: f32,
 }
 
 impl Separation {
-    /// Whether the separation is certain enough for a silhouette, and the thing neither too small nor too large.
+    /// Whether the silhouette can be shown: the separation is certain enough, and the thing neither too small nor too
+    /// large.
     pub fn is_clear(&self) -> bool {
         let covers = self.mask.count() as f64 / self.mask.inside.len().max(1) as f64;
         self.certainty >= CERTAIN && (COVERS[0]..=COVERS[1]).contains(&covers)
     }
 }
 
-/// Separates the thing in a picture. If parts of the picture are transparent, the thing is the rest. Else it is what
-/// differs from the colours along the edge.
+/// Separates the thing in a picture from its background. If parts of the picture are transparent, the thing is the
+/// rest. Otherwise the thing is what differs from the colours along the edge of the picture.
 pub fn separate(bitmap: &Bitmap) -> Separation {
     let clear = bitmap.pixels.iter().filter(|pixel| pixel[3] < OPAQUE).count();
     if clear as f32 > TRANSPARENT * bitmap.pixels.len() as f32 {
@@ -76,7 +80,8 @@ struct Background {
 }
 
 impl Background {
-    /// Estimates the background. Also returns the share of the edge that is like the edge's median colour.
+    /// Estimates the background. Also returns the share of the picture's edge whose colour is like the edge's median
+    /// colour.
     fn of(bitmap: &Bitmap, lab: &[Oklab]) -> (Self, f32) {
         let (columns, rows) = (bitmap.columns, bitmap.rows);
         let edge: Vec<Oklab> = bitmap.edge().filter_map(|index| lab.get(index).copied()).collect();
@@ -98,7 +103,8 @@ impl Background {
         (background, share)
     }
 
-    /// Returns the colour at a pixel: a mean of the four sides, in which nearer ones weigh more.
+    /// Returns the background's colour at a pixel: a mean of the colours at the four sides, in which nearer sides weigh
+    /// more.
     fn at(&self, index: usize) -> Oklab {
         let (x, y) = (index % self.columns, index / self.columns);
         let weight = |distance: usize| 1.0 / (1.0 + distance as f32);
@@ -128,8 +134,8 @@ fn middle(colors: &[Oklab]) -> Oklab {
     })
 }
 
-/// Smooths colours along a side over a sixteenth of it. Colours unlike `middle`, where the thing reaches the edge, are
-/// replaced by `middle`.
+/// Smooths the colours along a side over a sixteenth of its length. Colours unlike `middle` occur where the thing
+/// reaches the edge; they are replaced by `middle`.
 fn smooth(colors: &[Oklab], middle: Oklab) -> Vec<Oklab> {
     let alike = |color: &Oklab| if difference(*color, middle) < EDGE_ALIKE { *color } else { middle };
     let colors: Vec<Oklab> = colors.iter().map(alike).collect();
@@ -141,8 +147,8 @@ fn smooth(colors: &[Oklab], middle: Oklab) -> Vec<Oklab> {
     (0..colors.len()).map(mean).collect()
 }
 
-/// Returns the threshold between small and large values that maximises the variance between both groups (Otsu 1979).
-/// Also returns the share of this variance in the total variance.
+/// Returns the threshold that separates small from large values with the largest variance between both groups (Otsu
+/// 1979). Also returns the share of this variance in the total variance. Values are from 0 to 1.
 fn otsu(values: &[f32]) -> (f32, f32) {
     let mut bins = [0.0f64; BINS];
     for value in values {
@@ -178,8 +184,9 @@ fn otsu(values: &[f32]) -> (f32, f32) {
     ((best.1 + best.2) as f32 / (2 * BINS) as f32, separable as f32)
 }
 
-/// Returns the pixels that a flood from the edge through background does not reach, except holes of the background's
-/// colour.
+/// Returns the pixels of the thing. `away`: each pixel's difference from the background. A flood through pixels below
+/// `threshold`, from the picture's edge inwards, finds the background. Enclosed pixels with the background's colour are
+/// holes.
 fn not_flooded(bitmap: &Bitmap, away: &[f32], threshold: f32) -> Vec<bool> {
     let mut inside = vec![true; away.len()];
     let mut queue: Vec<usize> = bitmap.edge().filter(|index| away[*index] < threshold).collect();

@@ -1,4 +1,4 @@
-//! Shapes with an inside, as rings.
+//! Shapes with an inside, as closed rings.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -6,10 +6,10 @@ use lightbots_base::Vec2;
 
 use super::kinds::{ShapeKind, ShapeSettings};
 
-/// Number of points of a round line: its chords are at most 0.03 % of the radius inside the circle.
+/// Number of points of a circle or heart. The chords of a circle are at most 0.03 % of its radius inside it.
 const ROUND: usize = 128;
 
-/// Returns the rings of a shape. `None` for kinds that are lines or places.
+/// Returns the rings of a shape, about one unit high. `None` for kinds of shapes that are lines or places.
 pub(super) fn rings(settings: &ShapeSettings) -> Option<Vec<Vec<Vec2>>> {
     let wide = |ring: Vec<Vec2>| ring.into_iter().map(|at| Vec2::new(at.x * settings.aspect, at.y)).collect();
     let ring = match settings.kind {
@@ -26,7 +26,7 @@ pub(super) fn rings(settings: &ShapeSettings) -> Option<Vec<Vec<Vec2>>> {
     Some(vec![wide(ring)])
 }
 
-/// Returns corners on a circle, the first at the top.
+/// Returns the corners of a regular polygon on a circle, counter-clockwise, the first corner at the top.
 pub(super) fn polygon(corners: usize, radius: f64) -> Vec<Vec2> {
     (0..corners).map(|index| Vec2::unit(FRAC_PI_2 + TAU * index as f64 / corners as f64) * radius).collect()
 }
@@ -38,7 +38,7 @@ fn star(tips: usize, inner: f64) -> Vec<Vec2> {
         .collect()
 }
 
-/// Returns the heart curve x = 16 sin³ t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, one unit wide.
+/// Returns the heart curve, one unit wide: x = 16 sin³ t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, scaled.
 fn heart() -> Vec<Vec2> {
     let point = |index: usize| {
         let t = TAU * index as f64 / ROUND as f64;

@@ -8,13 +8,13 @@ use super::closed::polygon;
 use super::kinds::{ShapeKind, ShapeSettings};
 use crate::geometry::bounds;
 
-/// Number of points of a full turn.
+/// Number of points of a full turn of an arc, ring or spiral, or of a period of a wave.
 const TURN: f64 = 96.0;
 
-/// Number of segments between two given points of a curve.
+/// Number of straight segments between two given points of a curve.
 const BETWEEN: usize = 12;
 
-/// Returns the lines of a shape, each with whether it is closed.
+/// Returns the lines of a shape. Each line is its points, and whether its last point is joined to its first.
 pub(super) fn lines(settings: &ShapeSettings) -> Vec<(Vec<Vec2>, bool)> {
     let points = &settings.points;
     match settings.kind {
@@ -30,7 +30,7 @@ pub(super) fn lines(settings: &ShapeSettings) -> Vec<(Vec<Vec2>, bool)> {
     }
 }
 
-/// A Catmull-Rom spline through points (Catmull and Rom 1974).
+/// Returns points along a Catmull-Rom spline through `points` (Catmull and Rom 1974).
 fn curve(points: &[Vec2], closed: bool) -> Vec<Vec2> {
     let count = points.len();
     if count < 3 {
@@ -58,7 +58,7 @@ fn curve(points: &[Vec2], closed: bool) -> Vec<Vec2> {
     line
 }
 
-/// Returns the points that are far enough from the point before, and the last one. Mouse events are close together and
+/// Drops points that are close to the point before, but keeps the last point. Points of a mouse are close together and
 /// follow every tremble of the hand.
 fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     let (low, high) = bounds(points).unwrap_or_default();
@@ -77,7 +77,8 @@ fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     kept
 }
 
-/// Returns an arc that is symmetric about the upward direction.
+/// Returns an arc of the angle `span`, radians, on a circle of diameter 1. The arc is symmetric about the upward
+/// direction.
 fn arc(span: f64) -> Vec<Vec2> {
     let pieces = (span / TAU * TURN).ceil().max(2.0) as usize;
     let angle = |index: usize| FRAC_PI_2 + span * (0.5 - index as f64 / pieces as f64);
@@ -91,7 +92,7 @@ fn rings(settings: &ShapeSettings) -> Vec<(Vec<Vec2>, bool)> {
     (0..count).map(|index| (polygon(TURN as usize, radius(index)), true)).collect()
 }
 
-/// Returns an Archimedean spiral from the inside out.
+/// Returns an Archimedean spiral of diameter 1, from its inner end outwards, clockwise.
 fn spiral(settings: &ShapeSettings) -> Vec<Vec2> {
     let pieces = (settings.turns * TURN).ceil().max(8.0) as usize;
     let point = |index: usize| {
@@ -102,7 +103,7 @@ fn spiral(settings: &ShapeSettings) -> Vec<Vec2> {
     (0..=pieces).map(point).collect()
 }
 
-/// Returns a sine over the width, one unit high.
+/// Returns a sine wave, one unit high and `aspect` units wide.
 fn wave(settings: &ShapeSettings) -> Vec<Vec2> {
     let pieces = (settings.turns * TURN).ceil().max(8.0) as usize;
     let point = |index: usize| {

@@ -6,11 +6,11 @@ use super::kinds::{ShapeKind, ShapeSettings};
 use crate::coverage::Sample;
 use crate::seeds::seeds;
 
-/// Number of samples along each side of the field in which random places are drawn.
+/// Number of samples along each side of the field from which random places are drawn.
 const FIELD: usize = 160;
 
-/// Returns the places of a grid, or random places, with about one unit between neighbours. `None` for other kinds of
-/// shapes.
+/// Returns `count` places of a grid, or random places, about one unit apart from their neighbours. `None` for other
+/// kinds of shapes.
 pub fn exact_places(settings: &ShapeSettings, count: usize, seed: u64) -> Option<Vec<Vec2>> {
     match settings.kind {
         ShapeKind::Grid => Some(rows(count, settings.aspect, 1.0, 0.0)),
@@ -20,8 +20,8 @@ pub fn exact_places(settings: &ShapeSettings, count: usize, seed: u64) -> Option
     }
 }
 
-/// Returns rows of equal length with about the aspect, width over height. The last row is centred; every second row is
-/// shifted.
+/// Returns `count` places in rows of equal length, whose width over height is about `aspect`. `height`: distance
+/// between rows. Every second row is shifted to the right by `shift`. The last row is centred.
 fn rows(count: usize, aspect: f64, height: f64, shift: f64) -> Vec<Vec2> {
     let columns = ((count as f64 * aspect * height).sqrt().round() as usize).clamp(1, count.max(1));
     let rows = count.div_ceil(columns);

@@ -4,7 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 
 use crate::error::DrawError;
 
-/// Largest number of points of a shape that is drawn by hand.
+/// Largest number of points in [`ShapeSettings::points`].
 pub const MAX_SHAPE_POINTS: usize = 10_000;
 
 /// A kind of shape.
@@ -72,21 +72,21 @@ pub const SHAPES: [(ShapeKind, &str); 17] = [
 pub struct ShapeSettings {
     /// The kind of shape.
     pub kind: ShapeKind,
-    /// Width divided by height, for all closed shapes, waves, grids and random places.
+    /// Width divided by height. Used for all closed shapes, waves, grids and random places.
     pub aspect: f64,
     /// Number of corners of a polygon, of tips of a star, or of circles of rings.
     pub count: usize,
     /// Number of turns of a spiral, or of periods of a wave.
     pub turns: f64,
-    /// Inner radius of a star, of rings or of a spiral, as a share of the outer one.
+    /// Inner radius of a star, of rings or of a spiral, as a share of the outer radius.
     pub inner: f64,
     /// Angle of an arc, radians.
     pub span: f64,
-    /// Points of a line, polyline, curve or freehand line, in any units, y up.
+    /// Points of a line, polyline, curve or freehand line. Unit of length: any; y upwards.
     pub points: Vec<Vec2>,
     /// Whether a polyline, curve or freehand line joins its last point to its first.
     pub closed: bool,
-    /// Colour of its lights.
+    /// Colour of the lights.
     pub color: Rgb,
 }
 
@@ -98,7 +98,7 @@ impl ShapeKind {
 }
 
 impl ShapeSettings {
-    /// Returns a kind with its default settings.
+    /// Returns the default settings for a kind of shape.
     pub fn new(kind: ShapeKind) -> Self {
         let (count, turns, inner) = match kind {
             ShapeKind::Star => (5, 1.0, 0.4),
@@ -142,7 +142,7 @@ impl ShapeSettings {
     }
 }
 
-/// Returns the kind of that name. `None` if there is none.
+/// Returns the kind of shape with this name in files and commands; `None` if there is none.
 pub fn shape_named(name: &str) -> Option<ShapeKind> {
     SHAPES.into_iter().find(|(_, known)| *known == name).map(|(kind, _)| kind)
 }

@@ -13,8 +13,8 @@ use crate::error::DrawError;
 pub use exact::exact_places;
 pub use kinds::{MAX_SHAPE_POINTS, SHAPES, ShapeKind, ShapeSettings, shape_named};
 
-/// Returns the drawing of a shape, about one unit in size. Grids and random places have no drawing, because they depend
-/// on the number of robots; use [`exact_places`].
+/// Returns the drawing of a shape. Shapes without points of their own are about one unit in size. Grids and random
+/// places have no drawing, because they depend on the number of robots: use [`exact_places`] for them.
 ///
 /// # Errors
 /// Settings out of range, or a line of fewer than two points.

@@ -4,15 +4,16 @@ use crate::ink::Ink;
 use crate::svg::flatten::FlatLine;
 use crate::svg::region::{Region, bounds};
 
-/// Least opacity of paint that is drawn. Fainter paint would only dim other lights.
+/// Paint with less opacity than this is not drawn, because it would only dim other lights. Range 0 to 1.
 const FAINT: f64 = 0.1;
-/// Least opacity of paint that hides what is below it.
+/// Paint with at least this opacity hides what is below it. Range 0 to 1.
 const OPAQUE: f64 = 0.9;
-/// Difference of a channel, 0 to 255, below which two colours look the same.
+/// Two colours look the same if every channel differs by less than this, 0 to 255.
 const SHADE: i16 = 24;
-/// Least share of the page that a background covers.
+/// An area is background if it covers at least this share of the page.
 const BACKGROUND: f64 = 0.98;
-/// Largest sum of points of areas and lines that are cut, counted for each cut. Beyond it, areas and lines stay whole.
+/// Largest number of points of the areas and lines that are cut, summed over all cuts. After that, areas and lines stay
+/// whole.
 const WORK_MAX: usize = 3_000_000;
 
 /// A visible area of one colour.
@@ -22,7 +23,7 @@ pub struct Surface {
     pub region: Region,
     /// Its colours.
     pub ink: Ink,
-    /// Whether it was painted as an area over nearly the whole page.
+    /// Whether it belongs to an area that was painted over nearly the whole page.
     pub background: bool,
 }
 
@@ -38,7 +39,7 @@ pub struct Line {
 /// What is visible on a page after painting.
 #[derive(Debug)]
 pub struct Canvas {
-    /// Visible areas. They do not overlap unless the canvas is overworked.
+    /// Visible areas. They overlap only if [`Self::is_overworked`] is true.
     pub surfaces: Vec<Surface>,
     /// Visible parts of lines.
     pub lines: Vec<Line>,
@@ -46,11 +47,11 @@ pub struct Canvas {
     pub faint: usize,
     /// Number of areas and lines that are wholly hidden.
     pub hidden: usize,
-    /// Number of points in the cuts made, for [`WORK_MAX`].
+    /// Number of points in the cuts made until now. It is compared with [`WORK_MAX`].
     work: usize,
     /// Area of the page, square units of the page.
     page_area: f64,
-    /// Width of the thinnest area and length of the shortest line that are kept, units of the page.
+    /// Areas thinner than this and lines shorter than this are dropped, units of the page.
     thinnest: f64,
 }
 
@@ -61,18 +62,19 @@ impl Canvas {
         Self { surfaces, lines, faint: 0, hidden: 0, work: 0, page_area, thinnest }
     }
 
-    /// Makes an empty page of the same size, such as for a mask, with the same count of work.
+    /// Makes another empty page of equal size, such as for painting a mask. The new page goes on counting work from
+    /// this one.
     pub fn fresh(&self) -> Self {
         Self { work: self.work, ..Self::new(self.page_area, self.thinnest) }
     }
 
-    /// Takes over the count of work from a page made by [`Self::fresh`].
+    /// Copies the count of work from a page that was made by [`Self::fresh`].
     pub fn spend(&mut self, other: &Self) {
         self.work = other.work;
     }
 
-    /// Takes all areas and joins those whose green is at least a share of 255; for greys this is their brightness.
-    /// `None` if there are none.
+    /// Removes all areas from the page and returns the union of the bright areas; `None` if there are none. An area is
+    /// bright if its green channel is at least the share `least` of 255. For greys this is the brightness.
     pub fn bright(&mut self, least: f64) -> Option<Region> {
         let surfaces = std::mem::take(&mut self.surfaces);
         let bright = surfaces.into_iter().filter(|surface| f64::from(surface.ink.color.g) >= least * 255.0);
@@ -80,18 +82,19 @@ impl Canvas {
         Region::all(&regions, self.thinnest)
     }
 
-    /// Whether the limit of work was exceeded. Areas may overlap then.
+    /// Whether the work exceeded [`WORK_MAX`]. Areas may overlap then.
     pub fn is_overworked(&self) -> bool {
         self.work > WORK_MAX
     }
 
-    /// Adds a cut of `points` to the count of work and returns whether it may be made.
+    /// Adds a cut of `points` points to the count of work. Returns whether the cut may be made.
     pub fn affords(&mut self, points: usize) -> bool {
         self.work = self.work.saturating_add(points);
         !self.is_overworked()
     }
 
-    /// Paints an area. Areas and lines below it are cut or mixed with it.
+    /// Paints an area over areas and lines painted before. A nearly opaque area hides what is below it. A translucent
+    /// area is mixed with the areas below, and lines stay.
     pub fn fill(&mut self, region: Region, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;
@@ -126,8 +129,8 @@ impl Canvas {
         self.surfaces.extend(fresh);
     }
 
-    /// Keeps the part of a lower area that stays visible below an upper one. Returns the part of the upper area that is
-    /// still to paint.
+    /// Keeps the part of the area `lower` that stays visible below the area `upper`. Returns the part of `upper` that
+    /// is still to be painted.
     fn cover(&mut self, mut lower: Surface, mut upper: Surface, opacity: f64) -> Option<Surface> {
         let thinnest = self.thinnest;
         let mixed = if opacity >= OPAQUE {
@@ -179,7 +182,7 @@ impl Canvas {
         }
     }
 
-    /// Paints a line. Areas of other colours lose the part inside its `outline`.
+    /// Paints a line. `outline`: the area that the stroke covers; areas of other colours lose what is inside it.
     pub fn stroke(&mut self, line: FlatLine, outline: Option<&Region>, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;

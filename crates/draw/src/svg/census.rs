@@ -1,4 +1,4 @@
-//! Counts the elements of an SVG that cannot be drawn. The notes tell people what is missing and what to do.
+//! Counts the elements of an SVG that cannot be drawn, for notes that tell people what is missing and what to do.
 
 use usvg::roxmltree::{Document, Node};
 
@@ -8,7 +8,7 @@ use crate::error::Note;
 struct Missing {
     code: &'static str,
     elements: &'static [&'static str],
-    /// Words for one element, and for several after their number.
+    /// Words of the note for one element, and words for several elements, which follow their number.
     names: (&'static str, &'static str),
     remedy: &'static str,
 }
@@ -62,7 +62,7 @@ pub fn notes(document: &Document) -> Vec<Note> {
     missing.chain(outside).collect()
 }
 
-/// Returns the words for one, or the number and the words for several. `None` for 0.
+/// Returns the words `one` for a count of 1, and the number with the words `several` for more. `None` for 0.
 pub fn counted(count: usize, one: &str, several: &str) -> Option<String> {
     match count {
         0 => None,

@@ -1,4 +1,4 @@
-//! Limits the number of elements that an SVG has once its references are followed.
+//! Limits the number of elements that an SVG has after its references are followed.
 
 use std::collections::HashMap;
 
@@ -10,11 +10,11 @@ use crate::svg::scan::{DEPTH_MAX, too_deep, too_large};
 
 /// Largest number of elements after all references are followed. 10⁵ elements took 4.3 s and 170 MB on 2026-11-23.
 const EXPANDED_MAX: u64 = 100_000;
-/// Largest number of comparisons of elements with rules of style sheets. 10⁷ comparisons took 0.7 s on 2026-11-23.
+/// Largest number of comparisons of elements with the rules of style sheets. 10⁷ comparisons took 0.7 s on 2026-11-23.
 const COMPARISONS_MAX: u64 = 10_000_000;
-/// Cost of an element. A gradient's stop costs 1, as do 16 bytes of attributes.
+/// Cost of an ordinary element. In this unit, a colour stop of a gradient costs 1, and so do 16 bytes of attributes.
 const ELEMENT: u64 = 16;
-/// Elements that are drawn only where other elements refer to them.
+/// Names of elements that are drawn only where other elements refer to them.
 const UNDRAWN: [&str; 11] = [
     "defs",
     "symbol",
@@ -28,7 +28,7 @@ const UNDRAWN: [&str; 11] = [
     "style",
     "metadata",
 ];
-/// Properties that apply to the element itself. All others are inherited by the shapes inside it.
+/// Properties that apply to an element itself. All other properties are inherited by the shapes inside the element.
 const NOT_INHERITED: [&str; 3] = ["clip-path", "mask", "filter"];
 
 /// Refuses a document whose nesting, references or style sheets would take too long to process.
@@ -54,7 +54,7 @@ pub fn check(document: &Document) -> Result<(), DrawError> {
     compare(each, expanded)
 }
 
-/// Refuses a document with too many comparisons. `rules` is the number for each element.
+/// Refuses a document with too many comparisons. `rules`: number of comparisons for each element.
 fn compare(rules: u64, elements: u64) -> Result<(), DrawError> {
     if rules.saturating_mul(elements) > COMPARISONS_MAX {
         return Err(too_large(format!(
@@ -64,7 +64,7 @@ fn compare(rules: u64, elements: u64) -> Result<(), DrawError> {
     Ok(())
 }
 
-/// Returns the number of levels of elements.
+/// Returns the number of levels of nested elements.
 fn deepest(document: &Document) -> u64 {
     let mut depths: Vec<u64> = Vec::new();
     for node in document.descendants() {
@@ -79,9 +79,9 @@ fn deepest(document: &Document) -> u64 {
 struct Total {
     /// Cost of all elements, in units of 1/[`ELEMENT`] of an element.
     cost: u64,
-    /// Number of shapes: elements without elements inside, which inherit paint and markers.
+    /// Number of shapes, which inherit paint and markers. A shape is an element without elements inside.
     shapes: u64,
-    /// Number of points of their lines, each of which may get a marker.
+    /// Number of points of the shapes' lines. Each point may get a marker.
     points: u64,
     /// Number of levels below the element.
     height: usize,
@@ -90,7 +90,7 @@ struct Total {
 /// Totals of the elements of a document.
 struct Expansion<'a, 'input> {
     rules: Vec<CssRule<'a>>,
-    /// Total of each node, by its number. `None` if its count has not begun.
+    /// Total of each node, by the node's number; `None` before its count begins.
     totals: Vec<Option<Total>>,
     ids: HashMap<&'a str, Node<'a, 'input>>,
 }
@@ -103,8 +103,8 @@ impl<'a, 'input> Expansion<'a, 'input> {
         Self { rules, totals: vec![None; nodes.count()], ids }
     }
 
-    /// Returns the total of an element. An element whose total is not finished refers to itself and counts as empty,
-    /// because usvg leaves such references out.
+    /// Returns the total of an element. `depth`: its level. If this element's total is being computed already, the
+    /// element refers to itself. The inner reference then counts as empty, because usvg leaves it out.
     fn total(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Total, DrawError> {
         let index = node.id().get_usize();
         if let Some(total) = self.totals.get(index).copied().flatten() {
@@ -126,7 +126,7 @@ impl<'a, 'input> Expansion<'a, 'input> {
         }
     }
 
-    /// Returns the total of the element and the elements in it, without references.
+    /// Returns the total of an element and the elements inside it, without what this element itself refers to.
     fn inside(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Total, DrawError> {
         let bytes: usize = node.attributes().map(|attribute| attribute.value().len()).sum();
         let own = if node.tag_name().name() == "stop" { 1 } else { ELEMENT + bytes as u64 / ELEMENT };
@@ -172,7 +172,8 @@ impl<'a, 'input> Expansion<'a, 'input> {
         self.ids.get(id).copied()
     }
 
-    /// Returns the references in attributes, in `style` and in rules that may match.
+    /// Returns the references of an element: in its attributes, in its `style`, and in rules of style sheets that may
+    /// match it.
     fn references(&self, node: Node<'a, 'input>) -> Vec<Reference<'a>> {
         let attributes = node.attributes().filter_map(|attribute| {
             css::referred(attribute.value()).map(|id| Reference { property: attribute.name(), id })
@@ -194,12 +195,13 @@ impl Total {
     }
 }
 
-/// Returns the number of bytes of a text and of the elements in it, at least the number of its characters.
+/// Returns the number of bytes of a text element's text. It is at least the number of characters.
 fn signs(node: Node) -> u64 {
     node.descendants().filter_map(|inner| inner.text()).map(|text| text.len() as u64).sum()
 }
 
-/// Returns an upper bound of the points of an element's line. The shortest segment, such as `h1`, has two characters.
+/// Returns an upper bound for the number of points of an element's line. The shortest segment, such as `h1`, has two
+/// characters.
 fn points(node: Node) -> u64 {
     let line = node.attribute("d").or(node.attribute("points"));
     line.map_or(2, |line| line.len() as u64 / 2 + 1)

@@ -2,13 +2,13 @@
 
 use usvg::roxmltree::Node;
 
-/// Signs between the compounds of a selector.
+/// Characters between the compound selectors of a selector.
 const COMBINATORS: [char; 8] = [' ', '>', '+', '~', '\t', '\n', '\r', '\x0c'];
 
-/// A rule of a style sheet, with one selector.
+/// A rule of a style sheet, for one of its selectors.
 pub struct CssRule<'a> {
     subject: Subject<'a>,
-    /// Number of compound selectors, such as 3 in `g .a > path`.
+    /// Number of compound selectors in the selector, such as 3 in `g .a > path`.
     compounds: u32,
     /// References in its declarations.
     pub refers: Vec<Reference<'a>>,
@@ -19,11 +19,11 @@ pub struct CssRule<'a> {
 pub struct Reference<'a> {
     /// Name of the property, such as `mask`.
     pub property: &'a str,
-    /// Identifier after `#` in its value.
+    /// Identifier after `#` in the property's value.
     pub id: &'a str,
 }
 
-/// The last compound of a selector, reduced to one class, identifier or element name.
+/// The last compound selector of a selector, reduced to one class, identifier or element name.
 enum Subject<'a> {
     Class(&'a str),
     Id(&'a str),
@@ -31,8 +31,8 @@ enum Subject<'a> {
     Any,
 }
 
-/// Returns the rules in the text of a style sheet, one for each selector. Rules inside `@media` count too. Selectors
-/// that cannot be read count as `*`, with all words before them as compounds, so that the cost is never too small.
+/// Returns the rules in the text of a style sheet, one for each selector, including rules inside `@media`. A selector
+/// that cannot be read counts as `*`, with all words before it as compounds, so that its cost is not underestimated.
 pub fn rules(sheet: &str) -> Vec<CssRule<'_>> {
     let mut found = Vec::new();
     // Beginning of the text that may belong to the next selector.
@@ -56,13 +56,13 @@ pub fn rules(sheet: &str) -> Vec<CssRule<'_>> {
     found
 }
 
-/// The parts of a text between combinators.
+/// Splits a text at combinators and returns the parts that are not empty.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(COMBINATORS).filter(|part| !part.is_empty())
 }
 
-/// Reads selectors with commas between them: the subject and the number of compounds of each. `None` if an attribute
-/// selector, a comment or a parenthesis in them is not closed: it then holds a sign that ends selectors.
+/// Reads selectors separated by commas. Returns the subject of each selector and its number of compounds. `None` if a
+/// selector has an attribute selector, a comment or a parenthesis that is not closed.
 fn selectors(text: &str) -> Option<Vec<(Subject<'_>, u32)>> {
     let mut found = Vec::new();
     let (mut subject, mut compounds) = (Subject::Any, 0);
@@ -86,7 +86,7 @@ fn selectors(text: &str) -> Option<Vec<(Subject<'_>, u32)>> {
     }
 }
 
-/// Length of the attribute selector, the parenthesis or the comment with which a text begins; 0 if it begins with
+/// Length in bytes of the attribute selector, the parenthesis or the comment at the start of a text; 0 if there is
 /// none. `None` if it is not closed.
 fn opaque(text: &str) -> Option<usize> {
     match text.as_bytes() {
@@ -106,7 +106,7 @@ fn opaque(text: &str) -> Option<usize> {
     }
 }
 
-/// The parts of a compound between attribute selectors, parentheses and comments.
+/// Returns the parts of a compound selector between its attribute selectors, parentheses and comments.
 fn plain_parts(compound: &str) -> impl Iterator<Item = &str> {
     let mut rest = compound;
     std::iter::from_fn(move || {
@@ -132,7 +132,7 @@ fn subject(compound: &str) -> Subject<'_> {
     }
 }
 
-/// Returns the references in declarations such as `fill: url(#a); mask: url(#b)`.
+/// Returns the references in a list of declarations, such as `fill: url(#a); mask: url(#b)`.
 pub fn declared(body: &str) -> impl Iterator<Item = Reference<'_>> {
     body.split(';').filter_map(|declaration| {
         let (property, value) = declaration.split_once(':')?;
@@ -140,7 +140,7 @@ pub fn declared(body: &str) -> impl Iterator<Item = Reference<'_>> {
     })
 }
 
-/// Returns the identifier in a value with `url(#...)`.
+/// Returns the identifier in a value that contains `url(#...)`; `None` if the value refers to nothing.
 pub fn referred(value: &str) -> Option<&str> {
     let after = &value[value.find("url(")? + 4..];
     let inside = after.trim_start().trim_start_matches(['"', '\'']).strip_prefix('#')?;
@@ -148,7 +148,7 @@ pub fn referred(value: &str) -> Option<&str> {
 }
 
 impl CssRule<'_> {
-    /// Whether the rule may apply to an element. Only the rule's `subject` is compared.
+    /// Whether the rule may apply to an element. Only the last compound selector is compared.
     pub fn may_match(&self, element: Node) -> bool {
         match self.subject {
             Subject::Class(class) => element
@@ -160,8 +160,8 @@ impl CssRule<'_> {
         }
     }
 
-    /// Returns the largest number of comparisons with an element `depth` levels deep. Each `a b` may try every
-    /// ancestor.
+    /// Returns the largest number of comparisons that matching an element at the level `depth` may take. Each `a b` in
+    /// the selector may try every ancestor.
     pub fn comparisons(&self, depth: u64) -> u64 {
         depth.max(2).saturating_pow(self.compounds.saturating_sub(1))
     }

@@ -1,29 +1,31 @@
-//! Approximates curves by lines of points.
+//! Approximates curves by points that are joined by straight lines.
 
 use usvg::tiny_skia_path::{Path, PathSegment, Point, Transform};
 
 /// A point, in units of the page, y down.
 pub type Spot = [f64; 2];
 
-/// A line of points.
+/// Points joined by straight lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatLine {
-    /// At least two points. A closed line does not repeat its first point.
+    /// The points, at least two. A closed line does not repeat its first point at the end.
     pub points: Vec<Spot>,
     /// Whether the last point is joined to the first.
     pub closed: bool,
 }
 
-/// Largest turn between neighbouring chords of a curve, radians. It is finer than corners that robots could show.
+/// Largest turn between successive chords of a curve, radians. It is smaller than the turn of any corner that robots
+/// could show.
 const TURN_MAX: f64 = 0.2;
 /// Largest number of chords of one curve.
 const CHORDS_MAX: f64 = 64.0;
 
-/// Number of points of a line above which each further curve becomes a single chord. This keeps memory in proportion to
-/// the file's size.
+/// If a line has more points than this, each further curve becomes a single chord. This keeps memory in proportion to
+/// the size of the file.
 const POINTS_FINE: usize = 200_000;
 
-/// Returns the lines of a path. Chords deviate from curves by at most about `tolerance`, units of the page.
+/// Returns the lines of a path on the page. `transform` maps the path to the page. Chords are at most about `tolerance`
+/// from their curves, in units of the page.
 pub fn polylines(path: &Path, transform: Transform, tolerance: f64) -> Vec<FlatLine> {
     let place = |point: Point| -> Spot {
         let (x, y) = (f64::from(point.x), f64::from(point.y));
@@ -63,7 +65,8 @@ pub fn polylines(path: &Path, transform: Transform, tolerance: f64) -> Vec<FlatL
     lines
 }
 
-/// Adds a line to `lines` without points that nearly coincide. A line whose ends nearly coincide is closed.
+/// Adds a line to `lines`, without points that nearly coincide with the point before. A line whose two ends nearly
+/// coincide becomes closed.
 fn finish(lines: &mut Vec<FlatLine>, mut points: Vec<Spot>, closed: bool, tolerance: f64) {
     let near = |a: &Spot, b: &Spot| distance(*a, *b) < tolerance * 0.1;
     points.dedup_by(|b, a| near(a, b));
@@ -76,13 +79,14 @@ fn finish(lines: &mut Vec<FlatLine>, mut points: Vec<Spot>, closed: bool, tolera
     }
 }
 
-/// Appends the chords of a cubic curve.
+/// Appends the points of the chords of a cubic curve, without the curve's first point.
 fn curve(points: &mut Vec<Spot>, control: [Spot; 4], tolerance: f64) {
     let chords = if points.len() > POINTS_FINE { 1 } else { chords(control, tolerance) };
     points.extend((1..=chords).map(|n| cubic(control, n as f64 / chords as f64)));
 }
 
-/// Returns the number of chords that keeps the distance to the curve below `tolerance` and turns below [`TURN_MAX`].
+/// Returns the number of chords for a cubic curve: enough to stay within `tolerance` of the curve and to turn by less
+/// than [`TURN_MAX`] each time.
 fn chords([a, b, c, d]: [Spot; 4], tolerance: f64) -> usize {
     let bend = |p: Spot, q: Spot, r: Spot| libm::hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1]);
     // The distance of a curve from its chord is at most an eighth of its largest second derivative.

@@ -1,4 +1,4 @@
-//! Decides which colours of a page are lit: not those of the paper, and not black.
+//! Decides which colours of a page become lights. Colours of the paper do not; black becomes white.
 
 use lightbots_base::Rgb;
 
@@ -7,13 +7,13 @@ use crate::ink::Ink;
 use crate::picture::lifted;
 use crate::svg::canvas::{Canvas, Line, Surface};
 
-/// A colour whose brightest channel is below this, 0 to 255, would be a light that is off. An example is printers'
-/// black, #231f20.
+/// A colour is dark if its brightest channel is below this, 0 to 255: a light of this colour would be off. An example
+/// is printers' black, #231f20.
 const DARK_BELOW: u8 = 40;
-/// A colour whose darkest channel is at least this, 0 to 255, is that of paper.
+/// A colour counts as white paper if its darkest channel is at least this, 0 to 255.
 const PAPER_FROM: u8 = 225;
 
-/// Removes the background and parts that look like it, and lights black lines and areas white. Returns notes about
+/// Removes the background, and areas and lines that look like it. Makes dark areas and lines white. Returns notes about
 /// both.
 pub fn light(canvas: &mut Canvas) -> Vec<Note> {
     lift_gradients(canvas);
@@ -61,7 +61,8 @@ fn inks_mut(canvas: &mut Canvas) -> impl Iterator<Item = &mut Ink> {
     areas.chain(canvas.lines.iter_mut().map(|line| &mut line.ink))
 }
 
-/// Removes background areas, unless there is nothing else. Returns the colour of the largest.
+/// Removes all background areas, unless there is nothing else. Returns the colour of the largest one; `None` if nothing
+/// was removed.
 fn remove_background(canvas: &mut Canvas) -> Option<Rgb> {
     let others = canvas.surfaces.iter().any(|surface| !surface.background) || !canvas.lines.is_empty();
     if !others {

@@ -1,4 +1,4 @@
-//! Turns SVG files into drawings: filled areas with their colours, strokes as lines, without hidden parts.
+//! Turns SVG files into drawings: filled areas with their colours, and strokes as lines, both without hidden parts.
 
 mod canvas;
 mod census;
@@ -24,12 +24,12 @@ use crate::svg::canvas::Canvas;
 use crate::svg::flatten::{FlatLine, Spot};
 use crate::svg::walk::Walk;
 
-/// Largest number of elements, texts and comments. They take 150 MB, measured on 2026-11-23.
+/// Largest number of elements, texts and comments in a file. This number takes 150 MB, measured on 2026-11-23.
 const NODES_MAX: u32 = 200_000;
-/// Largest side of a page, in units of the page.
+/// Largest width and height of a page, in units of the page.
 const PAGE_MAX: f32 = 1e6;
 
-/// Draws an SVG file, with notes about what cannot be drawn. Files that it refers to are not read.
+/// Draws an SVG file. The result has notes about what cannot be drawn. Other files that the SVG refers to are not read.
 ///
 /// # Errors
 /// Files that are compressed, damaged, too large or too complex, and files without visible areas or lines.

@@ -6,7 +6,7 @@ use usvg::{BaseGradient, Group, LinearGradient, Node, Paint, RadialGradient, Spr
 
 use crate::ink::{Gradient, GradientShape, GradientSpread, Ink};
 
-/// Largest depth of patterns inside patterns that is followed.
+/// Largest number of levels of patterns inside patterns that are followed.
 const PATTERNS_MAX: usize = 4;
 
 /// A colour and its opacity, 0 to 1.
@@ -18,8 +18,8 @@ struct Tint {
     opacity: f64,
 }
 
-/// Returns the ink of a paint on the page, and its opacity. `transform` maps coordinates of the painted element to the
-/// page. `None` for an empty pattern.
+/// Returns the ink of a paint on the page, and its opacity, 0 to 1. `transform` maps the painted element to the page.
+/// `None` for an empty pattern.
 pub fn ink(paint: &Paint, transform: Transform) -> Option<(Ink, f64)> {
     let Tint { color, opacity } = tint(paint)?;
     let gradient = match paint {
@@ -56,8 +56,8 @@ fn vec2(x: f32, y: f32) -> Vec2 {
     Vec2::new(f64::from(x), f64::from(y))
 }
 
-/// Returns the colour of a paint. For a gradient it is the mean, for a pattern the mean of the areas in it. `None` for
-/// an empty pattern.
+/// Returns the colour of a paint: for a gradient the mean of its colours, for a pattern the mean of the areas in it.
+/// `None` for an empty pattern.
 fn tint(paint: &Paint) -> Option<Tint> {
     at_level(paint, 0)
 }
@@ -80,7 +80,7 @@ fn rgb(color: usvg::Color) -> Rgb {
     Rgb::new(color.red, color.green, color.blue)
 }
 
-/// Stops of a gradient, each with the share of the gradient to which it is the nearest stop.
+/// Stops of a gradient. Each has the share of the gradient that is nearer to this stop than to others.
 fn stops(gradient: &BaseGradient) -> impl Iterator<Item = (Tint, f64)> + '_ {
     let stops = gradient.stops();
     let offset = |n: usize| stops.get(n).map(|stop| f64::from(stop.offset().get()));
@@ -93,7 +93,7 @@ fn stops(gradient: &BaseGradient) -> impl Iterator<Item = (Tint, f64)> + '_ {
     })
 }
 
-/// Adds the paints in a pattern to `found`, each with the area of the box around its path.
+/// Adds the paints in a pattern to `found`, each with the size of the box around the painted path.
 fn areas(group: &Group, level: usize, found: &mut Vec<(Tint, f64)>) {
     for node in group.children() {
         match node {
@@ -111,7 +111,7 @@ fn areas(group: &Group, level: usize, found: &mut Vec<(Tint, f64)>) {
     }
 }
 
-/// Returns the mean of colours, weighted by share and opacity. `None` if the weights sum to 0.
+/// Returns the mean of colours, weighted by share times opacity, with the mean opacity. `None` if the shares sum to 0.
 fn mean(tints: impl Iterator<Item = (Tint, f64)>) -> Option<Tint> {
     let mut sum = [0.0; 3];
     let (mut light, mut weight) = (0.0, 0.0);

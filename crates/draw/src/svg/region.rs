@@ -1,4 +1,4 @@
-//! Areas of a page, and operations that combine them.
+//! Areas of a page, and their differences, intersections and unions.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -12,7 +12,7 @@ use lightbots_base::random::split_mix;
 use crate::drawing::FillRule as Rule;
 use crate::svg::flatten::{FlatLine, Spot, distance};
 
-/// An area that is not empty. Outer rings run in one direction, holes in the other.
+/// An area that is not empty. Its outer rings run in one direction, the rings of its holes in the other.
 #[derive(Clone, Debug)]
 pub struct Region {
     rings: Vec<Vec<Spot>>,
@@ -20,18 +20,20 @@ pub struct Region {
     high: Spot,
 }
 
-/// Largest number of crossings of lines for which areas are cut. Each crossing takes memory and time.
+/// Areas are cut only if the estimated number of crossings between their lines is at most this. Each crossing takes
+/// memory and time.
 const CROSSINGS_MAX: f64 = 1e5;
-/// Fewer lines than this have fewer than [`CROSSINGS_MAX`] pairs, and therefore fewer crossings.
+/// Fewer lines than this have fewer than [`CROSSINGS_MAX`] pairs, and therefore cannot have too many crossings.
 const LINES_FEW: usize = 440;
 /// Least and largest number of random pairs of lines from which the number of crossings is estimated.
 const SAMPLES: [f64; 2] = [100.0, 200_000.0];
-/// Expected number of crossings among these pairs if there are [`CROSSINGS_MAX`] in all.
+/// Number of crossings expected among the random pairs if there are [`CROSSINGS_MAX`] in all. It sets how many pairs
+/// are drawn.
 const HITS: f64 = 20.0;
 
 impl Region {
-    /// Returns the area inside rings. `None` if it is thinner than `thinnest`, in units of the page, or if its lines
-    /// cross too often.
+    /// Returns the area inside rings, without parts thinner than `thinnest`, in units of the page. `None` if nothing is
+    /// left, or if the lines of the rings cross too often.
     pub fn new(rings: &Vec<Vec<Spot>>, rule: Rule, thinnest: f64) -> Option<Self> {
         let rule = match rule {
             Rule::NonZero => FillRule::NonZero,
@@ -58,7 +60,7 @@ impl Region {
         Some(Self { rings, low, high })
     }
 
-    /// The rings of the area, to be filled by [`Rule::NonZero`].
+    /// The rings of the area. Points with a winding number other than 0 are inside ([`Rule::NonZero`]).
     pub fn rings(&self) -> &[Vec<Spot>] {
         &self.rings
     }
@@ -83,7 +85,7 @@ impl Region {
         (0..2).all(|axis| self.low[axis] < other.high[axis] && other.low[axis] < self.high[axis])
     }
 
-    /// Whether the area is a rectangle along the axes that contains the whole box from `low` to `high`.
+    /// Whether the area is a rectangle with sides along the axes that contains the whole box from `low` to `high`.
     pub fn frames(&self, low: Spot, high: Spot) -> bool {
         let on_edge =
             |spot: &Spot| (0..2).all(|axis| spot[axis] == self.low[axis] || spot[axis] == self.high[axis]);
@@ -92,22 +94,23 @@ impl Region {
         rectangle && (0..2).all(|axis| self.low[axis] <= low[axis] && high[axis] <= self.high[axis])
     }
 
-    /// Returns what is in this area and not in the other. `None` if nothing is.
+    /// Returns the part of this area that is not in the other. `None` if nothing is left that is at least `thinnest`
+    /// thick.
     pub fn minus(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Difference, thinnest)
     }
 
-    /// Returns what is in both areas. `None` if nothing is.
+    /// Returns the part that is in both areas. `None` if nothing is at least `thinnest` thick.
     pub fn common(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Intersect, thinnest)
     }
 
-    /// Returns what is in either area.
+    /// Returns the union of both areas.
     pub fn joined(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Union, thinnest)
     }
 
-    /// Returns what is in any of several areas. `None` if there is nothing, or if their lines cross too often.
+    /// Returns the union of several areas. `None` if they are empty, or if their lines cross too often.
     pub fn all(regions: &[Self], thinnest: f64) -> Option<Self> {
         if let [only] = regions {
             return Some(only.clone());
@@ -124,8 +127,8 @@ impl Region {
         Self::from_shapes(self.rings.overlay(&other.rings, rule, FillRule::NonZero), thinnest)
     }
 
-    /// Returns the parts of a line that are inside or outside the area and at least as long as `shortest`. A line that
-    /// is nearly all kept, or that crosses too often, is returned unchanged.
+    /// Returns the parts of a line inside the area (or, if `inside` is false, outside) that are at least `shortest`
+    /// long. A line of which nearly all would be returned, or that crosses too often, is returned unchanged.
     pub fn parts(&self, line: &FlatLine, inside: bool, shortest: f64) -> Vec<FlatLine> {
         let mut path = line.points.clone();
         if line.closed {
@@ -148,7 +151,7 @@ impl Region {
     }
 }
 
-/// Whether lines cross each other too often, estimated from random pairs.
+/// Whether the lines of the rings cross each other too often, estimated from random pairs of lines.
 fn is_tangled(first: &[Vec<Spot>], second: &[Vec<Spot>]) -> bool {
     let count = first.iter().chain(second).map(Vec::len).sum::<usize>();
     if count < LINES_FEW {

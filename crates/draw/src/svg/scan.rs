@@ -2,15 +2,16 @@
 
 use crate::error::DrawError;
 
-/// Largest file, bytes. Larger drawings have more parts than robots can show.
+/// Largest file that is read, bytes. Larger drawings have more parts than robots can show.
 const BYTES_MAX: usize = 10_000_000;
-/// Deepest nesting of elements. usvg itself stops at 1,024 and needs more of the stack for each level.
+/// Largest number of levels of nested elements. The library usvg would stop only at 1,024, and needs more stack for
+/// each level.
 pub const DEPTH_MAX: usize = 256;
-/// Largest number of attributes of an element. The parser compares every pair of them (10⁵ attributes took over 25 s on
-/// 2026-11-23).
+/// Largest number of attributes of an element. The parser compares every pair of attributes: 10⁵ attributes took over
+/// 25 s on 2026-11-23.
 const ATTRIBUTES_MAX: usize = 500;
 
-/// Returns the text of an SVG.
+/// Returns the text of an SVG file if it may be given to a parser.
 ///
 /// # Errors
 /// A file that is too large, not UTF-8, nested too deeply, or has an element with too many attributes.
@@ -59,7 +60,7 @@ pub fn too_large(reason: String) -> DrawError {
     DrawError::new("svg-too-large", message)
 }
 
-/// How a tag changes the nesting.
+/// How a tag changes the nesting of elements.
 enum TagKind {
     Opens,
     Closes,
@@ -69,11 +70,11 @@ enum TagKind {
 /// A tag.
 struct Tag {
     kind: TagKind,
-    /// Number of equals signs outside quotation marks.
+    /// Number of equals signs outside quotation marks: at least the number of attributes.
     attributes: usize,
 }
 
-/// Returns the tags in a text. Tags inside entities count too; comments and character data do not.
+/// Returns the tags in a text. Tags inside XML entities are included; comments and character data are skipped.
 fn tags(text: &str) -> impl Iterator<Item = Tag> + '_ {
     let mut rest = text;
     std::iter::from_fn(move || {
@@ -95,7 +96,7 @@ fn tags(text: &str) -> impl Iterator<Item = Tag> + '_ {
     })
 }
 
-/// Reads the tag at the start of a text, after its `<`. Also returns the text that follows.
+/// Reads the tag at the start of a text that begins after the tag's `<`. Also returns the text after the tag.
 fn tag(text: &str) -> (Tag, &str) {
     let mut quote = None;
     let mut attributes = 0;

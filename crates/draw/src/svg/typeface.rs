@@ -1,4 +1,5 @@
-//! The fonts for texts in SVG files. Fonts installed on the machine are not used: a drawing is the same everywhere.
+//! The fonts for texts in SVG files. Fonts installed on the machine are not used, so that a drawing looks the same
+//! everywhere.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
@@ -12,7 +13,7 @@ use crate::text::outline_files;
 /// Largest number of missing fonts that a note names.
 const NAMED: usize = 3;
 
-/// The family used for all fonts that are not built in.
+/// The font family that replaces all fonts that are not built in.
 pub const FAMILY: &str = "Lato";
 
 /// All built-in fonts that have outlines.
@@ -34,7 +35,7 @@ pub fn faces() -> Arc<Database> {
         .clone()
 }
 
-/// Returns a note that names fonts of texts which are not built in. `None` if all are.
+/// Returns a note that names fonts of texts that are not built in. `None` if all fonts are built in.
 pub fn missing(root: &Group) -> Option<Note> {
     let mut families = BTreeSet::new();
     collect(root, &mut families);

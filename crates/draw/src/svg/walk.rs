@@ -1,4 +1,4 @@
-//! Paints the elements of an SVG one after the other.
+//! Paints the elements of an SVG on a page, one after the other.
 
 use lightbots_base::Rgb;
 use usvg::tiny_skia_path::{Path as Outline, Transform};
@@ -13,21 +13,21 @@ use crate::svg::paint::ink;
 use crate::svg::region::{Region, bounds};
 use crate::svg::scan::too_large;
 
-/// Largest coordinate, units of the page. Larger ones come from broken files.
+/// Paths with larger coordinates, in units of the page, are left out. Such coordinates come from broken files.
 const COORDINATE_MAX: f32 = 1e6;
-/// Tolerance of chords, as a share of the picture's longer side. It is finer than a tenth of the spacing of 10,000
-/// robots.
+/// Largest distance of chords from their curves, as a share of the picture's longer side. It is below a tenth of the
+/// spacing of 10,000 robots.
 const TOLERANCE: f64 = 1.0 / 2_000.0;
-/// Width from which a stroke becomes an area, as a share of the picture's longer side. Icons of 24 pixels have lines of
-/// 2.
+/// A stroke at least this wide becomes an area; share of the picture's longer side. Icons of 24 pixels have lines of 2
+/// pixels, which stay lines.
 const WIDE: f64 = 0.15;
-/// Width from which other areas are cut back beside a stroke, as a share of the picture's longer side.
+/// A stroke at least this wide cuts areas of other colours away beside it; share of the picture's longer side.
 const VISIBLE: f64 = 0.015;
-/// Largest number of areas and lines: more than robots could show.
+/// Largest number of areas and lines in a picture: more than robots could show.
 const PARTS_MAX: usize = 20_000;
 /// Largest number of points of all areas and lines.
 const POINTS_MAX: usize = 500_000;
-/// Least brightness at which a mask keeps what it covers, 0 to 1.
+/// A mask keeps what is below its parts of at least this brightness, 0 to 1.
 const MASK_MIN: f64 = 0.5;
 
 /// A walk through the elements of an SVG, which paints them.
@@ -45,17 +45,18 @@ pub struct Walk {
 /// Settings for all elements of a group.
 #[derive(Clone)]
 struct Context {
-    /// Transform from the group to the page.
+    /// Maps the coordinates of the group to the page.
     transform: Transform,
-    /// Paint outside any of these areas is cut off.
+    /// Only paint inside all of these areas is visible.
     clips: Vec<Region>,
     opacity: f64,
-    /// How a mask's brightness is measured. `None` outside masks and clip paths.
+    /// While a mask or clip path is painted: how its brightness is measured. `None` otherwise.
     mask: Option<MaskType>,
 }
 
 impl Walk {
-    /// Paints a group on an empty page between two corners. `size` is the longer side of its content.
+    /// Paints a group on an empty page. `page`: corners of the page with the smaller and the larger coordinates.
+    /// `size`: longer side of the group's content, in units of the page.
     ///
     /// # Errors
     /// Too many areas, lines or points.
@@ -137,7 +138,7 @@ impl Walk {
         }
     }
 
-    /// Returns the area inside a path. `None` if it is too thin or its lines cross too often.
+    /// Returns the area inside a path. `None` if it is too thin, or if its lines cross too often.
     fn filled(&mut self, data: &Outline, context: &Context, rule: Rule) -> Result<Option<Region>, DrawError> {
         let lines = self.flattened(data, context)?;
         let rings: Vec<Vec<Spot>> = lines.into_iter().map(|line| line.points).collect();
@@ -229,7 +230,7 @@ impl Walk {
         })
     }
 
-    /// Returns the area that a clip path keeps. `None` if it keeps nothing.
+    /// Returns the area that a clip path leaves visible. `None` if nothing is left.
     fn clip(&mut self, clip: &ClipPath, transform: Transform) -> Result<Option<Region>, DrawError> {
         let inner = transform.pre_concat(clip.transform());
         let own = self.bright(clip.root(), inner, MaskType::Alpha)?;
@@ -239,7 +240,7 @@ impl Walk {
         Ok(own.zip(other).and_then(|(own, other)| own.common(&other, thinnest)))
     }
 
-    /// Returns the area that a mask keeps. `None` if it keeps nothing.
+    /// Returns the area that a mask leaves visible. `None` if nothing is left.
     fn mask(&mut self, mask: &Mask, transform: Transform) -> Result<Option<Region>, DrawError> {
         let own = self.bright(mask.root(), transform, mask.kind())?;
         let Some(linked) = mask.mask() else { return Ok(own) };
@@ -267,7 +268,7 @@ impl Walk {
     }
 }
 
-/// Returns the brightness of a mask's paint as a grey.
+/// Returns the brightness that paint adds to a mask, as a grey.
 fn brightness(Rgb { r, g, b }: Rgb, opacity: f64, kind: MaskType) -> Rgb {
     let light = match kind {
         MaskType::Luminance => {

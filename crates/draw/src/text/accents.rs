@@ -1,4 +1,4 @@
-//! Single strokes of letters with accents, put together from the strokes of the letter and those of the accent.
+//! Strokes (middle lines) of letters with accents, composed of the strokes of the letter and those of the accent.
 
 use lightbots_base::Vec2;
 use unicode_normalization::UnicodeNormalization;
@@ -9,12 +9,12 @@ use super::region::LetterArea;
 use super::strokes::StrokeLine;
 use crate::geometry::bounds;
 
-/// Height above or below the plain letter from which outlines belong to the accent, in cap heights. Letters with
-/// accents may overshoot the plain letter a little.
+/// Outlines farther than this above or below the plain letter belong to the accent, in cap heights. Letters with
+/// accents may be a little higher than the plain letter.
 const CLEAR: f64 = 0.02;
 
-/// Distance between the outline of an accent and its line, in stroke widths. It is below half a width because accents
-/// are thinner than letters.
+/// Distance from the outline of an accent to its middle line, in stroke widths of the letter. It is below a half
+/// because accents are thinner than letters.
 const INSET: f64 = 0.4;
 
 /// A letter with one accent.
@@ -23,10 +23,10 @@ pub(super) struct Parts {
     accent: char,
 }
 
-/// The bar of ł as a combining mark over an l. Unicode does not decompose ł.
+/// Combining mark that stands for the bar of ł on an l. Unicode does not decompose ł.
 const BAR: char = '\u{337}';
 
-/// Splits a character into letter and accent. `None` if it has no accent.
+/// Splits a character into its letter and its accent. `None` if it has no accent. An i loses its dot.
 pub(super) fn parts(character: char) -> Option<Parts> {
     match character {
         'ł' => return Some(Parts { letter: 'l', accent: BAR }),
@@ -39,8 +39,8 @@ pub(super) fn parts(character: char) -> Option<Parts> {
     Some(Parts { letter: if dotless && letter == 'i' { 'ı' } else { letter }, accent })
 }
 
-/// Returns the strokes of letter and accent. `None` if no strokes are known for one of them, or if they do not fit the
-/// area.
+/// Returns the strokes of a letter with its accent. `region`: area of the whole character. `None` if no strokes are
+/// known for the letter or the accent, or if they do not fit the area.
 pub(super) fn composed(parts: &Parts, region: &LetterArea, outlines: &Outlines) -> Option<Vec<StrokeLine>> {
     let mut rings = outlines.rings_of(parts.letter);
     let by = Vec2::new(shift(parts.accent, region, &LetterArea::new(&rings)?)?, 0.0);
@@ -55,7 +55,8 @@ pub(super) fn composed(parts: &Parts, region: &LetterArea, outlines: &Outlines) 
     Some(lines)
 }
 
-/// Returns how far the accented form of the letter is shifted to the right. Some fonts give that form more room.
+/// Returns the distance by which the letter is farther right in its accented form than in its plain form, in cap
+/// heights. Some fonts give the accented form more room.
 fn shift(accent: char, region: &LetterArea, plain: &LetterArea) -> Option<f64> {
     let (low, high) = plain.extent;
     // The bar of ł sticks out on both sides, and only the top of the stem can be compared.
@@ -72,7 +73,7 @@ fn is_below(accent: char) -> bool {
     matches!(accent, '\u{323}'..='\u{333}')
 }
 
-/// Returns the strokes of an accent at the place of its outline. `None` for an unknown accent.
+/// Returns the strokes of an accent where the outline of the accent is. `None` for an unknown accent.
 fn accent(accent: char, region: &LetterArea, plain: &LetterArea) -> Option<Vec<StrokeLine>> {
     let lines: Vec<StrokeLine> =
         shape(accent)?.iter().map(|line| line.iter().map(|(x, y)| Vec2::new(*x, *y)).collect()).collect();
@@ -121,7 +122,8 @@ fn shape(accent: char) -> Option<&'static [&'static [(f64, f64)]]> {
     })
 }
 
-/// Returns the bar of ł as a line between the ends of the outline that do not belong to the plain letter.
+/// Returns the bar of ł: a line between the left and the right end of those parts of the outline that do not belong to
+/// the plain letter.
 fn bar(region: &LetterArea, plain: &LetterArea) -> Option<Vec<StrokeLine>> {
     let own = |point: &Vec2| !plain.contains(*point) && plain.distance(*point) > CLEAR;
     let points: Vec<Vec2> = region.edges().map(|(a, _)| a).filter(own).collect();

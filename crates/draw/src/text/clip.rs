@@ -1,11 +1,11 @@
-//! Cuts letters at the edges of a window.
+//! Cuts letters at the left and right edge of a window.
 
 use lightbots_base::Vec2;
 
 use super::letter::Letter;
 use super::strokes::StrokeLine;
 
-/// Returns the part of a letter between two values of x.
+/// Returns the part of a letter with x between `from` and `to`.
 pub(super) fn clipped(letter: &Letter, from: f64, to: f64) -> Letter {
     let cut = |lines: &[StrokeLine], half: fn(&[StrokeLine]) -> Vec<StrokeLine>| {
         let beyond_left = half(&mapped(lines, |x| x - from));
@@ -26,7 +26,7 @@ fn mapped(lines: &[StrokeLine], x: impl Fn(f64) -> f64) -> Vec<StrokeLine> {
     lines.iter().map(|line| line.iter().map(|point| Vec2::new(x(point.x), point.y)).collect()).collect()
 }
 
-/// Returns the point of the line from a to b that has x = 0.
+/// Returns the point with x = 0 on the line from `a` to `b`.
 fn crossing(a: Vec2, b: Vec2) -> Vec2 {
     Vec2::new(0.0, a.lerp(b, a.x / (a.x - b.x)).y)
 }
@@ -61,7 +61,8 @@ fn pieces(line: &[Vec2]) -> Vec<StrokeLine> {
     pieces
 }
 
-/// Returns rings cut at x = 0. Cut edges join the pieces of all rings, which keeps gaps between strokes open.
+/// Returns the parts of rings with x of at least 0. Along the cut, the pieces of all rings are joined as one area, so
+/// that gaps between strokes stay open.
 fn half_rings(rings: &[Vec<Vec2>]) -> Vec<Vec<Vec2>> {
     let mut whole = Vec::new();
     let mut open: Vec<StrokeLine> = Vec::new();
@@ -81,7 +82,7 @@ fn half_rings(rings: &[Vec<Vec2>]) -> Vec<Vec<Vec2>> {
     whole
 }
 
-/// An end of a piece on the cut.
+/// An end of a piece of a ring on the cut x = 0. `leaves`: the ring leaves the kept half here.
 #[derive(Clone, Copy)]
 struct End {
     y: f64,
@@ -89,8 +90,8 @@ struct End {
     leaves: bool,
 }
 
-/// Joins pieces that begin and end on the cut to rings. Along the cut, the area lies between an end and its partner of
-/// the other kind, like text between brackets.
+/// Joins pieces that begin and end on the cut to rings. Along the cut, each end where a ring leaves is joined with an
+/// end where a ring enters, like opening and closing brackets.
 fn joined(pieces: &[StrokeLine]) -> Vec<Vec<Vec2>> {
     let mut ends: Vec<End> = Vec::new();
     for (piece, line) in pieces.iter().enumerate() {

@@ -1,9 +1,9 @@
-//! Approximates curves by points. The arithmetic uses only the four operations and square roots, which give the same
-//! bits on every machine. Flatteners of libraries take powers and logarithms from the system.
+//! Approximates curves by points. The arithmetic uses only the four basic operations and square roots, which give the
+//! same bits on every machine. Libraries for this use powers and logarithms of the system, which differ.
 
 use lightbots_base::Vec2;
 
-/// Largest distance between a curve and its chords, in cap heights. It is less than robots can show.
+/// Largest distance between a curve and its chords, in cap heights. Robots cannot show smaller details.
 const TOLERANCE: f64 = 0.005;
 
 /// Largest number of points of one curve: enough for a half circle of 40 cap heights.
@@ -12,7 +12,8 @@ const STEPS_MAX: f64 = 200.0;
 /// Two points nearer than this, in cap heights, are one point.
 const SAME: f64 = 1e-9;
 
-/// An outline to which lines and curves are added one after the other. Calls take the largest number of points, `most`.
+/// An outline to which lines and curves are added one after the other. All methods that add take `most`, the largest
+/// number of points of the whole outline.
 #[derive(Default)]
 pub(super) struct Curve {
     rings: Vec<Vec<Vec2>>,
@@ -60,7 +61,8 @@ impl Curve {
         }
     }
 
-    /// Returns the rings, without repeating first points. Rings of fewer than three points are left out.
+    /// Returns the rings. The first point of a ring is not repeated at its end. Rings of fewer than three points are
+    /// left out.
     pub(super) fn into_rings(self) -> Vec<Vec<Vec2>> {
         let closed = self.rings.into_iter().map(|mut ring| {
             while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < SAME {
@@ -91,8 +93,8 @@ impl Curve {
     }
 }
 
-/// Number of straight pieces for a curve whose second derivative is at most `bend`. The error of n pieces is bend/(8
-/// n²).
+/// Number of straight pieces for a curve whose second derivative is at most `bend`. With n pieces the error is at most
+/// bend / (8 n²).
 fn steps(bend: f64) -> usize {
     let wanted = (bend / (8.0 * TOLERANCE)).sqrt();
     if wanted > 1.0 { wanted.min(STEPS_MAX) as usize + 1 } else { 1 }

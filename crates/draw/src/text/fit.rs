@@ -1,4 +1,4 @@
-//! Fits the single strokes of a letter to the area of the same letter in another font.
+//! Fits the strokes of a letter in a single-line font to the area of the letter in another font.
 
 use lightbots_base::Vec2;
 
@@ -7,39 +7,41 @@ use super::region::{LetterArea, distance};
 use super::strokes::StrokeLine;
 use crate::geometry::bounds;
 
-/// Largest number of points of a letter that gets a spine. Every step of the search takes time in proportion to it, and
-/// ornate letters have no strokes anyway.
+/// Letters with more points than this get no spine. Every step of the search takes time in proportion to the number of
+/// points, and ornate letters have no clear strokes anyway.
 const POINTS_MAX: usize = 600;
 
-/// Largest width or height of a letter that gets a spine, in cap heights. The search divides it into small steps.
+/// Letters wider or higher than this get no spine, in cap heights, because the search divides lines into small steps.
 const SIZE_MAX: f64 = 4.0;
 
-/// Largest distance between points while lines are moved, in cap heights.
+/// About the largest distance between points of a line while it is moved, in cap heights.
 const STEP: f64 = 0.06;
 
-/// Number of times that lines are moved to the middle. Each time uses the directions that the time before gave.
+/// Number of times that lines are moved towards the middle of the strokes. Each time uses the directions of the lines
+/// that the time before gave.
 const ROUNDS: usize = 3;
 
-/// Deviation from a straight line, in cap heights, below which a line becomes straight.
+/// A line that deviates from a straight line by at most this becomes straight, in cap heights.
 const STRAIGHT: f64 = 0.006;
 
-/// Least share of a spine that is inside the area. Tuned on the three built-in outline fonts, 2026-11-24.
+/// Least share of a spine that must be inside the area. Tuned on the three built-in outline fonts, 2026-11-24.
 const INSIDE_MIN: f64 = 0.9;
 
-/// Least share of the outline that is near the spine.
+/// Least share of the outline that must be near the spine.
 const COVERED_MIN: f64 = 0.85;
 
-/// Distance within which an outline counts as near the spine, in stroke widths. Half a width is ideal, corners have
-/// 0.71. A round dot, whose mean width is its radius, has 1.
+/// A point of the outline is near the spine if it is at most this far from it, in stroke widths. At a straight stroke
+/// the distance is 0.5, at a corner 0.71. At a round dot, whose mean width is its radius, it is 1.
 const NEAR: f64 = 1.1;
 
-/// Whether a letter is small and simple enough for the search.
+/// Whether a letter is small and simple enough for the search of a spine.
 pub(super) fn is_common(area: &LetterArea) -> bool {
     let size = area.extent.1 - area.extent.0;
     area.points() <= POINTS_MAX && size.x.max(size.y) <= SIZE_MAX
 }
 
-/// Returns lines for a letter without accents, from the single-line font that fits best. `None` if none fits.
+/// Returns the spine of a letter without accents, from the single-line font that fits its area best. `None` if no font
+/// fits.
 pub(super) fn base(character: char, area: &LetterArea) -> Option<Vec<StrokeLine>> {
     if !is_common(area) {
         return None;
@@ -65,7 +67,8 @@ fn is_dot(line: &StrokeLine) -> bool {
     bounds(line.iter()).is_some_and(|(low, high)| high.distance(low) < 2.0 * STEP)
 }
 
-/// Stretches lines to the middle of the outermost strokes of an area, then moves them into the middle of all strokes.
+/// Stretches lines so that they reach the middle of the outermost strokes of an area, then moves them into the middle
+/// of all strokes.
 fn fitted(lines: Vec<StrokeLine>, area: &LetterArea) -> Vec<StrokeLine> {
     let half = Vec2::new(area.stem, area.stem) / 2.0;
     let (mut dots, mut lines): (Vec<StrokeLine>, Vec<StrokeLine>) = lines.into_iter().partition(is_dot);
@@ -101,7 +104,8 @@ fn moved_to(dot: StrokeLine, centre: Vec2) -> StrokeLine {
     dot.into_iter().map(|point| point + by).collect()
 }
 
-/// Stretches lines into a rectangle. In a direction in which lines or rectangle have no extent, lines are centred.
+/// Stretches lines so that they fill the rectangle from `low` to `high`. Along an axis on which the lines or the
+/// rectangle have no extent, lines are centred.
 pub(super) fn stretched(mut lines: Vec<StrokeLine>, low: Vec2, high: Vec2) -> Vec<StrokeLine> {
     let Some((from, to)) = bounds(lines.iter().flatten()) else { return lines };
     let axis = |value: f64, from: f64, to: f64, low: f64, high: f64| {
@@ -128,7 +132,7 @@ fn divided(line: &StrokeLine) -> StrokeLine {
     points
 }
 
-/// Returns a line without the points at its ends that lie outside. Strokes of different fonts end in different
+/// Returns a line without the points at its ends that are outside the area. Strokes of different fonts end in different
 /// directions.
 fn trimmed<'a>(line: &'a [Vec2], area: &LetterArea) -> &'a [Vec2] {
     let inside = |point: &Vec2| area.contains(*point);
@@ -138,14 +142,14 @@ fn trimmed<'a>(line: &'a [Vec2], area: &LetterArea) -> &'a [Vec2] {
     }
 }
 
-/// Distance that a point moves, and the direction across the line in which it moves.
+/// Move of a point: its distance, in cap heights, and the direction across the line in which it goes.
 #[derive(Clone, Copy)]
 struct Move {
     by: f64,
     across: Vec2,
 }
 
-/// Moves a line into the middle of the strokes on which it lies. Each piece between corners moves independently.
+/// Moves a line into the middle of the strokes on which it lies. Each piece between corners moves on its own.
 fn centred(line: &[Vec2], area: &LetterArea) -> StrokeLine {
     let last = line.len().saturating_sub(1);
     let mut corners = vec![0];
@@ -175,11 +179,11 @@ impl Move {
     }
 }
 
-/// Least cosine of a turn that is not a corner. A corner turns by 35 degrees or more.
+/// Least cosine of the turn at a point that is no corner. Turns of 35 degrees or more are corners.
 const CORNER_COSINE: f64 = 0.82;
 
-/// Least sine of the angle between two pieces for which their meeting point is used. Nearly parallel lines meet far
-/// away.
+/// If the sine of the angle between two pieces is below this, their meeting point is not used, because nearly parallel
+/// lines meet far away.
 const MEETING_SINE: f64 = 0.4;
 
 fn is_corner(a: Vec2, b: Vec2, c: Vec2) -> bool {
@@ -189,7 +193,7 @@ fn is_corner(a: Vec2, b: Vec2, c: Vec2) -> bool {
     }
 }
 
-/// Returns the displacement of a corner between two moved pieces: to the point where they meet.
+/// Returns by which vector the corner between two pieces moves: to the point where the moved pieces meet.
 fn met(a: Move, b: Move) -> Vec2 {
     let sine = a.across.cross(b.across);
     if sine.abs() < MEETING_SINE {
@@ -199,8 +203,8 @@ fn met(a: Move, b: Move) -> Vec2 {
     Vec2::new(a.by * b.across.y - b.by * a.across.y, b.by * a.across.x - a.by * b.across.x) / sine
 }
 
-/// Returns the moves of a piece without corners. Points at joints, where no middle is found, move like their
-/// neighbours.
+/// Returns the moves of the points of a piece without corners. Points at joints of strokes, where no middle is found,
+/// move like their neighbours.
 fn moves(piece: &[Vec2], area: &LetterArea) -> Vec<Move> {
     let last = piece.len().saturating_sub(1);
     let across =
@@ -215,7 +219,7 @@ fn moves(piece: &[Vec2], area: &LetterArea) -> Vec<Move> {
     by.into_iter().zip(across).map(|(by, across)| Move { by, across }).collect()
 }
 
-/// Fills in unknown moves from the known ones before and after them.
+/// Replaces unknown moves by values interpolated between the known moves before and after them.
 fn filled(moves: &[Option<f64>]) -> Vec<f64> {
     let known: Vec<(usize, f64)> =
         moves.iter().enumerate().filter_map(|(at, by)| by.map(|by| (at, by))).collect();
@@ -237,7 +241,7 @@ fn smoothed(moves: &[f64]) -> Vec<f64> {
     (0..moves.len()).map(|at| near(at) / 4.0).collect()
 }
 
-/// Returns the line with few points that stays within `STRAIGHT` (Douglas and Peucker 1973).
+/// Returns a line of few points that stays within [`STRAIGHT`] of the given line (Douglas and Peucker 1973).
 fn straightened(line: &[Vec2]) -> StrokeLine {
     let (Some(first), Some(last)) = (line.first(), line.last()) else { return StrokeLine::new() };
     let ways = line.iter().map(|point| distance(*point, *first, *last));
@@ -252,8 +256,8 @@ fn straightened(line: &[Vec2]) -> StrokeLine {
     }
 }
 
-/// Returns how well lines represent an area: the share of them inside plus the share of the outline near them. `None`
-/// if a share is too small or a point is too far outside.
+/// Returns how well lines represent an area: the share of the lines that is inside, plus the share of the outline that
+/// is near the lines. `None` if one of these shares is too small, or a point of the lines is too far outside.
 pub(super) fn quality(lines: &[StrokeLine], area: &LetterArea) -> Option<f64> {
     let points: Vec<Vec2> = lines.iter().flat_map(divided).collect();
     let inside = points.iter().filter(|point| area.contains(**point)).count() as f64 / points.len() as f64;

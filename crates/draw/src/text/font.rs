@@ -6,10 +6,11 @@ use super::outline::Outlines;
 use super::strokes::StrokeFace;
 use crate::error::DrawError;
 
-/// Largest font file, bytes. The largest common fonts, with all Chinese, Japanese and Korean signs, have about 20 MB.
+/// Largest font file that is read, bytes. The largest common fonts, with all Chinese, Japanese and Korean signs, have
+/// about 20 MB.
 const FILE_MAX: usize = 32 << 20;
 
-/// A font with the outlines or the single strokes of its letters.
+/// A font with either the outlines or the middle lines (strokes) of its letters.
 #[derive(Clone)]
 pub struct Font {
     face: Face,
@@ -31,9 +32,9 @@ pub struct FontInfo {
     pub name: &'static str,
     /// Name for people.
     pub title: &'static str,
-    /// Licence, as an SPDX expression or in words. The full text is beside the font file.
+    /// Licence of the font, as an SPDX expression or in words. The full text is in a file beside the font file.
     pub licence: &'static str,
-    /// Whether people can choose it. The other fonts supply signs that the chosen font lacks.
+    /// Whether people can choose the font. Fonts that cannot be chosen only supply signs that the chosen font lacks.
     pub offered: bool,
     file: File,
 }
@@ -83,7 +84,7 @@ pub static FONTS: [FontInfo; 8] = [
     outlines("emoji", "Noto Emoji Bold, part", false, include_bytes!("../../fonts/NotoEmoji-Bold-part.ttf")),
 ];
 
-/// Names of fonts that supply signs which the chosen font lacks, best first.
+/// Names of fonts that supply signs which the chosen font lacks, in the order in which they are tried.
 const STAND_INS: [&str; 4] = ["lato", "hebrew", "arabic", "emoji"];
 
 const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes: &'static [u8]) -> FontInfo {
@@ -91,7 +92,7 @@ const fn outlines(name: &'static str, title: &'static str, offered: bool, bytes:
 }
 
 impl FontInfo {
-    /// The bytes of a font with outlines. `None` for a font of strokes.
+    /// The bytes of the font's file, if the font has outlines; `None` for a font of strokes.
     pub fn outline_file(&self) -> Option<&'static [u8]> {
         match self.file {
             File::Outlines(bytes) => Some(bytes),
@@ -106,7 +107,7 @@ pub(crate) fn outline_files() -> impl Iterator<Item = &'static [u8]> {
 }
 
 impl Font {
-    /// Returns the built-in font of that name. `None` for a name that is not in [`FONTS`].
+    /// Returns the built-in font with this name; `None` if [`FONTS`] has no such name.
     pub fn built_in(name: &str) -> Option<Self> {
         let info = FONTS.iter().find(|info| info.name == name)?;
         let face = match info.file {
@@ -116,11 +117,11 @@ impl Font {
         Some(Self { face })
     }
 
-    /// Reads a font from the bytes of a TTF, OTF or TTC file. Of several fonts in a file, the first is read.
+    /// Reads a font from the bytes of a TTF, OTF or TTC file. If the file has several fonts, the first is read.
     ///
     /// # Errors
-    /// `font-too-large`, `font-web` for WOFF files, `font-cut-off`, `font-unreadable`, and `font-empty` for a font
-    /// whose first letters have no outlines.
+    /// Codes: `font-too-large`, `font-web` for WOFF files, `font-cut-off`, `font-unreadable`, and `font-empty` for a
+    /// font whose first letters have no outlines.
     pub fn read(bytes: &[u8]) -> Result<Self, DrawError> {
         if bytes.len() > FILE_MAX {
             let mb = bytes.len() >> 20;
@@ -159,12 +160,12 @@ impl Font {
         &self.face
     }
 
-    /// Whether the font itself has the character, without help from other fonts.
+    /// Whether the font has the character. Other fonts that supply missing signs do not count.
     pub fn has(&self, character: char) -> bool {
         self.face.has(character)
     }
 
-    /// Whether its letters are lines and not areas.
+    /// Whether the font's letters are lines instead of areas.
     pub fn is_single_line(&self) -> bool {
         matches!(self.face, Face::Strokes(_))
     }
@@ -180,8 +181,8 @@ impl Face {
     }
 }
 
-/// Whether the table list of a font names bytes beyond its end. Collections have no such list at their beginning and
-/// give false.
+/// Whether the table list at the start of a font file names bytes beyond the end of the file. Collections (TTC) have no
+/// such list there, and give false.
 fn is_cut_off(bytes: &[u8]) -> bool {
     let collection = bytes.starts_with(b"ttcf");
     let number = |at: usize| bytes.get(at..at + 4)?.try_into().ok().map(u32::from_be_bytes);
@@ -197,14 +198,14 @@ fn is_cut_off(bytes: &[u8]) -> bool {
     ends.into_iter().any(|end| end.is_none_or(|end| end > bytes.len() as u64))
 }
 
-/// Returns the fonts for signs that the chosen font lacks, which are read once.
+/// Returns the fonts that supply signs which the chosen font lacks. They are read at the first call only.
 pub(super) fn stand_ins() -> &'static [Font] {
     static READ: OnceLock<Vec<Font>> = OnceLock::new();
     READ.get_or_init(|| STAND_INS.iter().filter_map(|name| Font::built_in(name)).collect())
 }
 
 /// Returns the single-line fonts whose strokes are fitted to letters of other fonts, in the order of [`FONTS`]. They
-/// are read once.
+/// are read at the first call only.
 pub(super) fn spines() -> &'static [StrokeFace] {
     static READ: OnceLock<Vec<StrokeFace>> = OnceLock::new();
     READ.get_or_init(|| {

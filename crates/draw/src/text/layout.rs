@@ -15,10 +15,10 @@ use crate::drawing::Drawing;
 use crate::error::{DrawError, Made, Note};
 use crate::geometry::bounds;
 
-/// Largest number of characters that a note lists by name.
+/// Largest number of characters that a note names.
 const NAMED_MAX: usize = 20;
 
-/// Colours of a rainbow: red, yellow, green, cyan, blue, magenta.
+/// Colours of [`Colors::Rainbow`]: red, yellow, green, cyan, blue, magenta.
 const RAINBOW: [Rgb; 6] = [
     Rgb::new(255, 0, 0),
     Rgb::new(255, 255, 0),
@@ -31,15 +31,15 @@ const RAINBOW: [Rgb; 6] = [
 /// Draws the words as one drawing, with a part for each visible letter.
 ///
 /// # Errors
-/// `text-empty` without any visible sign, `text-too-long`, `text-settings` for numbers out of range, `text-no-glyphs`
-/// if no sign can be drawn, `text-too-detailed` if the letters have too many points.
+/// `text-empty` if no sign is visible, `text-too-long`, `text-settings` for numbers out of range. `text-no-glyphs` if
+/// no sign can be drawn, `text-too-detailed` if the letters have too many points.
 pub fn draw(settings: &TextSettings) -> Result<Made, DrawError> {
     check(settings)?;
     let (letters, notes) = lay_out(settings)?;
     Ok(Made { drawing: drawing(&letters, &settings.colors), notes })
 }
 
-/// Refuses settings that cannot be drawn.
+/// Returns an error for settings that cannot be drawn.
 pub(super) fn check(settings: &TextSettings) -> Result<(), DrawError> {
     let characters = settings.words.chars().count();
     if characters > CHARACTERS_MAX {
@@ -106,8 +106,8 @@ pub(super) fn lay_out(settings: &TextSettings) -> Result<(Vec<Letter>, Vec<Note>
     Ok((letters, notes))
 }
 
-/// Stacks lines below each other. All baselines have the same distance, the smallest that leaves `line_gap` between any
-/// two lines.
+/// Stacks lines below each other and aligns them. All baselines are equally far apart: as close as `line_gap` between
+/// all pairs of successive lines allows.
 fn stacked(lines: Vec<Shaped>, settings: &TextSettings) -> Vec<Letter> {
     let boxes: Vec<Option<(Vec2, Vec2)>> =
         lines.iter().map(|line| bounds(line.letters.iter().flat_map(Letter::ink))).collect();
@@ -128,7 +128,8 @@ fn stacked(lines: Vec<Shaped>, settings: &TextSettings) -> Vec<Letter> {
     letters
 }
 
-/// Returns the distance of baselines at which the closest two neighbouring lines touch; at least 1.
+/// Returns the distance between baselines at which the closest two successive lines touch; at least 1. `boxes`: the box
+/// around each line, with its baseline at 0; `None` for a blank line.
 pub(super) fn pitch(boxes: &[Option<(Vec2, Vec2)>]) -> f64 {
     let touching = boxes.windows(2).filter_map(|pair| match pair {
         [Some((upper, _)), Some((_, lower))] => Some(lower.y - upper.y),
@@ -137,7 +138,8 @@ pub(super) fn pitch(boxes: &[Option<(Vec2, Vec2)>]) -> f64 {
     touching.fold(1.0, f64::max)
 }
 
-/// Makes a drawing with one part for each letter, named by the letter and a count of that letter.
+/// Makes a drawing with one part for each letter. A part's name is its letter and a number, counted from 1 for each
+/// letter.
 pub(super) fn drawing(letters: &[Letter], colors: &Colors) -> Drawing {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let parts = letters.iter().enumerate().map(|(at, letter)| {
@@ -149,7 +151,7 @@ pub(super) fn drawing(letters: &[Letter], colors: &Colors) -> Drawing {
     Drawing { parts: parts.collect() }
 }
 
-/// Returns the colour of the letter with the index `at` of `of` letters.
+/// Returns the colour of letter number `at`, counted from 0, in a text of `of` letters.
 fn color(colors: &Colors, at: usize, of: usize) -> Rgb {
     match colors {
         Colors::One(color) => *color,

@@ -4,18 +4,18 @@ use lightbots_base::{Rgb, Vec2};
 
 use crate::drawing::{Area, DrawingPart, FillRule, Stroke};
 
-/// A letter at its place, in cap heights.
+/// A letter at its place in the text's drawing. Coordinates are in cap heights.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Letter {
-    /// What it shows: one character with its marks, or the characters of a ligature.
+    /// The text that it shows: one character with its marks, or the characters of a ligature.
     pub(super) text: String,
-    /// Its position in the text, in bytes.
+    /// Position of the letter in the text, in bytes.
     pub(super) at: usize,
-    /// Rings of its area; empty in a single-line font.
+    /// Rings of the letter's area; empty in a single-line font.
     pub(super) rings: Vec<Vec<Vec2>>,
-    /// Its lines in a single-line font; else empty.
+    /// Lines of the letter in a single-line font; otherwise empty.
     pub(super) lines: Vec<Vec<Vec2>>,
-    /// Lines that replace its area when robots are few; may be empty.
+    /// Lines that can replace the letter's area when there are few robots; may be empty.
     pub(super) spine: Vec<Vec<Vec2>>,
 }
 
@@ -27,7 +27,7 @@ impl Letter {
         self
     }
 
-    /// All points that are visible: areas and lines without the spine.
+    /// All points of the visible areas and lines, which are those without the spine.
     pub(super) fn ink(&self) -> impl Iterator<Item = &Vec2> {
         self.rings.iter().chain(&self.lines).flatten()
     }

@@ -1,6 +1,7 @@
-//! Splits a text into lines and words, with their positions.
+//! Splits a text into lines and words, each with its position in bytes.
 
-/// Returns the lines of a text with their positions in it, in bytes. Blank lines at both ends are dropped.
+/// Returns the lines of a text, each with its position in the text in bytes. Blank lines at the start and the end are
+/// dropped.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let filled = |line: &&str| !line.trim().is_empty();
     let mut end = 0;
@@ -15,7 +16,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     all.into_iter().take(last).skip(first)
 }
 
-/// Returns the words of a line with their positions in the line, in bytes.
+/// Returns the words of a line, each with its position in the line in bytes.
 pub(super) fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut from = 0;
     let all = line.split(char::is_whitespace).map(move |word| {

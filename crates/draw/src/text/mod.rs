@@ -1,6 +1,7 @@
-//! Turns words into drawings: fonts, letters and lines. A text is one drawing, or one for each word or scrolling step.
+//! Turns words into drawings: fonts, letters and lines. A text becomes one drawing, or a drawing for each word, or a
+//! drawing for each step of scrolling.
 //!
-//! The height of capitals is 1, y points up, and the baseline of the first line is 0.
+//! Unit of length: the height of capitals (cap height). y points up, and the baseline of the first line is at 0.
 
 mod accents;
 mod clip;

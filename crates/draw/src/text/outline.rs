@@ -8,16 +8,18 @@ use skrifa::{Font as FontFile, FontRef, GlyphId, MetadataProvider};
 
 use super::curve::Curve;
 
-/// Largest number of points of one letter. Ornate letters have about a thousand; a malicious font could have millions.
+/// Largest number of points of one letter; a letter with more is left out. Ornate letters have about a thousand points,
+/// a malicious font could have millions.
 const POINTS_MAX: usize = 20_000;
 
-/// Height of capitals relative to the em, for fonts that do not state it: the mean of common sans faces.
+/// Height of capitals as a share of the em, for fonts that do not state this height: the mean of common sans-serif
+/// fonts.
 const CAP_SHARE: f64 = 0.7;
 
-/// Largest coordinate of a sound glyph, in cap heights. A glyph with larger ones is broken.
+/// Largest absolute coordinate of a sound glyph, in cap heights. A glyph with larger coordinates is broken.
 const EXTENT_MAX: f64 = 1_000.0;
 
-/// Number of mapped characters that are tried for an outline when a font is read.
+/// Number of the font's first characters that are searched for an outline when the font is read.
 const TRIED: usize = 300;
 
 /// A font with outlines.
@@ -26,13 +28,13 @@ pub(super) struct Outlines {
     file: FontFile,
     /// Font units in one cap height.
     pub(super) unit: f64,
-    /// Distance by which all glyphs are moved up, in cap heights. Emoji fonts need it because their signs hang below
-    /// the baseline.
+    /// Distance by which all glyphs are moved up, in cap heights. It is 0 except for emoji fonts, whose signs hang
+    /// below the baseline.
     pub(super) lift: f64,
 }
 
 impl Outlines {
-    /// Reads the first font of a file. `None` if there is none.
+    /// Reads the first font of a file; `None` if the file has no font.
     pub(super) fn read(bytes: impl Into<Source>) -> Option<Self> {
         let file = FontFile::new(bytes, 0)?;
         let mut outlines = Self { file, unit: 1.0, lift: 0.0 };
@@ -70,19 +72,20 @@ impl Outlines {
         self.font()?.charmap().map(character).filter(|glyph| *glyph != GlyphId::NOTDEF)
     }
 
-    /// Whether any of the first mapped characters has an outline.
+    /// Whether any of the font's first [`TRIED`] characters has an outline.
     pub(super) fn has_letters(&self) -> bool {
         let Some(font) = self.font() else { return false };
         let mapped: Vec<GlyphId> = font.charmap().mappings().take(TRIED).map(|(_, glyph)| glyph).collect();
         mapped.into_iter().any(|glyph| !self.rings(glyph).is_empty())
     }
 
-    /// Returns the rings of a character in cap heights, at the origin. Empty if the font lacks the character.
+    /// Returns the rings of a character, in cap heights, with the start of the letter at x = 0. Empty if the font lacks
+    /// the character.
     pub(super) fn rings_of(&self, character: char) -> Vec<Vec<Vec2>> {
         self.glyph(character).map_or_else(Vec::new, |glyph| self.rings(glyph))
     }
 
-    /// Returns the rings of a glyph in cap heights, at the origin. Empty for a broken glyph.
+    /// Returns the rings of a glyph, in cap heights, with the start of the letter at x = 0. Empty for a broken glyph.
     pub(super) fn rings(&self, glyph: GlyphId) -> Vec<Vec<Vec2>> {
         let Some(outline) = self.font().and_then(|font| font.outline_glyphs().get(glyph)) else {
             return Vec::new();
@@ -102,7 +105,7 @@ impl Outlines {
         self.span(character).map(|(_, high)| high)
     }
 
-    /// Lowest and highest y of a character, in cap heights. `None` if the font lacks it.
+    /// Lowest and highest y of a character, in cap heights. `None` if the font does not have the character.
     fn span(&self, character: char) -> Option<(f64, f64)> {
         let rings = self.rings_of(character);
         let heights = rings.iter().flatten().map(|point| (point.y, point.y));
@@ -110,10 +113,10 @@ impl Outlines {
     }
 }
 
-/// Height of an emoji, in cap heights. It is a little above that of a capital because an emoji has more detail.
+/// Height of an emoji, in cap heights. It is a little above 1 because an emoji has more detail than a capital letter.
 const EMOJI_HEIGHT: f64 = 1.1;
 
-/// Lowest point of an emoji, in cap heights. With it an emoji is centred on the capitals.
+/// y of an emoji's lowest point, in cap heights. At this value an emoji is centred on the height of capitals.
 const EMOJI_FOOT: f64 = -0.05;
 
 /// Receives an outline in font units and converts it to cap heights.

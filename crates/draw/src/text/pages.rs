@@ -1,4 +1,4 @@
-//! Splits one text into several drawings: word by word, or scrolling.
+//! Splits one text into several drawings: one for each word, or one for each step of scrolling.
 
 use lightbots_base::Vec2;
 
@@ -11,23 +11,23 @@ use crate::drawing::{Drawing, DrawingPart};
 use crate::error::{DrawError, Made, Note};
 use crate::geometry::bounds;
 
-/// Largest number of steps of a scrolling text: five minutes at ten steps per second, and more than any show plays.
+/// Largest number of steps of a scrolling text: five minutes at ten steps per second, more than any show plays.
 pub const STEPS_MAX: usize = 3_000;
 
-/// Largest number of points of all steps together, which take about 100 MB of memory.
+/// Largest number of points of all steps together. This number takes about 100 MB of memory.
 const POINTS_MAX: usize = 4_000_000;
 
 /// One of several drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Page {
-    /// The word that it shows, or the number of its step.
+    /// The word that the drawing shows, or the number of its step.
     pub title: String,
     /// The drawing, and what is missing from it.
     pub made: Made,
 }
 
-/// Makes one drawing for each word. Colours begin anew with each word. A word of which no sign can be drawn is left
-/// out, with a note in the first drawing.
+/// Makes one drawing for each word. The first letter of each word has the first colour. A word without any sign that
+/// can be drawn is left out, and a note in the first drawing says so.
 ///
 /// # Errors
 /// As for [`draw`].
@@ -54,11 +54,11 @@ pub fn per_word(settings: &TextSettings) -> Result<Vec<Page>, DrawError> {
     Ok(pages)
 }
 
-/// Moves a text on one line to the left behind a window, in equal steps. Each step is a drawing.
+/// Moves a text on one line from right to left behind a window, in equal steps. Each step gives a drawing.
 ///
-/// A text wider than the window begins with its first letters at the left edge, and ends with its last letters at the
-/// right edge. A narrower text moves from the right edge to the left edge. The window begins at x = 0. Its width is
-/// from 0.5 to 1,000 cap heights. Steps in which the window is empty are left out.
+/// A text wider than the window begins with its first letter at the left edge and ends with its last letter at the
+/// right edge. A narrower text moves from the right edge to the left edge. The window begins at x = 0 and is `window`
+/// cap heights wide, 0.5 to 1,000. Steps in which the window is empty are left out.
 ///
 /// # Errors
 /// As for [`draw`], `text-settings` for a window or a number of steps out of range, and `text-too-detailed` for too
@@ -101,7 +101,8 @@ pub fn scrolling(settings: &TextSettings, window: f64, steps: usize) -> Result<V
     Ok(pages)
 }
 
-/// Returns the parts of letters that are visible in a window when the text is moved by `shift`.
+/// Returns the parts of the drawing that are visible in a window when the text is moved to the right by `shift`, in cap
+/// heights.
 fn cut(letters: &[Letter], colored: &Drawing, shift: f64, window: f64) -> Vec<DrawingPart> {
     let parts = letters.iter().zip(&colored.parts).filter_map(|(letter, part)| {
         let (low, high) = bounds(letter.ink())?;

@@ -1,27 +1,27 @@
-//! Measures the area of a letter: what is inside, how thick its strokes are, and where their middle is.
+//! Measures the area of a letter: which points are inside, how thick its strokes are, and where their middle is.
 
 use lightbots_base::Vec2;
 
 use crate::drawing::FillRule;
 use crate::geometry::{bounds, contains, edges};
 
-/// Corners of a rectangle with the smaller and the larger x and y.
+/// Corners of a rectangle: the one with the smaller, then the one with the larger x and y.
 pub(super) type Extent = (Vec2, Vec2);
 
-/// Largest width or height of a dot, in cap heights.
+/// A separate part of a letter is a dot if its width and height are below this, in cap heights.
 const BLOB_MAX: f64 = 0.4;
 
-/// Area of a letter, given by rings that may overlap. Points around which the winding number is not 0 are inside.
+/// Area of a letter, given by rings that may overlap. Points with a winding number other than 0 are inside.
 pub(super) struct LetterArea<'a> {
     rings: &'a [Vec<Vec2>],
-    /// Mean width of its strokes, in cap heights.
+    /// Mean width of the letter's strokes, in cap heights.
     pub(super) stem: f64,
-    /// Corners of the smallest rectangle around it.
+    /// Smallest rectangle around the letter.
     pub(super) extent: Extent,
 }
 
 impl<'a> LetterArea<'a> {
-    /// Returns the area of rings. `None` if they enclose no area.
+    /// Returns the area inside rings. `None` if they enclose no area.
     pub(super) fn new(rings: &'a [Vec<Vec2>]) -> Option<Self> {
         let extent = bounds(rings.iter().flatten())?;
         let mut region = Self { rings, stem: 0.0, extent };
@@ -32,8 +32,8 @@ impl<'a> LetterArea<'a> {
         (region.stem > 0.0).then_some(region)
     }
 
-    /// Returns the boxes around separate small parts, from the lowest up, and the box around the rest. Holes belong to
-    /// the part around them.
+    /// Returns the boxes around separate small parts (dots), the lowest first, and the box around all other parts. A
+    /// hole belongs to the part around it.
     pub(super) fn blobs(&self) -> (Vec<Extent>, Option<Extent>) {
         let boxes: Vec<Extent> = self.rings.iter().filter_map(|ring| bounds(ring.iter())).collect();
         let within = |a: &Extent, b: &Extent| {
@@ -66,8 +66,8 @@ impl<'a> LetterArea<'a> {
         self.edges().map(|(a, b)| distance(point, a, b)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the distance from a point along a direction to the middle of the nearest stroke. `None` if there is none
-    /// within one stroke width.
+    /// Returns the signed distance from a point, along `direction`, to the middle of the nearest stroke. `None` if
+    /// there is no middle within one stroke width.
     pub(super) fn middle(&self, point: Vec2, direction: Vec2) -> Option<f64> {
         let mut hits: Vec<f64> = self.edges().filter_map(|(a, b)| hit(point, direction, a, b)).collect();
         hits.sort_by(f64::total_cmp);
@@ -81,8 +81,8 @@ impl<'a> LetterArea<'a> {
     }
 }
 
-/// Longest cut across a stroke, in stroke widths. A longer one runs along a stroke or through a joint, and its middle
-/// is not that of a stroke.
+/// Longest cut across a stroke, in stroke widths. A longer cut runs along a stroke or through a joint, so that its
+/// middle is not the middle of a stroke.
 const STROKE_MAX: f64 = 1.7;
 
 fn hit(point: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
@@ -93,7 +93,7 @@ fn hit(point: Vec2, direction: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
     Some(direction.dot(a.lerp(b, from / (from - to)) - point))
 }
 
-/// Distance of a point from the straight segment between two others.
+/// Distance of a point from the straight segment between `a` and `b`.
 pub(super) fn distance(point: Vec2, a: Vec2, b: Vec2) -> f64 {
     let along = b - a;
     let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! Splits a line of text into runs from left to right, each with one direction and one font.
+//! Splits a line of text into runs, from left to right. Each run has one writing direction and one font.
 
 use std::ops::Range;
 
@@ -7,18 +7,18 @@ use unicode_normalization::char::is_combining_mark;
 
 use super::font::{Face, Font, stand_ins};
 
-/// A part of a line with one direction and one font.
+/// A part of a line with one writing direction and one font.
 pub(super) struct FontRun<'a> {
     /// Range of the run in the line, bytes.
     pub(super) bytes: Range<usize>,
-    /// Whether it runs from right to left.
+    /// Whether the run is written from right to left.
     pub(super) backwards: bool,
-    /// The font's letters. `None` if no font has the characters.
+    /// The font's letters; `None` if no font has the run's characters.
     pub(super) face: Option<&'a Face>,
 }
 
-/// Returns the runs of a line in visual order, from left to right. As in a paragraph, the first letter with a direction
-/// decides the direction of the line.
+/// Returns the runs of a line in visual order, from left to right. The first letter with a writing direction decides
+/// the direction of the whole line.
 pub(super) fn runs<'a>(line: &str, font: &'a Font) -> Vec<FontRun<'a>> {
     let bidi = BidiInfo::new(line, None);
     let mut runs = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn runs<'a>(line: &str, font: &'a Font) -> Vec<FontRun<'a>> {
     runs
 }
 
-/// Splits a piece into parts of one font each, in the order of the text.
+/// Splits a piece of a line into runs of one font each, in the order of the text.
 fn by_face<'a>(line: &str, piece: Range<usize>, backwards: bool, font: &'a Font) -> Vec<FontRun<'a>> {
     let mut parts: Vec<FontRun<'a>> = Vec::new();
     for unit in units(line, piece) {
@@ -57,7 +57,7 @@ fn same(a: Option<&Face>, b: Option<&Face>) -> bool {
     }
 }
 
-/// Returns the ranges of characters, each with the marks and joiners that follow it.
+/// Returns the ranges of characters in bytes, each with the marks and joiners that follow the character.
 fn units(line: &str, piece: Range<usize>) -> Vec<Range<usize>> {
     let mut units: Vec<Range<usize>> = Vec::new();
     let text = line.get(piece.clone()).unwrap_or_default();
@@ -78,7 +78,7 @@ pub(super) fn is_invisible(character: char) -> bool {
         || character.is_control()
 }
 
-/// Returns the first font that has a character and its marks, else the first that has the character. Blanks take the
+/// Returns the first font that has a character and its marks, or else the first that has the character. Blanks get the
 /// chosen font. `None` if no font has the character.
 fn face_for<'a>(unit: &str, font: &'a Font) -> Option<&'a Face> {
     let first = unit.chars().next()?;

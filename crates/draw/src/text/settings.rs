@@ -4,7 +4,7 @@ use lightbots_base::Rgb;
 
 use super::font::Font;
 
-/// Largest number of characters of a text, because the time for shaping grows faster than the length.
+/// Largest number of characters of a text. The time for shaping grows faster than the length.
 pub const CHARACTERS_MAX: usize = 2_000;
 
 /// Words and how they are drawn.
@@ -12,14 +12,14 @@ pub const CHARACTERS_MAX: usize = 2_000;
 pub struct TextSettings<'a> {
     /// The words. A line break begins a new line.
     pub words: &'a str,
-    /// The font. Signs that it lacks come from built-in fonts.
+    /// The font. Signs that it lacks are taken from built-in fonts.
     pub font: &'a Font,
-    /// Where lines stand that are shorter than the longest one.
+    /// How lines that are shorter than the longest line are aligned with it.
     pub align: Align,
-    /// Ratio of width to height that the text should fill, with line breaks between words. If `None`, lines break only
-    /// where `words` has line breaks.
+    /// Ratio of width to height of a rectangle that the text should fill: lines are broken between words for it.
+    /// `None`: lines break only where `words` has line breaks.
     pub wrap: Option<f64>,
-    /// Extra distance between letters, in cap heights; -0.5 to 5.
+    /// Extra distance between letters, in cap heights; -0.5 to 5. Negative: closer together.
     pub letter_gap: f64,
     /// Free height between two lines, in cap heights; 0 to 5.
     pub line_gap: f64,
@@ -27,7 +27,7 @@ pub struct TextSettings<'a> {
     pub colors: Colors,
 }
 
-/// Where lines stand that are shorter than the longest one.
+/// How lines that are shorter than the longest line are aligned with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Align {
     /// At the left edge.
@@ -44,7 +44,8 @@ pub enum Align {
 pub enum Colors {
     /// One colour for all letters.
     One(Rgb),
-    /// Colours in turn, in the order of the text, from the first again after the last. If empty, all letters are white.
+    /// The colours in turn, one for each letter in the order of the text. After the last colour, the first follows
+    /// again. If empty, all letters are white.
     Each(Vec<Rgb>),
     /// From red over green and blue to magenta, in the order of the text.
     Rainbow,

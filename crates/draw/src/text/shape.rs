@@ -1,4 +1,4 @@
-//! Shapes runs into letters: glyphs, kerning, marks and joined forms, by the font's own tables.
+//! Shapes runs of text into letters by the font's own tables: glyphs, kerning, marks and joined forms.
 
 use std::collections::BTreeMap;
 
@@ -14,21 +14,22 @@ use super::runs::{FontRun, is_invisible, runs};
 use super::spine::spine;
 use super::strokes::{StrokeFace, StrokeLine};
 
-/// Width of a blank in a font without one, in cap heights: about that of common sans faces.
+/// Width of a blank in a font without a blank, in cap heights: about that of common sans-serif fonts.
 const BLANK: f64 = 0.35;
 
-/// Largest number of points of a whole text: 32 MB of memory, ten times the need of 2,000 ornate letters.
+/// Largest number of points of a whole text. This number takes 32 MB of memory and is ten times the need of 2,000
+/// ornate letters.
 const POINTS_MAX: usize = 2_000_000;
 
-/// Largest advance of one glyph, in cap heights. A larger one comes from a broken font.
+/// Largest advance of one glyph, in cap heights. Larger values come from broken fonts and are reduced to this.
 const ADVANCE_MAX: f64 = 100.0;
 
 /// Letters of one line, and the width of the line.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shaped {
-    /// Letters from left to right, on the baseline y = 0.
+    /// Letters from left to right, with the baseline at y = 0.
     pub(super) letters: Vec<Letter>,
-    /// Width with the blanks at both ends, in cap heights.
+    /// Width of the line, including blanks at both ends, in cap heights.
     pub(super) width: f64,
 }
 
@@ -39,7 +40,8 @@ pub(super) struct Gathered {
     pub(super) missing: BTreeMap<char, usize>,
     /// Number of points of the outlines used.
     points: usize,
-    /// Area and spine of each letter. They are kept because finding a spine takes longer than all the rest.
+    /// For each letter, its area and its spine. They are kept because finding a spine takes longer than everything
+    /// else.
     spines: BTreeMap<String, (Rings, Vec<StrokeLine>)>,
 }
 
@@ -47,7 +49,7 @@ pub(super) struct Gathered {
 type Rings = Vec<Vec<Vec2>>;
 
 impl Gathered {
-    /// Whether the outlines have too many points, more than [`POINTS_MAX`].
+    /// Whether the outlines have more than [`POINTS_MAX`] points.
     pub(super) fn is_full(&self) -> bool {
         self.points > POINTS_MAX
     }
@@ -58,7 +60,7 @@ impl Gathered {
         }
     }
 
-    /// Returns the spine of a letter. It is computed again only if the letter's area has changed.
+    /// Returns the spine of a letter. A spine found before is used again if the letter's area is equal.
     fn spine(&mut self, shown: &str, rings: &Rings, outlines: &Outlines) -> Vec<StrokeLine> {
         if let Some((_, spine)) = self.spines.get(shown).filter(|(known, _)| known == rings) {
             return spine.clone();
@@ -69,8 +71,8 @@ impl Gathered {
     }
 }
 
-/// Shapes the letters of a line. `from` is the line's position in the text in bytes, `gap` the extra distance between
-/// letters in cap heights.
+/// Shapes the letters of a line. `from`: position of the line in the text, in bytes. `gap`: extra distance between
+/// letters, in cap heights.
 pub(super) fn shape(line: &str, from: usize, font: &Font, gap: f64, gathered: &mut Gathered) -> Shaped {
     let mut shaped = Shaped::default();
     for run in runs(line, font) {
@@ -85,12 +87,12 @@ pub(super) fn shape(line: &str, from: usize, font: &Font, gap: f64, gathered: &m
     shaped
 }
 
-/// A letter of an outline font while it is put together from its glyphs.
+/// A letter of an outline font while it is composed of glyphs.
 struct Cluster {
     start: usize,
     advance: f64,
     rings: Rings,
-    /// Whether the font lacks one of the letter's characters, such as a mark on a letter that the font has.
+    /// Whether the font lacks one of the letter's characters. Example: it has the letter but not the mark on it.
     lacking: bool,
 }
 
@@ -128,12 +130,12 @@ fn push(letter: Letter, advance: f64, out: &mut Shaped) {
     out.width += advance;
 }
 
-/// Whether letters are written joined; a gap would tear them apart.
+/// Whether letters are written joined (Arabic). A gap would separate them.
 fn is_joined(characters: &str) -> bool {
     characters.chars().any(|c| matches!(c, '\u{600}'..='\u{7bf}' | '\u{8a0}'..='\u{8ff}'))
 }
 
-/// Returns the clusters of a run in visual order.
+/// Returns the letters of a run in visual order, from left to right.
 fn clusters(text: &str, outlines: &Outlines, backwards: bool, gathered: &mut Gathered) -> Vec<Cluster> {
     let mut buffer = Buffer::new();
     buffer.push_str(text);

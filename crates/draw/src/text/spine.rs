@@ -1,4 +1,4 @@
-//! Finds the lines that replace the area of a letter when robots are few.
+//! Finds the spine of a letter: lines that can replace its area when there are few robots.
 
 use lightbots_base::Vec2;
 
@@ -8,7 +8,8 @@ use super::outline::Outlines;
 use super::region::LetterArea;
 use super::strokes::StrokeLine;
 
-/// Returns lines for the area of a letter. Empty if no lines lie well inside the area and cover it.
+/// Returns the spine for the area `rings` of the letter `shown`. Empty if no known lines are inside the area and cover
+/// it well enough.
 pub(super) fn spine(shown: &str, rings: &[Vec<Vec2>], outlines: &Outlines) -> Vec<StrokeLine> {
     let mut characters = shown.chars();
     let (Some(character), None) = (characters.next(), characters.next()) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Reads single-line fonts: SVG fonts with straight lines along the middle of each stroke.
+//! Reads single-line fonts: SVG fonts whose letters are straight lines along the middle of each stroke.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,13 +9,15 @@ use usvg::roxmltree::{Document, ParsingOptions};
 use super::region::distance;
 use crate::geometry::bounds;
 
-/// Size of a closed line, in cap heights, up to which it is a dot. Makers of such fonts draw dots as small squares.
+/// A closed line at most this wide and high is a dot, in cap heights. Makers of single-line fonts draw dots as small
+/// squares.
 const DOT_SHARE: f64 = 0.16;
 
-/// Length of the line that replaces a dot, in cap heights. It holds one robot and still has a direction.
+/// Length of the line that replaces a dot, in cap heights. It is so short that it holds one robot, but still has a
+/// direction.
 const DOT_LENGTH: f64 = 0.02;
 
-/// Distance, in cap heights, below which a piece of a line runs along another piece.
+/// A piece of a line retraces another piece if both its ends are closer than this to it, in cap heights.
 const SAME_PLACE: f64 = 0.015;
 
 /// A line of a letter, in cap heights.
@@ -24,7 +26,7 @@ pub(super) type StrokeLine = Vec<Vec2>;
 /// Lines of one letter.
 #[derive(Clone, Debug)]
 pub(super) struct StrokeGlyph {
-    /// Distance to the start of the next letter, in cap heights.
+    /// Distance from the start of the letter to the start of the next letter, in cap heights.
     pub(super) advance: f64,
     /// Its lines.
     pub(super) lines: Vec<StrokeLine>,
@@ -37,7 +39,8 @@ pub(super) struct StrokeFace {
 }
 
 impl StrokeFace {
-    /// Reads the font of an SVG file with `glyph` elements. `None` if the file is damaged or has no H.
+    /// Reads the font in an SVG file with `glyph` elements. `None` if the file is damaged or has no H, whose height is
+    /// the cap height.
     pub(super) fn read(svg: &str) -> Option<Self> {
         let options = ParsingOptions { allow_dtd: true, ..Default::default() };
         let document = Document::parse_with_options(svg, options).ok()?;
@@ -68,15 +71,15 @@ impl StrokeFace {
         self.glyph(character).is_some()
     }
 
-    /// Returns the lines of a character. `None` if the font lacks it.
+    /// Returns the lines of a character. `None` if the font does not have the character.
     pub(super) fn glyph(&self, character: char) -> Option<&StrokeGlyph> {
         self.glyphs.get(&character)
     }
 }
 
 impl StrokeGlyph {
-    /// Returns the glyph in cap heights above the foot of the capitals, with dots as short lines and without retraced
-    /// pieces.
+    /// Converts the glyph from font units to cap heights above the foot of the capitals. Dots become short lines, and
+    /// retraced pieces are removed.
     fn placed(self, foot: f64, scale: f64) -> Self {
         let placed = |line: StrokeLine| {
             line.into_iter().map(|point| Vec2::new(point.x, point.y - foot) * scale).collect()
@@ -87,7 +90,7 @@ impl StrokeGlyph {
     }
 }
 
-/// Reads the lines of a path of absolute `M` and `L` commands.
+/// Reads the lines of an SVG path that has only absolute `M` and `L` commands.
 fn lines(path: &str) -> Vec<StrokeLine> {
     let parts = path.split('M').map(|part| {
         let mut numbers =
@@ -101,7 +104,7 @@ fn lines(path: &str) -> Vec<StrokeLine> {
     parts.filter(|line| line.len() >= 2).collect()
 }
 
-/// Returns a short line in place of a small closed one; other lines unchanged.
+/// Returns a short line in place of a small closed line, and any other line unchanged.
 fn dotted(line: StrokeLine) -> StrokeLine {
     let Some((low, high)) = bounds(line.iter()) else { return line };
     let closed = line.first() == line.last();
@@ -114,8 +117,8 @@ fn dotted(line: StrokeLine) -> StrokeLine {
     vec![centre - half, centre + half]
 }
 
-/// Returns lines without pieces that run along a longer piece. Pens retrace their lines, but robots would stand there
-/// twice.
+/// Returns lines without the pieces that run along a longer piece. A pen may retrace its path, but robots would stand
+/// twice in one place.
 fn without_retraces(lines: &[StrokeLine]) -> Vec<StrokeLine> {
     let pieces: Vec<(Vec2, Vec2)> = lines.iter().flat_map(|line| pairs(line)).collect();
     let long = |at: usize| pieces[at].0.distance(pieces[at].1);

@@ -1,4 +1,4 @@
-//! Distributes words over the number of lines that fills a rectangle best.
+//! Distributes words over lines, in the number of lines with which the text fills a rectangle best.
 
 use super::lines::{lines, words};
 use super::settings::TextSettings;
@@ -7,21 +7,22 @@ use super::shape::{Gathered, shape};
 /// Largest number of lines that is tried.
 const LINES_MAX: usize = 60;
 
-/// Bisection steps in the search for the smallest width of lines. 2^-40 of the width is below any rounding that
-/// matters.
+/// Number of bisection steps in the search for the smallest width of lines. After them, 2⁻⁴⁰ of the width is left,
+/// which is negligible.
 const HALVINGS: usize = 40;
 
-/// Height of a line without its gap, in cap heights.
+/// Height of a line without the gap below it, in cap heights.
 const LINE: f64 = 1.0;
 
-/// A word with its position in the text and its width.
+/// A word: where it begins and ends in the text, in bytes, and its width, in cap heights.
 struct Word {
     from: usize,
     end: usize,
     width: f64,
 }
 
-/// Returns lines with their positions in the text. Line breaks of the text are kept.
+/// Returns the lines of the wrapped text, each with its position in the text in bytes. Line breaks of the text are
+/// kept. `ratio`: width over height of the rectangle to fill.
 pub(super) fn wrap(
     text: &str,
     ratio: f64,
@@ -58,7 +59,8 @@ pub(super) fn wrap(
         .collect()
 }
 
-/// Returns the smallest width at which the words need at most `wanted` lines. `None` if there is none.
+/// Returns the smallest width, in cap heights, at which the words need at most `wanted` lines. `None` if they need more
+/// at the width `all`.
 fn narrowest(paragraphs: &[Vec<Word>], blank: f64, wanted: usize, all: f64) -> Option<f64> {
     let fits = |width: f64| rows(paragraphs, blank, width).len() <= wanted;
     if !fits(all) {
@@ -82,7 +84,7 @@ struct Row {
     width: f64,
 }
 
-/// Fills lines of at most `width` with words, from the first word on. A word that is wider has a line of its own.
+/// Fills lines of at most `width` with words, from the first word on. A word wider than `width` gets a line of its own.
 fn rows(paragraphs: &[Vec<Word>], blank: f64, width: f64) -> Vec<Row> {
     let mut rows = Vec::new();
     for paragraph in paragraphs {

@@ -1,13 +1,13 @@
-//! Brakes and neighbours in all reports of the exam: R53.
+//! Checks the fields `brakes=` and `near=` in all reports of the exam: R53.
 
 use super::pilot::Pilot;
 use crate::received::Received;
 
-/// Largest plausible gap in a report, metres. No proximity sensor of such a robot sees farther, so a larger number is
+/// Largest plausible gap in `near=`, metres. No proximity sensor of a small robot reads farther, so a larger number is
 /// in another unit.
 const SIGHT_M: f64 = 1.0;
 
-/// Checks all reports of the exam.
+/// Records whether all reports of the exam keep R53. Does nothing for a robot that reports only name and place.
 pub(super) fn judge(pilot: &Pilot) {
     if !pilot.has_details {
         return;
@@ -18,7 +18,7 @@ pub(super) fn judge(pilot: &Pilot) {
     pilot.session.record(53, wrong.is_none(), "all of the above", expected, came);
 }
 
-/// The first report whose fields break the rule.
+/// Text of the first report whose `brakes=` or `near=` breaks R53; `None` if there is none.
 fn first_wrong(received: &[Received]) -> Option<String> {
     let mut most = 0;
     let breaks = |report: &&Received| {

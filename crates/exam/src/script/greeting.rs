@@ -1,4 +1,4 @@
-//! Choice of the robot, its first reports, and free floor around it: R3, R5, R9, R10, R13.
+//! Chooses the robot, checks its first reports, and finds free floor for its drives: R3, R5, R9, R10, R13.
 
 use std::collections::BTreeSet;
 
@@ -11,16 +11,16 @@ use crate::interface::{Ending, ExamEvent};
 use crate::received::Received;
 use crate::session::{Addressee, OtherRobot, Session};
 
-/// Time to wait for reports: status reports come every two seconds (R41).
+/// Time to wait for reports of robots. It is longer than the two seconds between status reports (R41).
 const LISTEN: Span = Span::from_millis(2_500);
-/// Number of `UUID` commands to find robots, because a robot may just be connecting. With fewer, a robot that
-/// reconnects may be missed.
+/// Largest number of `UUID` commands that are sent to find robots. A robot may just be connecting, and would be missed
+/// with fewer commands.
 const CALLS: u32 = 4;
 /// Time that a robot has to find its position after power-on: ten times the limit of R14.
 const FIRST_FIX: Span = Span::from_millis(5_000);
 
-/// Chooses the robot. Returns the names of all robots. Fails if there is no robot, or if there are several and none was
-/// requested.
+/// Chooses the robot. Returns the names of all robots that were found. Fails if there is no robot, or if there are
+/// several and none was requested.
 pub(super) async fn choose(session: &Session) -> Result<BTreeSet<String>, Ending> {
     let mut found = Err(Ending::NoRobot);
     for _ in 0..CALLS {
@@ -38,7 +38,7 @@ pub(super) async fn choose(session: &Session) -> Result<BTreeSet<String>, Ending
     Ok(names)
 }
 
-/// The requested robot, or the only one on the broker.
+/// The requested robot, or the only robot on the broker if none was requested.
 fn only_one(session: &Session) -> Result<RobotId, Ending> {
     let ids: Vec<RobotId> = session.others().keys().filter_map(|name| RobotId::new(name)).collect();
     match (session.options.robot, ids.as_slice()) {
@@ -49,7 +49,8 @@ fn only_one(session: &Session) -> Result<RobotId, Ending> {
     }
 }
 
-/// Tests that the robot answers `UUID` on both its topics and on no other.
+/// Tests that the robot answers `UUID` on its own topic and on Broadcast, and not on another robot's topic. Then reads
+/// its abilities and position from a report.
 pub(super) async fn introduce(pilot: &mut Pilot) -> Step {
     pilot.rule_if_silent.set(13);
     for (to, sent) in
@@ -114,7 +115,7 @@ async fn not_for_it(pilot: &Pilot) {
     pilot.session.record(5, count == 0, "|UUID| on another robot's topic", "nothing", came);
 }
 
-/// Tests the form of a report.
+/// Tests the form of a report, and reads the robot's abilities from it.
 fn read_report(pilot: &mut Pilot, received: &Received) {
     let fields: Vec<&str> = received.text.split_ascii_whitespace().collect();
     let is_java = |text: &str| text == "NaN" || (text.parse::<f64>().is_ok() && text.contains('.'));
@@ -137,7 +138,7 @@ fn read_report(pilot: &mut Pilot, received: &Received) {
     }
 }
 
-/// Whether a field of a report is valid (R10).
+/// Whether a field of a report has the form `key=value`, with a possible value if the key is known (R10).
 fn is_sensible(field: &str) -> bool {
     let Some((key, value)) = field.split_once('=') else { return false };
     let number = value.parse::<f64>().ok();
@@ -152,7 +153,7 @@ fn is_sensible(field: &str) -> bool {
     }
 }
 
-/// Tests that the reported position is on the floor; otherwise its unit is wrong.
+/// Tests that the reported position is on the floor. If it is not, its unit is probably wrong, and the script ends.
 fn on_the_floor(pilot: &mut Pilot, at: Vec2) -> Step {
     let (width_m, depth_m) = pilot.session.options.floor;
     let fits = at.x.abs() <= width_m / 2.0 + 0.1 && at.y.abs() <= depth_m / 2.0 + 0.1;
@@ -166,7 +167,7 @@ fn on_the_floor(pilot: &mut Pilot, at: Vec2) -> Step {
     Ok(())
 }
 
-/// Direction with the largest distance to the edge and to other robots.
+/// Unit vector of the direction from `home` in which there is most free floor, before the edge and other robots.
 fn direction(pilot: &Pilot, home: Vec2) -> Vec2 {
     let (width_m, depth_m) = pilot.session.options.floor;
     let others: Vec<Vec2> =

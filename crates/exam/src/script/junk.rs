@@ -7,7 +7,7 @@ use super::pilot::{ONCE, Pilot};
 use super::step::Step;
 use crate::session::Addressee;
 
-/// One byte more than a robot reads (R4).
+/// Length of a payload that is one byte longer than a robot must read (R4).
 const TOO_LONG: usize = 16 * 1024 + 1;
 
 pub(super) async fn run(pilot: &Pilot) -> Step {
@@ -45,7 +45,7 @@ fn payloads() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// Tests that the robot drops a whole payload that holds a valid command.
+/// Tests that the robot ignores a payload as a whole although it holds a valid command.
 async fn dropped(pilot: &Pilot, what: &str, payload: Vec<u8>) {
     let mark = pilot.session.mark();
     pilot.session.send_bytes(Addressee::Robot, payload);

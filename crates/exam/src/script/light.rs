@@ -5,18 +5,19 @@ use lightbots_base::{Instant, Rgb, Span};
 use super::pilot::Pilot;
 use crate::sight::{Question, Sight};
 
-/// Reason of rules that were not tried.
+/// Why rules about the light were not tried.
 const UNSEEN: &str = "the light was not watched; --look asks you about it";
-/// Colours of the tests: each channel alone, so that swapped channels show.
+/// Red alone. The tests use one channel at a time, because swapped channels then show.
 const RED: Rgb = Rgb::new(255, 0, 0);
 /// Green alone, as in `RED`.
 const GREEN: Rgb = Rgb::new(0, 255, 0);
 /// Blue alone, as in `RED`.
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// Time in which a person looks up. With less, the person would miss the beginning. A choice, not measured.
+/// Time that a person has to look up before a test begins. With less, the person would miss the beginning. Chosen, not
+/// measured.
 pub(super) const LOOK_UP: Span = Span::from_millis(3_000);
 
-/// Tests plain colours.
+/// Tests plain colours: red, green and blue.
 pub(super) async fn colours(pilot: &Pilot) {
     if !pilot.session.options.looks {
         return pilot.session.mark_untried(&[21, 22, 23, 24, 56, 57, 58, 60, 61, 62], UNSEEN);
@@ -33,7 +34,7 @@ pub(super) async fn colours(pilot: &Pilot) {
     }
 }
 
-/// Tests fades; the robot must be synchronised.
+/// Tests fades. The robot must be synchronised with the show clock.
 pub(super) async fn fades(pilot: &Pilot) {
     if !can_be_seen(pilot) || !pilot.can.fade {
         return;
@@ -78,7 +79,7 @@ pub(super) async fn blink(pilot: &Pilot) {
     ask(pilot, 24, &sent, text, "white flashes, then blue", sights).await;
 }
 
-/// Whether a person watches and colours are right.
+/// Whether a person watches the light, and the robot shows plain colours correctly.
 pub(super) fn can_be_seen(pilot: &Pilot) -> bool {
     pilot.session.options.looks && !pilot.session.is_broken(21)
 }

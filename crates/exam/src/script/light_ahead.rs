@@ -1,4 +1,4 @@
-//! Light ahead of time: R55 by reports, R56 to R58 if a person watches the light.
+//! Stretches of light, which are sent ahead of time: R55 by reports, R56 to R58 if a person watches the light.
 
 use lightbots_base::{Instant, LightRecord, Rgb, Span};
 use lightbots_wire::{Command, LightAnchor, LightRecords, LightStretch, Topic, encode};
@@ -11,10 +11,10 @@ use crate::sight::Sight;
 const RED: Rgb = Rgb::new(255, 0, 0);
 const GREEN: Rgb = Rgb::new(0, 255, 0);
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// Time beyond the end of the exam: a stretch that begins then never plays.
+/// A stretch that begins this long after now never plays, because the exam is over before.
 const NEVER: Span = Span::from_millis(3_000_000);
 
-/// Tests stretches of light; the robot must be synchronised.
+/// Tests stretches of light. The robot must be synchronised with the show clock.
 pub(super) async fn run(pilot: &Pilot) {
     if !pilot.can.light {
         return;
@@ -40,8 +40,8 @@ fn stretch(number: u32, at: Instant, records: &[LightRecord]) -> String {
     text
 }
 
-/// Tests that the robot reports the number of a stretch at once. After an older stretch it must report the newest
-/// number.
+/// Tests that the robot reports the number of a stretch at once. After a stretch with a lower number it must still
+/// report the highest number.
 async fn keeps(pilot: &Pilot, number: u32) {
     let at = pilot.session.show() + NEVER;
     for sent_number in [number, number - 5] {
@@ -63,7 +63,7 @@ async fn keeps(pilot: &Pilot, number: u32) {
     pilot.send("|STOP|");
 }
 
-/// Tests that a step, a line and a repeat are played from their moment on.
+/// Tests that the robot plays a step, a line and a repeat of a stretch from the stretch's moment on.
 async fn plays(pilot: &Pilot, number: u32) {
     let begin = pilot.session.now() + LOOK_UP;
     let records = [
@@ -87,7 +87,7 @@ async fn plays(pilot: &Pilot, number: u32) {
     ask(pilot, 57, &sent, text, "red, green to blue, green to blue", sights).await;
 }
 
-/// Tests that the time of a stretch stands while routes are held.
+/// Tests that the time of a stretch stands still while routes are held.
 async fn stands_in_a_hold(pilot: &Pilot, number: u32) {
     let begin = pilot.session.now() + LOOK_UP;
     let shift = pilot.session.shift();
@@ -104,7 +104,7 @@ async fn stands_in_a_hold(pilot: &Pilot, number: u32) {
     ask(pilot, 56, &sent, text, "red for six seconds, then green", sights).await;
 }
 
-/// Tests that `STOP` deletes a stretch that waits.
+/// Tests that `STOP` deletes a stretch that has not begun.
 async fn forgets(pilot: &Pilot, number: u32) {
     let at = pilot.session.show() + LOOK_UP;
     let sent = stretch(number, at, &[LightRecord::Step { ticks: 10, to: GREEN }]);

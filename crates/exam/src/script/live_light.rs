@@ -12,11 +12,11 @@ use crate::sight::Sight;
 const RED: Rgb = Rgb::new(255, 0, 0);
 const GREEN: Rgb = Rgb::new(0, 255, 0);
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// Slots that the robot is given in turn: the largest possible one, then one of a full message, which the robot keeps.
+/// Slots that the robot is given one after the other: first the largest possible slot, then slot 100, which it keeps.
 const SLOTS: [u16; 2] = [65_535, 100];
-/// Number of the first message; later ones have higher numbers.
+/// Number of the first message of live light; later messages have higher numbers.
 const NUMBER: u32 = 1_000;
-/// Time between two equal messages, as a controller repeats them (R63).
+/// Time between two equal messages. A controller repeats messages in the same way (R63).
 const AGAIN: Span = Span::from_millis(500);
 
 /// Tests live light.
@@ -59,8 +59,8 @@ async fn keeps(pilot: &Pilot, slot: u16) {
     pilot.session.record(59, is_kept, &sent, &expected, if is_kept { "it" } else { "no such report" });
 }
 
-/// Tests that the newest colour of the robot's slot is shown. Colours of other slots and old messages must change
-/// nothing.
+/// Tests that the robot shows the newest colour of its slot. Colours of other slots and messages with lower numbers
+/// must change nothing.
 async fn shows(pilot: &Pilot) {
     pilot.send(format!("|COLOR {}|", BLUE.number()));
     pilot.session.pause(LOOK_UP).await;
@@ -82,7 +82,7 @@ async fn shows(pilot: &Pilot) {
     ask(pilot, 60, &sent, text, "red for two seconds, then green", sights).await;
 }
 
-/// Tests that `RELEASE` of its slot ends live light, and that `RELEASE` of other slots does not.
+/// Tests that `RELEASE` of the robot's slot ends live light, and that `RELEASE` of other slots does not.
 async fn is_released(pilot: &Pilot) {
     let [_, slot] = SLOTS;
     pilot.session.pause(LOOK_UP).await;
@@ -121,7 +121,7 @@ async fn falls_back(pilot: &Pilot) {
     ask(pilot, 61, &sent, text, "red for three seconds, then blue", sights).await;
 }
 
-/// Tests that a `COLOR` received during live light is shown when live light ends.
+/// Tests that the robot shows a `COLOR` that it received during live light after live light has ended.
 async fn goes_on_beneath(pilot: &Pilot) {
     let [_, slot] = SLOTS;
     pilot.session.pause(LOOK_UP).await;
@@ -140,7 +140,7 @@ async fn goes_on_beneath(pilot: &Pilot) {
     ask(pilot, 62, &sent, text, "red for two seconds, then green", sights).await;
 }
 
-/// Sends a payload to all robots every `AGAIN`, because one message may be lost.
+/// Sends a payload to all robots `times` times, once every `AGAIN`, because one message may be lost.
 async fn repeat(pilot: &Pilot, payload: &str, times: u32) {
     for _ in 0..times {
         pilot.session.send(Addressee::AllRobots, payload);

@@ -1,4 +1,4 @@
-//! The script of an exam: one file per subject. Each file tries some rules and leaves the robot at rest.
+//! The script of an exam, with a file for each subject. Each file tests some rules and leaves the robot at rest.
 
 mod encounters;
 mod greeting;
@@ -25,7 +25,7 @@ use crate::session::Session;
 use pilot::Pilot;
 use step::{Halt, Step};
 
-/// Runs the whole script.
+/// Runs the whole script. Returns how the exam ended.
 pub(crate) async fn run(session: Rc<Session>) -> Ending {
     let known = match greeting::choose(&session).await {
         Ok(known) => known,
@@ -90,7 +90,7 @@ fn doing(pilot: &Pilot, what: &'static str) {
     pilot.session.emit(ExamEvent::Doing(what));
 }
 
-/// Marks rules whose ability the robot lacks as unsupported.
+/// Marks each rule about an ability that the robot does not have as unsupported.
 fn note_abilities(pilot: &Pilot) {
     let can = pilot.can;
     for rule in &RULES {

@@ -1,4 +1,4 @@
-//! Splitting and reading of payloads: R4, R6, R7.
+//! How the robot splits and reads payloads: R4, R6, R7.
 
 use lightbots_base::Span;
 use lightbots_wire::Topic;
@@ -18,7 +18,7 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests whether the robot answers `UUID` within a payload; `wanted`: whether it must.
+/// Tests whether the robot finds the command `UUID` in the payload `sent`. `wanted`: whether it must answer.
 pub(super) async fn answers(pilot: &Pilot, rule: u8, sent: &str, wanted: bool) -> Step {
     let mark = pilot.send(sent);
     let patience = if wanted { ANSWER } else { ONCE };
@@ -34,7 +34,7 @@ pub(super) async fn answers(pilot: &Pilot, rule: u8, sent: &str, wanted: bool) -
     pilot.ask().await.map(|_| ())
 }
 
-/// Tests that invalid commands are counted and have no other effect.
+/// Tests that the robot counts invalid commands in `unknown=`, and that they have no other effect.
 async fn counts_unknown(pilot: &Pilot) -> Step {
     let sent = "|TARGET 1||TARGET left right||COLOR 16777216||COLOR red|";
     let before = pilot.ask().await?;
@@ -54,7 +54,7 @@ async fn counts_unknown(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that all received messages are valid text.
+/// Tests that all messages from the robot are UTF-8 of allowed length.
 fn reports_are_text(pilot: &Pilot) {
     let wrong = pilot.session.since(0, |received| {
         received.iter().find(|received| !received.is_proper).map(|received| received.text.clone())

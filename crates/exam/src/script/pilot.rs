@@ -1,4 +1,4 @@
-//! Common actions of the script: ask the robot for its position, send it somewhere, watch it.
+//! Actions that many parts of the script need: ask the robot for its position, send it somewhere, watch it.
 
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -11,47 +11,51 @@ use super::step::{Halt, Step};
 use crate::received::Received;
 use crate::session::{Addressee, Session};
 
-/// Longest time to wait for an answer. An Elisa-3 answers within one step of 16 ms; the rest is for slow networks.
+/// Longest time to wait for an answer of the robot. An Elisa-3 answers within one step of 16 ms; the rest is for slow
+/// networks.
 pub(super) const ANSWER: Span = Span::from_millis(2_000);
-/// Time after an answer in which a second answer counts as a duplicate.
+/// Time after an answer in which a further answer counts as a duplicate.
 pub(super) const ONCE: Span = Span::from_millis(1_000);
-/// Length of a drive, metres: it takes 1.1 s at the largest speed of R20, so that commands can arrive on the way.
+/// Length of a drive, metres. It takes 1.1 s at the largest speed of R20, so that commands can arrive on the way.
 pub(super) const WAY_M: f64 = 0.3;
-/// Largest distance from the first position, metres: `WAY_M` and 0.25 m more. Beyond it the robot is stopped, because people
-/// leave 0.5 m free.
+/// Largest distance of the robot from its first position, metres: `WAY_M` and 0.25 m more. Farther away the exam stops
+/// the robot, because people leave only 0.5 m free.
 const RANGE_M: f64 = 0.55;
-/// Largest difference of two positions of a standing robot, metres: 7 sigma of the 2 mm noise in docs/simulator.md.
+/// Largest distance between two reported positions of a robot that stands still, metres: 7 sigma of the 2 mm noise in
+/// docs/simulator.md.
 pub(super) const STILL_M: f64 = 0.015;
-/// Largest distance from a reached target, metres: 0.02 m of R17 and 5 mm for a fix between test and report.
+/// Largest distance in each coordinate from a target that the robot has reached, metres: 0.02 m of R17, and 5 mm for a
+/// fix between arrival and report.
 pub(super) const THERE_M: f64 = 0.025;
-/// Interval of position requests to a moving robot. A longer one would make its measured speed less precise
+/// Time between position requests to a moving robot. A longer time would make the measured speed less precise
 /// (`fastest_mps`).
 const LOOK: Span = Span::from_millis(150);
 
 /// The robot under test.
 pub(super) struct Pilot {
     pub session: Rc<Session>,
-    /// Names of all robots before the exam.
+    /// Names of all robots that were found before the exam.
     known: BTreeSet<String>,
     pub can: Abilities,
     pub has_details: bool,
-    /// Position at the beginning, stage metres.
+    /// Position of the robot at the beginning, stage metres.
     pub home: Vec2,
-    /// Target of drives, stage metres.
+    /// Place to which the robot is sent from `home`, stage metres.
     pub away: Vec2,
     placed: Cell<bool>,
-    /// Shortest time from a command to its answer.
+    /// Shortest time until now from a command to its answer.
     round_trip: Cell<Span>,
-    /// Rule that is broken if the robot falls silent now.
+    /// Number of the rule that is broken if the robot falls silent now.
     pub rule_if_silent: Cell<u8>,
+    /// Number of the newest route of the exam.
     pub seq: Cell<u32>,
 }
 
-/// Observations of a drive.
+/// What was observed of a drive.
 pub(super) struct Trip {
     /// Moments (exam's clock) and positions, sorted by time.
     pub places: Vec<(Instant, Vec2)>,
-    /// Whether the robot stands at its goal.
+    /// Whether the robot came to rest at its goal.
     pub reached: bool,
 }
 
@@ -71,31 +75,31 @@ impl Pilot {
         }
     }
 
-    /// Whether the robot knows its position.
+    /// Whether the robot has reported a position on the floor.
     pub fn is_placed(&self) -> bool {
         self.placed.get()
     }
 
-    /// Sets the position at the beginning.
+    /// Sets the robot's position at the beginning.
     pub fn set_home(&mut self, home: Vec2) {
         self.home = home;
         self.placed.set(true);
     }
 
-    /// Half the shortest time from a command to its answer: about the age of a report.
+    /// Half the shortest time from a command to its answer: about the age of a report when it arrives.
     pub fn delay(&self) -> Span {
         Span(self.round_trip.get().0 / 2)
     }
 
-    /// Sends a payload to the robot. Returns the mark after which answers come.
+    /// Sends a payload to the robot. Returns the mark from which on its answers are found.
     pub fn send(&self, text: impl Into<String>) -> usize {
         let mark = self.session.mark();
         self.session.send(Addressee::Robot, text);
         mark
     }
 
-    /// Requests a report with `UUID`, up to three times. Without an answer the robot counts as silent, and the script
-    /// ends.
+    /// Requests a report with `UUID`, up to three times. If there is no answer, the robot has fallen silent, and the
+    /// script ends.
     pub async fn ask(&self) -> Step<Received> {
         for _ in 0..3 {
             let asked = self.session.now();
@@ -119,7 +123,7 @@ impl Pilot {
         Err(self.fell_silent().await)
     }
 
-    /// Requests the position, stage metres. Fails if the robot no longer knows it.
+    /// Requests the robot's position, stage metres. The script ends if the robot no longer knows it.
     pub async fn place(&self) -> Step<Vec2> {
         let received = self.ask().await?;
         match received.place() {
@@ -128,7 +132,7 @@ impl Pilot {
         }
     }
 
-    /// Requests positions until the robot stands at `goal` or `most` has passed.
+    /// Requests positions until the robot stands at `goal`, or until `most` has passed.
     pub async fn watch(&self, goal: Vec2, most: Span) -> Step<Trip> {
         let until = self.session.now() + most;
         let mut trip = Trip { places: Vec::new(), reached: false };
@@ -144,7 +148,7 @@ impl Pilot {
         }
     }
 
-    /// Whether the robot stands: its positions during `span` are equal but for noise.
+    /// Whether the robot stands: for the time `span`, its positions differ only by noise.
     pub async fn stands(&self, span: Span) -> Step<bool> {
         let first = self.place().await?;
         let until = self.session.now() + span;
@@ -159,7 +163,7 @@ impl Pilot {
         Ok(true)
     }
 
-    /// Sends the robot to a target, with decimal points, and waits until it is there, for at most 15 s.
+    /// Sends the robot to a target and waits until it stands there, for at most 15 s.
     pub async fn drive_to(&self, goal: Vec2) -> Step<Trip> {
         self.send(target(goal));
         self.watch(goal, Span::from_millis(15_000)).await
@@ -181,7 +185,7 @@ impl Pilot {
         Err(Halt("it drove too far away and was stopped".into()))
     }
 
-    /// Records silence, or a change of the robot's name. Returns why the script ends.
+    /// Records that the robot fell silent, or changed its name. Returns why the script ends.
     async fn fell_silent(&self) -> Halt {
         let asked = self.session.now();
         self.session.send(Addressee::AllRobots, "|UUID|");
@@ -200,13 +204,13 @@ impl Pilot {
 }
 
 impl Trip {
-    /// Whether the last three positions are equal but for noise.
+    /// Whether the last three positions differ only by noise.
     fn rests(&self) -> bool {
         let [.., (_, a), (_, b), (_, c)] = self.places[..] else { return false };
         a.distance(c) <= 0.008 && b.distance(c) <= 0.008
     }
 
-    /// Highest mean speed over at least 0.4 s, m/s, minus the part that noise and network explain.
+    /// Highest mean speed over at least 0.4 s, m/s, reduced by what noise and network delay may have added.
     pub fn fastest_mps(&self) -> f64 {
         let mut fastest = 0.0_f64;
         for (index, (from_at, from)) in self.places.iter().enumerate() {
@@ -220,7 +224,8 @@ impl Trip {
     }
 }
 
-/// Whether both coordinates are within `bound_m` of the goal, as in the original's arrival test (R17).
+/// Whether each coordinate differs from the goal's by at most `bound_m` metres, as in the original's test of arrival
+/// (R17).
 pub(super) fn within(at: Vec2, goal: Vec2, bound_m: f64) -> bool {
     (at.x - goal.x).abs() <= bound_m && (at.y - goal.y).abs() <= bound_m
 }

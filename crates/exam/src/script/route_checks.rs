@@ -1,4 +1,4 @@
-//! Checks of a robot on a timed path: R27, R35, R36, R41.
+//! Checks how a robot follows a timed path: R27, R35, R36, R41.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
@@ -8,12 +8,12 @@ use super::targets::arrivals;
 use super::timed_route::{Fit, TimedRoute};
 use crate::received::Received;
 
-/// Largest distance from the route, metres: four times the typical 5 mm of R35.
+/// Largest allowed distance from the route, metres: four times the typical 5 mm of R35.
 const BESIDE_M: f64 = 0.02;
-/// Largest delay along the route: ten times the 5 ms of R27. The age of reports is added to it.
+/// Largest allowed delay along the route: ten times the 5 ms of R27. The age of reports is added to it.
 const LATE: Span = Span::from_millis(50);
 
-/// Records the distance from the path (R35) and the delay along it (R27).
+/// Records the robot's distance from the path (R35) and its delay along it (R27), from the reports since `mark`.
 pub(super) fn judge_fit(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
     let fit =
         pilot.session.since(mark, |received| timed_route.fit(received, pilot.session.shift(), pilot.delay()));
@@ -31,7 +31,8 @@ pub(super) fn judge_fit(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
     judge_time(pilot, fit.late_s, 27, &sent);
 }
 
-/// Records whether the robot is where the show clock says, along its path.
+/// Records for `rule` whether the robot is as far along its path as the show clock demands. `late_s`: its delay,
+/// seconds; `None`: no report from the middle of the path.
 pub(super) fn judge_time(pilot: &Pilot, late_s: Option<f64>, rule: u8, sent: &str) {
     let bound_s = (LATE + pilot.delay()).as_secs();
     let expected = format!("along the path within {:.0} ms of the show clock", bound_s * 1e3);
@@ -42,13 +43,13 @@ pub(super) fn judge_time(pilot: &Pilot, late_s: Option<f64>, rule: u8, sent: &st
     pilot.session.record(rule, late_s.is_some_and(|late_s| late_s.abs() <= bound_s), sent, &expected, came);
 }
 
-/// Records whether a robot reports and all its reports are at most [`BESIDE_M`] from the path.
+/// Records for `rule` whether the robot reports, and all reported places are at most [`BESIDE_M`] from the path.
 pub(super) fn record_beside(pilot: &Pilot, rule: u8, fit: &Fit, sent: &str, expected: &str) {
     let came = format!("up to {:.0} mm beside it in {} reports", fit.beside_m * 1e3, fit.reports);
     pilot.session.record(rule, fit.reports > 0 && fit.beside_m <= BESIDE_M, sent, expected, came);
 }
 
-/// Tests that one arrival comes, at the end, with the number of the route.
+/// Tests that exactly one arrival is reported, at the end of the route, with the route's number.
 pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
     let seq = u64::from(timed_route.route.seq);
     let end = timed_route.path().end();
@@ -77,7 +78,7 @@ pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize
     pilot.session.record(36, there && in_time, &sent, &expected, words);
 }
 
-/// Tests that reports come every 0.5 s while the robot drives, with gaps of at most 1 s.
+/// Tests that the robot reports while it drives, with gaps of at most 1 s; R41 demands a report every 0.5 s.
 pub(super) fn statuses(pilot: &Pilot, mark: usize, timed_route: &TimedRoute) {
     let shift = pilot.session.shift();
     let moments: Vec<Instant> = pilot.session.since(mark, |received| {

@@ -1,4 +1,4 @@
-//! Timed paths: R12, R27, R31 to R36, R41, R42.
+//! Tests of routes, which are timed paths: R12, R27, R31 to R36, R41, R42.
 
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Route, Topic};
@@ -10,9 +10,10 @@ use super::timed_route::{TimedRoute, curve, rest, straight, text};
 use crate::received::Received;
 use crate::session::Addressee;
 
-/// Cruising speed of the routes, m/s: three quarters of the limit of R20. An error of 5 mm is then one of 25 ms.
+/// Cruising speed of the routes, m/s: three quarters of the limit of R20. An error of 5 mm along the path is then 25
+/// ms.
 pub(super) const SPEED_MPS: f64 = 0.2;
-/// Time from a `START` to its moment: several round trips of slow networks.
+/// Time from sending a `START` to its moment: several round trips of slow networks.
 pub(super) const LEAD: Span = Span::from_millis(1_500);
 
 pub(super) async fn run(pilot: &Pilot) -> Step {
@@ -30,14 +31,14 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     one_report(pilot).await
 }
 
-/// Chooses route numbers far from the reported one, so that no route counts as old (R32).
+/// Chooses route numbers far from the number that the robot reports, so that no route of the exam counts as old (R32).
 async fn number_them(pilot: &Pilot) -> Step {
     let known = pilot.ask().await?.whole("route").unwrap_or(0) as u32;
     pilot.seq.set(known.wrapping_add(1000).max(1000));
     Ok(())
 }
 
-/// Number of the next route.
+/// Returns a new route number.
 pub(super) fn next_seq(pilot: &Pilot) -> u32 {
     pilot.seq.set(pilot.seq.get().wrapping_add(1).max(1));
     pilot.seq.get()
@@ -47,7 +48,7 @@ fn status(received: &Received) -> Option<Received> {
     (received.topic == Topic::Status).then(|| received.clone())
 }
 
-/// Sends a route; returns whether the robot reports that it keeps it.
+/// Sends a route. Returns whether the robot reports that it keeps the route.
 pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
     let sent = text(route);
     let wanted = u64::from(route.seq);
@@ -74,7 +75,8 @@ pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
     false
 }
 
-/// Sends `START`; returns the reported start moment, microseconds.
+/// Sends `START` for route `seq` with the moment `at`. Returns the start moment that the robot reports, microseconds on
+/// the show clock; `None` if it reports none.
 pub(super) async fn start(pilot: &Pilot, to: Addressee, seq: u32, at: Instant) -> Option<u64> {
     let mark = pilot.session.mark();
     pilot.session.send(to, format!("|START {seq} {}|", at.0));
@@ -83,7 +85,7 @@ pub(super) async fn start(pilot: &Pilot, to: Addressee, seq: u32, at: Instant) -
     pilot.session.wait_for(mark, ONCE, said).await
 }
 
-/// A straight route to `away`, with the tests before it: R31 to R33, R35, R36, R12, R27.
+/// Tests a straight route to `away`, and what the robot does before it starts: R31 to R33, R35, R36, R12, R27.
 async fn forth(pilot: &Pilot) -> Step {
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
     // No target is under way, because it would end the route.
@@ -109,7 +111,7 @@ async fn forth(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that the robot keeps the route and waits at its start.
+/// Tests that the robot keeps a route and waits where the route starts.
 async fn waits(pilot: &Pilot, route: &Route) -> Step {
     // A robot updates its state once per step.
     pilot.session.pause(Span::from_millis(200)).await;
@@ -136,7 +138,7 @@ async fn waits(pilot: &Pilot, route: &Route) -> Step {
     Ok(())
 }
 
-/// Tests that invalid and old routes change nothing.
+/// Tests that invalid routes and a route with an old number change nothing.
 async fn refuses(pilot: &Pilot, route: &Route) {
     let seq = route.seq;
     for (rule, sent) in [
@@ -160,8 +162,8 @@ async fn refuses(pilot: &Pilot, route: &Route) {
     }
 }
 
-/// Sends a `START`, a later one, an earlier one, and one for another route. Returns the start that the robot reported
-/// last.
+/// Sends four `START` commands: a first one, a later one, an earlier one, and one for another route. Stops at the first
+/// wrong answer. Returns the start moment that the robot reported last.
 async fn moved_start(pilot: &Pilot) -> Instant {
     let seq = pilot.seq.get();
     let first = pilot.session.show() + LEAD;
@@ -186,7 +188,7 @@ async fn moved_start(pilot: &Pilot) -> Instant {
     Instant(goes_by)
 }
 
-/// Tests that the robot turns towards its path, or away from it, before it leaves.
+/// Tests that the robot, before it leaves, has turned so that it faces along its path or the opposite way.
 async fn towards_the_way(pilot: &Pilot, from: Vec2, to: Vec2) -> Step {
     let heading = pilot.ask().await?.field("h").and_then(|text| text.parse::<f64>().ok());
     if let Some(heading) = heading {
@@ -203,7 +205,7 @@ async fn towards_the_way(pilot: &Pilot, from: Vec2, to: Vec2) -> Step {
     Ok(())
 }
 
-/// Tests that the robot does not leave before its moment.
+/// Tests that the robot does not leave before the start moment.
 async fn not_before(pilot: &Pilot, timed_route: &TimedRoute) -> Step {
     let left = timed_route.starts - pilot.session.show();
     pilot.session.pause(Span((left.0 - 250_000).max(0))).await;
@@ -219,7 +221,8 @@ async fn not_before(pilot: &Pilot, timed_route: &TimedRoute) -> Step {
     Ok(())
 }
 
-/// Requests a status every 0.1 s until the route is over. Returns the mark before the reports.
+/// Requests a status report every 0.1 s until the route is over. Returns the mark from which on these reports are
+/// found.
 pub(super) async fn follow(pilot: &Pilot, timed_route: &TimedRoute) -> Step<usize> {
     let mark = pilot.session.mark();
     let until = timed_route.over() + Span::from_millis(700);
@@ -230,7 +233,7 @@ pub(super) async fn follow(pilot: &Pilot, timed_route: &TimedRoute) -> Step<usiz
     Ok(mark)
 }
 
-/// Tests a curve back to `home`.
+/// Tests a route with curves back to `home`.
 async fn back_on_a_curve(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.away).await?;
     let route = curve(next_seq(pilot), pilot.away, pilot.home, Span::from_millis(5_000));
@@ -249,7 +252,8 @@ async fn back_on_a_curve(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests a route that replaces another one under way, without asking for status: R34, R41.
+/// Tests a route that replaces another route under way. No status is requested meanwhile, to test periodic reports:
+/// R34, R41.
 async fn chained(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     let resting = rest(next_seq(pilot), pilot.home, Span::from_millis(60_000));
@@ -285,7 +289,7 @@ async fn chained(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that many requests at once get one report.
+/// Tests that several requests for a status in one payload get one report.
 async fn one_report(pilot: &Pilot) -> Step {
     let mark = pilot.send("|STATUS||STATUS||STATUS||STATUS||STATUS||STATUS|");
     pilot.session.pause(ONCE).await;

@@ -10,7 +10,7 @@ use super::timed_route::straight;
 use crate::received::Received;
 use crate::session::{Addressee, TimeAnswers};
 
-/// Speed of the route, m/s: 0.3 m then take 7.5 s, longer than the silence.
+/// Speed of the route, m/s. 0.3 m then take 7.5 s, longer than the silence.
 const SLOW_MPS: f64 = 0.04;
 
 pub(super) async fn run(pilot: &Pilot) -> Step {
@@ -47,7 +47,8 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Records R43: `cut_after` is the time from the beginning of the silence to `state=cut`.
+/// Records R43. `cut_after`: time from the beginning of the silence to `state=cut`; `None`: it was not reported.
+/// `stands`: whether the robot stands afterwards.
 fn record_cut(pilot: &Pilot, cut_after: Option<Span>, stands: bool) {
     let in_time = cut_after.is_some_and(|after| (1.0..=3.2).contains(&after.as_secs()));
     let cut = cut_after.map_or_else(
@@ -59,7 +60,8 @@ fn record_cut(pilot: &Pilot, cut_after: Option<Span>, stands: bool) {
     pilot.session.record(43, in_time && stands, sent, "state=cut after 2 s, and it stands", came);
 }
 
-/// Records R45: `state` is the state after the first message, `drives` whether the robot reached a target.
+/// Records R45. `state`: the robot's state after the first message that follows the silence. `drives`: whether it then
+/// reached a target.
 fn record_free(pilot: &Pilot, state: &str, drives: bool) {
     let came = format!("state={state}, and it {}", if drives { "drives" } else { "does not drive" });
     let sent = "a message after the silence, then TARGET";
@@ -70,7 +72,7 @@ fn is_cut(received: &Received) -> bool {
     received.topic == Topic::Status && received.field("state") == Some("cut")
 }
 
-/// Tests that the robot asks for the time during silence.
+/// Tests that the robot asks for the time while no message comes. `began`: when the silence began.
 fn asks_in_silence(pilot: &Pilot, mark: usize, began: Instant) {
     let count = pilot.session.since(mark, |received| {
         let asked = received

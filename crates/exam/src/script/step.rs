@@ -1,6 +1,6 @@
 //! Results of the script's parts.
 
-/// Why the script cannot continue, for people.
+/// Why the script cannot continue, as text for people.
 pub(crate) struct Halt(pub String);
 
 /// Result of a part of the script that may end early.

@@ -19,7 +19,8 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     far_off(pilot).await
 }
 
-/// Sends a straight route from `home` to `away` and its START. `None` if the robot does not keep the route.
+/// Sends a straight route from `home` to `away` and its `START`. Returns the route and its start moment; `None` if the
+/// robot does not keep the route.
 async fn begin_route(pilot: &Pilot) -> Step<Option<(Route, Instant)>> {
     pilot.drive_to(pilot.home).await?;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
@@ -61,7 +62,7 @@ async fn held(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that a hold before the start of a route does not count, and that `STOP` on the route does.
+/// Tests that a hold before the start of a route has no effect on it (R39), and that `STOP` on the route has (R40).
 async fn stopped(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);
@@ -97,7 +98,8 @@ async fn stopped(pilot: &Pilot) -> Step {
     stop_target(pilot).await
 }
 
-/// Tests `STOP at`, which no `RESUME` revokes. A robot that does not understand `at` stops at once.
+/// Tests `STOP` with a moment, which no `RESUME` revokes. A robot that ignores the moment stops at once and passes as
+/// well.
 async fn stopped_at_a_moment(pilot: &Pilot) -> Step {
     let Some((_, starts)) = begin_route(pilot).await? else { return Ok(()) };
     pilot.session.pause(starts - pilot.session.show() + REST + Span::from_millis(200)).await;

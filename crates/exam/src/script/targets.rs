@@ -8,9 +8,9 @@ use super::pilot::{ANSWER, ONCE, Pilot, THERE_M, Trip, shown, target, within};
 use super::step::Step;
 use crate::received::Received;
 
-/// Highest measured speed, m/s: the limit of R20 and 5 % for unequal wheels.
+/// Highest allowed measured speed, m/s: the limit of R20 and 5 % for unequal wheels.
 const SPEED_MPS: f64 = 0.27 * 1.05;
-/// Longest drive over 0.3 m with a turn. A choice for slow robots: 0.02 m/s is enough.
+/// Longest time for a drive of 0.3 m with a turn. Chosen so that slow robots pass: 0.02 m/s is enough.
 const DRIVE: Span = Span::from_millis(15_000);
 
 pub(super) async fn run(pilot: &Pilot) -> Step {
@@ -24,7 +24,7 @@ pub(super) async fn run(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Arrival reports since a mark.
+/// The reports of arrival since a mark.
 pub(super) fn arrivals(pilot: &Pilot, mark: usize) -> Vec<Received> {
     pilot.session.since(mark, |received| {
         received.iter().filter(|received| received.topic == Topic::Arrival).cloned().collect()
@@ -75,7 +75,7 @@ fn stands_there(pilot: &Pilot, trip: &Trip, goal: Vec2, sent: &str) {
     );
 }
 
-/// Tests that the same target again gives a new arrival.
+/// Tests that the robot reports an arrival again if it is sent to the target where it stands.
 async fn again(pilot: &Pilot) -> Step {
     let sent = target(pilot.away);
     let mark = pilot.send(&sent);
@@ -89,7 +89,7 @@ async fn again(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests targets with decimal commas and with exponents.
+/// Tests that the robot reads targets with decimal commas and with exponents.
 async fn decimals(pilot: &Pilot) -> Step {
     let home = pilot.home;
     let comma = target(home).replace('.', ",");
@@ -109,7 +109,7 @@ async fn decimals(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests a new target on the way to another one.
+/// Tests that a new target, sent on the way to another target, replaces it.
 async fn replaced(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     pilot.session.pause(ONCE).await;

@@ -1,4 +1,4 @@
-//! The robot's clock: R25, R28 to R30.
+//! Tests of the robot's clock: R25, R28 to R30.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
@@ -8,17 +8,18 @@ use super::step::Step;
 use crate::received::Received;
 use crate::session::TimeAnswers;
 
-/// Longest wait for a time question: four times the 3 s of R28.
+/// Longest time to wait for a time question: four times the 3 s of R28.
 const PATIENCE: Span = Span::from_millis(12_000);
-/// Least time between two compared questions: 0.5 s of network delay is then less than the error of another unit (R25).
+/// Least time between two time questions that are compared. At this distance, a network delay of 0.5 s is smaller than
+/// the error of a clock in another unit (R25).
 const APART: Span = Span::from_millis(3_000);
-/// Jump of the show clock: far beyond the 0.5 s of R30.
+/// Time by which the show clock is set forward: far more than the 0.5 s of R30.
 const JUMP: Span = Span::from_millis(1_000_000);
 
-/// Rules whose tests need a synchronised robot.
+/// Rules whose tests need a robot that is synchronised with the show clock.
 const TIMED: [u8; 20] = [12, 22, 23, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 43, 45];
 
-/// Tests the clock; returns whether the robot is synchronised afterwards.
+/// Tests the clock. Returns whether the robot is synchronised with the show clock afterwards.
 pub(super) async fn run(pilot: &Pilot) -> Step<bool> {
     pilot.rule_if_silent.set(25);
     if !asks(pilot).await {
@@ -34,7 +35,7 @@ pub(super) async fn run(pilot: &Pilot) -> Step<bool> {
     has_clock(pilot).await
 }
 
-/// Tests that the robot asks for the time, in microseconds.
+/// Tests that the robot asks for the time, and states the time of its own clock in microseconds.
 async fn asks(pilot: &Pilot) -> bool {
     let mark = pilot.session.mark();
     let asked = |received: &Received| received.question.map(|question| (received.at, question.asked));
@@ -60,7 +61,7 @@ async fn asks(pilot: &Pilot) -> bool {
     fits
 }
 
-/// Requests a status. Returns whether it has the field `clock=`.
+/// Requests a status. Returns whether the report has the field `clock=`.
 pub(super) async fn has_clock(pilot: &Pilot) -> Step<bool> {
     let mark = pilot.send("|STATUS|");
     let status =
@@ -71,7 +72,7 @@ pub(super) async fn has_clock(pilot: &Pilot) -> Step<bool> {
     }
 }
 
-/// Tests that the robot synchronises within 30 s.
+/// Tests that the robot synchronises with the show clock within 30 s.
 async fn synchronises(pilot: &Pilot) -> Step {
     pilot.session.set_time_answers(TimeAnswers::All);
     let until = pilot.session.now() + Span::from_millis(30_000);
@@ -85,7 +86,8 @@ async fn synchronises(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests a jump of the show clock: one answer, also repeated, is not enough to synchronise again.
+/// Tests a jump of the show clock. One answer to a time question, even if repeated, must not be enough to synchronise
+/// again.
 async fn begins_afresh(pilot: &Pilot) -> Step {
     pilot.session.jump_clock(JUMP);
     pilot.session.set_time_answers(TimeAnswers::One);
@@ -127,7 +129,7 @@ async fn begins_afresh(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests the intervals of time questions after the jump, and of reports without commands.
+/// Tests how often the robot asks for the time after the jump, and how often it reports without commands.
 async fn pace(pilot: &Pilot) -> Step {
     let mark = pilot.session.mark();
     pilot.session.pause(Span::from_millis(10_000)).await;

@@ -1,37 +1,39 @@
-//! Routes for the exam, and how well a robot follows them.
+//! Routes for the exam, and how well reports of a robot match them.
 
 use lightbots_base::{Instant, PathRef, Piece, Span, Vec2};
 use lightbots_wire::{Command, Pieces, Route, encode};
 
 use crate::received::Received;
 
-/// Rest at the beginning of a route: an Elisa-3 at 4.5 rad/s turns by 180° within it (docs/simulator.md).
+/// Duration of the rest at the beginning of a route. An Elisa-3 at 4.5 rad/s turns by 180° within it
+/// (docs/simulator.md).
 pub(super) const REST: Span = Span::from_millis(700);
 /// Acceleration of the routes: half the limit of the Elisa-3 (docs/simulator.md), so that other robots can follow as
 /// well.
 const RAMP_MPS2: f64 = 0.5;
-/// Interval of the samples of a path with which reports are compared: 2 mm at the cruising speed of the routes.
+/// Time between the samples of a path with which reports are compared: 2 mm at the cruising speed of the routes.
 const SAMPLE: Span = Span::from_millis(10);
 
-/// A route with its start moment and a hold.
+/// A route with its start moment and, if it is held, the hold.
 pub(super) struct TimedRoute {
     pub route: Route,
+    /// Start moment, on the show clock.
     pub starts: Instant,
-    /// Hold and resume, show clock.
+    /// Moments of `HOLD` and `RESUME`, on the show clock; `None`: no hold.
     pub hold: Option<(Instant, Instant)>,
 }
 
 /// How well reports match a timed route.
 pub(super) struct Fit {
-    /// Largest distance from the path, metres.
+    /// Largest distance of a reported place from the path, metres.
     pub beside_m: f64,
-    /// Median delay along the path, seconds; `None`: no usable report.
+    /// Median delay along the path, seconds; negative: early. `None`: no report from where the path is fast.
     pub late_s: Option<f64>,
-    /// Number of reports.
+    /// Number of reports with a place while the route was under way.
     pub reports: usize,
 }
 
-/// A straight route that begins with a rest and has a ramp at each end.
+/// A straight route that begins with a rest. It accelerates at its beginning and brakes at its end.
 pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Route {
     let way = end - start;
     let direction = way.normalized().unwrap_or_default();
@@ -48,7 +50,8 @@ pub(super) fn straight(seq: u32, start: Vec2, end: Vec2, speed_mps: f64) -> Rout
     route(seq, start, &pieces)
 }
 
-/// A route on a curve to the left of the straight line, slow at both ends.
+/// A route on a curve to the left of the straight line from `start` to `end`. It begins with a rest; then the curve
+/// takes the time `over`.
 pub(super) fn curve(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     let way = end - start;
     let aside = way.left() * 0.33;
@@ -64,7 +67,7 @@ pub(super) fn curve(seq: u32, start: Vec2, end: Vec2, over: Span) -> Route {
     route(seq, start, &pieces)
 }
 
-/// A route that rests at a place for this duration.
+/// A route that rests at the place `at` for the time `over`.
 pub(super) fn rest(seq: u32, at: Vec2, over: Span) -> Route {
     route(seq, at, &[Piece::rest(at, over)])
 }
@@ -97,13 +100,13 @@ impl TimedRoute {
         PathRef::new(self.route.start, &self.route.pieces)
     }
 
-    /// Moment at which the route is over, show clock.
+    /// Moment at which the route is over, on the show clock.
     pub fn over(&self) -> Instant {
         let held = self.hold.map_or(Span::ZERO, |(hold, resume)| resume - hold);
         self.starts + self.path().duration() + held
     }
 
-    /// Path time at a moment of the show clock (R35, R38).
+    /// Path time, seconds, at the moment `show` of the show clock (R35, R38).
     fn path_time_s(&self, show: Instant) -> f64 {
         let free = (show - self.starts).as_secs();
         let Some((hold, resume)) = self.hold else { return free };
@@ -119,7 +122,8 @@ impl TimedRoute {
         free.min(until) + falling(held) + rising(resumed)
     }
 
-    /// Compares reports with the route. `shift`: show clock minus exam's clock. `delay`: age of a report at its arrival.
+    /// Compares reports with the route. `shift`: show clock minus exam's clock. `delay`: age of a report when it
+    /// arrives.
     pub fn fit(&self, received: &[Received], shift: Span, delay: Span) -> Fit {
         let mut fit = Fit { beside_m: 0.0, late_s: None, reports: 0 };
         let mut late = Vec::new();
@@ -144,7 +148,8 @@ impl TimedRoute {
         fit
     }
 
-    /// Samples of the path: path time in seconds, place, and whether the path is fast there.
+    /// Samples of the path: path time in seconds, place, and whether the speed there is above 90 % of the path's
+    /// highest speed.
     fn samples(&self) -> Vec<(f64, Vec2, bool)> {
         let path = self.path();
         let count = path.duration().0 / SAMPLE.0;

@@ -38,8 +38,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     with_files(loaded, files)
 }
 
-/// Adds one file of the archive to `files`. Fails for a second document, and for an asset with another hash than its
-/// name.
+/// Adds one file of the archive to `files`. Fails for a second document, and for an asset whose content does not have
+/// the hash in its name.
 fn take(files: &mut Files, name: String, content: Vec<u8>) -> Result<(), ReadError> {
     if name == DOCUMENT {
         return match files.document.replace(content) {
@@ -60,8 +60,8 @@ fn take(files: &mut Files, name: String, content: Vec<u8>) -> Result<(), ReadErr
     Ok(())
 }
 
-/// Adds the files to the show's assets, and issues about missing and unknown files. Fails if a file has another length
-/// than the show says.
+/// Adds the archive's files to the show's assets, and issues about missing and unknown files to the result. Fails if
+/// the length of a file differs from the length that the show states.
 fn with_files(mut loaded: Loaded, mut files: Files) -> Result<Loaded, ReadError> {
     for (hash, asset) in &mut loaded.show.assets {
         asset.content = files.assets.remove(hash);

@@ -36,7 +36,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     import::loaded(&show)
 }
 
-/// The name of a robot: that of its table, without folders and ending.
+/// The name of a robot: the file name of its table, without folders and without `.csv`.
 fn stem(file: &str) -> &str {
     let name = file.rsplit('/').next().unwrap_or(file);
     &name[..name.len().saturating_sub(".csv".len())]
@@ -88,7 +88,7 @@ fn table(name: &str, content: &[u8], room: &mut (usize, usize)) -> Result<TimedR
     Ok(TimedRobot { name: name.to_owned(), path, light })
 }
 
-/// Reads a row: seconds, place in metres and colour codes. A row that ends after z is white.
+/// Reads a row: time in seconds, place in metres, and codes of red, green and blue. A row without codes is white.
 fn row(line: &str) -> Result<(f64, [f64; 3], [u8; 3]), String> {
     let wrong = |what: &str| format!("\"{}\": {what}; a row is {HEAD}", excerpt(line));
     let fields: Vec<&str> = line.trim_end().split(',').map(str::trim).collect();

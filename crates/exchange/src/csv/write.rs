@@ -17,7 +17,7 @@ use crate::zip_files::pack;
 
 /// Time from one row to the next: ten rows a second.
 const ROW: Span = Span::from_millis(100);
-/// How long before a step of colour a row repeats the colour before the step.
+/// How long before a sudden change of colour a row repeats the old colour. Without that row, readers would fade.
 const BEFORE_STEP: Span = Span::from_millis(1);
 
 pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
@@ -45,7 +45,8 @@ fn archive(exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Issue> {
     Ok((bytes, vec![note]))
 }
 
-/// A file name for the table of a robot. Every file system accepts it, and no other robot has it.
+/// A file name for the table of the robot `name`. Every file system accepts it. It differs from all of `names`, to which
+/// it is added.
 fn file_name(name: &str, names: &mut BTreeSet<String>) -> String {
     let plain = |char: char| if char.is_ascii_alphanumeric() || " -_".contains(char) { char } else { '_' };
     let mut stem: String = name.chars().map(plain).collect();
@@ -69,7 +70,7 @@ fn table(robot: &ExportedRobot) -> String {
     text
 }
 
-/// Times of rows, and the colour codes at these times.
+/// Times of the rows of a robot's table, from the start of the show, and the codes of its light at these times.
 fn rows(path: &Path, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> {
     let duration = path.as_ref().duration();
     let moments = moments(path);
@@ -100,7 +101,7 @@ fn rows(path: &Path, stretches: &[FittedStretch]) -> BTreeMap<Span, [u8; 3]> {
     rows
 }
 
-/// Times at which a row gives the place of the robot: each [`ROW`], and where the robot starts and stops.
+/// Times at which a row gives the place of the robot: every [`ROW`], and the start and end of each rest of its path.
 fn moments(path: &Path) -> BTreeSet<Span> {
     let whole = path.as_ref().duration();
     let mut moments: BTreeSet<Span> = (0..whole.0 / ROW.0).map(|nth| ROW * nth).collect();

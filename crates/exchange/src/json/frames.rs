@@ -5,7 +5,8 @@ use lightbots_show::{Issue, Issues, MAX_FRAMES, MAX_PIXELS, Pixel, excerpt};
 use super::{Json, Scalar, text};
 use crate::error::{PixelName, ReadError};
 
-/// Reads a whole file with `content`. Returns what `content` gives, and the notes that were taken on the way.
+/// Reads a whole file with `content`. Returns the result of `content`, and the notes that it took. Fails if more text
+/// follows.
 pub(crate) fn document<T>(
     bytes: &[u8],
     content: impl FnOnce(&mut Json<'_>, &mut Notes) -> Result<T, ReadError>,
@@ -18,30 +19,31 @@ pub(crate) fn document<T>(
     if json.is_at_end() { Ok((read, notes)) } else { Err(json.unexpected("the end of the file")) }
 }
 
-/// Notes of a reader: issues, and numbers of values for bounds on the whole file.
+/// What a reader notes about a file: issues, unknown fields, and counts of values that are bounded per file.
 #[derive(Default)]
 pub(crate) struct Notes {
     pub issues: Issues,
-    /// Number of values of settings that were read, for the bound on those of a show.
+    /// Number of settings' values that were read. A bound on all settings of a show applies to it.
     pub settings: usize,
-    /// Number of sources of frames that were read, for the bound on those of a show.
+    /// Number of frames' sources that were read. A bound on all sources of a show applies to it.
     pub sources: usize,
-    /// Unknown fields that were reported: level, such as "pixel", and name.
+    /// Unknown fields that were reported: the kind of object with the field, such as "pixel", and the field's name.
     unknown: Vec<(&'static str, String)>,
-    /// Whether further unknown fields were found.
+    /// Whether more than `UNKNOWN_MAX` different unknown fields were found.
     has_more_unknown: bool,
-    /// The file's version of the format, if it is newer than the reader.
+    /// The file's version of the format, if the reader does not know it because it is newer.
     newer_version: Option<u32>,
 }
 
 impl Notes {
-    /// Largest number of unknown fields that are reported, each once. One more issue stands for all others. Bounds list
-    /// and memory for hostile files.
+    /// Largest number of unknown fields that are reported, each once. One more issue stands for all others. Without a
+    /// bound, a hostile file could fill the list of issues and the memory.
     const UNKNOWN_MAX: usize = 20;
     /// Largest number of unknown fields that [`Self::unread`] names: what fits on a line.
     const NAMED_MAX: usize = 4;
 
-    /// Skips the value of an unknown field. Reports each name once for each level.
+    /// Skips the value of the unknown field `key`. `level` is the kind of object that has the field, such as "pixel".
+    /// Reports each field once per level.
     pub fn unknown(&mut self, json: &mut Json<'_>, level: &'static str, key: &str) -> Result<(), ReadError> {
         let known = self.unknown.iter().any(|(at, name)| *at == level && name == key);
         if !known && self.unknown.len() < Self::UNKNOWN_MAX {
@@ -70,7 +72,7 @@ impl Notes {
         self.newer_version = Some(version);
     }
 
-    /// Why the file holds more than was read, in words after "because"; `None`: everything was read.
+    /// Why the file holds more than was read: words that follow "because". `None`: everything was read.
     pub fn unread(&self) -> Option<String> {
         let version = self.newer_version.map(|version| format!("it has format version {version}"));
         let name = |(level, name): &(&str, String)| format!("\"{}\" of the {level}", excerpt(name));
@@ -84,7 +86,7 @@ impl Notes {
     }
 }
 
-/// Reads the list of frames. Errors name the frame.
+/// Reads the list of frames, each with `frame`, which gets the frame's index, counted from 0. Errors name the frame.
 pub(crate) fn frames<T>(
     json: &mut Json<'_>,
     mut frame: impl FnMut(&mut Json<'_>, usize) -> Result<T, ReadError>,
@@ -108,7 +110,8 @@ pub(crate) fn frames<T>(
     Ok(frames)
 }
 
-/// Reads the list of pixels of a frame and sorts it by id. Errors name the pixel by the field `id_key`.
+/// Reads the list of pixels of a frame, each with `pixel`, and sorts it by id. Errors name the pixel by the value of the
+/// field `id_key`, or by its place in the list if that is no whole number.
 pub(crate) fn pixels(
     json: &mut Json<'_>,
     id_key: &str,

@@ -2,14 +2,14 @@
 
 use lightbots_base::Vec2;
 
-/// Factor by which numbers are rounded to four decimals: tenths of a millimetre, as in the original's files. With fewer
-/// decimals, pixels would move by more than sensors notice. More would only lengthen files.
+/// Factor that rounds numbers to four decimals: metres to tenths of a millimetre, as in the original's files. With fewer
+/// decimals, pixels would be displaced by more than robots' sensors resolve. More decimals would only lengthen files.
 const DECIMALS_SCALE: f64 = 1e4;
-/// Magnitude from which numbers are not rounded, because a double has no four decimals: 2^53 / `DECIMALS_SCALE`,
-/// rounded down.
+/// Magnitude from which numbers are not rounded, because a double cannot hold four decimals there: 2^53 /
+/// `DECIMALS_SCALE`, rounded down.
 const WITHOUT_DECIMALS: f64 = 9e11;
 
-/// A number with at most four decimals. A number that is not finite becomes `null`, which readers refuse.
+/// A number as text with at most four decimals. Infinities and NaN become `null`, which readers refuse.
 pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return "null".into();
@@ -20,13 +20,13 @@ pub(crate) fn number(value: f64) -> String {
     rounded.to_string()
 }
 
-/// Magnitude below which a number is written with an exponent, so that it stays short.
+/// Magnitude below which a number other than 0 is written with an exponent, so that the text stays short.
 const IN_FULL_FROM: f64 = 1e-7;
-/// Magnitude from which a number is written with an exponent. JavaScript has the same two limits.
+/// Magnitude from which a number is written with an exponent. JavaScript has this limit and that of `IN_FULL_FROM`.
 const IN_FULL_BELOW: f64 = 1e21;
 
-/// A number with all its digits, so that it is read back the same. A number that is not finite becomes `null`, which
-/// readers refuse.
+/// A number as text with all its digits, so that reading the text gives the same number. Infinities and NaN become
+/// `null`, which readers refuse.
 pub(crate) fn exact(value: f64) -> String {
     // Adding 0 turns -0 into 0.
     let value = value + 0.0;
@@ -58,7 +58,8 @@ pub(crate) fn quoted(text: &str) -> String {
     out
 }
 
-/// A list with one item per line. Its closing bracket is indented by `indent`.
+/// A JSON list with one item per line. `indent` is put before the closing bracket, and with two more spaces before each
+/// item.
 pub(crate) fn lines(items: impl ExactSizeIterator<Item = String>, indent: &str) -> String {
     if items.len() == 0 {
         return "[]".into();

@@ -10,7 +10,7 @@ use crate::json::Json;
 use crate::json::frames::{Notes, missing};
 use crate::json::text::{lines, quoted};
 
-/// Reads the object of assets: hash to name, media type and length.
+/// Reads the object of assets. Its keys are hashes; its values have name, media type and length of the file.
 pub(super) fn read(json: &mut Json<'_>, notes: &mut Notes) -> Result<Assets, ReadError> {
     let mut assets = Assets::new();
     json.object(|json, key| {
@@ -31,7 +31,7 @@ pub(super) fn read(json: &mut Json<'_>, notes: &mut Notes) -> Result<Assets, Rea
     Ok(assets)
 }
 
-/// Reads the hash by which another object names an asset.
+/// Reads a text that names an asset by its hash, such as the file of a source. `name` names the field in messages.
 pub(super) fn hash(json: &mut Json<'_>, name: &str) -> Result<AssetHash, ReadError> {
     json.peek()?;
     let before = json.clone();

@@ -27,7 +27,8 @@ pub(super) fn place(json: &mut Json<'_>, name: &str) -> Result<Vec2, ReadError> 
     }
 }
 
-/// Reads one of the words that a field may have. Returns the value of the word.
+/// Reads a text that must be one of `words`. Returns the value that stands beside the word. `name` names the field in
+/// messages.
 pub(super) fn one_of<T: Copy>(json: &mut Json<'_>, name: &str, words: &[(&str, T)]) -> Result<T, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -51,7 +52,7 @@ pub(super) fn label(json: &mut Json<'_>, name: &str) -> Result<String, ReadError
     Ok(text.into_owned())
 }
 
-/// Reads a list of at most `most` items. `name` names the items in messages, such as "layers".
+/// Reads a list of at most `most` items; a longer list is an error. `name` names the items in messages, such as "layers".
 pub(super) fn bounded<T>(
     json: &mut Json<'_>,
     name: &str,

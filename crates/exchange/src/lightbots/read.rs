@@ -13,8 +13,8 @@ use crate::format::Loaded;
 use crate::json::frames::{Notes, document, frames, missing, pixels};
 use crate::json::{Json, Scalar};
 
-/// Newest version of the format that this reader knows, in the field `lightbots`. Known fields are read in files of any
-/// version.
+/// Newest version of the format that this reader knows. The field `lightbots` of a file has its version. In files of a
+/// newer version, the known fields are read.
 const NEWEST: u32 = 2;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
@@ -30,8 +30,8 @@ pub fn read_layer(bytes: &[u8]) -> Result<Layer, ReadError> {
     document(bytes, timeline::layer).map(|(layer, _)| layer)
 }
 
-/// Reads the show, and whether the file has a stage. An error in a file of a newer version names that version, because
-/// the file may be right.
+/// Reads the show. Returns it, and whether the file has a stage. An error in a file of a newer version also names that
+/// version, because the file may be valid in it.
 fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadError> {
     let start = json.clone();
     let read = known_parts(json, notes);
@@ -85,7 +85,8 @@ fn known_parts(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), R
     Ok((show, has_stage))
 }
 
-/// Reads the version. A newer version is noted and is no error here: the known parts of the file are read.
+/// Reads the version, and returns `true`. A newer version than [`NEWEST`] is noted as a warning and is no error. Version
+/// 0 is an error.
 fn version(json: &mut Json<'_>, notes: &mut Notes) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -241,8 +242,8 @@ fn pixel(json: &mut Json<'_>, notes: &mut Notes) -> Result<Pixel, ReadError> {
     })
 }
 
-/// The part of a source that a pixel belongs to. `None` if the pixel names neither a source nor a part. Without an
-/// index it is the first source.
+/// The part of a source to which a pixel belongs. `None` if the pixel names neither a source nor a part. If it names a
+/// part only, the source is the frame's first.
 fn source_part(source: Option<u32>, name: Option<String>) -> Option<SourcePart> {
     let is_from_source = source.is_some() || name.is_some();
     is_from_source.then(|| SourcePart { source: source.unwrap_or(0), name: name.unwrap_or_default() })

@@ -179,7 +179,7 @@ pub(super) fn beats_text(beats: &Beats) -> String {
     object(vec![grid, format!("\"per_bar\": {}", beats.per_bar)])
 }
 
-/// The name as a field; an empty text for an empty name.
+/// The field `name` as JSON; an empty text for an empty name.
 fn named(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("\"name\": {}", quoted(name)) }
 }
@@ -188,7 +188,7 @@ fn stretch(from_s: f64, to_s: f64) -> String {
     format!("\"from_s\": {}, \"to_s\": {}", exact(from_s), exact(to_s))
 }
 
-/// An object of the fields that are not empty, on one line.
+/// A JSON object on one line. Empty texts in `fields` are left out.
 fn object(fields: Vec<String>) -> String {
     let fields: Vec<String> = fields.into_iter().filter(|field| !field.is_empty()).collect();
     format!("{{ {} }}", fields.join(", "))

@@ -38,7 +38,7 @@ fn text(show: &Show) -> String {
     format!("{{\n  {}\n}}\n", fields.join(",\n  "))
 }
 
-/// The fields of the show that version 2 added.
+/// The fields at the top of a show file that version 2 of the format added, without those of default value.
 fn extras(show: &Show) -> Vec<String> {
     let mut fields = Vec::new();
     if show.spares > 0 {
@@ -58,7 +58,7 @@ fn extras(show: &Show) -> Vec<String> {
     fields
 }
 
-/// A field with one item per line; `None` for an empty list.
+/// The JSON field `name` with a list, one item per line; `None` for an empty list.
 fn list<T>(name: &str, items: &[T], text: impl Fn(&T) -> String) -> Option<String> {
     (!items.is_empty()).then(|| format!("\"{name}\": {}", lines(items.iter().map(text), "  ")))
 }
@@ -86,7 +86,8 @@ fn obstacle(obstacle: &Obstacle) -> String {
     }
 }
 
-/// The limits that differ from the default, with all digits: rounding would change a wheel radius of 0.00451 m.
+/// The limits of robots that differ from the default, with all digits. Rounding to four decimals would change a wheel
+/// radius of 0.00451 m.
 fn limits(limits: &Limits) -> String {
     let usual = Limits::default();
     let all = [

@@ -2,10 +2,10 @@
 
 use lightbots_base::Vec2;
 
-/// Side of the square canvas, canvas pixels. The original's value: the range of `pixelLocation` in its files.
+/// Side of the square canvas of the original's editor, canvas pixels: `pixelLocation` in the original's files goes from
+/// 0 to this value.
 pub(super) const CANVAS_PX: f64 = 720.0;
-/// Side of the original's square floor, metres. The original's value: the range of
-/// `physicalLocation` in its files.
+/// Side of the original's square floor, metres: the width of the range of `physicalLocation` in the original's files.
 const FLOOR_M: f64 = 3.0;
 
 /// Converts canvas pixels to stage metres.

@@ -9,8 +9,8 @@ use crate::format::Loaded;
 use crate::json::Json;
 use crate::json::frames::{Notes, document, frames, missing, pixels};
 
-/// How far a colour component may lie outside 0 to 1. Covers the rounding of 32-bit numbers (6e-8 near 1). Without it,
-/// files of other programs with 1.0000001 would be refused.
+/// How far a colour component of a file may lie outside 0 to 1. Covers the rounding of 32-bit numbers (6e-8 near 1).
+/// Without this slack, files of other programs with the component 1.0000001 would be refused.
 const COLOR_SLACK: f64 = 1e-6;
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {

@@ -9,10 +9,10 @@ use super::canvas::{CANVAS_PX, canvas_from_stage};
 use crate::format::Written;
 use crate::json::text::{lines, number, quoted};
 
-/// Side of a picture in the original's row of frames, canvas pixels. The original's
-/// value: the range of `pixelTimelineLocation` in its files.
+/// Side of a picture in the original's row of frames, canvas pixels: `pixelTimelineLocation` in the original's files
+/// goes from 0 to this value.
 const TIMELINE_PX: f64 = 100.0;
-/// Number of robots of the original's fleet: its controller gives pixels to robots only once 30 robots have reported.
+/// Number of robots of the original's fleet. The original's controller assigns pixels only once 30 robots have reported.
 const ROBOTS: usize = 30;
 
 pub(crate) fn encode(show: &Show, _: Option<&ShowPlan>) -> Written {
@@ -65,8 +65,8 @@ fn location(at: Vec2) -> String {
     format!("{{\"X\":{},\"Y\":{}}}", real(at.x), real(at.y))
 }
 
-/// Components from 0 to 1 as 32-bit numbers, as the original keeps them. A file of the original is thus written as it
-/// was read.
+/// A colour as JSON. Its components are 0 to 1 with the precision of 32-bit numbers, as in the original's files. A file
+/// of the original is thus written as it was read.
 fn color(color: Rgb) -> String {
     let share = |byte: u8| match f64::from(f32::from(byte) / 255.0) {
         whole if whole.fract() == 0.0 => format!("{whole:.1}"),

@@ -9,11 +9,11 @@ use ruzstd::decoding::StreamingDecoder;
 pub(crate) const MAGIC: &[u8] = b"PSEQ";
 /// Length of the header without the lists of blocks and ranges, bytes.
 pub(super) const HEADER: usize = 32;
-/// Length of a range of channels in the header: first channel and number of channels, of three bytes each.
+/// Length of a range of channels in the header, bytes: first channel and number of channels, three bytes each.
 const RANGE: usize = 6;
-/// Largest number of channels in a file, because a frame is held in memory.
+/// Largest number of channels in a file: a frame, with one byte per channel, is held in memory.
 const CHANNELS_MAX: usize = 8 << 20;
-/// Largest number of bytes that a file unpacks to: 1 GiB takes three seconds.
+/// Largest number of bytes of a file's frames when unpacked: unpacking 1 GiB takes three seconds.
 const UNPACKED_MAX: u64 = 1 << 30;
 /// Code in the header for no compression.
 pub(super) const PLAIN: u8 = 0;
@@ -22,7 +22,7 @@ pub(super) const ZSTD: u8 = 1;
 /// Code in the header for zlib.
 pub(super) const ZLIB: u8 = 2;
 
-/// Why a file cannot be read: words that follow "the file".
+/// Why a file cannot be read: a text that follows the words "the file".
 pub(super) type BadSequence = String;
 
 /// The header of a file.
@@ -38,16 +38,16 @@ pub(super) struct Header {
     ranges: usize,
 }
 
-/// A block of frames, as the file holds it.
+/// A block of frames, compressed as in the file.
 pub(super) struct FrameBlock<'a> {
     bytes: &'a [u8],
     pub frames: usize,
 }
 
-/// Channels that follow each other in a frame.
+/// A range of successive channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ChannelRange {
-    /// Number of the first channel.
+    /// Index of the first channel, counted from 0.
     pub first: usize,
     pub count: usize,
 }
@@ -88,7 +88,7 @@ impl Header {
         Ok(header)
     }
 
-    /// Which channels a frame has, in the order of its bytes. A sparse file has only some.
+    /// Which channels the bytes of a frame stand for, in their order. A sparse file leaves channels out.
     pub fn ranges(&self, bytes: &[u8]) -> Result<Vec<ChannelRange>, BadSequence> {
         if self.ranges == 0 {
             return Ok(vec![ChannelRange { first: 0, count: self.channels }]);
@@ -112,7 +112,7 @@ impl Header {
         Ok(ranges)
     }
 
-    /// The blocks of a file. Together they hold all frames.
+    /// The blocks of a file in order. Together they hold all frames. An uncompressed file has one block.
     pub fn blocks<'a>(&self, bytes: &'a [u8]) -> Result<Vec<FrameBlock<'a>>, BadSequence> {
         let data = bytes.get(self.data_at..).ok_or_else(cut_off)?;
         if self.compression == PLAIN {
@@ -141,7 +141,7 @@ impl Header {
         Ok(blocks)
     }
 
-    /// The name of the music; `None` if the variables have none.
+    /// File name of the music, from the variable `mf`; `None` if the header has no such variable, or an empty one.
     pub fn music(&self, bytes: &[u8]) -> Option<String> {
         let mut at = self.variables_at;
         while at + 4 <= self.data_at.min(bytes.len()) {
@@ -156,7 +156,7 @@ impl Header {
         None
     }
 
-    /// The frames of a block, unpacked while they are read.
+    /// A reader of the bytes of a block's frames. It unpacks them while they are read.
     pub fn data<'a>(&self, block: &FrameBlock<'a>) -> Result<Box<dyn Read + 'a>, BadSequence> {
         match self.compression {
             PLAIN => Ok(Box::new(Cursor::new(block.bytes))),
@@ -171,7 +171,7 @@ impl Header {
 }
 
 impl ChannelRange {
-    /// Number of the channel after the last one.
+    /// Index of the channel after the last channel of the range.
     pub fn end(self) -> usize {
         self.first + self.count
     }

@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::error::ReadError;
 use crate::json::Json;
 
-/// Reads the bytes of a base64 text. An error names `what` the bytes are, and the `remedy`.
+/// Reads a base64 text and returns its bytes. For an error, `what` says what the bytes are, and `remedy` what to do.
 pub(super) fn encoded(json: &mut Json<'_>, what: &str, remedy: &str) -> Result<Vec<u8>, ReadError> {
     json.peek()?;
     let begin = json.clone();

@@ -7,7 +7,7 @@ use crate::limits::LONGEST_S;
 use crate::timed::fit::FittedStretch;
 use crate::timed::light::{CodeStretch, TimedLight};
 
-/// Latest tick.
+/// Latest tick at which a stretch of light may end: one day.
 const TICKS_MAX: u64 = (LONGEST_S * TICKS_PER_S) as u64;
 /// Deepest nesting of loops.
 const LOOPS_MAX: usize = 32;
@@ -16,16 +16,16 @@ const END: u8 = 0x00;
 const NOTHING: u8 = 0x01;
 const SLEEP: u8 = 0x02;
 const WAIT_UNTIL: u8 = 0x03;
-/// The first of four operations that set a colour, grey, black and white.
+/// The first of four operations with successive codes. They set a colour, a grey, black and white.
 const SET: u8 = 0x04;
-/// The first of four operations that fade to a colour, grey, black and white.
+/// The first of four operations with successive codes. They fade to a colour, a grey, black and white.
 const FADE: u8 = 0x08;
 const LOOP: u8 = 0x0c;
 const LOOP_END: u8 = 0x0d;
-/// The two operations for pyrotechnics, which are skipped. One byte follows either of them, and no time passes.
+/// The two operations for pyrotechnics. They are skipped with the one byte that follows each of them, and take no time.
 const PYRO: [u8; 2] = [0x14, 0x15];
 
-/// Writes the program of a light. Its stretches were fitted to samples one tick apart.
+/// Writes the program of a light. `stretches` count in ticks: they were fitted to samples one tick apart.
 pub(super) fn program(stretches: &[FittedStretch]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut begin = 0;
@@ -47,7 +47,7 @@ pub(super) fn program(stretches: &[FittedStretch]) -> Vec<u8> {
     bytes
 }
 
-/// Adds the shortest operation for a colour. `first`: the first of the four operations that set a colour or fade to it.
+/// Adds the shortest operation for a colour to `bytes`. `first` is [`SET`] or [`FADE`], the first of four operations.
 fn colour(bytes: &mut Vec<u8>, first: u8, code: [u8; 3]) {
     match code {
         [0, 0, 0] => bytes.push(first + 2),
@@ -61,15 +61,16 @@ fn colour(bytes: &mut Vec<u8>, first: u8, code: [u8; 3]) {
 struct Program<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// The present tick.
+    /// The number of ticks that the operations so far take.
     tick: u64,
     light: TimedLight,
-    /// Of each open loop: where its body begins, and how often it is still repeated; `None`: for ever.
+    /// For each open loop, the outermost first: index of the first byte of its body, and the number of repetitions left;
+    /// `None`: it repeats for ever.
     loops: Vec<(usize, Option<u32>)>,
 }
 
-/// Reads the light of a program. `room` is the number of operations and stretches that the file may still have. An
-/// endless loop ends at `end_s`.
+/// Runs a light program and returns its light. `room` is the number of operations and stretches that may still follow in
+/// the whole file. An endless loop ends once it has lasted until `end_s`, seconds from the start of the show.
 pub(super) fn read(bytes: &[u8], end_s: f64, room: &mut usize) -> Result<TimedLight, String> {
     let light = TimedLight { is_linear: true, ..TimedLight::default() };
     let mut program = Program { bytes, at: 0, tick: 0, light, loops: Vec::new() };
@@ -84,7 +85,7 @@ pub(super) fn read(bytes: &[u8], end_s: f64, room: &mut usize) -> Result<TimedLi
 }
 
 impl Program<'_> {
-    /// Runs one operation. Returns whether more follow.
+    /// Runs one operation. Returns `false` at the end of the program, and for an endless loop at or after `last_tick`.
     fn step(&mut self, last_tick: u64, room: &mut usize) -> Result<bool, String> {
         let operation = self.byte()?;
         match operation {
@@ -133,7 +134,7 @@ impl Program<'_> {
         Ok(true)
     }
 
-    /// Adds a stretch of light.
+    /// Adds a stretch of light of `ticks` ticks with the codes `to`.
     fn shine(&mut self, to: [u8; 3], ticks: u64, fades: bool, room: &mut usize) -> Result<(), String> {
         self.tick = self.tick.saturating_add(ticks).min(TICKS_MAX + 1);
         self.light.push(CodeStretch { end_s: self.tick as f64 / TICKS_PER_S, to, fades }, room)
@@ -157,7 +158,8 @@ impl Program<'_> {
         Err("its light program has a duration of more than five bytes; export it again".into())
     }
 
-    /// Reads the colour of one of four operations: a colour, grey, black or white.
+    /// Reads the colour of an operation. `kind` is 0 for a colour of three bytes, 1 for a grey of one byte, 2 for black
+    /// and 3 for white.
     fn colour(&mut self, kind: u8) -> Result<[u8; 3], String> {
         Ok(match kind {
             0 => [self.byte()?, self.byte()?, self.byte()?],

@@ -15,20 +15,20 @@ use crate::timed::music::TimedMusic;
 
 /// The media type that Skybrush's programs write for every sound.
 const MPEG: &str = "audio/mpeg";
-/// Name of music that has no name in the file.
+/// Name that music gets if the file does not name it.
 const NAME: &str = "music.mp3";
-/// Longest media type that is kept, bytes.
+/// Longest media type that is kept, bytes. A longer one is replaced by [`MPEG`].
 const MEDIA_TYPE_MAX: usize = 60;
 
 /// The contents of `media`.
 #[derive(Default)]
 pub(super) struct Media {
     pub music: Option<TimedMusic>,
-    /// What is left out, in words; empty if nothing is.
+    /// What is left out of the show, in words for people; empty if nothing is left out.
     pub left_out: &'static str,
 }
 
-/// Reads `media`. Removes the file of the music from `files`.
+/// Reads the field `media` of the document. Removes the file of the music from `files`, the files of the archive.
 pub(super) fn read(json: &mut Json<'_>, files: &mut BTreeMap<String, Vec<u8>>) -> Result<Media, ReadError> {
     let mut media = Media::default();
     json.object(|json, key| {
@@ -49,7 +49,7 @@ pub(super) fn read(json: &mut Json<'_>, files: &mut BTreeMap<String, Vec<u8>>) -
     Ok(media)
 }
 
-/// Reads the music. `None` if its sound is not in the file.
+/// Reads the field `audio`. `None` if the bytes of the sound are neither in the document nor in the archive.
 fn audio(
     json: &mut Json<'_>,
     files: &mut BTreeMap<String, Vec<u8>>,
@@ -77,8 +77,8 @@ fn audio(
     Ok(Some(TimedMusic { name: name.to_owned(), media_type, start_s, content: content.into() }))
 }
 
-/// Reads the bytes of a sound. Empty if they are in a file that is not in the archive. If `name` is empty, it becomes
-/// the name of that file.
+/// Reads the bytes of a sound: base64, or a reference to a file of the archive. Empty if the archive lacks that file. An
+/// empty `name` is replaced by the name of the file that is referred to.
 fn sound(
     json: &mut Json<'_>,
     files: &mut BTreeMap<String, Vec<u8>>,
@@ -97,7 +97,7 @@ fn sound(
     encoded(json, "the sound of the music", "export the show again")
 }
 
-/// Reads when the music begins, seconds.
+/// Reads when the music begins, seconds from the start of the show; negative: before it.
 fn start(json: &mut Json<'_>) -> Result<f64, ReadError> {
     json.peek()?;
     let begin = json.clone();
@@ -108,15 +108,16 @@ fn start(json: &mut Json<'_>) -> Result<f64, ReadError> {
     Err(begin.fail("bad-time", format!("the music starts at {start_s} s; it must start within a day")))
 }
 
-/// Music for an archive: the name of its file there, its sound, and the text of the document after `"version":1,`.
+/// Music for an archive. `file` is its name in the archive, `content` its sound. `words` is the JSON of the field `media`,
+/// which the document has after `"version":1,`.
 pub(super) struct WrittenMusic {
     pub file: String,
     pub content: Arc<[u8]>,
     pub words: String,
 }
 
-/// The music of a show, which begins at `start_s`. `None` if the show has none. Fails if the show does not hold its
-/// music.
+/// The music of a show for an archive. It begins `start_s` seconds after the start of the first drive. `None` if the show
+/// has no music. Fails if the show names music whose bytes it does not hold.
 pub(super) fn written(show: &Show, start_s: f64) -> Result<Option<WrittenMusic>, Issue> {
     let Some(name) = &show.music else { return Ok(None) };
     let own = |asset: &&Asset| asset.name == *name && asset.content.is_some();
@@ -139,7 +140,8 @@ pub(super) fn written(show: &Show, start_s: f64) -> Result<Option<WrittenMusic>,
     Ok(Some(WrittenMusic { file, content, words }))
 }
 
-/// The ending of a file's name, or `bin`. It is never `json` or `yaml`, because Skybrush reads such files as documents.
+/// The ending of a file's name in lower case, without the dot. `bin` if the ending is missing or is not 1 to 8 ASCII
+/// letters and digits. Also `bin` for `json` and `yaml`, because Skybrush reads files with these endings as documents.
 fn ending(name: &str) -> String {
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     let is_plain = (1..=8).contains(&ending.len()) && ending.bytes().all(|byte| byte.is_ascii_alphanumeric());

@@ -19,7 +19,8 @@ use crate::zip_files::{damaged, unpack};
 
 /// Largest number of files in an archive: the document, and up to three per drone.
 const ENTRIES_MAX: usize = 1 + 3 * MAX_PIXELS;
-/// Largest number of bytes of files that drones refer to. A file to which several drones refer is read again for each.
+/// Largest number of bytes of all files to which drones refer. A file counts once for each drone that refers to it,
+/// because it is read again for each.
 const REFERRED_MAX: usize = 4 * MAX_BYTES;
 /// Codes of a drone without lights.
 const WHITE: [u8; 3] = [255; 3];
@@ -52,13 +53,13 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     Ok(loaded)
 }
 
-/// Reads drones, and counts what the rest of the file may still have.
+/// Reads drones. Counts down the pieces, stretches and bytes that may still follow in the file.
 struct Reader {
-    /// The other files of the archive.
+    /// The files of the archive besides the document, by name.
     files: BTreeMap<String, Vec<u8>>,
     pieces: usize,
     stretches: usize,
-    /// Number of bytes of files to which drones may still refer: see [`REFERRED_MAX`].
+    /// Number of bytes in files to which drones may still refer; [`REFERRED_MAX`] at first.
     referred: usize,
     /// Names of parts that are left out, because robots on a floor have no use for them.
     unused: Vec<&'static str>,
@@ -69,7 +70,7 @@ struct Reader {
 struct Drone {
     name: String,
     path: Option<TimedPath>,
-    /// Bytes of its light program.
+    /// Bytes of the drone's light program; `None` if it has no lights.
     lights: Option<Vec<u8>>,
 }
 
@@ -179,7 +180,7 @@ impl Reader {
     }
 }
 
-/// Reads the version of a part, which must be 1.
+/// Reads the version of a part of the file. Returns `true` if it is 1, else an error that names `part`.
 fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -192,8 +193,8 @@ fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
     }
 }
 
-/// Reads a part that is either here, or in a file that is named here: `{"$ref": "./drones/1/lights.json#"}`. `room` is
-/// the number of bytes of such files that may still be read.
+/// Reads a part of a drone with `read`. The part is either at the position of `json`, or in the file that is named
+/// there: `{"$ref": "./drones/1/lights.json#"}`. `room` is the number of bytes of named files that may still be read.
 fn referred<T>(
     json: &mut Json<'_>,
     files: &BTreeMap<String, Vec<u8>>,
@@ -241,7 +242,7 @@ fn trajectory(json: &mut Json<'_>, pieces: &mut usize) -> Result<TimedPath, Read
     }
 }
 
-/// Reads points, each `[t, [x, y, z], controls]`. Adds `shift_s` to the times.
+/// Reads points, each `[t, [x, y, z], controls]`, in seconds and metres. Adds `shift_s` to the times.
 fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<TimedPath, ReadError> {
     let mut reader = PathReader::new(pieces);
     let mut before: Option<[f64; 3]> = None;
@@ -269,7 +270,8 @@ fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<Timed
     reader.end().map_err(|what| json.fail("bad-path", what))
 }
 
-/// The control points of a cubic curve, from those of a line, a quadratic or a cubic one. `None` for a line.
+/// Returns the two control points of a cubic Bézier curve between the given places. `controls` has none for a line, which
+/// gives `None`, one for a quadratic curve, or two for a cubic curve.
 fn cubic(controls: &[[f64; 3]], from: [f64; 3], to: [f64; 3]) -> Result<Option<[[f64; 3]; 2]>, String> {
     // A quadratic curve is a cubic one whose control points are two thirds of the way to its own.
     let towards = |end: [f64; 3], via: [f64; 3]| {

@@ -15,9 +15,9 @@ use crate::timed::export::{ExportedRobot, ExportedShow, linear, sampled_note, wr
 use crate::timed::fit::fitted;
 use crate::zip_files::pack;
 
-/// Largest number of bytes of the document besides its drones: the names of show and music, and fixed text.
+/// Upper bound on the bytes of the document without its drones: the names of show and music, and fixed text.
 const HEAD_MAX: usize = 8 << 10;
-/// Largest distance of control points from those of a line at which a piece counts as a line, metres.
+/// Largest distance of a piece's control points from those of a straight line at which it is written as a line, metres.
 const STRAIGHT_M: f64 = 1e-9;
 
 pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
@@ -98,7 +98,7 @@ fn trajectory(path: &Path) -> String {
     )
 }
 
-/// Whether a piece is a line at constant speed.
+/// Whether a piece that starts at `from` is a straight line at constant speed.
 fn is_line(from: Vec2, piece: &Piece) -> bool {
     let line = Piece::straight(from, piece.end, piece.duration);
     line.c1.distance(piece.c1) <= STRAIGHT_M && line.c2.distance(piece.c2) <= STRAIGHT_M

@@ -9,11 +9,11 @@ use lightbots_show::{Issue, Issues, Show};
 
 use crate::format::Written;
 
-/// Time between two samples of light: a tick of Skybrush's light programs.
+/// Time between two samples of light: 20 ms, a tick of Skybrush's light programs.
 pub(crate) const SAMPLE: Span = Span::from_millis(20);
-/// Largest number of samples of all lights: 180 MB, which is enough for 1,000 robots and 20 minutes.
+/// Largest number of samples of all robots together: 180 MB of three bytes each, enough for 1,000 robots and 20 minutes.
 const SAMPLES_MAX: usize = 60_000_000;
-/// Largest distance of a line from the curve that it replaces, metres.
+/// Largest distance between the places on a line and on the curve that it replaces at the same moment, metres.
 const CHORD_M: f64 = 0.000_5;
 /// Largest number of lines for one curve.
 const CHORDS_MAX: usize = 1_000;
@@ -21,9 +21,9 @@ const CHORDS_MAX: usize = 1_000;
 /// A show, converted for a file.
 #[derive(Debug)]
 pub(crate) struct ExportedShow {
-    /// The sample at which the air time of the first frame begins, and with it the music.
+    /// Index of the sample at which the music and the air time of the first frame begin.
     pub first_sample: usize,
-    /// When the air time of the first frame begins, seconds.
+    /// When the air time of the first frame begins, seconds from the start of the drive to that frame.
     pub first_s: f64,
     pub robots: Vec<ExportedRobot>,
 }
@@ -31,11 +31,12 @@ pub(crate) struct ExportedShow {
 /// A robot, converted for a file.
 #[derive(Debug)]
 pub(crate) struct ExportedRobot {
-    /// Unique name. Robots without a name are "Robot 1" and so on. No robot can have such a name itself.
+    /// Unique name. Robots without a name are called "Robot 1" and so on; names of real robots cannot look like that.
     pub name: String,
-    /// Its path with all rests, as long as the show.
+    /// The robot's path with all its rests. It lasts as long as the show.
     pub path: Path,
-    /// Its colours, one for each [`SAMPLE`]. The last one is at the end of the show, or less than a sample after it.
+    /// The robot's colours, one for each [`SAMPLE`] from the start. The last colour is that at the end of the show, or
+    /// less than one [`SAMPLE`] after it.
     pub colours: Vec<Rgb>,
 }
 
@@ -67,8 +68,8 @@ pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedS
     Ok(ExportedShow { first_sample, first_s: planned.first_drive_s(), robots })
 }
 
-/// Converts a planned show and writes its file with `encode`. If either fails, the file is empty and the error is its
-/// only issue.
+/// Converts a planned show and writes its file with `encode`. If the conversion or `encode` fails, the file is empty and
+/// the error is its only issue.
 pub(crate) fn written(
     show: &Show,
     plan: Option<&ShowPlan>,
@@ -80,7 +81,7 @@ pub(crate) fn written(
     }
 }
 
-/// `[robot]`: its path through the whole show.
+/// Returns `[robot]`: the robot's path through the whole show, drives and air times.
 fn paths(show: &Show, plan: &ShowPlan) -> Vec<Path> {
     let robots = plan.transitions.first().map_or(0, |transition| transition.paths.len());
     let whole = |robot: usize| {
@@ -99,7 +100,7 @@ fn paths(show: &Show, plan: &ShowPlan) -> Vec<Path> {
     (0..robots).filter_map(whole).collect()
 }
 
-/// Adds a piece. Rests that follow each other become one. A piece without a duration is skipped.
+/// Adds a piece at the end of `path`. A rest after a rest only prolongs it. A piece without a duration is skipped.
 fn push(path: &mut Path, piece: Piece) {
     if piece.duration <= Span::ZERO {
         return;
@@ -112,7 +113,7 @@ fn push(path: &mut Path, piece: Piece) {
     }
 }
 
-/// `[robot][sample]`: colour of the light. Fails if there are too many samples.
+/// Returns `[robot][sample]`: colour of the robot's light. Fails for more than [`SAMPLES_MAX`] samples.
 fn colours(planned: &PlannedShow<'_>, robots: usize, duration: Span) -> Result<Vec<Vec<Rgb>>, Issue> {
     let samples = usize::try_from((duration.0 + SAMPLE.0 - 1) / SAMPLE.0).unwrap_or(0) + 1;
     if samples.saturating_mul(robots) > SAMPLES_MAX {
@@ -133,7 +134,8 @@ fn colours(planned: &PlannedShow<'_>, robots: usize, duration: Span) -> Result<V
     Ok(colours)
 }
 
-/// `[robot]`: a unique name. It is the name by which pixels ask for the robot, or its number, counted from 1.
+/// Returns `[robot]`: a unique name. It is the name by which pixels ask for the robot, or else "Robot" and the robot's
+/// number, counted from 1.
 fn names(plan: &ShowPlan, numbers: &[u32]) -> Vec<String> {
     let digits = numbers.len().to_string().len();
     let numbered = numbers.iter().map(|number| format!("Robot {:0digits$}", number + 1));
@@ -149,8 +151,8 @@ fn names(plan: &ShowPlan, numbers: &[u32]) -> Vec<String> {
     names
 }
 
-/// Converts a path into lines. Returns the end of each line: time since the begin of the path, and place. Each line is
-/// within [`CHORD_M`] of the path at every moment, unless a curve would need too many lines.
+/// Converts a path into lines. Returns the end of each line: time since the start of the path, and place. At every
+/// moment, a line is within [`CHORD_M`] of the path, unless a curve would need more than [`CHORDS_MAX`] lines.
 pub(crate) fn lines(path: &Path) -> Vec<(Span, Vec2)> {
     let mut lines = Vec::new();
     for (from, begin, piece) in path.as_ref().timed() {
@@ -170,12 +172,12 @@ pub(crate) fn lines(path: &Path) -> Vec<(Span, Vec2)> {
     lines
 }
 
-/// Converts the colours of a light into linear codes.
+/// Converts sRGB colours into codes of linear light, 0 to 255.
 pub(crate) fn linear(colours: &[Rgb]) -> Vec<[u8; 3]> {
     colours.iter().map(|colour| super::light::linear_codes(*colour)).collect()
 }
 
-/// The issue that lights were sampled.
+/// The warning that a file holds samples of the show. `what` says of what, and how precisely.
 pub(crate) fn sampled_note(what: &str) -> Issue {
     Issue::warning("sampled", format!("{what}; keep the show in a file of LightBots as well"))
 }

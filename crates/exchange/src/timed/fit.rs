@@ -1,29 +1,29 @@
 //! Samples of a light -> holds, fades and steps.
 
-/// Largest difference between a fade and the samples that it replaces, codes.
+/// Largest difference between a fade and the samples that it replaces, linear-light codes (0 to 255) of a channel.
 const TOLERANCE: f64 = 1.0;
-/// Largest difference for codes below [`DARK`], codes. One code of linear light is 13 sRGB codes there: a light that
-/// should be out would glow.
+/// As [`TOLERANCE`], for samples below [`DARK`]. The first code of linear light is 13 codes of sRGB: with a whole code
+/// of difference, a light that should be out would glow.
 const TOLERANCE_DARK: f64 = 0.5;
-/// Codes below this are dark: see [`TOLERANCE_DARK`].
+/// Linear-light codes below this value are dark: [`TOLERANCE_DARK`] applies to them.
 const DARK: u8 = 8;
-/// Longest hold or fade, samples. Bounds the time of a fit.
+/// Longest fade, and longest step of the fit, in samples. Bounds the time that a fit takes.
 const LONGEST: usize = 3_000;
 
 /// A hold or a fade, as in a light program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FittedStretch {
-    /// Index of the sample at its end.
+    /// Index of the sample at which the stretch ends, counted from 0.
     pub end: usize,
-    /// Codes at its end.
+    /// Codes of red, green and blue at the end of the stretch.
     pub to: [u8; 3],
-    /// Whether codes change linearly from those before to `to`. Otherwise `to` holds all the time. A hold without
-    /// duration sets codes before a fade.
+    /// Whether codes change linearly to `to` from those at the end of the previous stretch. Otherwise the codes are `to`
+    /// during the whole stretch. A hold without duration sets the codes from which a fade starts.
     pub fades: bool,
 }
 
-/// Fits holds and fades to samples. They differ from each sample by at most one code, and from dark ones by half a
-/// code. Each fade is as long as it can be. A step takes place at a sample.
+/// Fits holds and fades to the samples of a light. At each sample, the result differs by at most [`TOLERANCE`], at a
+/// dark sample by at most [`TOLERANCE_DARK`]. Each fade is as long as possible. A sudden change happens at a sample.
 pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     let mut stretches: Vec<FittedStretch> = Vec::new();
     let hold = |stretches: &mut Vec<FittedStretch>, end: usize, to: [u8; 3]| match stretches.last_mut() {
@@ -54,7 +54,8 @@ pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     stretches
 }
 
-/// The last sample to which a line from sample `begin` is within the tolerance of all samples in between.
+/// Index of the last sample for which a straight line from sample `begin` stays within the tolerance of every sample in
+/// between. `begin + 1` at least, `begin + LONGEST` at most.
 fn farthest(samples: &[[u8; 3]], begin: usize) -> usize {
     let mut best = begin + 1;
     let mut slopes = [(f64::NEG_INFINITY, f64::INFINITY); 3];

@@ -19,16 +19,16 @@ use super::{TimedRobot, TimedShow, music, sequence};
 use crate::error::ReadError;
 use crate::format::Loaded;
 
-/// Largest number of pixels of all frames: a pixel takes 120 bytes.
+/// Largest number of pixels of all frames together: a pixel takes 120 bytes of memory.
 const PIXELS_MAX: usize = 1_000_000;
-/// Width of the floor around the places of robots, metres.
+/// Least distance from the places of robots to the edge of the floor that is made for them, metres.
 const MARGIN_M: f64 = 0.5;
-/// Shortest air time of a picture, seconds. The rest of the time in which robots stand is for turning to the next
-/// drive.
+/// Shortest air time of a frame, seconds. Up to a quarter turn's time of the remaining time in which robots stand
+/// belongs to the next drive: robots turn in it.
 const AIR_LEAST_S: f64 = 0.05;
-/// Largest number of pieces of a path that a robot keeps (docs/protocol.md, R20).
+/// Largest number of pieces of a path that a robot can store (docs/protocol.md, R31).
 const PIECES_OF_DRIVE_MAX: usize = 128;
-/// Largest step in velocity that is no jump, m/s, as in the planner's proof.
+/// Largest sudden change of velocity that a robot is taken to follow, m/s, as in the planner's proof.
 const JUMP_MPS: f64 = 1e-3;
 
 /// Converts the timed show of a file into a show with frames.
@@ -61,15 +61,16 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
     Ok(Loaded { show, plan: None, has_stage: true, unread: None, issues })
 }
 
-/// Until when robots must be dark for the show to begin with its first picture, seconds. If music begins with that
-/// picture, lights may fade in before it: music in time is worth more than an exact fade.
+/// How long all robots must be dark so that no frame is needed before the first picture, seconds from the start of the
+/// file. That is until the first picture. If the music begins with that picture, lights may fade in earlier: a further
+/// frame would move the music, which matters more than an exact fade.
 fn dark_s(file: &TimedShow, first: &FrameTimes) -> f64 {
     let is_in_step = file.music.as_ref().is_some_and(|music| music.late_s(first.air_s) == 0.0);
     let fade_s = fade_of(Span::from_secs(first.air_s - first.drive_s)).as_secs();
     if is_in_step { first.air_s - fade_s - EARLIER_S } else { first.air_s }
 }
 
-/// Makes the show of a file with frames at these times.
+/// Makes the show of a file, with a frame for each of `times`. Adds warnings to `issues`.
 fn framed(
     file: &TimedShow,
     stage: Stage,
@@ -104,8 +105,8 @@ fn framed(
     Ok(show)
 }
 
-/// Removes the trajectories of a show, so that its drives are planned. A planned drive takes as long as the
-/// trajectories did, if robots can do that.
+/// Removes the trajectories of a show, so that its drives will be planned. The wanted duration of each drive becomes that
+/// of the frame's longest trajectory.
 pub fn replanned(show: &mut Show) {
     let mut longest: BTreeMap<String, f64> = BTreeMap::new();
     for trajectory in std::mem::take(&mut show.trajectories) {
@@ -123,7 +124,8 @@ pub fn replanned(show: &mut Show) {
     }
 }
 
-/// `[frame]`: when robots leave for it, reach it, and leave it again, seconds since the begin of the file.
+/// Returns `[frame]`: when the drive to the frame begins, and when its air time begins and ends, seconds from the start
+/// of the file. `turn_s` is the time, in seconds, that robots need to turn before a drive.
 fn times(file: &TimedShow, turn_s: f64) -> Vec<FrameTimes> {
     let ends = file.robots.iter().map(|robot| robot.path.end_s().max(robot.light.end_s()));
     let end_s = ends.fold(0.0, f64::max);
@@ -167,7 +169,8 @@ fn frame_number(id: Option<&str>) -> usize {
     id.and_then(|id| id.strip_prefix('f')?.parse().ok()).unwrap_or(0)
 }
 
-/// Adds the pixels and trajectories of a robot with its number and name.
+/// Adds the pixels and trajectories of a robot to all frames. `number` becomes the id of its pixels. If it has a `name`,
+/// the pixels ask for the robot of that name.
 fn perform(show: &mut Show, (number, name): (u32, Option<String>), robot: &TimedRobot, times: &[FrameTimes]) {
     let mut light = robot.light.player();
     let mut first = 0;
@@ -189,8 +192,8 @@ fn perform(show: &mut Show, (number, name): (u32, Option<String>), robot: &Timed
     }
 }
 
-/// The path of a robot to a frame, from piece `first` of its whole path on, and the number of the next piece. `None` if
-/// the robot stays.
+/// The path of a robot to the frame with these `times`, and the index of the first piece after it. The path begins with
+/// piece `first` of the robot's whole path. `None` if the robot stays at its place.
 fn drive(robot: &TimedRobot, first: usize, times: &FrameTimes) -> (Option<Trajectory>, usize) {
     let mut next = first;
     let mut way: Option<Trajectory> = None;
@@ -225,7 +228,8 @@ fn drive(robot: &TimedRobot, first: usize, times: &FrameTimes) -> (Option<Trajec
     (way, next)
 }
 
-/// Removes all trajectories if a file of ours could not hold them. Drives are planned instead.
+/// Removes all trajectories if there are more than a file of our format may hold, and adds a warning. The drives are then
+/// planned instead.
 fn bounded(show: &mut Show, issues: &mut Issues) {
     let pieces: usize = show.trajectories.iter().map(|trajectory| trajectory.pieces.len()).sum();
     if show.trajectories.len() > MAX_TRAJECTORIES || pieces > MAX_TRAJECTORY_PIECES {
@@ -239,7 +243,7 @@ fn bounded(show: &mut Show, issues: &mut Issues) {
     }
 }
 
-/// The floor, which holds all places. Its middle is the origin.
+/// A floor around all places and control points of the paths. The origin is at its centre.
 fn stage(file: &TimedShow) -> Stage {
     let mut reach = Vec2::ZERO;
     for robot in &file.robots {
@@ -254,7 +258,8 @@ fn stage(file: &TimedShow) -> Stage {
     Stage { width_m: side_m(reach.x), depth_m: side_m(reach.y), ..Stage::default() }
 }
 
-/// Warnings about a show of a file that robots on a floor are to play.
+/// Warnings about a file for robots on a floor: about flying robots, names of robots, sudden changes of speed, and paths
+/// with too many pieces.
 fn findings(file: &TimedShow, show: &Show) -> Issues {
     let mut issues = Issues::new();
     let mut find = |code: &str, what: String| issues.push(Issue::warning(code, what));
@@ -291,7 +296,8 @@ fn findings(file: &TimedShow, show: &Show) -> Issues {
     issues
 }
 
-/// Whether the velocity along a trajectory jumps. Begin and end count as standing.
+/// Whether the velocity along a trajectory changes suddenly by more than [`JUMP_MPS`]. Before its start and after its
+/// end, the velocity is 0.
 fn jumps(trajectory: &Trajectory) -> bool {
     let (mut from, mut begin_s, mut velocity) = (trajectory.start, 0.0, Vec2::ZERO);
     for piece in &trajectory.pieces {
@@ -308,7 +314,7 @@ fn jumps(trajectory: &Trajectory) -> bool {
     !is_ramp(velocity)
 }
 
-/// Whether a step in velocity is small enough to be no jump.
+/// Whether a change of velocity, m/s, is at most [`JUMP_MPS`].
 fn is_ramp(step: Vec2) -> bool {
     (0.0..=JUMP_MPS).contains(&step.length())
 }

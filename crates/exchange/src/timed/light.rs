@@ -5,43 +5,44 @@ use lightbots_light::Linear;
 
 use crate::limits::LONGEST_S;
 
-/// Largest number of stretches of light in a file: 16 bytes each.
+/// Largest number of stretches of light of all robots in a file. A stretch takes 16 bytes of memory.
 pub(crate) const STRETCHES_MAX: usize = 4_000_000;
 
 /// Light over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct TimedLight {
-    /// Whether codes are linear light. Otherwise they are sRGB.
+    /// Whether codes, 0 to 255, are linear light. Otherwise, codes are sRGB.
     pub is_linear: bool,
-    /// Codes at the begin.
+    /// Codes of red, green and blue before the first stretch.
     pub start: [u8; 3],
-    /// Stretches in order. The codes at the end of the last one hold afterwards.
+    /// Stretches in order. After the last stretch, the codes at its end are kept.
     pub stretches: Vec<CodeStretch>,
 }
 
 /// A stretch of a robot's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CodeStretch {
-    /// Its end, seconds from the begin of the show; not before the end of the stretch before.
+    /// When the stretch ends, seconds from the start of the show. Not earlier than the end of the previous stretch.
     pub end_s: f64,
-    /// Codes at its end.
+    /// Codes of red, green and blue at the end of the stretch.
     pub to: [u8; 3],
-    /// Whether codes change linearly from those before to `to`. Otherwise `to` holds all the time.
+    /// Whether codes change linearly to `to` from those at the end of the previous stretch. Otherwise the codes are `to`
+    /// during the whole stretch.
     pub fades: bool,
 }
 
 impl TimedLight {
-    /// A light that never changes.
+    /// A light that never changes, with codes of linear light.
     pub fn constant(code: [u8; 3]) -> Self {
         Self { is_linear: true, start: code, stretches: Vec::new() }
     }
 
-    /// When the last stretch ends, seconds.
+    /// When the last stretch ends, seconds from the start of the show; 0 without stretches.
     pub fn end_s(&self) -> f64 {
         self.stretches.last().map_or(0.0, |stretch| stretch.end_s)
     }
 
-    /// Whether the light is black all the time before `at_s` seconds.
+    /// Whether the light is black from the start of the show until `at_s` seconds later.
     pub fn is_dark_until(&self, at_s: f64) -> bool {
         let (mut begin_s, mut from) = (0.0, self.start);
         for stretch in &self.stretches {
@@ -57,13 +58,13 @@ impl TimedLight {
         begin_s >= at_s || from == [0; 3]
     }
 
-    /// Codes at the end.
+    /// Codes at the end of the last stretch, or `start` without stretches.
     pub fn last(&self) -> [u8; 3] {
         self.stretches.last().map_or(self.start, |stretch| stretch.to)
     }
 
-    /// Adds a stretch. Holds of the same codes that follow each other become one. `room` is the number of stretches
-    /// that the file may still have.
+    /// Adds a stretch. A hold after a hold of the same codes only prolongs it. `room` is the number of stretches that may
+    /// still follow in the whole file. Fails if it is 0, and for a stretch that ends more than a day after the start.
     pub fn push(&mut self, stretch: CodeStretch, room: &mut usize) -> Result<(), String> {
         if !(0.0..=LONGEST_S).contains(&stretch.end_s) {
             return Err("its light lasts longer than a day; shorten it".into());
@@ -85,7 +86,7 @@ impl TimedLight {
         Ok(())
     }
 
-    /// Returns a player of the light, for moments that do not decrease.
+    /// Returns a player of the light. It gives the colours at moments that must not decrease.
     pub fn player(&self) -> CodePlayer<'_> {
         CodePlayer { light: self, next: 0, begin: (0.0, self.start) }
     }
@@ -100,18 +101,18 @@ impl TimedLight {
     }
 }
 
-/// Plays a light.
+/// Gives the colours of a light at moments that do not decrease.
 #[derive(Clone, Debug)]
 pub(crate) struct CodePlayer<'a> {
     light: &'a TimedLight,
-    /// Number of the stretch that plays.
+    /// Index of the stretch that plays, counted from 0.
     next: usize,
-    /// When that stretch began, seconds, and the codes before it.
+    /// When that stretch began, seconds from the start of the show, and the codes just before.
     begin: (f64, [u8; 3]),
 }
 
 impl CodePlayer<'_> {
-    /// The colour at `at_s` seconds, which must not be before the moment of the last call.
+    /// The colour at `at_s`, seconds from the start of the show. `at_s` must not be less than in the previous call.
     pub fn at(&mut self, at_s: f64) -> Rgb {
         while let Some(stretch) = self.light.stretches.get(self.next) {
             let (begin_s, from) = self.begin;
@@ -133,7 +134,7 @@ impl CodePlayer<'_> {
     }
 }
 
-/// The nearest codes of linear light of an sRGB colour.
+/// Converts an sRGB colour into the nearest codes of linear light, 0 to 255.
 pub(crate) fn linear_codes(colour: Rgb) -> [u8; 3] {
     let Linear { r, g, b } = Linear::from_rgb(colour);
     [r, g, b].map(|light| (light * 255.0).round() as u8)

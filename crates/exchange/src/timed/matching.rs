@@ -6,18 +6,19 @@ use lightbots_show::Show;
 
 use super::TimedShow;
 
-/// Largest difference of a channel that counts as none, codes. Linear light of eight bits makes the six darkest codes
-/// black.
+/// Largest difference between two colours in a channel that counts as none, sRGB codes. It must be at least 6, because
+/// linear light of eight bits makes the six darkest codes black.
 const CODES: u8 = 8;
-/// How much earlier or later a change may be, seconds, because a file samples light at moments of its own.
+/// How much earlier or later than in the show a colour may change in the file, seconds. The file samples light at its
+/// own moments.
 pub(super) const EARLIER_S: f64 = 0.025;
-/// Time between two comparisons, seconds.
+/// Time between two comparisons of the file's light with the show's, seconds.
 const STEP_S: f64 = 0.02;
-/// Largest number of comparisons. A longer show is compared less often.
+/// Largest number of comparisons for all robots together. If a show needs more, the time between two is longer.
 const COMPARISONS_MAX: f64 = 20e6;
 
-/// Whether robots ever show something other than the colours of their pixels. These change at the ends of drives, as in
-/// a show without layers.
+/// Whether the light of a robot in the file ever differs from the light that `show` gives it without layers. In `show`,
+/// a robot has the colour of its pixel, and changes to the next colour at the end of a drive.
 pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bool {
     let end_s = times.last().map_or(0.0, |times| times.end_s);
     let step_s = STEP_S.max(end_s * file.robots.len() as f64 / COMPARISONS_MAX);
@@ -41,7 +42,7 @@ pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bo
     })
 }
 
-/// Whether each channel of a colour is in the range of the others, or at most [`CODES`] outside.
+/// Whether each channel of `colour` is within the range of this channel in `others`, or at most [`CODES`] outside.
 fn is_between(colour: Rgb, others: [Rgb; 3]) -> bool {
     let channels: [fn(Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
     channels.into_iter().all(|channel| {

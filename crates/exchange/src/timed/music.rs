@@ -6,33 +6,34 @@ use lightbots_show::{Issue, MAX_LABEL_CHARS, Show};
 
 use crate::archive::asset_of;
 
-/// Largest time between the begins of music and first frame at which no difference is heard, seconds
-/// (docs/exchange.md).
+/// Largest time between the start of the music and that of the first frame's air time that counts as none, seconds: it
+/// is not noticed (docs/exchange.md).
 const TOLERANCE_S: f64 = 0.05;
 
 /// Music in a file.
 #[derive(Clone, Debug)]
 pub(crate) struct TimedMusic {
-    /// Name of its file, for people.
+    /// Name of the music's file, for people.
     pub name: String,
     /// Media type, such as `audio/mpeg`.
     pub media_type: String,
-    /// When it begins, seconds since the begin of the file.
+    /// When the music begins, seconds from the start of the timed show in the file; may be negative.
     pub start_s: f64,
     /// The sound.
     pub content: Arc<[u8]>,
 }
 
 impl TimedMusic {
-    /// How much later than `first_s` of the file it begins, seconds; negative: earlier. 0 if no difference is heard.
+    /// How much later than `first_s` the music begins, seconds; negative: earlier. 0 if the difference is at most
+    /// [`TOLERANCE_S`]. `first_s` counts from the start of the timed show in the file.
     pub fn late_s(&self, first_s: f64) -> f64 {
         let late_s = self.start_s - first_s;
         if late_s.abs() > TOLERANCE_S { late_s } else { 0.0 }
     }
 }
 
-/// Adds the music to a show. The air time of its first frame begins at `first_s` of the file. Music of a show begins
-/// there too: returns an issue if it began at another moment.
+/// Adds the music of a file to `show`. `first_s` is the moment of the file, in seconds, that became the start of the
+/// first frame's air time. Music of a show always begins there: returns a warning if it began elsewhere in the file.
 pub(super) fn add(show: &mut Show, music: &TimedMusic, first_s: f64) -> Option<Issue> {
     let name: String = music.name.chars().take(MAX_LABEL_CHARS).collect();
     show.assets.extend([asset_of(&name, &music.media_type, music.content.clone())]);

@@ -5,29 +5,32 @@ use lightbots_show::{MAX_TRAJECTORY_PIECES, TrajectoryPiece};
 
 use crate::limits::LONGEST_S;
 
-/// Distance within a piece up to which a robot stands, metres: files round places to a tenth of a millimetre.
+/// A robot whose points within a piece are at most this far from the piece's first place stands, metres. Files round
+/// places to a tenth of a millimetre.
 const STILL_M: f64 = 1e-4;
-/// Largest coordinate in a file, metres. No floor is as large, and squares of coordinates stay exact.
+/// Largest magnitude of a coordinate in a file, metres. No floor is as large, and squares of coordinates stay precise.
 const FARTHEST_M: f64 = 100_000.0;
-/// Height above which a robot flies, metres: places on the floor are written with a few millimetres of noise.
+/// Height above which a robot counts as flying, metres. Programs write places on the floor with a few millimetres of
+/// noise.
 const FLIES_M: f64 = 0.01;
 
-/// A path. It rests at `start` before its first piece and at its end afterwards.
+/// The timed path of a robot. The robot is at `start` until the first piece, and stays at the end of the last piece.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct TimedPath {
     /// First place, stage metres.
     pub start: Vec2,
-    /// Pieces in order. `end_s` counts from the begin of the show and increases.
+    /// Pieces in order. Their `end_s` is in seconds from the start of the show, and increases.
     pub pieces: Vec<TrajectoryPiece>,
-    /// Largest height, metres; 0 for a robot that stays on the floor.
+    /// Largest height above the floor, metres; 0 for a robot that stays on the floor.
     pub top_m: f64,
 }
 
-/// A piece, after the place and the time of its begin, stage metres and seconds.
+/// The place where a piece starts in stage metres, the time when it starts in seconds from the start of the show, and
+/// the piece.
 pub(crate) type BegunPiece<'a> = (Vec2, f64, &'a TrajectoryPiece);
 
 impl TimedPath {
-    /// When the last piece ends, seconds.
+    /// When the last piece ends, seconds from the start of the show; 0 without pieces.
     pub fn end_s(&self) -> f64 {
         self.pieces.last().map_or(0.0, |piece| piece.end_s)
     }
@@ -37,7 +40,7 @@ impl TimedPath {
         self.pieces.last().map_or(self.start, |piece| piece.end)
     }
 
-    /// The pieces from number `first` on, with the places and times of their begins.
+    /// The pieces from index `first` on, counted from 0, each with the place and time at which it starts.
     pub fn begun_from(&self, first: usize) -> impl Iterator<Item = BegunPiece<'_>> {
         let before = first.checked_sub(1).and_then(|before| self.pieces.get(before));
         let mut begin = before.map_or((self.start, 0.0), |piece| (piece.end, piece.end_s));
@@ -48,7 +51,7 @@ impl TimedPath {
         })
     }
 
-    /// When the robot moves: begin and end of each piece in which it does not stand, seconds.
+    /// Start and end of each piece in which the robot moves, seconds from the start of the show.
     pub fn moves(&self) -> impl Iterator<Item = (f64, f64)> {
         self.begun_from(0)
             .filter(|(from, _, piece)| !is_still(*from, piece))
@@ -56,17 +59,17 @@ impl TimedPath {
     }
 }
 
-/// Whether a robot stands during a piece that begins at `from`.
+/// Whether a robot stands during a piece that starts at the place `from`: no point of it is farther than [`STILL_M`].
 pub(crate) fn is_still(from: Vec2, piece: &TrajectoryPiece) -> bool {
     let points = piece.controls.iter().flatten().chain([&piece.end]);
     points.into_iter().all(|point| point.distance(from) <= STILL_M)
 }
 
-/// Reads a path point by point. Errors are words that follow the name of the robot.
+/// Builds a [`TimedPath`] from the points of a file. An error is a text that a caller puts after the name of the robot.
 #[derive(Debug)]
 pub(crate) struct PathReader<'a> {
     path: Option<TimedPath>,
-    /// Pieces that the whole file may still have.
+    /// Number of pieces that may still follow in the whole file, for all robots together.
     room: &'a mut usize,
 }
 
@@ -78,8 +81,9 @@ impl<'a> PathReader<'a> {
         Self { path: None, room }
     }
 
-    /// Adds the next place of the robot, `[x, y, z]` in metres with z up, at `at_s` seconds. `controls` are those of a
-    /// cubic curve to the place. The robot is at the first place before its time too.
+    /// Adds the next place of the robot, `[x, y, z]` in metres with z up, which it reaches `at_s` seconds after the start
+    /// of the show. `controls` are the control points of a cubic Bézier curve to that place; `None`: a straight line.
+    /// Until the time of the first point, the robot stands at the first place.
     pub fn point(
         &mut self,
         at_s: f64,

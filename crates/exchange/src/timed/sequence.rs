@@ -11,12 +11,14 @@ use super::TimedShow;
 use crate::archive::asset_of;
 use crate::sequence_file::SequenceFile;
 
-/// Times between two samples that are tried, milliseconds. The first at which the samples of all robots fit is taken.
+/// Times between two samples, milliseconds, tried in this order. The first with which all samples fit into a picture of
+/// [`PICTURE_PIXELS_MAX`] pixels is taken.
 const STEPS_MS: [u8; 6] = [20, 25, 40, 50, 100, 200];
 /// Media type of sequences among the files of a show.
 const MEDIA_TYPE: &str = "application/x-fseq";
 
-/// Adds a layer with the light of a file. If there is no room for it, returns an issue that says so.
+/// Adds a layer with the light of a file to `show`. If the light needs more than [`PICTURE_PIXELS_MAX`] samples, adds
+/// nothing and returns a warning.
 pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Option<Issue> {
     let first_s = times.first().map_or(0.0, |times| times.air_s);
     let end_s = times.last().map_or(0.0, |times| times.end_s);
@@ -42,7 +44,8 @@ pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Op
     None
 }
 
-/// Adds a layer and the file of its sequence. Its first sample is shown at `start_s` of show time.
+/// Adds a layer and its file, a sequence of colours, to `show`. The first sample is shown at the show time `start_s`,
+/// seconds; later ones follow every `step_ms` milliseconds.
 pub(crate) fn add_file(show: &mut Show, name: &str, content: Arc<[u8]>, step_ms: u8, start_s: f64) {
     let (hash, asset) = asset_of(&format!("{name}.fseq"), MEDIA_TYPE, content);
     show.assets.insert(hash, asset);

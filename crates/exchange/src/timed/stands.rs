@@ -2,18 +2,18 @@
 
 use super::TimedShow;
 
-/// Shortest time for which all robots must stand so that a picture is seen, seconds.
+/// Shortest time for which all robots must stand so that their places count as a picture, seconds.
 const SEEN_S: f64 = 0.4;
 
-/// A stretch of time in which no robot moves, seconds.
+/// A stretch of time in which no robot moves, seconds from the start of the show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stand {
     pub begin_s: f64,
     pub end_s: f64,
 }
 
-/// The stretches in which all robots stand, in order. The last ends with the show, however short it is. The first
-/// begins at 0 only if no robot moves at once.
+/// The stretches of at least [`SEEN_S`] in which all robots stand, in order. The last one begins when the last robot
+/// stops, ends at `end_s`, and may be shorter. The first one begins at 0 only if no robot moves right away.
 pub(super) fn stands(show: &TimedShow, end_s: f64) -> Vec<Stand> {
     let mut moves: Vec<(f64, f64)> = show.robots.iter().flat_map(|robot| robot.path.moves()).collect();
     moves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));

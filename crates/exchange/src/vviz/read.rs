@@ -30,12 +30,12 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Loaded, ReadError> {
     Ok(loaded)
 }
 
-/// Reads performances, and counts what the rest of the file may still have.
+/// Reads performances. Counts down the pieces and stretches that may still follow in the file.
 struct Reader {
     show: TimedShow,
-    /// Steps of place, and frames of colour, in a second.
+    /// Number of steps of places in a second, and number of frames of colours in a second.
     rates: [f64; 2],
-    /// When the performances begin, seconds.
+    /// When the performances begin, seconds from the start of the show.
     offset_s: f64,
     pieces: usize,
     stretches: usize,
@@ -44,7 +44,7 @@ struct Reader {
 }
 
 impl Reader {
-    /// Reads the head in advance, because performances may come before it in the file.
+    /// Reads rates, offset and coordinate frame, which may follow the performances in the file. Does not move `json`.
     fn new(json: &mut Json<'_>) -> Result<Self, ReadError> {
         json.peek()?;
         let number = |name: &str, usual: f64| match json.ahead(name) {
@@ -152,7 +152,7 @@ impl Reader {
         path.end().map_err(|what| json.fail("bad-path", what))
     }
 
-    /// Reads the light of a payload; `None` if it is something else.
+    /// Reads the light of a payload; `None` if the payload is no light.
     fn payload(&mut self, json: &mut Json<'_>) -> Result<Option<TimedLight>, ReadError> {
         json.peek()?;
         if json.ahead("type") != Some(Scalar::Text("Light".into())) {
@@ -192,12 +192,12 @@ fn version(json: &mut Json<'_>) -> Result<bool, ReadError> {
     if is_known { Ok(true) } else { Err(before.fail("unknown-version", what)) }
 }
 
-/// Converts a place of VVIZ into x, y and height of a stage.
+/// Converts a place of VVIZ, `[x, up, forward]`, into `[x, y, height]` of the stage, metres.
 fn floor([x, up, forward]: [f64; 3]) -> [f64; 3] {
     [x, forward, up]
 }
 
-/// Reads a step: how far it leads in x, y and z, metres, and its duration in seconds.
+/// Reads a step: displacement along x, y and z of VVIZ in metres, and duration in seconds; `None` if not stated.
 fn step(json: &mut Json<'_>) -> Result<([f64; 3], Option<f64>), ReadError> {
     let (mut by, mut seconds) = ([0.0; 3], None);
     json.object(|json, key| {
@@ -213,7 +213,8 @@ fn step(json: &mut Json<'_>) -> Result<([f64; 3], Option<f64>), ReadError> {
     Ok((by, seconds))
 }
 
-/// Reads an action: codes, and the number of frames for which they are held.
+/// Reads an action: codes of red, green and blue, and the number of colour frames for which they are held, 1 if not
+/// stated.
 fn action(json: &mut Json<'_>) -> Result<([u8; 3], f64), ReadError> {
     let (mut code, mut frames) = ([0; 3], 1.0);
     json.object(|json, key| {

@@ -11,9 +11,9 @@ use crate::timed::export::{self, ExportedRobot, ExportedShow, SAMPLE, sampled_no
 
 /// Units per metre to which places are rounded: hundredths of a millimetre.
 const UNITS_PER_M: f64 = 1e5;
-/// Decimals of a place.
+/// Number of decimals of a place in metres, as [`UNITS_PER_M`] implies.
 const PLACE_DECIMALS: usize = 5;
-/// Frames of colour in a second: one each [`SAMPLE`].
+/// Number of frames of colour in a second: one every [`SAMPLE`].
 const COLOUR_RATE: i64 = 1_000_000 / SAMPLE.0;
 
 pub(crate) fn encode(show: &Show, plan: Option<&ShowPlan>) -> Written {
@@ -58,7 +58,7 @@ fn performance(number: usize, robot: &ExportedRobot) -> String {
     )
 }
 
-/// Colours, each with the number of frames for which it is held.
+/// The JSON of a light's colours. Each colour has the number of frames for which it is held.
 fn actions(colours: &[Rgb]) -> String {
     // The last sample is the end of the show, after which nothing is held.
     let shown = &colours[..colours.len().saturating_sub(1).max(1).min(colours.len())];
@@ -70,12 +70,12 @@ fn actions(colours: &[Rgb]) -> String {
     actions.join(",")
 }
 
-/// A place in whole units: see [`UNITS_PER_M`].
+/// Rounds a place to whole units, of which a metre has [`UNITS_PER_M`].
 fn units(at: Vec2) -> [i64; 2] {
     [at.x, at.y].map(|metres| (metres * UNITS_PER_M).round() as i64)
 }
 
-/// Writes a number of units of the last decimal, exactly.
+/// Writes `value` · 10^-`decimals` exactly, without trailing zeros.
 fn decimal(value: i64, decimals: usize) -> String {
     let sign = if value < 0 { "-" } else { "" };
     let digits = format!("{:0width$}", value.unsigned_abs(), width = decimals + 1);

@@ -7,19 +7,22 @@ use crate::mask::nearest_on;
 use core::f64::consts::TAU;
 use lightbots_base::Vec2;
 
-/// What an effect runs along: a number for each robot, which rises by 1 over the span of the effect.
+/// What an effect runs along: a number for each robot. It rises by 1 over one span of the effect, such as `Look::size_m`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Coordinate {
-    /// Distance from the effect's place along its direction, divided by its size.
+    /// Distance of the robot from the effect's place along the effect's direction, divided by the effect's size; negative
+    /// behind the place.
     #[default]
     Line,
-    /// Distance from the effect's place, divided by its size.
+    /// Distance of the robot from the effect's place, divided by the effect's size.
     Distance,
-    /// Angle around the effect's place, counter-clockwise from its direction, as a share of a turn, 0 to 1.
+    /// Angle of the robot around the effect's place, counter-clockwise from the effect's direction, as a share of a whole
+    /// turn, 0 to 1.
     Angle,
-    /// Number of the robot, divided by the number of robots.
+    /// Number of the robot, counted from 0, divided by the number of all robots.
     Order,
-    /// Share of a polyline's length up to its point nearest to the robot. Corners in stage metres.
+    /// Position of the polyline's point that is nearest to the robot: the share of the polyline's length before the point,
+    /// 0 to 1. The corners are in stage metres.
     Curve(Vec<Vec2>),
 }
 

@@ -7,19 +7,20 @@ use crate::noise::{octaves, unit};
 use core::f64::consts::TAU;
 use lightbots_base::Vec2;
 
-/// Number of cells of noise over the height of a flame. Judged by eye on a floor of 16 x 10 robots: fewer look like
-/// clouds, more like sparks.
+/// Number of cells of noise over one size of the effect. Judged by eye on a floor of 16 x 10 robots: fewer cells look like
+/// clouds, more look like sparks.
 const FIRE_CELLS: f64 = 3.0;
-/// Heat of the hottest noise. With `FIRE_FUEL`, it lets the tallest flames end just above the size of the effect.
-/// Judged by eye.
+/// Factor from noise, 0 to 1, to heat. Together with `FIRE_FUEL`, it bounds the height of flames: 1.35 sizes of the effect,
+/// which hardly any noise reaches. Judged by eye.
 const FIRE_HEAT: f64 = 1.1;
-/// Heat at the foot of a flame without any noise. Judged by eye: at 0, the foot has dark holes.
+/// Heat at the foot of a flame where noise is 0. Judged by eye: with 0, the foot of the flames has dark holes.
 const FIRE_FUEL: f64 = 0.25;
-/// Octaves of a flame's noise. Judged by eye.
+/// Number of octaves of a flame's noise. Judged by eye.
 const FIRE_OCTAVES: u32 = 2;
 
-/// The mean of four sine waves, 0 to 1: along the direction, across it, diagonally, and around the place. Their phases
-/// come from the seed. Each wave repeats after one turn.
+/// The mean of four sine waves, 0 to 1. They run along the effect's direction, across it, diagonally, and inwards or
+/// outwards around its place. The seed decides their phases. All repeat after one turn; `turns`: cycles since the effect
+/// began.
 pub(super) fn plasma(look: &Look, turns: f64, place: Vec2) -> f64 {
     let from_place = place - look.place;
     let along = Vec2::unit(look.angle);
@@ -32,13 +33,15 @@ pub(super) fn plasma(look: &Look, turns: f64, place: Vec2) -> f64 {
     0.5 + sum / 8.0
 }
 
-/// Noise whose cells have the size of the effect, and which changes completely in one turn.
+/// Noise of `count` octaves, 0 to 1. Its cells have the size of the effect. It changes completely within one cycle;
+/// `turns`: cycles since the effect began.
 pub(super) fn noise(look: &Look, turns: f64, place: Vec2, count: u32) -> f64 {
     let at = (place - look.place) / look.size_m;
     octaves(look.seed, [at.x, at.y, turns], count)
 }
 
-/// Noise that rises along the direction by the size of the effect per turn, and cools with the height above the place.
+/// Noise, 0 to 1, that moves along the effect's direction by the effect's size per cycle, and gets darker with the height
+/// above the effect's place. `turns`: cycles since the effect began.
 pub(super) fn fire(look: &Look, turns: f64, place: Vec2) -> f64 {
     let up = Vec2::unit(look.angle);
     let from_place = (place - look.place) / look.size_m;

@@ -14,57 +14,58 @@ use crate::lit_robot::{LightContext, LitRobot};
 use crate::look::Look;
 use crate::palette::Shade;
 
-/// An effect. Each computes a value u from 0 to 1 or a colour of its own; `Look` has the settings.
+/// An effect. Most effects compute a value from 0 to 1, with which a colour of the palette is looked up. `Look` has palette
+/// and settings. A cycle lasts 1/`Look::speed_hz` seconds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LightEffect {
-    /// The palette's start.
+    /// The first colour of the palette, everywhere.
     Solid,
-    /// The palette along a coordinate.
+    /// The colours of the palette along a coordinate. With time, the colours move along the coordinate.
     Gradient(Coordinate),
-    /// The palette over time.
+    /// The colours of the palette one after another, for all robots at once.
     Fade,
-    /// A rise and a fall in each cycle.
+    /// All robots go through the palette and back in each cycle.
     Pulse,
-    /// Light and dark by turns.
+    /// All robots switch between the last and the first colour of the palette.
     Strobe,
-    /// Robots glow up and fade, each at its own moments. In each cycle, the share `density` of the robots does.
+    /// In each cycle, a random share of the robots glows up and fades, each robot at its own moment.
     Twinkle {
-        /// Share of robots, 0 to 1.
+        /// Share of the robots that glow up in a cycle, 0 to 1.
         density: f64,
     },
-    /// In each cycle, a random share of the robots is lit.
+    /// A random share of the robots is lit for a whole cycle. Each cycle has other robots.
     Sparkle {
-        /// Share of robots, 0 to 1.
+        /// Share of the robots that are lit, 0 to 1.
         density: f64,
     },
-    /// All hues along a coordinate.
+    /// All hues along a coordinate. With time, the hues move along the coordinate.
     Rainbow {
         /// What the hues run along.
         along: Coordinate,
-        /// 0 (white) to 1.
+        /// Saturation of the hues: 0 (white) to 1.
         saturation: f64,
     },
     /// A sine wave along a coordinate.
     Wave(Coordinate),
     /// A light with a tail that runs along a coordinate.
     Chase(Coordinate),
-    /// A ring that grows from the place.
+    /// A ring that grows from the effect's place in each cycle.
     Ripple,
-    /// A sum of sines of place and time.
+    /// The mean of four sine waves that run over the floor.
     Plasma,
-    /// Clouds.
+    /// Noise that looks like clouds.
     Noise {
-        /// Octaves: more of them give finer grain.
+        /// Number of octaves: more octaves give a finer grain.
         octaves: u32,
     },
     /// Flames.
     Fire,
-    /// A picture or film on the floor, by its number in [`LightContext::pictures`].
+    /// A picture or film on the floor. The number is its index in [`LightContext::pictures`].
     Picture(usize),
-    /// Given colours for each robot and moment.
+    /// A list of colours for each robot and moment.
     Sequence {
-        /// Index of the colours in [`LightContext::pictures`]: one column for each robot, by its number, and one row
-        /// for each moment.
+        /// Index in [`LightContext::pictures`] of a picture with the colours. Its column n has the colours of robot n, its
+        /// rows the moments.
         picture: usize,
         /// Time from one row to the next, seconds.
         step_s: f64,
@@ -73,16 +74,16 @@ pub enum LightEffect {
     },
     /// A fade to the robot's colour in the next frame.
     NextFrame,
-    /// A random value of the palette for each robot.
+    /// A random position of the palette for each robot. All positions move on with time.
     ByRobot,
-    /// The palette along the robot's speed.
+    /// A position of the palette that grows with the robot's speed.
     BySpeed {
-        /// Speed at which the end of the palette is reached, metres per second.
+        /// Speed that gives the last colour of the palette, metres per second. Speed 0 gives the first one.
         top_mps: f64,
     },
 }
 
-/// What an effect shows for a robot `tau_s` seconds after its layer began.
+/// The colour and opacity that an effect gives a robot at `tau_s`, seconds since the origin of the layer's time.
 pub(crate) fn shade(
     effect: &LightEffect,
     look: &Look,

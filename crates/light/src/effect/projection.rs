@@ -7,12 +7,13 @@ use crate::look::Look;
 use crate::palette::Shade;
 use lightbots_base::Vec2;
 
-/// How much of a row before its start a moment already counts as in that row, because moments are inexact sums of
-/// seconds.
+/// How long before the start of a row a moment already counts as in that row, as a share of the time between two rows.
+/// Needed because moments are inexact sums of seconds.
 const EARLY_ROWS: f64 = 1e-6;
 
-/// Returns the light of a picture with its centre at the effect's place, `size_m` wide, its right side towards the
-/// direction. A film lasts one turn. Outside of the picture nothing shines.
+/// Returns the light of a picture at a place of the floor. The picture's centre is at the effect's place, and the picture
+/// is `size_m` wide. Its right side lies in the effect's direction. A film lasts one cycle; `turns`: cycles since the
+/// effect began. Outside of the picture, opacity is 0.
 pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorPicture>) -> Shade {
     let Some(film) = film else { return (Linear::BLACK, 0.0) };
     let right = Vec2::unit(look.angle);
@@ -26,8 +27,8 @@ pub(super) fn picture(look: &Look, turns: f64, place: Vec2, film: Option<&FloorP
     (film.at(frame, across, down), 1.0)
 }
 
-/// Returns the light of a robot in the row of the moment, which is `rows` after the start of the first row. No light
-/// before the first row, after the last, and for robots without a column.
+/// Returns the light of a robot in a sequence. `rows` is the time since the start of the first row, in units of the time
+/// between two rows. Opacity is 0 before the first row, after the last one, and for robots without a column.
 pub(super) fn sequence(rows: f64, robot: u32, colours: Option<&FloorPicture>) -> Shade {
     let row = libm::floor(rows + EARLY_ROWS);
     if row.is_nan() || row < 0.0 {

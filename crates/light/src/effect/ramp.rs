@@ -7,12 +7,13 @@ use crate::ease::fraction;
 use crate::look::Look;
 use crate::palette::Shade;
 
-/// The coordinate less the turns, wrapped into 0 to 1.
+/// The coordinate `along` minus `turns`, the cycles since the effect began, wrapped into 0 to 1.
 pub(super) fn gradient(look: &Look, turns: f64, along: f64) -> f64 {
     look.wrap.at(along - turns)
 }
 
-/// The colour whose hue is the coordinate less the turns. Easing bends the hue, 0 to 1.
+/// The opaque colour whose hue is the fraction of the coordinate `along` minus `turns`, the cycles since the effect began.
+/// The easing curve is applied to the hue, 0 to 1.
 pub(super) fn rainbow(look: &Look, turns: f64, along: f64, saturation: f64) -> Shade {
     let hue = look.ease.at(fraction(along - turns));
     let channel = |start: f64| {

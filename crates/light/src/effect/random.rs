@@ -5,10 +5,12 @@ use crate::look::Look;
 use crate::noise::{cycle, unit};
 use core::f64::consts::PI;
 
-/// Changes the seed for the robots' offsets in time, which are then independent of the choice of robots that are lit.
+/// Combined with the seed of an effect by XOR, gives the seed of the robots' offsets in time. They are then independent of
+/// the random choice of the robots that are lit.
 const OFFSETS: u64 = 0x6f66_6673;
 
-/// In each of its cycles a robot glows up and fades over the first `width`, or stays dark.
+/// In each of its cycles, a robot either glows up from 0 to 1 and fades again over the first `width` of the cycle, or stays
+/// dark. It glows with the probability `density`. The cycles of robots start at random moments.
 pub(super) fn twinkle(look: &Look, turns: f64, robot: u32, density: f64) -> f64 {
     let own = turns + unit(look.seed ^ OFFSETS, u64::from(robot), 0);
     let phase = fraction(own);
@@ -19,12 +21,12 @@ pub(super) fn twinkle(look: &Look, turns: f64, robot: u32, density: f64) -> f64 
     rise * rise
 }
 
-/// A robot is lit for a whole cycle, or dark.
+/// 1 if the robot is lit in the present cycle, else 0. Robots are lit with the probability `density`.
 pub(super) fn sparkle(look: &Look, turns: f64, robot: u32, density: f64) -> f64 {
     if unit(look.seed, u64::from(robot), cycle(turns)) < density { 1.0 } else { 0.0 }
 }
 
-/// A random phase for each robot, moved by the turns.
+/// A random phase of the robot plus `turns`, the cycles since the effect began, wrapped into 0 to 1.
 pub(super) fn by_robot(look: &Look, turns: f64, robot: u32) -> f64 {
     look.wrap.at(unit(look.seed, u64::from(robot), 0) + turns)
 }

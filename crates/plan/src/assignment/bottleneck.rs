@@ -1,9 +1,11 @@
-//! The assignment with the shortest longest line: an exact bottleneck matching of places in the plane.
+//! The assignment whose longest line is shortest: an exact bottleneck matching of places in the plane. Rows are matched
+//! with columns.
 //!
-//! Augmenting paths decide whether a perfect matching with edges up to a given length, the reach, exists. They are
-//! breadth-first searches from all open rows at once (Azad, Buluç & Pothen 2017). Edges are never listed: a k-d tree
-//! yields columns within reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected
-//! between bounds. A failed search and a found matching tighten them to distances that occur between places.
+//! Augmenting paths decide whether a matching of all rows with edges up to a given length, the reach, exists. They are
+//! found by breadth-first searches from all open rows at once (Azad, Buluç & Pothen 2017). Edges are not stored: a k-d
+//! tree yields columns within reach that the search has not seen yet (Efrat, Itai & Katz 2001). The reach is bisected
+//! between a lower and an upper bound. A failed search raises the lower bound, a found matching lowers the upper bound,
+//! each to a distance that occurs between places.
 
 use super::kdtree::{KdTree, Remaining};
 use super::partner::NONE;
@@ -11,13 +13,13 @@ use super::within::Within;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Ratio of two squared distances from which they count as equal, because they differ by rounding only.
+/// Two squared distances count as equal if their ratio is at least this, because rounding alone makes them differ.
 const SAME: f64 = 1.0 - 1e-12;
 
-/// Rows between two polls of the cancellation.
+/// Number of rows between two polls of the cancellation.
 const POLLED: usize = 256;
 
-/// A matching of all rows with the least longest edge.
+/// The matching of all rows whose longest edge is shortest.
 pub(super) struct Bottleneck {
     /// Square of the length of the longest edge, square metres.
     pub reach_squared: f64,
@@ -25,8 +27,8 @@ pub(super) struct Bottleneck {
     pub column_of: Vec<u32>,
 }
 
-/// Finds the bottleneck matching of all rows. `known[row]` is any matching of all rows; a better one makes the search
-/// faster. A cancelled search returns the best matching found until then.
+/// Finds the bottleneck matching of all rows. `known[row]` is the column in any matching of all rows; one with a
+/// shorter longest edge makes the search faster. A cancelled search returns the best matching found until then.
 pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel: Cancel<'_>) -> Bottleneck {
     let mut low = least_thinkable(rows, columns);
     let mut best =
@@ -57,8 +59,8 @@ pub(super) fn bottleneck(rows: &[Vec2], columns: &[Vec2], known: &[u32], cancel:
     best
 }
 
-/// Lower bound of the bottleneck, square metres. Every row needs some column, and every column needs a row if there are
-/// equally many.
+/// Lower bound of the squared bottleneck distance, square metres. Every row needs at least its nearest column. If there
+/// are equally many, every column needs at least its nearest row.
 fn least_thinkable(rows: &[Vec2], columns: &[Vec2]) -> f64 {
     let farthest = |from: &[Vec2], to: &[Vec2]| {
         let tree = KdTree::new(to);
@@ -83,20 +85,20 @@ struct Matcher<'a> {
     within: Within<'a>,
     column_of: Vec<u32>,
     row_of: Vec<u32>,
-    /// `[row]`: how the current phase reached it.
+    /// `[row]`: how the current phase reached the row.
     reached: Vec<Reached>,
-    /// Rows that the current phase has reached, in order.
+    /// Indices of the rows that the current phase has reached, in order.
     queue: Vec<u32>,
     /// Columns that the current phase has seen.
     seen: Vec<u32>,
 }
 
-/// A row's place in a search.
+/// How a search reached a row.
 #[derive(Clone, Copy)]
 struct Reached {
     /// The open row at which the path begins.
     root: u32,
-    /// The row before this one on the path; [`NONE`] at the root.
+    /// The row before this row on the path; [`NONE`] at the root.
     from: u32,
 }
 
@@ -113,7 +115,7 @@ impl<'a> Matcher<'a> {
         (self.columns[column as usize] - self.rows[row]).length_squared()
     }
 
-    /// Starts from the edges of `known` that are within reach, or from `partial` if that has more edges.
+    /// Begins with the edges of `known` that are within reach, or with `partial` if that matches more rows.
     fn begin(&mut self, known: &[u32], partial: &[u32], reach_squared: f64) {
         for (row, &column) in known.iter().enumerate() {
             let keep = self.squared(row, column) <= reach_squared;
@@ -132,8 +134,9 @@ impl<'a> Matcher<'a> {
         self.within.reset(&self.row_of);
     }
 
-    /// Extends the matching to all rows, with edges within reach. If that is impossible, returns a greater reach,
-    /// squared, that every perfect matching needs. `before[row]` is a matching of all rows with longer edges.
+    /// Extends the matching to all rows, with edges within reach. If that is impossible, returns a greater squared
+    /// reach, square metres, that every matching of all rows needs. `before[row]` is a matching of all rows with longer
+    /// edges.
     fn complete(&mut self, before: &[u32], reach_squared: f64) -> Result<(), f64> {
         let mut open: Vec<u32> = (0..self.rows.len() as u32).collect();
         open.retain(|&row| self.column_of[row as usize] == NONE);
@@ -156,8 +159,9 @@ impl<'a> Matcher<'a> {
         Ok(())
     }
 
-    /// Searches breadth first from all open rows at once, and flips one augmenting path for every row that still has
-    /// one. Returns the number of flipped paths. Columns seen stay out of `within` until [`Self::forget_seen`].
+    /// Searches breadth first from the rows `open` at once, and flips one augmenting path for every row that still has
+    /// one. Returns the number of flipped paths. Columns seen are left out of further searches until
+    /// [`Self::forget_seen`].
     fn phase(&mut self, open: &[u32], reach_squared: f64) -> usize {
         let mut found = 0;
         for &row in open {
@@ -190,8 +194,8 @@ impl<'a> Matcher<'a> {
         found
     }
 
-    /// Flips the path to `row`: matches `row` with a free column, and each row before it with the column of the row
-    /// after it.
+    /// Flips the augmenting path that ends at `row`. Matches `row` with the free column `column`, and each row before
+    /// it on the path with the column of the next row.
     fn flip(&mut self, mut row: u32, mut column: u32) {
         self.seen.push(column);
         while row != NONE {
@@ -209,8 +213,9 @@ impl<'a> Matcher<'a> {
         self.queue.clear();
     }
 
-    /// Returns the least squared distance from a seen row to an unseen column, after a phase without a path. The seen
-    /// rows outnumber the columns that they reach (Hall), so every perfect matching needs a line at least that long.
+    /// Returns the least squared distance from a seen row to an unseen column, square metres, after a phase without a
+    /// path. The seen rows outnumber the columns within their reach (Hall), so every matching of all rows needs an edge
+    /// at least that long.
     fn needed(&mut self) -> f64 {
         let least = |least, &row: &u32| self.within.nearest_squared(row, least);
         let least = self.queue.iter().fold(f64::INFINITY, least);

@@ -1,17 +1,17 @@
 //! The costs of edges, and the exact assignment with the least sum of costs, found on few edges.
 //!
 //! Shortest augmenting paths with duals (Jonker & Volgenant 1987) run over a few edges of each row: those that are
-//! cheapest by good initial duals. The duals then price all edges that were left out, through a k-d tree that prunes
-//! whole regions. Edges that would improve the sum are added until there are none.
+//! cheapest by good initial duals. The resulting duals then price all edges that were left out. A k-d tree skips whole
+//! regions without cheap edges. Edges that would lower the sum are added until there are none.
 
 use super::kdtree::{KdTree, Most, Weights};
 use super::search::{Edges, Search};
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Number of edges with which each row begins.
+/// Number of edges that each row has at the start.
 const FIRST: usize = 12;
-/// At most this many edges are added to a row in one round of pricing.
+/// Most edges that are added to a row in one round of pricing.
 const ADDED: usize = 6;
 /// Most rounds of pricing. Ten thousand robots need a dozen at most. If this many rounds do not suffice, the assignment
 /// may be slightly worse than the best.
@@ -35,7 +35,8 @@ impl<'a> Costs<'a> {
         Self { cancel, rows: rows.to_vec(), tree: KdTree::new(columns), duals }
     }
 
-    /// Replaces the initial column duals with these if they give a greater sum of all duals.
+    /// Replaces the initial column duals with `duals` if these give a greater sum of all duals, which is a closer lower
+    /// bound of the costs.
     pub fn with_better_duals(mut self, duals: Vec<f64>) -> Self {
         if self.dual_sum(&duals) > self.dual_sum(&self.duals) {
             self.duals = duals;
@@ -43,7 +44,8 @@ impl<'a> Costs<'a> {
         self
     }
 
-    /// Returns the sum of all duals for these column duals: no assignment costs less.
+    /// Returns the sum of all duals, with the greatest legal row duals for these column duals: no assignment costs
+    /// less.
     fn dual_sum(&self, duals: &[f64]) -> f64 {
         let mut sum = duals.iter().sum();
         let most = Most { count: 1, below: f64::INFINITY };
@@ -51,8 +53,8 @@ impl<'a> Costs<'a> {
         sum
     }
 
-    /// Calls `each` once for every row with its edges of least cost minus column dual, as [`KdTree::cheapest`] finds
-    /// them. Once cancelled, the list is empty.
+    /// Calls `each` once for every row, with its edges of least cost − column dual, as [`KdTree::cheapest`] finds them.
+    /// After a cancellation, the list is empty.
     fn cheapest(&self, duals: &[f64], most: Most, mut each: impl FnMut(&[(f64, f64, u32)])) {
         let greatest = self.tree.greatest(duals);
         let weights = Weights { of: duals, greatest: &greatest };
@@ -68,7 +70,8 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Returns the cheapest edges of every row, plus one edge each that together form a matching of all rows.
+    /// Returns the cheapest edges of every row by the initial duals, and one more edge for each row. These additional
+    /// edges together form a matching of all rows.
     fn first_edges(&self) -> Vec<Edges> {
         let mut edges: Vec<Edges> = Vec::with_capacity(self.rows.len());
         let most = Most { count: FIRST, below: f64::INFINITY };
@@ -91,15 +94,15 @@ impl<'a> Costs<'a> {
         (self.tree.place(column) - self.rows[row]).length_squared()
     }
 
-    /// Finds the assignment with the least sum, without a limit on the length of edges.
+    /// Finds the assignment with the least sum of costs, without a limit on the length of edges.
     pub fn solve(&self) -> Search {
         let mut search = Search::new(self.first_edges(), self.duals.clone());
         self.improve(&mut search, |_, _| true);
         search
     }
 
-    /// Completes an assignment, then adds edges for which `allowed(row, column)` holds and improves it until it is the
-    /// best.
+    /// Completes an assignment. Then adds edges for which `allowed(row, column)` holds, until no edge would lower the
+    /// sum of costs.
     pub fn improve(&self, search: &mut Search, allowed: impl Fn(usize, u32) -> bool) {
         search.complete(self.cancel);
         for _ in 0..ROUNDS {
@@ -115,8 +118,8 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Adds edges that would improve the sum, and returns their rows. A row is searched only if its dual exceeds the
-    /// bound below which all its edges are listed.
+    /// Adds allowed edges that would lower the sum of costs, and returns their rows. A row is searched only if its dual
+    /// exceeds the bound below which all its edges are listed.
     fn price(&self, search: &mut Search, allowed: &impl Fn(usize, u32) -> bool) -> Vec<u32> {
         let mut improved = Vec::new();
         let mut found = Vec::new();
@@ -138,7 +141,7 @@ impl<'a> Costs<'a> {
     }
 }
 
-/// Returns the reduced cost below which [`KdTree::cheapest`] found all edges.
+/// Returns the value of cost − column dual below which [`KdTree::cheapest`] found all edges.
 fn complete_below(found: &[(f64, f64, u32)], most: Most) -> f64 {
     if found.len() < most.count { most.below } else { found[most.count - 1].0 }
 }

@@ -1,18 +1,19 @@
-//! A static k-d tree over places: finds places that are near, cheap, or not taken yet.
+//! A static k-d tree over places. It finds places that are near, that are cheap (near, with a high weight), or that are
+//! not taken yet.
 
 use lightbots_base::Vec2;
 
-/// Most places in a leaf, up to one more by uneven division.
+/// Most places in a leaf; uneven division may add one.
 const LEAF: usize = 6;
 
-/// Limits of a search: the number of places to find, and the cost below which they must be, square metres.
+/// Limits of a search: the number of places to find, and the cost that they must be below, square metres.
 #[derive(Clone, Copy)]
 pub(super) struct Most {
     pub count: usize,
     pub below: f64,
 }
 
-/// Weights that are subtracted from squared distances.
+/// Weights that are subtracted from squared distances, square metres.
 #[derive(Clone, Copy)]
 pub(super) struct Weights<'a> {
     /// `of[id]`: the weight of a place.
@@ -110,13 +111,13 @@ impl KdTree {
         self.divide(points, 2 * node + 1, middle, last);
     }
 
-    /// Returns the place with this index, metres.
+    /// Returns the place with this index in the list that built the tree, metres.
     pub fn place(&self, id: u32) -> Vec2 {
         self.places[self.position_of[id as usize] as usize]
     }
 
-    /// Pairs each place of this tree with a different place of `other` at about the same share of the tree order, as
-    /// two indices. `other` must hold at least as many places.
+    /// Pairs each place of this tree with a different place of `other` at about the same share of the tree order.
+    /// Yields the two indices. `other` must hold at least as many places.
     pub fn in_step_with(&self, other: &Self) -> impl Iterator<Item = (u32, u32)> {
         let (own, others) = (self.len(), other.len());
         self.ids.iter().enumerate().map(move |(rank, &id)| (id, other.ids[rank * others / own]))
@@ -144,9 +145,9 @@ impl KdTree {
         greatest
     }
 
-    /// Replaces `found` with the cheapest places; the cost of a place is its squared distance minus its weight. Only
-    /// places with a cost below `most.below` for which `allowed(id)` holds count, at most `most.count`. They are sorted
-    /// by cost, as (cost, squared distance, id).
+    /// Replaces `found` with the cheapest places, as (cost, squared distance, id), sorted by cost. The cost of a place
+    /// is its squared distance from `from` minus its weight. Only places with a cost below `most.below`, and for which
+    /// `allowed(id)` returns `true`, are found, at most `most.count`.
     pub fn cheapest(
         &self,
         from: Vec2,
@@ -186,7 +187,8 @@ impl KdTree {
         }
     }
 
-    /// Replaces `found` with all places whose squared distance is at most `reach_squared`, as (squared distance, id).
+    /// Replaces `found` with all places whose squared distance from `from` is at most `reach_squared`, as (squared
+    /// distance, id).
     pub fn within(&self, from: Vec2, reach_squared: f64, found: &mut Vec<(f64, u32)>) {
         found.clear();
         let mut stack = Stack::new(1);
@@ -209,8 +211,8 @@ impl KdTree {
         }
     }
 
-    /// Returns the mean place of every leaf, in tree order. Leaves of two trees with equally many places hold equally
-    /// many.
+    /// Returns the mean place of every leaf, in tree order. In two trees with equally many places, leaves at the same
+    /// position hold equally many.
     pub fn leaf_centres(&self) -> Vec<Vec2> {
         let leaves = self.nodes[self.first_leaf..].iter();
         let centre = |leaf: &Node| {
@@ -221,7 +223,7 @@ impl KdTree {
     }
 }
 
-/// Nodes still to visit. Depth-first search keeps at most one sibling for each level.
+/// Nodes that a search must still visit. A depth-first search keeps at most one sibling for each level.
 struct Stack {
     nodes: [u32; 72],
     count: usize,
@@ -253,21 +255,21 @@ impl Stack {
     }
 }
 
-/// The places of a tree that have not been taken.
+/// The places of a tree that have not been taken yet.
 pub(super) struct Remaining {
     here: Vec<bool>,
     counts: Vec<u32>,
 }
 
 impl Remaining {
-    /// Contains the places for which `here(id)` holds.
+    /// Begins with the places for which `here(id)` returns `true`.
     pub fn new(tree: &KdTree, here: impl Fn(usize) -> bool) -> Self {
         let mut remaining = Self { here: Vec::new(), counts: Vec::new() };
         remaining.reset(tree, here);
         remaining
     }
 
-    /// Starts again with the places for which `here(id)` holds.
+    /// Starts again: contains the places for which `here(id)` returns `true`.
     pub fn reset(&mut self, tree: &KdTree, here: impl Fn(usize) -> bool) {
         self.here.clear();
         self.here.resize(tree.len(), false);
@@ -296,12 +298,14 @@ impl Remaining {
         taken
     }
 
-    /// Takes all places whose squared distance is at most `reach_squared`, in the order in which [`Self::take`] would.
+    /// Takes all places whose squared distance from `from` is at most `reach_squared`, in the order in which
+    /// [`Self::take`] would.
     pub fn drain(&mut self, tree: &KdTree, from: Vec2, reach_squared: f64, taken: &mut Vec<u32>) {
         self.pull(tree, from, reach_squared, u32::MAX, |id| taken.push(id));
     }
 
-    /// Takes up to `most` places whose squared distance is at most `reach_squared`, and calls `take` with each.
+    /// Takes up to `most` places whose squared distance from `from` is at most `reach_squared`, and calls `take` with
+    /// each index.
     fn pull(
         &mut self,
         tree: &KdTree,
@@ -338,7 +342,7 @@ impl Remaining {
         }
     }
 
-    /// Returns the squared distance of the nearest remaining place, or `bound` if none is nearer.
+    /// Returns the squared distance from `from` to the nearest remaining place, or `bound` if none is nearer.
     pub fn nearest_squared(&self, tree: &KdTree, from: Vec2, bound: f64) -> f64 {
         let mut least = bound;
         let mut stack = Stack::new(1);

@@ -1,30 +1,32 @@
-//! The assignment with the least sum of squared lines, none of them longer than a reach.
+//! The assignment with the least sum of squared line lengths, in which no line is longer than a given length, the
+//! reach.
 //!
-//! The search begins with the best assignment without a limit, from which edges beyond the reach are removed.
+//! The search begins with the best assignment without that limit, from which edges beyond the reach are removed.
 
 use super::costs::Costs;
 use super::partner::NONE;
 use super::search::Search;
 use lightbots_base::Vec2;
 
-/// The search for the best assignment whose edges are within a reach.
+/// The search for the assignment with the least sum of squared lengths and no edge longer than a reach.
 pub(super) struct LeastSquares<'a> {
-    /// True places of rows, metres: distances of true places decide which edges are within reach.
+    /// Places of rows on the floor, stage metres. Their distances decide which edges are within reach; costs use scaled
+    /// places.
     rows: &'a [Vec2],
-    /// True places of columns, metres.
+    /// Places of columns on the floor, stage metres.
     columns: &'a [Vec2],
     costs: &'a Costs<'a>,
     search: Search,
-    /// Lower bound for each row on the cost minus column dual of any edge: its row dual in the best assignment without
-    /// a limit. It holds because column duals only fall. With more columns than rows, column duals start again at 0,
-    /// and the bound is minus infinity.
+    /// `[row]`: lower bound on cost − column dual of any edge of the row. It is the row's dual in the best assignment
+    /// without a limit, because column duals only fall. If there are more columns than rows, column duals start again
+    /// at 0, and the bound is minus infinity.
     unlimited_duals: Vec<f64>,
     reach_squared: f64,
 }
 
 impl<'a> LeastSquares<'a> {
-    /// Limits `unlimited`, the best assignment, to edges within reach. `feasible[row]` is a matching with such edges
-    /// only.
+    /// Prepares to limit the best assignment, `unlimited`, to edges within reach. `feasible[row]` is the column in a
+    /// matching with edges within reach only. `reach_squared` is in square metres.
     pub fn new(
         (rows, columns): (&'a [Vec2], &'a [Vec2]),
         (costs, unlimited): (&'a Costs<'a>, &Search),
@@ -52,9 +54,8 @@ impl<'a> LeastSquares<'a> {
         Self { rows, columns, costs, search, unlimited_duals, reach_squared }
     }
 
-    /// Returns the best assignment within `reach_squared` as `column_of[row]`. `reach_squared` must not shrink from
-    /// call to call. `None` if none was found, which only a cancellation can cause, because the feasible matching
-    /// exists.
+    /// Returns the best assignment without an edge beyond `reach_squared`, as `column_of[row]`. `reach_squared` must
+    /// not shrink from call to call. Returns `None` only if cancelled, because a feasible matching exists.
     pub fn solve(&mut self, reach_squared: f64) -> Option<&[u32]> {
         let within = |row: usize, column: u32| {
             (self.columns[column as usize] - self.rows[row]).length_squared() <= reach_squared

@@ -1,9 +1,9 @@
-//! Assignment of goals to starts: minimises the longest line first, then the sum of squares among assignments with no
-//! longer line.
+//! Assignment of goals to starts by the straight lines between them. It minimises the longest line first, then the sum
+//! of squared lengths among assignments with no longer line.
 //!
-//! Both steps are exact and sparse: ten thousand robots have a hundred million edges, of which a few for each robot are
-//! examined. The same places give the same assignment, bit for bit. Of equally good edges, the first in the k-d tree
-//! wins.
+//! Both steps are exact and sparse: with ten thousand robots there are a hundred million edges (pairs of a goal and a
+//! start), of which a few for each robot are examined. The same places give the same assignment, bit for bit. Of
+//! equally good edges, the first in the k-d tree wins.
 
 mod bottleneck;
 mod costs;
@@ -26,40 +26,44 @@ use partner::NONE;
 use scales::costs_with_duals;
 use search::Search;
 
-/// Squared lengths up to this factor above the reach count as equal: places on a grid differ by rounding.
+/// Squared lengths up to this factor × the reach squared count as within reach, because places on a grid differ by
+/// rounding.
 const ROUNDING: f64 = 1.0 + 1e-11;
 
-/// Goals, and the starts that may be assigned to them.
+/// Goals, the starts that may be assigned to them, and the greatest length of a line (the reach).
 #[derive(Clone, Debug)]
 pub struct Choice<'a> {
+    /// Number of all starts.
     starts: usize,
+    /// Number of all goals.
     goals: usize,
-    /// Pinned pairs of goal and start.
+    /// Pinned pairs: `(goal, start)`.
     pinned: Vec<(usize, usize)>,
-    /// Goals that are not pinned.
+    /// Indices of the goals that are not pinned.
     open_goals: Vec<usize>,
+    /// Indices of the starts that no goal is pinned to.
     open_starts: Vec<usize>,
     goal_places: Vec<Vec2>,
     start_places: Vec<Vec2>,
-    /// Costs of edges between open goals and starts.
+    /// Costs of edges between open goals (rows) and open starts (columns).
     costs: Costs<'a>,
-    /// The open assignment with the least sum, without a bound on its longest line.
+    /// The assignment of open goals with the least sum of costs, without a bound on its longest line.
     shortest: Search,
-    /// An assignment of open goals with no line beyond the reach.
+    /// `[open goal]`: index of its open start, in an assignment without a line beyond the reach.
     feasible: Vec<u32>,
-    /// Square of the bottleneck distance, square metres.
+    /// Square of the reach, square metres: of the bottleneck distance, or of the longest line of a known assignment.
     reach_squared: f64,
 }
 
 impl<'a> Choice<'a> {
-    /// Finds the bottleneck distance. `pinned[goal]` is the start that must go there; goals beyond the end of the list
-    /// are not pinned. `None` if there are fewer starts than goals, a place is not finite, or a pin names a missing or
-    /// taken start.
+    /// Finds the bottleneck distance: the longest line of the assignment whose longest line is shortest. `pinned[goal]`
+    /// is the start that must go there; goals beyond the end of the list are not pinned. `None` if there are fewer
+    /// starts than goals, a place is not finite, or a pin names a missing or taken start.
     pub fn new(starts: &[Vec2], goals: &[Vec2], pinned: &[Option<usize>]) -> Option<Self> {
         Choice::unless(Cancel::NEVER, starts, goals, pinned)
     }
 
-    /// [`Choice::new`] with a cancellation; `None` if it is cancelled.
+    /// [`Choice::new`] with a cancellation; `None` also if it is cancelled.
     pub(crate) fn unless(
         cancel: Cancel<'a>,
         starts: &[Vec2],
@@ -74,8 +78,8 @@ impl<'a> Choice<'a> {
         Some(choice)
     }
 
-    /// A choice whose reach is the longest line of a known assignment `start_of[goal]`, instead of the bottleneck
-    /// distance.
+    /// As [`Choice::new`], but the reach is the longest line of a known assignment `start_of[goal]`, instead of the
+    /// bottleneck distance.
     pub(crate) fn containing(
         cancel: Cancel<'a>,
         starts: &[Vec2],
@@ -135,7 +139,8 @@ impl<'a> Choice<'a> {
         })
     }
 
-    /// The bottleneck distance, metres: every assignment that keeps the pins has a line at least this long.
+    /// The bottleneck distance, metres: every assignment that keeps the pins has a line at least this long. This holds
+    /// only for choices made by [`Choice::new`].
     pub fn bottleneck_m(&self) -> f64 {
         self.reach_squared.sqrt()
     }
@@ -145,12 +150,12 @@ impl<'a> Choice<'a> {
         self.open_goals.is_empty()
     }
 
-    /// Number of spare starts.
+    /// Number of starts that get no goal.
     pub fn spares(&self) -> usize {
         self.starts - self.goals
     }
 
-    /// A minimiser of the squares.
+    /// Returns a solver for the assignment with the least sum of squared lengths.
     pub fn least_squares(&self) -> Minimiser<'_> {
         Minimiser::new(self)
     }
@@ -172,8 +177,8 @@ impl<'a> Minimiser<'a> {
         Self { choice, solver }
     }
 
-    /// Returns `start_of[goal]` with the least sum of squares among assignments without a line longer than `(1 +
-    /// slack)` × the bottleneck distance. `slack` must not shrink from call to call. `None` if the search was
+    /// Returns `start_of[goal]` with the least sum of squared lengths among assignments without a line longer than `(1
+    /// + slack)` × the bottleneck distance. `slack` must not shrink from call to call. `None` if the search was
     /// cancelled.
     pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;

@@ -1,10 +1,11 @@
-//! Initial column duals, found on ever coarser clusterings of the same places.
+//! Initial column duals, found on ever coarser clusterings of the same places. Rows are matched with columns; a dual is
+//! the price of a row or column in the linear program of the assignment.
 //!
-//! Near the optimum, duals change smoothly over the floor. Where a whole crowd has to move, they rise and fall by far
-//! more than a neighbour's distance. Shortest augmenting paths would have to find this rise one path at a time.
-//! Therefore places are clustered by the leaves of their k-d trees, which hold equally many rows and columns. The duals
-//! of the smaller problem, solved in the same way, approximate those of single places (multiscale transport: Mérigot
-//! 2011). The c-transform spreads them to single places.
+//! Near the optimum, duals change smoothly over the floor. If many robots must move in one direction, duals rise and
+//! fall by far more than from neighbour to neighbour. Shortest augmenting paths would have to find this rise one path
+//! at a time. Therefore places are clustered by the leaves of their k-d trees, which hold equally many rows and
+//! columns. The duals of the smaller problem, solved in the same way, approximate those of single places (multiscale
+//! transport: Mérigot 2011). The c-transform carries them over to single places.
 
 use super::costs::Costs;
 use super::kdtree::{KdTree, Most, Weights};
@@ -12,15 +13,15 @@ use super::space;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Most rows of a problem that starts without such duals.
+/// Problems with at most this many rows start with duals of 0. Larger ones start with duals of a coarser problem.
 const SMALL: usize = 60;
 
-/// Most places in a cluster. With more, the finer problem begins with duals that are too rough, and its augmenting
-/// paths grow long.
+/// Most places in a cluster, up to one more by uneven division. With more, the finer problem begins with duals that are
+/// too rough, and its augmenting paths grow long.
 const DRAWN_TOGETHER: usize = 3;
 
-/// Returns costs for which the same assignments are best as for squared distances on the floor, with initial column
-/// duals.
+/// Returns costs with initial column duals. The assignments with the least sum are the same as for squared distances on
+/// the floor.
 pub(super) fn costs_with_duals<'a>(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'a>) -> Costs<'a> {
     let (rows, columns) = space::common(rows, columns);
     let costs = Costs::plain(&rows, &columns, vec![0.0; columns.len()], cancel);
@@ -31,7 +32,7 @@ pub(super) fn costs_with_duals<'a>(rows: &[Vec2], columns: &[Vec2], cancel: Canc
     costs.with_better_duals(duals(&rows, &columns, cancel))
 }
 
-/// Returns duals for the columns of a problem with as many rows as columns.
+/// Returns approximate duals for the columns of a problem with as many rows as columns.
 fn duals(rows: &[Vec2], columns: &[Vec2], cancel: Cancel<'_>) -> Vec<f64> {
     if rows.len() <= SMALL {
         return vec![0.0; columns.len()];

@@ -1,12 +1,14 @@
-//! Shortest augmenting paths over listed edges, with duals (Jonker & Volgenant 1987, sparse).
+//! Shortest augmenting paths over listed edges, with duals (Jonker & Volgenant 1987, sparse). Rows are matched with
+//! columns; an edge is a pair of a row and a column.
 
 use super::partner::NONE;
 use crate::cancel::Cancel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A partial assignment that is optimal for its matched rows. No edge has a reduced cost (cost − row dual − column
-/// dual) below zero. Matched edges have a reduced cost of zero, and columns never used have a dual of zero.
+/// A partial assignment that is optimal for its matched rows. A row without a column is open. No edge has a reduced
+/// cost (cost − row dual − column dual) below zero. Matched edges have a reduced cost of zero, and columns never used
+/// have a dual of zero.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
     /// `edges[row]`: the listed edges of that row.
@@ -18,27 +20,29 @@ pub(super) struct Search {
     scratch: Scratch,
 }
 
-/// The edges of a row that are listed.
+/// The listed edges of a row, and a bound on all others.
 #[derive(Clone, Debug)]
 pub(super) struct Edges {
     /// Columns and costs of the edges, in no order.
     pub list: Vec<(u32, f64)>,
-    /// Lower bound on the cost minus column dual of all allowed edges that are not listed. The bound stays true while
-    /// column duals fall.
+    /// Lower bound on cost − column dual of all allowed edges of the row that are not listed. The bound stays true
+    /// while column duals fall.
     pub complete_below: f64,
 }
 
 /// The state of one search for a path. It is cleared through `touched`.
 #[derive(Clone, Debug)]
 struct Scratch {
-    /// `distance[column]`: length of the shortest known path to it; infinite if there is none.
+    /// `distance[column]`: length of the shortest known path to that column, in reduced costs; infinite if there is
+    /// none.
     distance: Vec<f64>,
     /// `from[column]`: the last row on the shortest known path to that column.
     from: Vec<u32>,
+    /// Columns with a finite distance.
     touched: Vec<u32>,
-    /// Columns whose shortest path is known, in order of its length.
+    /// Columns whose shortest path is known, in ascending order of its length.
     settled: Vec<u32>,
-    /// Columns to be settled next, at the same distance as the last settled one.
+    /// Columns to be settled next, because they are as far as the column settled last.
     level: Vec<u32>,
     /// The other columns to be settled, by path length, then by index. Lengths are the bits of a float; these order
     /// like the floats, because no length is negative.
@@ -46,7 +50,7 @@ struct Scratch {
 }
 
 impl Scratch {
-    /// Returns the nearest column that is not settled, and counts as settled from then on; `None` if none is nearer
+    /// Returns the nearest column that is not settled yet; the caller must settle it. `None` if no column is nearer
     /// than `below`.
     fn next(&mut self, below: f64) -> Option<u32> {
         if let Some(column) = self.level.pop() {
@@ -100,8 +104,8 @@ impl Search {
         &self.column_duals
     }
 
-    /// Adds edges that a row does not have yet. Returns whether one of them is cheap enough that the row must be
-    /// reopened.
+    /// Adds those of `edges`, as (column, cost), that a row does not have yet. Returns whether an added edge is so
+    /// cheap that the row must be reopened.
     pub fn add(&mut self, row: usize, edges: impl Iterator<Item = (u32, f64)>) -> bool {
         let (list, dual) = (&mut self.edges[row].list, self.row_duals[row]);
         let before = list.len();
@@ -145,8 +149,8 @@ impl Search {
         losers
     }
 
-    /// Unmatches rows after their edges changed. With more columns than rows, unmatches all rows and resets all column
-    /// duals.
+    /// Unmatches rows after their edges changed. If there are more columns than rows, unmatches all rows and resets all
+    /// column duals to 0.
     pub fn reopen(&mut self, rows: &[u32]) {
         if self.edges.len() < self.column_duals.len() {
             // An unmatched column must have a dual of 0, which holds only for columns never used. Therefore the search
@@ -166,14 +170,14 @@ impl Search {
         }
     }
 
-    /// Sets a row's dual to the greatest legal one.
+    /// Sets a row's dual to the greatest value at which no edge of the row has a reduced cost below zero.
     fn lift(&mut self, row: usize) {
         let duals = &self.column_duals;
         let least = self.edges[row].list.iter().map(|&(column, cost)| cost - duals[column as usize]);
         self.row_duals[row] = least.fold(f64::INFINITY, f64::min);
     }
 
-    /// Matches every row with a column, as far as its edges allow.
+    /// Matches every open row with a column, as far as the listed edges allow.
     pub fn complete(&mut self, cancel: Cancel<'_>) {
         for row in self.bid_for_all() {
             if cancel.is_wanted() {
@@ -183,7 +187,7 @@ impl Search {
         }
     }
 
-    /// Matches most open rows with a column quickly. Returns the rows that are still open.
+    /// Matches most open rows with a column quickly, in two rounds of bids. Returns the rows that are still open.
     fn bid_for_all(&mut self) -> Vec<u32> {
         let is_open = |&row: &u32| self.column_of[row as usize] == NONE;
         let open: Vec<u32> = (0..self.edges.len() as u32).filter(is_open).collect();
@@ -191,8 +195,9 @@ impl Search {
         self.bid(&open)
     }
 
-    /// Every open row takes its cheapest column, and lowers that column's dual until the second cheapest is as good. A
-    /// row that loses its column bids next (augmenting row reduction). Returns the rows that are still open.
+    /// Every open row takes its cheapest column, and lowers that column's dual until the row's second cheapest column
+    /// is as good. A row that loses its column bids next (augmenting row reduction). Returns the rows that are still
+    /// open.
     fn bid(&mut self, open: &[u32]) -> Vec<u32> {
         let mut left = Vec::new();
         let mut bids_left = open.len() * 8;
@@ -216,8 +221,8 @@ impl Search {
         left
     }
 
-    /// Makes one bid of an open row. Returns the row that lost its column, if any. If two columns are equally cheap and
-    /// the first is not free, nothing is taken.
+    /// Makes one bid of an open row. Returns the row that lost its column, if any. Takes nothing if the row's two
+    /// cheapest columns are equally cheap and the first is not free.
     fn take_cheapest(&mut self, row: u32) -> Option<u32> {
         let (mut first, mut second, mut column) = (f64::INFINITY, f64::INFINITY, NONE);
         for &(candidate, cost) in &self.edges[row as usize].list {
@@ -250,7 +255,8 @@ impl Search {
         Some(owner)
     }
 
-    /// Finds the shortest augmenting path from an open row and flips it.
+    /// Finds the shortest augmenting path from the open row `root`, and matches `root` by exchanging matched and
+    /// unmatched edges on that path.
     fn augment(&mut self, root: u32) {
         let Some((last, length)) = self.shortest(root) else {
             self.clear();
@@ -275,8 +281,8 @@ impl Search {
         self.clear();
     }
 
-    /// Returns the nearest free column and its distance in reduced costs, and fills the scratch. `None` if no free
-    /// column can be reached.
+    /// Returns the free column that is nearest to the open row `root`, and its distance in reduced costs. Fills the
+    /// scratch with the paths. `None` if no free column can be reached.
     fn shortest(&mut self, root: u32) -> Option<(u32, f64)> {
         let scratch = &mut self.scratch;
         let (mut row, mut length) = (root, 0.0);

@@ -1,20 +1,22 @@
-//! A space in which the partners of the best assignment are near each other.
+//! Moves and scales starts and goals so that partners in the best assignment are near each other. Rows and columns are
+//! the two sets of places that are matched.
 //!
-//! With as many rows as columns, the sum of squared distances of an assignment differs from −2 Σ row · column only by a
-//! constant. That product does not change when columns are scaled by m along an axis and rows by 1/m. Moving either set
-//! changes it by a constant. Therefore both sets are centred and scaled to the same spread, and the same assignment
-//! stays optimal. Partners are then near each other, and few edges besides those to the nearest neighbours matter. This
-//! holds even when a band along the floor's edge spreads over the whole floor.
+//! With as many rows as columns, the sum of squared distances of an assignment differs only by a constant from −2 Σ row
+//! · column, the sum of the dot products of partners. That sum does not change when columns are scaled by m along an
+//! axis and rows by 1/m. Moving either set changes it by a constant. Therefore both sets are centred and scaled to the
+//! same spread, and the same assignment stays optimal. Partners are then near each other, and few edges besides those
+//! to the nearest neighbours matter. This holds even if robots from a band along the floor's edge spread over the whole
+//! floor.
 
 use lightbots_base::Vec2;
 
 /// Length that is added to the spread of each set, metres, so that thin sets are not stretched without bound.
 const THIN_M: f64 = 1e-6;
-/// Largest factor by which a set is stretched.
+/// Largest factor by which a set is stretched along an axis.
 const MOST: f64 = 1e3;
 
-/// Returns rows and columns moved and scaled to the same centre and spread. Sets of different sizes are returned
-/// unchanged.
+/// Returns rows and columns moved and scaled to the same centre and the same spread along each axis. If their numbers
+/// differ, both are returned unchanged.
 pub(super) fn common(rows: &[Vec2], columns: &[Vec2]) -> (Vec<Vec2>, Vec<Vec2>) {
     if rows.len() != columns.len() || rows.is_empty() {
         return (rows.to_vec(), columns.to_vec());

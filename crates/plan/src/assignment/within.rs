@@ -1,14 +1,15 @@
-//! Columns within reach of a row that a search for a matching has not seen yet.
+//! Columns within reach of a row that a search for a matching has not seen yet. Columns are places that are matched
+//! with rows.
 
 use super::kdtree::{KdTree, Remaining};
 use super::partner::NONE;
 use lightbots_base::Vec2;
 
-/// Most columns within reach of a row, on average, for which they are listed. With more, the k-d tree is searched
-/// instead.
+/// Most columns within reach of a row, on average, for which they are listed once. With more, the k-d tree is searched
+/// for each row instead.
 const LISTED_MOST: usize = 64;
 
-/// Yields columns near rows, each column once until it is put back.
+/// Yields columns near rows. Each column is yielded once, until it is put back.
 pub(super) enum Within<'a> {
     /// The columns within reach of each row are listed.
     Listed(Listed),
@@ -17,7 +18,7 @@ pub(super) enum Within<'a> {
 }
 
 impl<'a> Within<'a> {
-    /// Prepares for searches up to this squared reach, square metres.
+    /// Prepares for searches with a squared reach of at most `reach_squared`, square metres.
     pub fn new(rows: &'a [Vec2], columns: &[Vec2], reach_squared: f64) -> Self {
         let tree = KdTree::new(columns);
         match Listed::new(rows, &tree, reach_squared) {
@@ -26,7 +27,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Starts again: unmatched columns are free, matched ones unseen.
+    /// Starts again with a new matching `row_of[column]`: unmatched columns are free, matched columns unseen.
     pub fn reset(&mut self, row_of: &[u32]) {
         match self {
             Self::Listed(listed) => {
@@ -40,7 +41,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Takes a free column whose squared distance from a row is at most `reach_squared`.
+    /// Takes a free column whose squared distance from a row is at most `reach_squared`; `None` if there is none.
     pub fn take_free(&mut self, row: u32, reach_squared: f64) -> Option<u32> {
         match self {
             Self::Listed(listed) => {
@@ -72,7 +73,7 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Marks a matched column that was taken as unseen again.
+    /// Marks a matched column, which was taken, as unseen again.
     pub fn put(&mut self, column: u32) {
         match self {
             Self::Listed(listed) => listed.states[column as usize] = State::Unseen,
@@ -80,7 +81,8 @@ impl<'a> Within<'a> {
         }
     }
 
-    /// Returns the squared distance from a row to the nearest column that is not taken, or `bound` if none is nearer.
+    /// Returns the squared distance from a row to the nearest column that is not taken, or `bound` if no column is
+    /// nearer.
     pub fn nearest_squared(&self, row: u32, bound: f64) -> f64 {
         match self {
             Self::Listed(listed) => {
@@ -96,7 +98,7 @@ impl<'a> Within<'a> {
     }
 }
 
-/// State of a column.
+/// State of a column: not matched, matched but not seen by the search, or taken.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     Free,

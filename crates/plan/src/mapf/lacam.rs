@@ -1,7 +1,7 @@
-//! Lazy constraints addition search over configurations of all robots (LaCAM; Okumura 2023). The search goes depth
-//! first: [`Pibt`] generates the next configuration from the current one. If that configuration is known already,
-//! constraints force single robots to other nodes, one constraint more each time. Without its bound on work, the search
-//! is complete on the graph.
+//! Lazy constraints addition search over configurations, which are the nodes of all robots at one step (LaCAM; Okumura
+//! 2023). The search goes depth first: [`Pibt`] generates the next configuration from the current one. If that
+//! configuration is known already, constraints force single robots to other nodes, one constraint more each time.
+//! Without its bound on work, the search is complete on the graph.
 
 use std::collections::BTreeMap;
 use std::collections::VecDeque;
@@ -9,24 +9,26 @@ use std::collections::VecDeque;
 use crate::mapf::pibt::{ConflictRule, Constraint, Pibt};
 use crate::roads::graph::NONE;
 
-/// Bound on the work of a search, in robots times expanded configurations.
+/// Bound on the work of a search: the number of robots times the number of expanded configurations.
 const MOST_WORK: usize = 1_500_000;
 
-/// A configuration that has been reached.
+/// A configuration that the search has reached, and what it still has to try from there.
 struct SearchNode {
+    /// `[robot]`: its node.
     nodes: Vec<u32>,
+    /// Index of the search node that this configuration was reached from.
     from: usize,
-    /// Robots by urgency, the most urgent first.
+    /// Indices of robots, the most urgent first.
     ranks: Vec<usize>,
-    /// Priority of each robot: the steps since it was last at its goal, plus a share from 0 to 1 by its cost at the
-    /// start.
+    /// `[robot]`: its urgency. It begins with a share from 0 to 1, by the cost of the robot's path. It rises by 1 in
+    /// each step away from the goal, and falls to that share − 1 at the goal.
     urgency: Vec<f64>,
-    /// Constraints not tried yet, breadth first.
+    /// Lists of constraints that were not tried yet, the shortest lists first.
     constraints: VecDeque<Vec<Constraint>>,
 }
 
-/// `[step][robot]`: nodes from `starts` until all robots with a goal are at it. `None` if there is no path, or the
-/// search is over its bound or cancelled.
+/// Finds `[step][robot]`: nodes from `starts` until all robots with a goal are at their goals at the same time. `None`
+/// if there is no solution, or the search exceeds its bounds or is cancelled.
 pub(crate) fn search(
     pibt: &mut Pibt<'_, impl ConflictRule>,
     starts: &[u32],
@@ -79,7 +81,8 @@ impl SearchNode {
         Self { nodes, from, ranks, urgency, constraints: VecDeque::from([Vec::new()]) }
     }
 
-    /// Extends `constraints` by one constraint on the next robot by priority, once for each node that it may go to.
+    /// Adds lists of constraints to try: `constraints` and one more on the next robot by urgency, for each node to
+    /// which that robot may go.
     fn branch(&mut self, rule: &impl ConflictRule, constraints: &[Constraint]) {
         let Some(&robot) = self.ranks.get(constraints.len()) else { return };
         let here = self.nodes[robot];
@@ -126,7 +129,8 @@ mod tests {
         Lattice::new(&Instance::new(&problem, &[]).unwrap(), 0.072).unwrap()
     }
 
-    /// Asserts that no two robots share a node, swap, or follow each other around a sharp corner.
+    /// Asserts for all steps that no two robots share a node, exchange their nodes, or follow each other around a sharp
+    /// corner.
     fn assert_legal(lattice: &Lattice, steps: &[Vec<u32>]) {
         for pair in steps.windows(2) {
             for (a, (&a0, &a1)) in pair[0].iter().zip(&pair[1]).enumerate() {

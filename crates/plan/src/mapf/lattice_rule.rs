@@ -1,41 +1,42 @@
-//! The conflict rule of the hexagonal lattice. A robot may follow another into the node that the other leaves only if
-//! their directions differ by at most 60°. Then their centres stay 0.86 pitches apart on the way; in other cases only
-//! half a pitch.
+//! The conflict rule of the hexagonal lattice. In a step, a robot may enter the node that another robot leaves only if
+//! the directions of both differ by at most 60°. Then their centres stay 0.86 pitches apart on the way; in other cases
+//! only half a pitch.
 
 use crate::cancel::Cancel;
 use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};
 use crate::roads::graph::{Graph, NONE, steps_to};
 use crate::roads::lattice::Lattice;
 
-/// Marks a node without a robot.
+/// Marks a node that no robot is on.
 const NO_ROBOT: u32 = u32::MAX;
-/// Direction of a robot that stays.
+/// Direction of a robot that stays; moves have the directions 0 to 5.
 const STAYS: u8 = 6;
-/// Largest product of robots and nodes: the steps to goals take two bytes for each, a gigabyte in all.
+/// Largest product of robots and nodes. The table of steps to goals takes two bytes for each product, a gigabyte in
+/// all.
 const MOST_STEPS: usize = 1 << 29;
-/// Bounds on the work. Pairs of robots are not checked, because each node knows its robot.
+/// Bounds on the work. Checks of pairs of robots are not bounded, because each node knows its robot.
 const BOUNDS: PibtBounds = PibtBounds { tries: 600, pushed: 500, looks: usize::MAX };
-/// Cost of a node with a robot on it, in steps. It decides between nodes with equally many steps left.
+/// Cost of a move to a node with a robot on it, in steps. It decides between nodes with equally many steps left.
 const TAKEN: f64 = 0.5;
-/// Cost of each metre to the goal, in steps. It decides between nodes that are otherwise equal.
+/// Cost of each metre from a node to the goal, in steps. It decides between nodes that are otherwise equal.
 const METRE: f64 = 1e-3;
 
-/// Places of robots on the lattice, and their distances from their goals.
+/// Which robot is at which node of the lattice, and the numbers of steps to their goals.
 pub(crate) struct LatticeRule<'a> {
     lattice: &'a Lattice,
-    /// `[robot]`: its goal; [`NONE`] if the robot only makes way.
+    /// `[robot]`: the node of its goal; [`NONE`] if the robot only makes way.
     goals: &'a [u32],
-    /// `[robot][node]`: number of steps to the robot's goal; empty for a robot without a goal.
+    /// `[robot][node]`: number of steps from the node to the robot's goal; empty for a robot without a goal.
     steps: Vec<Vec<u16>>,
     /// `[robot]`: direction of its decided move; meaningless while the move is undecided.
     direction: Vec<u8>,
     /// `[node]`: the robot on it before the step; [`NO_ROBOT`] if there is none.
     holder_now: Vec<u32>,
-    /// `[node]`: the robot on it after the step; [`NO_ROBOT`] if there is none or it is not decided yet.
+    /// `[node]`: the robot that will be on it after the step; [`NO_ROBOT`] if there is none, or none is decided yet.
     holder_next: Vec<u32>,
 }
 
-/// A step generator for robots with these goals. `None`: robots × nodes exceed `MOST_STEPS`.
+/// A step generator for robots with these goals. `None` if the table of steps would exceed `MOST_STEPS`.
 pub(crate) fn lattice_pibt<'a>(
     lattice: &'a Lattice,
     goals: &'a [u32],
@@ -79,7 +80,8 @@ impl ConflictRule for LatticeRule<'_> {
         if steps == u16::MAX { f64::INFINITY } else { f64::from(steps) }
     }
 
-    /// Compares the steps left first, then whether a robot is on the node, then the straight distance to the goal.
+    /// The cost compares the steps left first, then whether a robot is on the node, then the straight distance to the
+    /// goal.
     fn reluctance(&self, moves: &Moves, robot: usize, node: u32) -> f64 {
         let moves_away = node != moves.now[robot];
         let is_taken = moves_away && self.holder_now[node as usize] != NO_ROBOT;
@@ -133,7 +135,7 @@ impl ConflictRule for LatticeRule<'_> {
     }
 }
 
-/// Whether a robot may enter a node in direction `mine` while another leaves it in direction `theirs`.
+/// Whether a robot may enter a node in direction `mine` while another robot leaves that node in direction `theirs`.
 fn may_follow(mine: u8, theirs: u8) -> bool {
     if theirs >= STAYS || mine >= STAYS {
         return false;

@@ -1,4 +1,4 @@
-//! Assigns a lattice node to each place by an auction (Bertsekas 1988) over the nodes near the place.
+//! Assigns a different lattice node to each place by an auction (Bertsekas 1988) over the nodes near the place.
 
 use lightbots_base::Vec2;
 
@@ -6,17 +6,17 @@ use crate::cancel::Cancel;
 use crate::instance::Instance;
 use crate::roads::lattice::Lattice;
 
-/// Attempts, each with the search radius around a place, in pitches, and the most nodes within it. A wider one follows
-/// where the fleet is too dense.
+/// Attempts in order: the search radius around a place, in pitches, and the most nodes that are considered within it. A
+/// wider attempt follows if the one before failed, because places are too dense.
 const REACHES: [(f64, usize); 3] = [(1.7, 8), (3.5, 40), (9.0, 250)];
-/// Least increment of a bid, square metres. The cost of an assignment exceeds the least by at most this much for each
-/// robot.
+/// Least increment of a bid, square metres. The sum of costs exceeds the least possible sum by at most this for each
+/// place.
 const LEAST_BID: f64 = 2e-5;
-/// Average number of bids for each robot, above which the auction fails and the search radius grows.
+/// Average number of bids for each place above which an auction fails. The next attempt follows.
 const MOST_BIDS: usize = 400;
 
-/// Returns a different node for each place, with a small sum of squared distances. `None` if there are not enough
-/// nodes, or the search is cancelled.
+/// Returns a different node for each place, with a small sum of squared distances. `None` if there are not enough nodes
+/// near the places, or the search is cancelled.
 pub(crate) fn assign_nodes(instance: &Instance, lattice: &Lattice, places: &[Vec2]) -> Option<Vec<u32>> {
     REACHES.iter().find_map(|&(reach, most)| {
         let choices: Option<Vec<Vec<(u32, f64)>>> = places
@@ -39,8 +39,9 @@ pub(crate) fn assign_nodes(instance: &Instance, lattice: &Lattice, places: &[Vec
     })
 }
 
-/// Returns an object for each bidder. The sum of costs exceeds the least by at most [`LEAST_BID`] for each bidder.
-/// `None` if the auction needs more than [`MOST_BIDS`] for each bidder, or is cancelled.
+/// Returns `[bidder]`: its object. `choices[bidder]` are the objects that it may get, and their costs, square metres.
+/// The sum of costs exceeds the least by at most [`LEAST_BID`] for each bidder. `None` if the auction needs more than
+/// [`MOST_BIDS`] for each bidder, or is cancelled.
 fn auction(objects: usize, choices: &[Vec<(u32, f64)>], cancel: Cancel<'_>) -> Option<Vec<u32>> {
     let mut prices = vec![0.0_f64; objects];
     let mut owner = vec![usize::MAX; objects];

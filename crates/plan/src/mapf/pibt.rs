@@ -1,29 +1,31 @@
-//! One step of all robots on a graph: priority inheritance with backtracking (PIBT; Okumura et al. 2022). A
-//! [`ConflictRule`] for each kind of graph defines which moves conflict.
+//! One step of all robots on a graph: priority inheritance with backtracking (PIBT; Okumura et al. 2022). In a step,
+//! each robot stays at its node or moves to a neighbouring node. A [`ConflictRule`] for each kind of graph defines
+//! which moves conflict.
 
 use crate::cancel::Cancel;
 use crate::roads::graph::NONE;
 
-/// A low-level constraint: the robot must go to the node in this step.
+/// A low-level constraint `(robot, node)`: the robot must go to the node in this step, or stay there.
 pub(crate) type Constraint = (usize, u32);
 
-/// Defines which moves conflict, and which of them are better.
+/// Defines which moves conflict, and in which order a robot tries its moves.
 pub(crate) trait ConflictRule {
-    /// Returns the nodes to which a robot may go from a node, without the node itself.
+    /// Returns the nodes to which a robot may go from a node in one step, without the node itself.
     fn around(&self, robot: usize, node: u32) -> impl Iterator<Item = u32>;
 
-    /// Returns the cost of a robot's path from a node to its goal. Infinite if there is no path; 0 for a robot without
-    /// a goal.
+    /// Returns the cost of a robot's path from a node to the robot's goal. Infinite if there is no path; 0 for a robot
+    /// without a goal.
     fn far(&self, robot: usize, node: u32) -> f64;
 
-    /// Returns the cost of a move. Moves are tried in ascending order of cost.
+    /// Returns the cost of a robot's move to a node. A robot tries its moves in ascending order of cost.
     fn reluctance(&self, moves: &Moves, robot: usize, node: u32) -> f64;
 
-    /// Begins a step from a configuration. Returns the number of pairs of robots checked for it.
+    /// Begins a step in which robot `r` starts at node `now[r]`. Returns the number of checks of pairs of robots that
+    /// this took.
     fn begin(&mut self, now: &[u32]) -> usize;
 
-    /// Adds to `must_make_way` the undecided robots that must make way for a move. Returns `false` if the move
-    /// conflicts with a decided one.
+    /// Checks the move of a robot to a node. Adds to `must_make_way` the undecided robots that would conflict with it
+    /// if they stayed. Returns `false` if it conflicts with a decided move; the added robots then mean nothing.
     fn may_go(&self, moves: &Moves, robot: usize, node: u32, must_make_way: &mut Vec<usize>) -> bool;
 
     /// Records a decided move.
@@ -32,7 +34,7 @@ pub(crate) trait ConflictRule {
     /// Takes back a decided move.
     fn undo(&mut self, _robot: usize, _node: u32) {}
 
-    /// Returns the number of pairs that one call of [`Self::may_go`] for a robot checks.
+    /// Returns the number of pairs of robots that one call of [`Self::may_go`] for a robot checks.
     fn looks(&self, robot: usize) -> usize;
 }
 
@@ -53,11 +55,11 @@ impl Moves {
 /// Bounds on the work of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PibtBounds {
-    /// Most moves tried for one robot and all robots that it pushes.
+    /// Most moves that are tried for one robot and all robots that it pushes, in one step.
     pub tries: usize,
     /// Longest chain of robots in which each pushes the next.
     pub pushed: usize,
-    /// Most checks of pairs of robots.
+    /// Most checks of pairs of robots in the whole search.
     pub looks: usize,
 }
 
@@ -69,9 +71,9 @@ pub(crate) struct Pibt<'a, Rule> {
     moves: Moves,
     /// Robots with a decided move, in order of decision.
     decided: Vec<usize>,
-    /// Stack of the robots that must make way, for all robots whose decision is pending.
+    /// Stack with the robots that must make way, in one range for each move that is being decided.
     must_make_way: Vec<usize>,
-    /// Stack of possible moves as (cost, node), for all robots whose decision is pending.
+    /// Stack with possible moves as (cost, node), in one range for each robot that is choosing a move.
     choices: Vec<(f64, u32)>,
     /// Number of moves that may still be tried for the current robot and those that it pushes.
     tries: usize,
@@ -96,8 +98,8 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         self.bounds.looks == 0 || self.cancel.is_wanted()
     }
 
-    /// Returns the configuration after one step from `now`. Robots earlier in `ranks` choose first. `None` if the step
-    /// cannot keep all `constraints`.
+    /// Returns `[robot]`: its node after one step from the nodes `now`. Robots earlier in `ranks` choose first. `None`
+    /// if the step cannot keep all `constraints`.
     pub fn step(&mut self, now: &[u32], ranks: &[usize], constraints: &[Constraint]) -> Option<Vec<u32>> {
         self.moves.now.copy_from_slice(now);
         let looks = self.rule.begin(now);
@@ -119,7 +121,7 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         self.decided.push(robot);
     }
 
-    /// Takes back all decisions but the first `kept` ones.
+    /// Takes back all decided moves but the first `kept` ones.
     fn undo(&mut self, kept: usize) {
         while self.decided.len() > kept {
             let Some(robot) = self.decided.pop() else { return };
@@ -128,8 +130,8 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         }
     }
 
-    /// Decides a move and the moves of all robots that must make way for it. If one of them cannot, decides nothing and
-    /// returns `false`.
+    /// Decides the move of a robot to a node, and moves of all robots that must make way for it. If one of these cannot
+    /// make way, decides nothing and returns `false`.
     fn go(&mut self, robot: usize, node: u32, depth: usize) -> bool {
         self.bounds.looks = self.bounds.looks.saturating_sub(self.rule.looks(robot));
         let first = self.must_make_way.len();
@@ -154,8 +156,8 @@ impl<'a, Rule: ConflictRule> Pibt<'a, Rule> {
         done
     }
 
-    /// Decides the cheapest possible move of a robot, together with the moves of the robots in its way. Returns whether
-    /// one was possible.
+    /// Decides the cheapest possible move of a robot, together with moves of the robots that must make way for it.
+    /// Returns `false` if no move is possible.
     fn choose(&mut self, robot: usize, depth: usize) -> bool {
         let (here, first) = (self.moves.now[robot], self.choices.len());
         let (rule, moves) = (&self.rule, &self.moves);

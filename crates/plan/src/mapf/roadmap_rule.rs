@@ -1,5 +1,5 @@
-//! The conflict rule of a roadmap: exact distances. All robots of a step leave, drive and arrive together. The relative
-//! motion of two robots is therefore a straight line, and its least distance from the origin is exact.
+//! The conflict rule of a roadmap: exact distances. All robots that move in a step leave, drive and arrive together.
+//! The motion of one robot relative to another is therefore a straight line, and their least distance is exact.
 
 use crate::instance::Instance;
 use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};
@@ -12,26 +12,26 @@ use lightbots_base::shape::point_to_segment_squared;
 const MOST_TRIES: usize = 600;
 /// Longest chain of robots in which each pushes the next.
 const MOST_PUSHED: usize = 200;
-/// Cost of one node in the search for one robot's distances, in checks of pairs.
+/// Work for one node in the search for one robot's distances, as a number of checks of pairs.
 const LOOKS_A_NODE: usize = 10;
-/// Number of pairs of robots whose distance costs as much as one check of a pair's moves.
+/// Comparing the distances of this many pairs of robots counts as one check of two robots' moves.
 const LOOKS_A_PAIR: usize = 8;
-/// Cost of a move to a node on which another robot is, metres.
+/// Cost of a move to a node on which another robot is, as metres of path.
 const PUSH_M: f64 = 0.02;
-/// Cost of each metre of a move. It decides between nodes that are equally far from the robot's end.
+/// Cost of each metre of a move, as metres of path. It decides between nodes that are equally far from the robot's end.
 const METRE: f64 = 1e-3;
 
-/// Distances of robots from their ends on a roadmap, and the pairs of robots that may conflict in a step.
+/// Costs of robots' paths to their ends on a roadmap, and the pairs of robots that may conflict in a step.
 pub(crate) struct RoadmapRule<'a> {
     instance: &'a Instance<'a>,
     roads: &'a Roadmap,
-    /// `[robot][node]`: cost to its end.
+    /// `[robot][node]`: cost of the robot's path from the node to its end, with stops, metres.
     far_m: Vec<Vec<f64>>,
     /// `[robot]`: robots close enough to conflict with it in this step.
     near: Vec<Vec<usize>>,
 }
 
-/// A step generator for all robots of an instance, with a budget of `looks` checks of pairs.
+/// A step generator for all robots of an instance, which may check `looks` pairs of robots.
 pub(crate) fn roadmap_pibt<'a>(
     instance: &'a Instance<'a>,
     roads: &'a Roadmap,
@@ -60,7 +60,8 @@ impl RoadmapRule<'_> {
         self.instance.cancel.is_wanted()
     }
 
-    /// Whether two moves `(robot, from, to)` in the same step keep the distance that their robots must keep.
+    /// Whether two robots keep the distance that they must keep, if both move in the same step. A move is `(robot, node
+    /// before, node after)`.
     pub fn are_apart(&self, a: (usize, u32, u32), b: (usize, u32, u32)) -> bool {
         let place = |node: u32| self.roads.place(node);
         let (begin, end) = (place(a.1) - place(b.1), place(a.2) - place(b.2));

@@ -1,5 +1,6 @@
-//! Shortens a solution of the depth-first search. One robot after the other searches its cheapest path through space
-//! and time while all others keep their paths. Then steps without a move are removed. The solution never gets worse.
+//! Shortens a solution of the depth-first search [`super::lacam`]. One robot after the other searches its cheapest path
+//! through space and time while all others keep their paths. Then steps in which no robot moves are removed. The
+//! solution never gets more steps.
 
 use crate::mapf::pibt::ConflictRule;
 use crate::mapf::roadmap_rule::RoadmapRule;
@@ -8,9 +9,9 @@ use crate::roads::roadmap::Roadmap;
 
 /// Most rounds over all robots.
 const ROUNDS: usize = 4;
-/// Most checks of pairs of moves in all rounds.
+/// Most checks of two robots' moves in all rounds.
 const MOST_LOOKS: usize = 30_000_000;
-/// Cost of a step in which the robot waits away from its end.
+/// Cost of a step in which the robot waits at a node that is not its end.
 const WAIT: f64 = 1.0;
 /// Cost of a move. It exceeds [`WAIT`], so that robots do not move in vain.
 const MOVE: f64 = 1.5;
@@ -19,7 +20,8 @@ const METRE: f64 = 4.0;
 /// Marks a node that was not reached.
 const NOWHERE: u32 = u32::MAX;
 
-/// Returns a solution with the same first and last configuration for robots with an end, in at most as many steps.
+/// Returns a solution in at most as many steps as `steps[step][robot]`. Starts stay the same, and ends too, except that
+/// spare robots may end elsewhere.
 pub(crate) fn shorten(rule: &RoadmapRule, roads: &Roadmap, mut steps: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut looks = MOST_LOOKS;
     for _ in 0..ROUNDS {
@@ -40,7 +42,7 @@ pub(crate) fn shorten(rule: &RoadmapRule, roads: &Roadmap, mut steps: Vec<Vec<u3
     steps
 }
 
-/// The search for one robot's path among the paths of all others.
+/// The search for one robot's path while all other robots keep theirs.
 struct SingleRobotSearch<'a> {
     rule: &'a RoadmapRule<'a>,
     roads: &'a Roadmap,
@@ -50,7 +52,8 @@ struct SingleRobotSearch<'a> {
 }
 
 impl SingleRobotSearch<'_> {
-    /// `[step]`: the node of the cheapest path. `None` if there is no path, or `looks` are used up.
+    /// Returns `[step]`: the node of the robot on its cheapest path. `None` if there is no path, or `looks` are used
+    /// up.
     fn best(&mut self) -> Option<Vec<u32>> {
         let nodes = self.roads.places.len();
         let last = self.steps.len() - 1;
@@ -74,8 +77,8 @@ impl SingleRobotSearch<'_> {
         (!path.contains(&NOWHERE)).then_some(path)
     }
 
-    /// Returns for each node the least cost of being there after a step, and the node before it. `None` if `looks` are
-    /// used up.
+    /// Returns `[node]`: the least cost of being there after a step, and the node before the step. `costs` are those
+    /// before the step. `None` if `looks` are used up.
     fn spread(&mut self, step: usize, costs: &[f64]) -> Option<(Vec<f64>, Vec<u32>)> {
         let mut after = vec![f64::INFINITY; costs.len()];
         let mut from = vec![NOWHERE; costs.len()];

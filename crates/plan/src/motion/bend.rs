@@ -1,20 +1,22 @@
-//! Displaces a path to the side for some time, without changing its progress along the line.
+//! Displaces a timed path for some time. The progress along the path stays the same.
 
 use crate::Path;
 use lightbots_base::{Piece, Span, Vec2};
 
-/// Least time between two knots, and between a knot and the ends of the drive, microseconds.
+/// Least time between two knots, and between a knot and the begin or end of the drive, microseconds.
 const APART_US: i64 = 200_000;
 
-/// Displacements of a path at some moments, with a smooth transition between them.
+/// Displacements of a path at some moments (knots), with a smooth transition between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Displacements {
-    /// Moment after the start of the path, microseconds, and displacement, stage metres; sorted by time.
+    /// Each knot: a moment after the start of the path, microseconds, and the displacement at it, metres along the
+    /// stage axes. Sorted by moment.
     knots: Vec<(i64, Vec2)>,
 }
 
 impl Displacements {
-    /// Adds `offset` at a moment; near moments share a knot.
+    /// Adds the displacement `offset`, metres, at a moment after the start of the path. If a knot is nearer than 0.2 s,
+    /// the offset is added to that knot instead.
     pub(crate) fn push(&mut self, at: Span, offset: Vec2) {
         // Messages carry whole milliseconds without loss.
         let at_us = at.0 / 1000 * 1000;
@@ -29,7 +31,8 @@ impl Displacements {
         }
     }
 
-    /// Returns `path` with these displacements. Its rest, its ends and its duration stay the same.
+    /// Returns `path` with these displacements. Its first rest, its start, its end and its duration stay the same.
+    /// Knots nearer than 0.2 s to the begin or end of the drive are left out.
     pub(crate) fn applied_to(&self, path: &Path) -> Path {
         let rest = path
             .pieces

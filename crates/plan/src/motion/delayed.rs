@@ -3,8 +3,8 @@
 use crate::Path;
 use lightbots_base::{Piece, Span};
 
-/// Delays the start of each path by `delays[robot]`. All results last equally long: as the longest path, or until the
-/// last delayed robot arrives.
+/// Delays the start of each path by `delays[robot]`. All results last equally long: as long as the longest of `paths`,
+/// or until the last delayed robot arrives, if that is later.
 pub(crate) fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     let driving = paths.iter().zip(delays).filter(|(path, _)| !path.as_ref().rests());
     let latest = driving.map(|(path, delay)| ends(path) + *delay);
@@ -25,7 +25,7 @@ pub(crate) fn delayed(paths: &[Path], delays: &[Span]) -> Vec<Path> {
     paths.iter().zip(delays).map(later).collect()
 }
 
-/// Moment from which a path rests until its end; 0 if it never moves.
+/// Moment after which a path rests until its end, counted from its start; 0 if it never moves.
 pub(crate) fn ends(path: &Path) -> Span {
     let moving = path.as_ref().timed().filter(|(from, _, piece)| !piece.is_rest(*from));
     moving.map(|(_, begin, piece)| begin + piece.duration).last().unwrap_or(Span::ZERO)
@@ -48,7 +48,7 @@ fn add_rest(path: &mut Path, duration: Span) {
     }
 }
 
-/// Shortens the rest at the end of a path.
+/// Shortens the last piece of a path, which is a rest, by `by`.
 fn shorten(path: &mut Path, by: Span) {
     if let Some(last) = path.pieces.last_mut() {
         last.duration -= by;

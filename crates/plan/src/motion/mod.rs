@@ -1,4 +1,5 @@
-//! Timed paths along straight lines: all robots share one progress over time, so all leave and arrive together.
+//! Timed paths along straight lines. At each moment, all robots have driven the same share of their lines (the
+//! progress), so all leave and arrive together.
 
 mod bend;
 mod delayed;
@@ -12,20 +13,20 @@ pub(crate) use profile::Profile;
 
 use lightbots_base::{Limits, Span};
 
-/// Time to turn by `angle` radians on the spot, in whole milliseconds rounded up. A quarter turn is always enough,
-/// because a robot may drive backwards.
+/// Time that a robot needs to turn by `angle` radians on the spot, in whole milliseconds, rounded up. Before a drive, a
+/// quarter turn is always enough, because a robot may drive backwards.
 pub fn turn_time(angle: f64, limits: &Limits) -> Span {
     whole_millis(angle.abs() / limits.turn_radps.max(0.01))
 }
 
-/// Time of a quarter turn on the spot: every path begins with this rest.
+/// Time of a quarter turn on the spot. Paths begin with a rest of this duration.
 pub(crate) fn quarter_turn(limits: &Limits) -> Span {
     turn_time(core::f64::consts::FRAC_PI_2, limits)
 }
 
-/// `seconds` rounded up to whole milliseconds, at least zero: messages carry whole milliseconds without loss.
+/// Rounds `seconds` up to whole milliseconds, at least zero, because messages carry whole milliseconds without loss.
 pub(crate) fn whole_millis(seconds: f64) -> Span {
-    // Subtracts a little first, so that rounding errors do not lift a whole number to the next.
+    // Subtracts a little first, so that a rounding error does not lift a whole number to the next.
     let millis = (seconds * 1e3 - 1e-6).clamp(0.0, 1e12);
     Span::from_millis(millis.ceil() as i64)
 }

@@ -1,20 +1,20 @@
-//! Progress of all robots: a scalar from 0 to 1 over time that scales each straight line.
+//! Progress of all robots over time: the share of its straight line that each robot has driven, from 0 to 1.
 
 use super::{turn_time, whole_millis};
 use crate::Path;
 use lightbots_base::{Limits, Piece, Span, Vec2};
 use lightbots_show::Easing;
 
-/// A rest in which robots turn, then progress from 0 to 1.
+/// The progress of a drive: a rest at 0 in which robots turn, then a motion from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Profile {
     /// Duration of the rest.
     rest: Span,
-    /// Parts of the progress, in order; empty where no robot moves.
+    /// Parts of the motion from 0 to 1, in order; empty if no robot moves.
     beats: Vec<Beat>,
 }
 
-/// A part of the progress: a cubic Bézier over time from the end of the part before.
+/// A part of the progress: a cubic Bézier function of time. It begins where the part before ends, at 0 for the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Beat {
     duration: Span,
@@ -24,7 +24,7 @@ struct Beat {
 }
 
 impl Profile {
-    /// The fastest legal profile where the longest line has `length_m` metres.
+    /// The fastest legal profile if the longest line has a length of `length_m` metres.
     pub(crate) fn quickest(length_m: f64, easing: Easing, limits: &Limits) -> Self {
         if length_m < 1e-9 {
             return Self { rest: Span::ZERO, beats: Vec::new() };
@@ -48,7 +48,8 @@ impl Profile {
         self.beats.iter().fold(self.rest, |sum, beat| sum + beat.duration)
     }
 
-    /// The same profile slowed down to `total`; unchanged where it takes that long already. The rest keeps its length.
+    /// The same profile, slowed down so that it lasts `total`; unchanged if it lasts that long already. The rest keeps
+    /// its duration.
     pub(crate) fn stretched(&self, total: Span) -> Self {
         let before = self.duration();
         if total <= before {
@@ -69,7 +70,7 @@ impl Profile {
         Self { rest: self.rest, beats }
     }
 
-    /// The timed path on the straight line from `from` to `to` with this progress.
+    /// The timed path of a robot on the straight line from `from` to `to` with this progress.
     pub(crate) fn path(&self, from: Vec2, to: Vec2) -> Path {
         let total = self.duration();
         if from == to {
@@ -95,7 +96,7 @@ fn along(from: Vec2, to: Vec2, share: f64) -> Vec2 {
     if share >= 1.0 { to } else { from.lerp(to, share) }
 }
 
-/// A trapezoid of speed: two ramps of equal length, with a cruise between them unless the line is short.
+/// Speed as a trapezoid over time: two ramps of equal duration, and a cruise between them unless the line is short.
 fn swift(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     let short = length_m * accel < speed * speed;
     let ramp = whole_millis(if short { (length_m / accel).sqrt() } else { speed / accel });
@@ -114,7 +115,7 @@ fn swift(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     beats
 }
 
-/// One cubic 3u² − 2u³: speed has no step, and its peak is 1.5 times the mean.
+/// The cubic 3u² − 2u³ as progress: speed has no corner, and its peak is 1.5 times its mean.
 fn gentle(length_m: f64, speed: f64, accel: f64) -> Vec<Beat> {
     let seconds = (1.5 * length_m / speed).max((6.0 * length_m / accel).sqrt());
     vec![Beat { duration: whole_millis(seconds), c1: 0.0, c2: 1.0, end: 1.0 }]

@@ -1,17 +1,18 @@
-//! The progress of all robots on paths of different lengths.
+//! The progress of all robots on paths of different lengths: the share of its path that each robot has driven.
 
 use lightbots_base::Limits;
 use lightbots_show::Easing;
 
-/// Share of its path that a robot has driven at each moment. It is the same for all robots.
+/// The progress as a function of time. It is the same for all robots.
 pub(crate) struct ProgressLaw {
-    /// Duration, seconds.
+    /// Duration of the drive, seconds.
     pub drive_s: f64,
     ramp_s: f64,
 }
 
 impl ProgressLaw {
-    /// The fastest legal progress on the longest path, at least 0.4 s, with its duration multiplied by `stretch`.
+    /// The fastest legal progress if the longest path has a length of `longest_m` metres. It lasts at least 0.4 s. Then
+    /// its duration is multiplied by `stretch`.
     pub fn new(longest_m: f64, limits: &Limits, easing: Easing, stretch: f64) -> Self {
         let (speed, accel) = (limits.speed_mps, limits.accel_mps2);
         let halves = 2.0 * (longest_m / accel).sqrt();
@@ -23,7 +24,7 @@ impl ProgressLaw {
         Self::lasting(least.max(0.4) * stretch, limits, easing)
     }
 
-    /// Progress that takes `drive_s` seconds, with the ramps of `limits`.
+    /// Progress that lasts `drive_s` seconds, with ramps of speed as the limits and the easing ask for.
     pub fn lasting(drive_s: f64, limits: &Limits, easing: Easing) -> Self {
         let ramp_s = match easing {
             Easing::Swift => (limits.speed_mps / limits.accel_mps2).min(drive_s / 2.0),
@@ -32,18 +33,18 @@ impl ProgressLaw {
         Self { drive_s, ramp_s }
     }
 
-    /// Duration of the ramp at each end, seconds.
+    /// Duration of the ramp of speed at each end, seconds.
     pub fn ramp_s(&self) -> f64 {
         self.ramp_s
     }
 
-    /// Progress per second after `t` seconds.
+    /// Progress per second, `t` seconds after the start.
     pub fn rate(&self, t: f64) -> f64 {
         let top = 1.0 / (self.drive_s - self.ramp_s);
         top * (t.min(self.drive_s - t) / self.ramp_s).clamp(0.0, 1.0)
     }
 
-    /// Share of the path after `t` seconds.
+    /// Progress, 0 to 1, `t` seconds after the start.
     pub fn share(&self, t: f64) -> f64 {
         let top = 1.0 / (self.drive_s - self.ramp_s);
         let ramp = |t: f64| top * t * t / (2.0 * self.ramp_s);

@@ -1,5 +1,6 @@
-//! Timed stop-and-go paths. In each step all robots that move leave and arrive together, after a rest in which they
-//! turn. They share one progress, so their relative motion is the straight line that the search has checked.
+//! Timed stop-and-go paths. In each step, all robots that move leave and arrive together, after a rest in which they
+//! turn. They all have the same progress, so the motion of one relative to another is the straight line that the search
+//! has checked.
 
 use lightbots_base::{Piece, Span, Vec2};
 use lightbots_show::Easing;
@@ -8,16 +9,17 @@ use super::{Profile, quarter_turn};
 use crate::instance::Instance;
 use crate::{Path, Repaired};
 
-/// Factor on the times of turns and the lengths of moves, which leaves a small margin to the limits.
+/// Factor on the durations of turns and the lengths of moves, which leaves a small margin to the limits of robots.
 const EASE: f64 = 1.002;
 
-/// Angle from which a turn needs the whole [`SETTLING_S`], radians: a controller slows down near its new direction.
+/// Turns by at least this angle need the whole [`SETTLING_S`], radians; smaller turns need proportionally less.
 const SETTLING_RAD: f64 = 0.2;
-/// Additional time of a turn, in which the controller settles, seconds: a robot that leaves earlier is 7 mm off its
-/// line.
+/// Additional time of a turn, seconds, because a robot's controller slows down near its new direction. A robot that
+/// leaves without it is 7 mm off its line.
 const SETTLING_S: f64 = 0.18;
 
-/// The paths through `waypoints[step][robot]` in the asked duration or more; `None` where a path has too many pieces.
+/// The paths through `waypoints[step][robot]`, stage metres, which last `wished` or longer; `None` if a path has more
+/// than [`Path::MOST_PIECES`].
 pub(crate) fn timed_paths(
     instance: &Instance,
     waypoints: &[Vec<Vec2>],
@@ -45,7 +47,7 @@ fn eased(
     is_short.then_some(Repaired { paths, least: first + Span(whole) })
 }
 
-/// Rest and drive of one step.
+/// One step: a rest in which robots turn, then a drive.
 struct Step {
     rest: Span,
     drive: Profile,
@@ -58,7 +60,7 @@ impl Step {
     }
 }
 
-/// Finds the shortest rest and drive of each step within the limits.
+/// Finds the shortest legal rest and drive of each step.
 fn timed(instance: &Instance, waypoints: &[Vec<Vec2>], easing: Easing) -> Vec<Step> {
     let limits = &instance.limits;
     let mut headings: Vec<Option<Vec2>> = vec![None; instance.robots()];
@@ -86,7 +88,7 @@ fn timed(instance: &Instance, waypoints: &[Vec<Vec2>], easing: Easing) -> Vec<St
     waypoints.windows(2).map(one).collect()
 }
 
-/// A robot's path, which begins with a rest for the first turn.
+/// Returns a robot's path. It begins with the rest `first` for the first turn.
 fn path(robot: usize, waypoints: &[Vec<Vec2>], first: Span, steps: &[Step]) -> Path {
     let start = waypoints[0][robot];
     let mut pieces = Vec::new();

@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 /// Most cells along an axis.
 const MOST_CELLS: f64 = 256.0;
 
-/// A disc around the places of a robot during some time.
+/// A disc around the places of a robot during a span. `owner` is the index of the robot; lengths are metres.
 #[derive(Clone, Copy)]
 pub(crate) struct Disc {
     pub at: Vec2,
@@ -13,7 +13,7 @@ pub(crate) struct Disc {
     pub owner: u32,
 }
 
-/// Sorts discs into cells; its buffers are kept between calls.
+/// Sorts discs into square cells. Its buffers are kept between calls.
 #[derive(Default)]
 pub(crate) struct Cells {
     sorted: Vec<Disc>,
@@ -23,7 +23,7 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// Calls `near` for every two discs whose rims are less than `apart` from each other.
+    /// Calls `near` once for every two discs whose rims are less than `apart` metres from each other.
     pub fn near_pairs(&mut self, discs: &[Disc], apart: f64, mut near: impl FnMut(&Disc, &Disc)) {
         if discs.len() < 2 {
             return;
@@ -55,7 +55,8 @@ impl Cells {
         }
     }
 
-    /// Sorts discs into cells at least as wide as the largest distance of a pair. Returns the number of columns.
+    /// Sorts discs into cells that are at least as wide as the largest distance of two centres in a near pair. Returns
+    /// the number of columns.
     fn sort(&mut self, discs: &[Disc], apart: f64) -> usize {
         let (mut least, mut most, mut reach) = (discs[0].at, discs[0].at, 0.0_f64);
         for disc in discs {

@@ -1,4 +1,5 @@
-//! Detects where robots come too close to each other or to walls within a span, and by how much.
+//! Detects where robots come too close to each other or to walls within a span (a piece of their splines), and how
+//! close.
 
 use lightbots_base::Vec2;
 
@@ -9,27 +10,28 @@ use crate::optimise::neighbours::{MOVED_M, MovedNeighbours, Places, STRETCHES, c
 use crate::spline::set::SplineSet;
 use crate::spline::weights::{basis, blend};
 
-/// Distance in addition to the wanted one beyond which pairs are ignored until the next detection, metres.
+/// Pairs farther apart than the wanted distance plus this are ignored until the next detection, metres.
 const SKIN_M: f64 = 0.012;
-/// Number of bisections in the search for the closest moment to a wall.
+/// Number of bisections in the search for the moment at which a span is closest to a wall.
 const NEARING: usize = 3;
-/// Largest distance of a span from its straight stretches, metres.
+/// Largest distance of a place on a span from the straight stretches that approximate the span, metres.
 const CUT_M: f64 = 0.003;
 
-/// Two robots, or a robot and a wall, that may come too close within a span.
+/// A pair of two robots, or of a robot and a wall, that may come too close within a span.
 #[derive(Clone, Copy)]
 pub(crate) struct Contact {
-    /// Span of the splines.
+    /// Index of the span of the splines.
     pub span: usize,
-    /// The robot.
+    /// Index of the robot.
     pub a: usize,
     /// The other robot, or the wall.
     pub b: Other,
-    /// Distance to reach, metres: between centres of robots, or between rim and wall.
+    /// Distance that a displacement aims at, metres: between centres of two robots, or between a robot's rim and a
+    /// wall.
     pub wanted: f64,
-    /// Distance that is sufficient, metres.
+    /// Distance from which the pair needs no displacement, metres; at most `wanted`.
     pub least: f64,
-    /// Sum of both displacements up to which the pair is surely clear, metres.
+    /// The pair is surely clear while [`displacement_m`] of its robots is less than this, metres.
     pub clear_until: f64,
     /// Whether the pair was too close at the last check.
     pub is_close: bool,
@@ -41,7 +43,8 @@ impl Contact {
         Self { span, a, b: Other::Robot(b), wanted, least: wanted, clear_until: 0.0, is_close: false }
     }
 
-    /// Returns the contact for the next detection; `None` if one of its robots has moved farther than [`MOVED_M`].
+    /// Returns the contact for the next detection; `None` if one of its robots has moved farther than [`MOVED_M`],
+    /// because new contacts of that robot are then searched.
     fn still(&self, near: &MovedNeighbours) -> Option<Self> {
         let moved_m = match self.b {
             Other::Robot(b) => near.moved_m(self.a).max(near.moved_m(b)),
@@ -52,39 +55,40 @@ impl Contact {
     }
 }
 
-/// The robot or wall that a robot is in contact with.
+/// The robot or wall that the robot `a` of a contact may come too close to.
 #[derive(Clone, Copy)]
 pub(crate) enum Other {
-    /// Another robot.
+    /// Another robot, by its index.
     Robot(usize),
-    /// A wall of the instance.
+    /// A wall of the instance, by its index.
     Wall(usize),
 }
 
-/// The closest moment of a contact.
+/// The moment within its span at which a contact's robot is closest to the other robot or wall.
 pub(crate) struct Approach {
     /// Distance as in [`Contact::wanted`].
     pub apart: f64,
-    /// Unit vector from the other to `a`.
+    /// Unit vector from the other robot or wall towards robot `a`. Not of length 1 if the pair is far apart.
     pub away: Vec2,
     /// Weights of the span's control points at that moment.
     pub weights: [f64; 4],
 }
 
-/// Distances to reach.
+/// Distances that a deformation aims at.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clearances {
-    /// Between centres of robots, metres.
+    /// Distance between the centres of two robots, metres.
     pub robots_m: f64,
-    /// Between a robot's rim and a wall, metres.
+    /// Distance between a robot's rim and a wall, metres.
     pub walls_m: f64,
-    /// Between a robot's rim and the floor's edge, metres; at most [`Instance::off_edge_m`].
+    /// Distance between a robot's rim and the floor's edge, metres. Where [`Instance::off_edge_m`] is less, that
+    /// applies.
     pub edge_m: f64,
-    /// Amount by which a distance may fall short, metres: with more, the optimisation ends sooner.
+    /// Length by which these distances may fall short, metres: with more, the deformation ends sooner.
     pub slack_m: f64,
 }
 
-/// Detects contacts. It approximates each span by straight stretches.
+/// Detects contacts. It approximates each span by [`STRETCHES`] straight stretches.
 pub(crate) struct ContactDetector {
     bases: [[f64; 4]; STRETCHES + 1],
     middle: [f64; 4],
@@ -96,8 +100,8 @@ impl ContactDetector {
         Self { bases: std::array::from_fn(|i| basis(i as f64 / STRETCHES as f64)), middle: basis(0.5) }
     }
 
-    /// All contacts in order of spans: pairs that are too close or soon may be. `known` is the result of the last
-    /// detection.
+    /// Returns all contacts in order of spans: pairs that are too close or may soon be. `known` is the result of the
+    /// last detection; contacts of robots that hardly moved since are taken from it.
     pub fn detect(
         &self,
         instance: &Instance,
@@ -200,12 +204,12 @@ impl ContactDetector {
         }
     }
 
-    /// Ends of the straight stretches of a span.
+    /// Returns the ends of the straight stretches of a span, stage metres. `four`: its control points.
     fn places(&self, four: &[Vec2]) -> Places {
         std::array::from_fn(|i| blend(four, &self.bases[i]))
     }
 
-    /// The closest moment of a contact within its span.
+    /// Finds the moment within its span at which a contact's pair is closest.
     pub fn closest(&self, instance: &Instance, splines: &SplineSet, contact: &Contact) -> Approach {
         let four = splines.span(contact.a, contact.span);
         match contact.b {
@@ -220,8 +224,8 @@ impl ContactDetector {
         }
     }
 
-    /// Finds the closest moment to a wall: first the best of the sampled moments. Then, [`NEARING`] times, the best of
-    /// that moment and two beside it, at half the distance of before.
+    /// Finds the moment at which a span is closest to a wall. First takes the best of the sampled moments. Then,
+    /// [`NEARING`] times, takes the best of that moment and two beside it, each time at half the distance.
     fn closest_to_wall(&self, instance: &Instance, wall: usize, four: &[Vec2]) -> Approach {
         let at = |u: f64| {
             let weights = basis(u);
@@ -241,6 +245,8 @@ impl ContactDetector {
         best.1
     }
 
+    /// Finds the moment at which a moving point is closest to the origin; `apart` are the control points of its span.
+    /// If it stays farther away than `near`, only the distance of the result is meaningful.
     fn closest_to_origin(&self, apart: &[Vec2; 4], near: f64) -> Approach {
         let mut before = blend(apart, &self.bases[0]);
         let mut best = (before.length_squared(), 0.0, before);
@@ -268,14 +274,14 @@ impl ContactDetector {
         let weights = basis(u);
         let nearest = blend(apart, &weights);
         let length = nearest.length();
-        // Robots that meet head-on pass each other on the right.
+        // Robots whose centres meet pass each other on the right.
         let aside = || (apart[0] - apart[3]).left().normalized().unwrap_or(Vec2::new(1.0, 0.0));
         let away = if length > 1e-6 { nearest / length } else { aside() };
         Approach { apart: length, away, weights }
     }
 }
 
-/// Sum of the displacements of a contact's robots, metres.
+/// Sum of the displacements of a contact's robots on its span since the start of the deformation, metres.
 pub(crate) fn displacement_m(displacement: &Displacement, contact: &Contact) -> f64 {
     let other = match contact.b {
         Other::Robot(b) => displacement.of(b, contact.span),

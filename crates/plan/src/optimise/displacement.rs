@@ -1,26 +1,26 @@
-//! Displacement of control points. A pair that was clear by more than both robots have moved since then is not checked
-//! again until the next detection.
+//! How far control points have moved during a deformation. With it, a pair of robots that was clear by more than both
+//! have moved since is not checked again until the next detection.
 
 use lightbots_base::Vec2;
 
-/// Sum of the moves of each control point.
+/// Sum of the lengths of all moves of each control point.
 pub(crate) struct Displacement {
     /// Number of control points of a spline.
     width: usize,
-    /// `[robot][point]`: upper bound of the sum of its moves, metres.
+    /// `[robot][point]`: upper bound of the sum of the lengths of its moves, metres.
     moved_m: Vec<f64>,
-    /// `[robot][point]`: value of `moved_m` at the last mark; minus infinity if there was none.
+    /// `[robot][point]`: value of `moved_m` when the point was last marked; minus infinity if it never was.
     marked_m: Vec<f64>,
 }
 
 impl Displacement {
-    /// Begins with points that have not moved.
+    /// Begins with points that have not moved. `width`: number of control points of a spline.
     pub fn new(robots: usize, width: usize) -> Self {
         let points = robots * width;
         Self { width, moved_m: vec![0.0; points], marked_m: vec![f64::NEG_INFINITY; points] }
     }
 
-    /// Sets a new mark for all points that moved farther than `far_m` since their last one.
+    /// Marks all points that moved farther than `far_m` metres since their last mark.
     pub fn mark(&mut self, far_m: f64) {
         for (marked_m, moved_m) in self.marked_m.iter_mut().zip(&self.moved_m) {
             if moved_m - *marked_m > far_m {
@@ -29,28 +29,29 @@ impl Displacement {
         }
     }
 
-    /// Largest displacement of a span's control points since their mark, metres.
+    /// Largest displacement of a span's four control points since their last mark, metres; infinite without a mark.
     pub fn since_mark_m(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let since = |point: usize| self.moved_m[point] - self.marked_m[point];
         since(at).max(since(at + 1)).max(since(at + 2).max(since(at + 3)))
     }
 
-    /// Largest displacement of all points since their mark, metres.
+    /// Largest displacement of all control points since their last mark, metres.
     pub fn since_mark(&self) -> f64 {
         let since = self.moved_m.iter().zip(&self.marked_m).map(|(now, then)| now - then);
         since.fold(0.0, f64::max)
     }
 
-    /// Largest displacement of a span's control points, metres. If a point with less displacement moves, this value
-    /// need not grow, although a place moves. The next detection finds contacts that follow.
+    /// Largest displacement of a span's four control points since the start, metres. If only a point with less
+    /// displacement moves, this value does not grow, although places on the span move. The next detection finds
+    /// contacts that follow.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
         let at = robot * self.width + span;
         let four = &self.moved_m[at..at + 4];
         four[0].max(four[1]).max(four[2].max(four[3]))
     }
 
-    /// Records that a span's control points moved by `shift` times their influence.
+    /// Records that a span's four control points moved by `shift` times their influence.
     pub fn displace(&mut self, robot: usize, span: usize, influence: &[f64; 4], shift: Vec2) {
         let far_m = far(shift);
         let at = robot * self.width + span;
@@ -62,7 +63,7 @@ impl Displacement {
         }
     }
 
-    /// Records that a robot's spline moved from `before` to `after`.
+    /// Records that a robot's control points moved from `before` to `after`.
     pub fn follow(&mut self, robot: usize, before: &[Vec2], after: &[Vec2]) {
         let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
         for ((moved_m, before), after) in own.iter_mut().zip(before).zip(after) {
@@ -70,7 +71,8 @@ impl Displacement {
         }
     }
 
-    /// Sets the displacement of the outer points to that of the inner ones, which they follow at most as far.
+    /// Sets the displacement of the outer control points to that of the inner points that they follow. They move at
+    /// most as far.
     fn tie_ends(&mut self, robot: usize) {
         let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
         let last = own.len() - 3;
@@ -79,7 +81,7 @@ impl Displacement {
     }
 }
 
-/// Upper bound of the length of a shift that needs no square root.
+/// Returns an upper bound of the length of a shift, without a square root.
 fn far(shift: Vec2) -> f64 {
     shift.x.abs() + shift.y.abs()
 }

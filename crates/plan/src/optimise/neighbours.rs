@@ -1,19 +1,20 @@
-//! Near pairs on a span among robots that have moved; pairs of robots that have not are not compared again.
+//! Near pairs of robots on a span, if at least one of the two has moved since the last detection. Pairs of robots that
+//! have not moved are not compared again.
 
 use lightbots_base::Vec2;
 
 use crate::optimise::cells::{Cells, Disc};
 use crate::optimise::displacement::Displacement;
 
-/// Number of straight stretches of a span.
+/// Number of straight stretches by which a span is approximated.
 pub(crate) const STRETCHES: usize = 4;
-/// A robot that moved less than this since the last detection counts as still, metres. [`SKIN_M`](super::contacts)
-/// includes this distance.
+/// A robot whose control points moved at most this far since the last detection counts as still, metres.
+/// [`SKIN_M`](super::contacts) includes this distance.
 pub(crate) const MOVED_M: f64 = 0.002;
-/// If fewer than one robot in this many has moved, each moved robot is compared with all others directly.
+/// If at most one robot in this many has moved, each moved robot is compared with all others directly, without cells.
 const FEW: usize = 40;
 
-/// Buffers of the detection on one span.
+/// Buffers of a detection of contacts on one span.
 #[derive(Default)]
 pub(crate) struct MovedNeighbours {
     cells: Cells,
@@ -21,9 +22,9 @@ pub(crate) struct MovedNeighbours {
     pub discs: Vec<Disc>,
     /// `[robot]`: ends of the straight stretches on the span.
     pub places: Vec<Places>,
-    /// `[robot]`: displacement since it was last compared with all, metres.
+    /// `[robot]`: how far it moved since it was last compared with all others, metres.
     moved_m: Vec<f64>,
-    /// Robots that have moved.
+    /// Indices of the robots that moved farther than [`MOVED_M`].
     pub moved: Vec<usize>,
 }
 
@@ -31,7 +32,7 @@ pub(crate) struct MovedNeighbours {
 pub(crate) type Places = [Vec2; STRETCHES + 1];
 
 impl MovedNeighbours {
-    /// Finds the robots that have moved on a span.
+    /// Finds the robots that have moved on a span since they were last compared with all others.
     pub fn find_moved(&mut self, robots: usize, span: usize, displacement: &Displacement) {
         self.moved_m.clear();
         self.moved_m.extend((0..robots).map(|robot| displacement.since_mark_m(robot, span)));
@@ -39,12 +40,13 @@ impl MovedNeighbours {
         self.moved.extend((0..robots).filter(|&robot| self.moved_m[robot] > MOVED_M));
     }
 
-    /// Displacement of a robot on the span since it was last compared with all, metres.
+    /// How far a robot moved on the span since it was last compared with all others, metres.
     pub fn moved_m(&self, robot: usize) -> f64 {
         self.moved_m[robot]
     }
 
-    /// Calls `near` for every two robots whose discs are less than `apart` from each other and of which one has moved.
+    /// Calls `near` once for every two robots of which at least one has moved, if their discs are less than `apart`
+    /// metres from each other.
     pub fn pairs(&mut self, apart: f64, mut near: impl FnMut(usize, usize)) {
         let (discs, has_moved) = (&self.discs, |robot: usize| self.moved_m[robot] > MOVED_M);
         if self.moved.len() * FEW > discs.len() {
@@ -68,16 +70,16 @@ impl MovedNeighbours {
     }
 }
 
-/// Distance of a span's farther end from its middle, metres.
+/// Distance of a span's middle from its farther end, metres.
 pub(crate) fn reach(places: &Places) -> f64 {
     let middle = places[STRETCHES / 2];
     let (first, last) = (places[0] - middle, places[STRETCHES] - middle);
     first.length_squared().max(last.length_squared()).sqrt()
 }
 
-/// Whether the straight stretches between places come nearer to the origin than `near`, metres.
+/// Whether the straight stretches between places come nearer to the origin than `near` metres.
 pub(crate) fn come_near(places: &Places, near: f64) -> bool {
-    // Pairs with a similar motion hardly come nearer to each other than their middle is.
+    // Two robots with similar motion hardly come nearer to each other than they are in the middle of the span.
     let far = near + reach(places);
     let square = near * near;
     let comes_near = |pair: &[Vec2]| {

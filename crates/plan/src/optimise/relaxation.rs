@@ -1,5 +1,5 @@
-//! The deformation of first guesses in space and time. Pairs that are too close are displaced, then splines are
-//! projected onto their limits, until neither is needed.
+//! The deformation of first guesses in space and time. Each sweep displaces robots that are too close (contacts), then
+//! projects splines onto their limits.
 
 use lightbots_base::Vec2;
 
@@ -14,55 +14,55 @@ use crate::spline::retime::{moments, smoothed, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 use crate::spline::turn_rate::DirtySpans;
 
-/// The remaining pairs are perturbed once at most one contact for this many robots, plus one, is left.
+/// Contacts count as few if there are at most robots / `A_FEW` + 1. Only then are they perturbed.
 const A_FEW: usize = 30;
-/// Length of a perturbation, metres: about a diameter.
+/// Length of a perturbation, metres: about a robot's diameter.
 const PERTURBATION_M: f64 = 0.06;
-/// Angle between two perturbations, radians: not a fraction of a turn, so that directions do not repeat.
+/// Angle between the directions of two perturbations, radians: not a fraction of a turn, so that none repeats.
 const PERTURBATION_TURN: f64 = 2.4;
-/// Weights of a perturbation at the control points around its contact.
+/// Weights of a perturbation at the eight control points around its contact.
 const PERTURBATION: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
-/// Least number of sweeps between two detections.
+/// Least number of sweeps between two detections of contacts.
 const DETECTION_EVERY: usize = 6;
-/// Largest displacement without a new detection, metres: half of the 12 mm beyond which pairs are ignored.
+/// Largest displacement of a control point without a new detection, metres: pairs are ignored beyond twice as much.
 const DETECTION_MOVED_M: f64 = 0.006;
-/// Passes in which congestion is smoothed.
+/// Number of passes that smooth the congestion over time before spans are lengthened.
 const SMOOTHING: usize = 3;
-/// Largest time scale of a span in one step.
+/// Largest factor on a span's duration in one call of `give_time`.
 const MOST_TIME_SCALED: f64 = 1.5;
-/// Longest duration of a span, seconds. Longer ones are divided, because two contacts in one cannot be resolved.
+/// Longest duration of a span, seconds; longer ones are divided. Two contacts in one span cannot be resolved.
 const LONGEST_SPAN_S: f64 = 0.36;
 /// Distance by which displacements aim beyond the wanted one, metres, because they converge towards their aim.
 const BEYOND_M: f64 = 0.0002;
-/// Lower bound of the sum of squared influences: control points with little influence do not move far.
+/// Lower bound of the divisor of a displacement: control points with little influence must not move far.
 const LEAST_INFLUENCE: f64 = 0.18;
 /// Factor by which a displacement overshoots its aim.
 const OVERSHOOT: f64 = 1.15;
-/// Speed below which all robots count as about equally agile, m/s.
+/// Speed below which differences of speed hardly change which of two robots is displaced farther, m/s.
 const CLUMSY_MPS: f64 = 0.1;
-/// Smoothing passes against fast turns, once most contacts are resolved.
+/// Number of passes that smooth fast turns in a sweep with at most one contact per robot.
 const SMOOTHING_PASSES: usize = 8;
-/// Time scale below which a solution needs no further sweeps.
+/// Time scale below which a solution without contacts needs no further sweeps.
 const GOOD_TIME_SCALE: f64 = 1.03;
 
-/// Contacts between two polls of the cancellation.
+/// Number of contacts between two polls of the cancellation.
 const POLLED: usize = 1024;
 
-/// Effort of a deformation.
+/// Bounds on the work and the result of a deformation.
 #[derive(Clone, Copy)]
 pub(crate) struct Effort {
     /// Most sweeps.
     pub sweeps: usize,
     /// Largest duration, as a multiple of that of the first guess.
     pub stretch: f64,
-    /// Whether time is added sooner, and more of it where there are many contacts.
+    /// Whether time is added sooner, and more of it if there are many contacts.
     pub hurry: bool,
-    /// Distances to reach.
+    /// Distances that the deformation aims at.
     pub clearances: Clearances,
 }
 
-/// Deforms splines until they have no contacts; `Err` with the meetings of the sweep that left the fewest. The result
-/// must still be slowed down by its time scale.
+/// Deforms splines until they have no contacts; `Err` with the pairs of the detection that found the fewest. The result
+/// may be too fast: its duration must be multiplied by [`SplineSet::greatest_time_scale`].
 pub(crate) fn relax(
     instance: &Instance,
     splines: SplineSet,
@@ -110,7 +110,7 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Makes at most `sweeps` sweeps, and subtracts their work from `work` until it is used up.
+    /// Makes at most `sweeps` sweeps, and subtracts their work from `work` while it suffices for a sweep.
     pub fn go_on(&mut self, sweeps: usize, work: &mut usize) {
         for _ in 0..sweeps {
             let cost = self.state.splines.robots() * self.state.splines.spans;
@@ -130,12 +130,12 @@ impl<'a> Relaxation<'a> {
         self.resolved
     }
 
-    /// Returns the fastest splines without contacts, or the meetings of the sweep that left the fewest.
+    /// Returns the fastest splines without contacts, or the pairs of the detection that found the fewest.
     pub fn outcome(self) -> Result<SplineSet, Vec<Meeting>> {
         self.best.map(|(_, splines)| splines).ok_or(self.left_over)
     }
 
-    /// Makes one sweep. Returns whether another one may help.
+    /// Makes one sweep. Returns whether another sweep may help.
     fn sweep(&mut self) -> bool {
         let anew = self.state.is_detection_due(self.sweep);
         self.sweep += 1;
@@ -183,10 +183,10 @@ struct State<'a> {
     clearances: Clearances,
     detector: ContactDetector,
     contacts: Vec<Contact>,
-    /// The sweep of the last detection; `None` if there was none since the number of spans changed.
+    /// Index of the sweep with the last detection; `None` if there was none since the number of spans changed.
     detected_at: Option<usize>,
     displacement: Displacement,
-    /// `[robot]`: spans that may break limits; `None`: no span.
+    /// `[robot]`: spans that may break limits; `None` if no span does.
     dirty: Vec<Option<DirtySpans>>,
     /// `[robot]`: whether `time_scale` is out of date.
     stale: Vec<bool>,
@@ -213,7 +213,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Multiplies the duration by a factor; the time goes to spans with contacts.
+    /// Multiplies the duration by a factor. The additional time goes to spans with contacts, if there are any.
     fn give_time(&mut self, factor: f64) {
         let mut congestion = vec![0.0; self.splines.spans];
         for contact in self.contacts.iter().filter(|contact| contact.is_close) {
@@ -228,7 +228,7 @@ impl<'a> State<'a> {
         self.stale.fill(true);
     }
 
-    /// Multiplies the duration of span k by `times[k]`.
+    /// Multiplies the duration of span k by `times[k]`, and divides the duration into equal spans again.
     fn scale_spans(&mut self, times: &[f64]) {
         let (spans, lasts_s) = (times.len(), self.splines.span_s * times.iter().sum::<f64>());
         let wanted = (lasts_s / LONGEST_SPAN_S).ceil() as usize;
@@ -241,7 +241,7 @@ impl<'a> State<'a> {
         self.detected_at = None;
     }
 
-    /// Displaces one robot of each pair in contact. From call to call, the robot alternates and the direction changes.
+    /// Displaces one robot of each pair in contact. With each `number`, the robot alternates and the direction changes.
     fn perturb(&mut self, number: usize) {
         let aside = Vec2::unit(number as f64 * PERTURBATION_TURN) * PERTURBATION_M;
         let mut perturbed = vec![false; self.splines.robots()];
@@ -276,7 +276,7 @@ impl<'a> State<'a> {
         self.before.extend_from_slice(self.splines.spline(robot));
     }
 
-    /// Projects every changed robot onto its limits.
+    /// Projects the spline of every changed robot onto the limits of its motion.
     fn project_limits(&mut self, easings: usize) {
         let off_edge_m = self.instance.off_edge_m.min(self.clearances.edge_m);
         let limits = LimitProjector::new(self.instance, &self.splines, off_edge_m, easings);
@@ -293,7 +293,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// The greatest time scale, and the number of robots above [`GOOD_TIME_SCALE`].
+    /// The greatest time scale of all robots, and the number of robots above [`GOOD_TIME_SCALE`].
     fn time_scale(&mut self) -> (f64, usize) {
         for robot in 0..self.time_scale.len() {
             if std::mem::take(&mut self.stale[robot]) {
@@ -304,7 +304,7 @@ impl<'a> State<'a> {
         (greatest, self.time_scale.iter().filter(|&&time_scale| time_scale > GOOD_TIME_SCALE).count())
     }
 
-    /// Whether pairs without a contact may be too close by now.
+    /// Whether robots have moved so far that pairs outside `contacts` may be too close.
     fn is_detection_due(&mut self, sweep: usize) -> bool {
         let is_due = self.detected_at.is_none_or(|last| {
             sweep >= last + DETECTION_EVERY && self.displacement.since_mark() > DETECTION_MOVED_M
@@ -315,7 +315,7 @@ impl<'a> State<'a> {
         is_due
     }
 
-    /// Displaces all pairs that are too close, after a detection if `anew`. Returns the number of contacts.
+    /// Displaces all pairs that are too close, after a new detection if `anew`. Returns their number over all spans.
     fn resolve_all(&mut self, anew: bool) -> usize {
         if anew {
             self.contacts = self.detector.detect(
@@ -341,7 +341,7 @@ impl<'a> State<'a> {
         resolved
     }
 
-    /// Returns the pairs of robots in contact, each once, and their places.
+    /// Returns the pairs of robots that were too close at the last check, each once, and their places.
     fn meetings(&self) -> Vec<Meeting> {
         let close = self.contacts.iter().filter(|contact| contact.is_close).enumerate();
         let close = close.take_while(|(number, _)| number % POLLED != 0 || !self.instance.cancel.is_wanted());
@@ -357,8 +357,8 @@ impl<'a> State<'a> {
         meetings
     }
 
-    /// Displaces two robots, or one from a wall, if they are too close, and returns whether they were. Otherwise
-    /// records up to which displacement they are clear.
+    /// Displaces two robots, or one robot away from a wall, if they are too close, and returns whether they were.
+    /// Otherwise records the displacement up to which they surely stay clear.
     fn resolve(&mut self, contact: &mut Contact) -> bool {
         let closest = self.detector.closest(self.instance, &self.splines, contact);
         if closest.apart >= contact.least {
@@ -391,7 +391,7 @@ impl<'a> State<'a> {
         self.dirty[robot].get_or_insert(DirtySpans::NOTHING).add(span);
     }
 
-    /// Weight of a robot's share in a displacement: a fast robot needs less turn to be displaced, so it moves more.
+    /// Weight of a robot's share in a displacement: a fast robot needs less turn to be displaced, so it moves farther.
     fn agility(&self, robot: usize, span: usize) -> f64 {
         let four = self.splines.span(robot, span);
         let (step, clumsy) = (four[2] - four[1], CLUMSY_MPS * self.splines.span_s);

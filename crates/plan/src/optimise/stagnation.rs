@@ -1,22 +1,23 @@
-//! When a deformation gets more time, and how much. Sweeps are counted in stages. A stage is in vain if too many
-//! contacts are left at its end.
+//! When a deformation makes the drive longer, and by how much. Sweeps of the deformation are counted in stages. A stage
+//! is in vain if too many contacts are left at its end.
 
-/// Sweeps of a stage, and the share of its contacts that may be left at its end.
+/// Number of sweeps of a stage, and the share of contacts at its begin that may be left at its end.
 const STAGE: (usize, f64) = (12, 0.5);
-/// Sweeps of a stage with `hurry`, and the share of its contacts that may be left at its end. Time is added sooner.
+/// As [`STAGE`], for deformations with `hurry`, which add time sooner.
 const HURRIED_STAGE: (usize, f64) = (10, 0.7);
-/// Sweeps of a stage with few contacts: they are cheap, and oscillate for some time.
+/// Number of sweeps of a stage with few contacts. These sweeps are cheap, and few contacts oscillate for some time.
 const LAST_SWEEPS: usize = 24;
-/// Factor on the duration after a stage in vain.
+/// Factor on the duration of the drive after a stage in vain, if more than a few contacts are left.
 const GROWTH: f64 = 1.03;
-/// Factor on the duration where few contacts are left.
+/// Factor on the duration of the drive after a stage in vain, if few contacts are left.
 const LAST_GROWTH: f64 = 1.02;
-/// Addition to the factor for each contact per robot, with `hurry`.
+/// Addition to that factor for each contact per robot, with `hurry`.
 const GROWTH_A_CONTACT: f64 = 0.014;
-/// Most contacts per robot that count for this addition.
+/// Most contacts per robot that count for [`GROWTH_A_CONTACT`].
 const MOST_CONTACTS: f64 = 12.0;
 
-/// Factor on the duration after a stage in vain.
+/// Returns the factor on the duration of the drive after a stage in vain. `resolved`: number of contacts in the last
+/// sweep. Up to `few` contacts count as few.
 pub(crate) fn growth(hurry: bool, resolved: usize, few: usize, robots: usize) -> f64 {
     let crowding = if hurry { resolved as f64 / robots.max(1) as f64 } else { 0.0 };
     let least = if resolved <= few { LAST_GROWTH } else { GROWTH };
@@ -25,22 +26,23 @@ pub(crate) fn growth(hurry: bool, resolved: usize, few: usize, robots: usize) ->
 
 /// Counts the sweeps of a stage, and detects stages that resolve too few contacts.
 pub(crate) struct Stagnation {
-    /// Sweeps of a stage, and the share of contacts that may be left.
+    /// Number of sweeps of a stage, and the share of contacts that may be left.
     patience: (usize, f64),
-    /// Sweeps of this stage.
+    /// Number of sweeps of this stage that have been made.
     sweeps: usize,
-    /// Contacts that may be left at the end of this stage.
+    /// Number of contacts that may be left at the end of this stage.
     hoped: usize,
 }
 
 impl Stagnation {
-    /// Begins the first stage; with `hurry`, time is added sooner.
+    /// Begins the first stage, with [`HURRIED_STAGE`] if `hurry`.
     pub fn new(hurry: bool) -> Self {
         let patience = if hurry { HURRIED_STAGE } else { STAGE };
         Self { patience, sweeps: 0, hoped: usize::MAX }
     }
 
-    /// Counts a sweep that left `wrong` contacts. Returns whether it ended a stage in vain.
+    /// Counts a sweep that left `wrong` contacts and robots above their limits. Returns whether the sweep ended a stage
+    /// in vain. `only_few`: whether few contacts are left.
     pub fn is_stagnant(&mut self, wrong: usize, only_few: bool) -> bool {
         self.sweeps += 1;
         let (sweeps, share) = self.patience;

@@ -1,4 +1,4 @@
-//! Gives each robot its way, which is its path in a prescribed drive, and checks the drive with the proof.
+//! Gives each robot its way, which is its whole path in a prescribed drive, and checks the drive with the proof.
 
 use std::collections::BTreeMap;
 
@@ -14,15 +14,17 @@ use crate::problem::ASKED_SLACK_S;
 use crate::proof::{Fault, FaultKind, Proof, ProofInput, prove_unless};
 use crate::{Closest, Infeasible, Path, Transition, TransitionProblem};
 
-/// Greatest distance of a robot from the beginning of its way, metres: robots arrive at places within this.
+/// Greatest distance of a robot from the beginning of its way, metres. Robots come to rest within this distance of
+/// their places.
 const NEAR_START_M: f64 = 0.006;
-/// Greatest distance of a pixel from the end of its way, metres: files round places to a tenth of a millimetre.
+/// Greatest distance of a pixel from the end of its way, metres. It must exceed the rounding of files, which is a tenth
+/// of a millimetre.
 const NEAR_GOAL_M: f64 = 0.001;
-/// Shares of the asked delay that are tried, one after the other.
+/// Shares of the prescribed delay of starts that are tried, one after the other.
 const DELAY_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 
-/// Plans the prescribed drive. `Err(None)` if robots or pixels are not where its ways begin and end; `Err(Some)` if it
-/// must not be driven.
+/// Plans the prescribed drive. `Err(None)` if robots or pixels are not where its ways begin and end. `Err(Some)` if
+/// they are, but the drive must not be driven, with the reason.
 pub(crate) fn attempt(
     problem: &TransitionProblem,
     prescribed: &Prescribed,
@@ -60,8 +62,8 @@ pub(crate) fn attempt(
     Ok(Transition { goal_of, paths, duration, least: least.max(Span::ZERO), lower_bound_s, closest })
 }
 
-/// `[goal]`: the robot at the beginning of the way to that goal. `None` if a robot is missing or taken, or a goal is
-/// pinned to another robot.
+/// Returns `[goal]`: the index of the robot at the beginning of the way to that goal. `None` if a robot is missing or
+/// has another way, or if a goal is pinned to another robot.
 fn starts_of(problem: &TransitionProblem, ways: &[PrescribedWay]) -> Option<Vec<usize>> {
     let cell = |at: Vec2| ((at.x / NEAR_START_M).floor() as i64, (at.y / NEAR_START_M).floor() as i64);
     let mut robots: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
@@ -88,7 +90,8 @@ fn starts_of(problem: &TransitionProblem, ways: &[PrescribedWay]) -> Option<Vec<
     Some(found)
 }
 
-/// Makes a way begin where its robot stands and end at its pixel.
+/// Returns a function that displaces a way, so that it begins where its robot stands and ends at its pixel. Its
+/// arguments are the way, the index of the robot and the goal.
 fn joined(problem: &TransitionProblem) -> impl Fn(((&PrescribedWay, &usize), &Vec2)) -> PrescribedWay {
     |((way, &start), &goal)| {
         let start = problem.starts[start];
@@ -107,7 +110,8 @@ fn joined(problem: &TransitionProblem) -> impl Fn(((&PrescribedWay, &usize), &Ve
     }
 }
 
-/// Moves the beginning of a path to `start` and its end to `goal`. The velocities there stay the same.
+/// Moves the beginning of a path to `start` and its end to `goal`. Only its first and last moving pieces change. The
+/// velocities at the beginning and end stay the same.
 fn path_between(path: &Path, start: Vec2, goal: Vec2) -> Path {
     let (first, last) = (start - path.start, goal - path.as_ref().end());
     let moves = |(from, _, piece): &(Vec2, Span, &Piece)| !piece.is_rest(*from);
@@ -132,7 +136,8 @@ fn path_between(path: &Path, start: Vec2, goal: Vec2) -> Path {
     joined
 }
 
-/// Returns the paths of all robots and the goal of each. Robots without a goal stay.
+/// Returns the paths and the goals of all robots: `ways[goal]` for the robot `start_of[goal]`; robots without a goal
+/// stay. All paths last as long as the longest way.
 fn of_robots(
     problem: &TransitionProblem,
     ways: Vec<Path>,
@@ -199,8 +204,8 @@ fn faulty(name: &str, fault: &Fault) -> String {
     format!("in the {name}, a robot would {what} after {:.1} s; {remedy}", fault.at.as_secs())
 }
 
-/// An ordinary drive in which robots start one after the other, with the largest share of the asked delay that the
-/// proof accepts. `None` if it accepts none.
+/// Delays the starts of an ordinary drive, `transition`, so that robots start one after the other. Takes the largest of
+/// [`DELAY_SHARES`] of the prescribed delay that the proof accepts; `None` if it accepts none.
 pub(crate) fn staggered(
     problem: &TransitionProblem,
     transition: &Transition,

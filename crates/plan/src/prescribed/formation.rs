@@ -1,4 +1,4 @@
-//! Ways of robots whose picture moves as a whole.
+//! Ways (the whole paths) of robots whose picture moves as a whole.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,23 +11,25 @@ use super::shape::{Shape, ShapeCurve};
 use super::smooth_line::SmoothLine;
 use super::way::{PrescribedWay, WayPart};
 
-/// Length over which the corners of a user's curve are rounded, metres, so that robots turn there without a stop.
+/// Length over which the corners of a curve that a user has drawn are rounded, metres, so that robots turn there
+/// without a stop.
 const ROUNDING_M: f64 = 0.06;
-/// Tolerance for the position of a place along a rounded track, metres: it differs from the position along straight
-/// lines.
+/// Tolerance when a place is searched along a rounded track, metres: lengths along the track differ from those along
+/// straight lines.
 const SLACK_M: f64 = 0.05;
-/// Latest moment at which a robot's circles may begin, as a share of the whole drive.
+/// Latest moment at which a robot's circles may begin, as a share of the duration of the drive.
 const MOST_LATE: f64 = 0.75;
 
-/// Returns the places of the pixels of `frame` after `motion`, by id, stage metres. Staggered starts and drives through
-/// pictures leave them unchanged.
+/// Returns the places of the pixels of `frame` after `motion`, by pixel id, stage metres. Staggered starts and drives
+/// through pictures do not change the places.
 pub fn moved(motion: &PictureMotion, frame: &Frame) -> PlacesById {
     let before = picture(frame);
     let ways = ways(motion, &before);
     before.iter().map(|(&id, &at)| (id, ways.get(&id).and_then(PrescribedWay::end).unwrap_or(at))).collect()
 }
 
-/// Returns the way of each pixel's robot, by pixel id. Empty for staggered starts and drives through pictures.
+/// Returns the way of each pixel's robot, by pixel id; `before`: places of the pixels. Empty for staggered starts and
+/// drives through pictures, which are made elsewhere.
 pub(super) fn ways(motion: &PictureMotion, before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     match motion {
         PictureMotion::Travel { along } => {
@@ -53,12 +55,13 @@ fn each(before: &PlacesById, way: impl Fn(Vec2) -> Vec<WayPart>) -> BTreeMap<u32
     before.iter().map(|(&id, &at)| (id, PrescribedWay::Parts(way(at)))).collect()
 }
 
-/// Returns a way of one part, which lasts the whole drive.
+/// Returns a way of one part, which lasts for the whole drive.
 fn whole(curve: ShapeCurve) -> Vec<WayPart> {
     vec![WayPart { during: (0.0, 1.0), shape: curve.into() }]
 }
 
-/// Returns a function from a robot's place to its curve. All curves share one track.
+/// Returns a function that takes a robot's place and returns the robot's curve: the line through `along`, which holds
+/// offsets from that place, metres. All curves share one track.
 fn travel(along: &[Vec2]) -> impl Fn(Vec2) -> ShapeCurve {
     let points: Vec<Vec2> = [Vec2::ZERO].into_iter().chain(along.iter().copied()).collect();
     let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
@@ -68,8 +71,8 @@ fn travel(along: &[Vec2]) -> impl Fn(Vec2) -> ShapeCurve {
     }
 }
 
-/// Returns a way away from `center` and back, `times` times. Robots drive back in reverse, so that they need no time to
-/// turn.
+/// Returns the way of the robot at `at`, `times` times to the place `size` times as far from `center` and back. Robots
+/// drive back in reverse, so that they need no time to turn.
 fn breathe(center: Vec2, size: f64, times: u32, at: Vec2) -> Vec<WayPart> {
     let wide = center + (at - center) * size;
     let parts = 2 * times.max(1);
@@ -81,16 +84,16 @@ fn breathe(center: Vec2, size: f64, times: u32, at: Vec2) -> Vec<WayPart> {
     (0..parts).map(part).collect()
 }
 
-/// Moves all robots along one track: through their own places, from the last robot to the first, and then along the
-/// curve. Each robot advances by the length of the curve.
+/// Moves all robots along one track: through their own places, from the last robot to the first (the leader), and then
+/// along the curve `along`. Each robot advances by the same length, about that of the curve.
 fn follow(along: &[Vec2], before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     let Some(&begin) = along.first() else { return BTreeMap::new() };
     let chain = chain(before, begin);
     let points: Vec<Vec2> = chain.iter().rev().map(|id| before[id]).chain(along.iter().copied()).collect();
     let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
     let along_m: f64 = along.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    // The leader stands about where the curve begins. Each robot is as far behind the robot ahead along the track as
-    // their places are apart.
+    // The leader stands about where the curve begins. Along the track, each robot is about as far behind the robot
+    // ahead as their places are apart.
     let mut ahead = (begin, track.length_m() - along_m);
     let mut goes_m = None;
     let ways = chain.iter().map(|id| {
@@ -107,7 +110,8 @@ fn follow(along: &[Vec2], before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     ways.collect()
 }
 
-/// Orders pixels in a line: first the nearest to `begin`, then always the remaining one nearest to the last.
+/// Returns the ids of all pixels in the order of a line: first the pixel nearest to `begin`, then always the remaining
+/// pixel nearest to the last one.
 fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
     let mut left: Vec<(u32, Vec2)> = before.iter().map(|(&id, &at)| (id, at)).collect();
     let (mut chain, mut here) = (Vec::with_capacity(left.len()), begin);
@@ -121,8 +125,8 @@ fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
     chain
 }
 
-/// Returns circles for all robots. The farther a robot stands along `direction`, the later its circles begin: by one
-/// circle for each `length_m`, as in a wave.
+/// Returns ways of `times` circles for all robots. The farther a robot stands along `direction`, the later its circles
+/// begin: by the time of one circle for each `length_m` metres, as in a wave.
 fn wave(
     radius_m: f64,
     direction: Vec2,
@@ -134,7 +138,7 @@ fn wave(
     let first_m = before.values().map(|&at| along(at)).fold(f64::INFINITY, f64::min);
     let last_m = before.values().map(|&at| along(at)).fold(f64::NEG_INFINITY, f64::max);
     let times = f64::from(times.max(1));
-    // Number of circles by which the last robot begins later than the first.
+    // Number of circles that the first robot has driven before the last robot begins.
     let late = ((last_m - first_m) / length_m.max(1e-3)).clamp(0.0, times * MOST_LATE / (1.0 - MOST_LATE));
     let begin = direction.angle() - core::f64::consts::FRAC_PI_2;
     each(before, |at| {

@@ -1,4 +1,4 @@
-//! Trajectories that a show contains, used unchanged.
+//! The trajectories that a show contains, which are used unchanged.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +8,8 @@ use lightbots_show::{Show, Trajectory};
 use super::way::PrescribedWay;
 use crate::{BoundFrame, Path};
 
-/// Returns the trajectories to a frame; `None` if the show has none for it. The robot of a pixel without a trajectory
-/// rests at the pixel's place.
+/// Returns `[goal]`: the trajectory to that pixel of frame `index`. The robot of a pixel without a trajectory rests at
+/// the pixel's place. `None` if the show has no trajectory to this frame.
 pub(super) fn ways(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Vec<PrescribedWay>> {
     let id = show.frames[index].id.as_deref()?;
     let mut given: BTreeMap<u32, &Trajectory> = BTreeMap::new();

@@ -1,10 +1,11 @@
 //! Drives that a show prescribes: motions of a picture as a whole, and trajectories that the show contains.
 //!
-//! In reading order: [`shape`] is a curve of a robot without times. [`way`] joins shapes to the way of a robot, or is a
-//! timed path. [`formation`] makes ways from a [`PictureMotion`] and a picture. [`timing`] finds the least legal
-//! duration and makes timed paths. [`given`] takes the trajectories of a show unchanged. [`drive`] gives each robot its
-//! way and checks the drive with the proof. A prescribed drive applies only if robots stand on the picture before the
-//! frame. From other places, the ordinary planner plans the drive.
+//! In reading order: [`shape`] is the curve of a robot without times. A [`way`] is the whole path of a robot: shapes in
+//! sequence, or a timed path. [`formation`] makes ways from a [`PictureMotion`] and a picture, [`morph`] makes ways
+//! through several pictures. [`timing`] finds the least legal duration and makes timed paths. [`given`] takes the
+//! trajectories of a show unchanged. [`drive`] gives each robot its way and checks the drive with the proof. Except for
+//! staggered starts, a prescribed drive applies only if robots stand on the picture before the frame. From other
+//! places, the ordinary planner plans the drive.
 
 mod drive;
 mod formation;
@@ -28,29 +29,29 @@ use lightbots_show::{PictureMotion, Show};
 use picture::picture;
 use way::PrescribedWay;
 
-/// The drive that a show prescribes from the previous picture to a frame.
+/// The drive that a show prescribes from the picture of the previous frame to a frame.
 #[derive(Clone, Debug)]
 pub struct Prescribed {
     /// Name of the drive in messages, for example "turn".
     pub(crate) name: &'static str,
-    /// `ways[goal]`: the way of the robot to that goal. Empty if `stagger` is set.
+    /// `ways[goal]`: the whole path of the robot to that goal. Empty if `stagger` is set.
     pub(crate) ways: Vec<PrescribedWay>,
-    /// Delays of the starts of an ordinary drive; `None` for all other prescribed drives.
+    /// How the starts of an ordinary drive are delayed; `None` for all other prescribed drives.
     pub(crate) stagger: Option<Stagger>,
 }
 
-/// Parameters of starts one after the other.
+/// Parameters of an ordinary drive in which robots start one after the other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stagger {
-    /// Unit vector: the farther a robot stands in this direction, the later it starts.
+    /// Unit vector in stage space: the farther a robot stands in this direction, the later it starts.
     pub direction: Vec2,
     /// Time from the first start to the last, seconds.
     pub delay_s: f64,
 }
 
 impl Prescribed {
-    /// Returns what the show prescribes for the drive to frame `index` and the pixels of `bound`; `None` if it
-    /// prescribes nothing for them.
+    /// Returns the drive to frame `index` that the show prescribes for the pixels of `bound`. `None` if the show
+    /// prescribes none, or not for all of these pixels.
     pub fn of_frame(show: &Show, index: usize, bound: &BoundFrame<'_>) -> Option<Self> {
         let frame = show.frames.get(index)?;
         if let Some(motion) = &frame.motion {
@@ -81,7 +82,7 @@ impl Prescribed {
     }
 }
 
-/// Returns the name of a motion in messages.
+/// Returns the name of a motion for messages.
 fn noun(motion: &PictureMotion) -> &'static str {
     match motion {
         PictureMotion::Travel { .. } => "travel",

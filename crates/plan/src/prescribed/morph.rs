@@ -1,4 +1,4 @@
-//! Drives through intermediate pictures, without a stop.
+//! Drives through intermediate pictures, in which robots do not stop.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,8 @@ use super::shape::{Shape, ShapeCurve};
 use super::way::{PrescribedWay, WayPart};
 use crate::assignment::Choice;
 
-/// Returns the way to each pixel of the picture `after`, by id. `None` if two pictures have different numbers of
-/// places.
+/// Returns the way to each pixel of the picture `after`, by pixel id. `through`: places of the intermediate pictures,
+/// in order. `None` if two pictures have different numbers of places.
 pub(super) fn ways(
     through: &[Vec<Vec2>],
     before: &PlacesById,
@@ -19,8 +19,8 @@ pub(super) fn ways(
     let starts: Vec<Vec2> = before.values().copied().collect();
     let goals: Vec<Vec2> = after.values().copied().collect();
     let mut lines: Vec<Vec<Vec2>> = starts.iter().map(|&at| vec![at]).collect();
-    // Sum of the longest lines up to each picture, metres. All robots reach a picture together, at a share of the way
-    // that these sums decide.
+    // Sum of the longest lines up to each picture, metres. All robots reach a picture together. These sums decide at
+    // which share of their way.
     let mut longest_m = vec![0.0];
     for picture in through.iter().map(Vec::as_slice).chain([&goals[..]]) {
         let here: Vec<Vec2> = lines.iter().map(|line| line[line.len() - 1]).collect();

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use lightbots_base::Vec2;
 use lightbots_show::Frame;
 
-/// Places of a frame's pixels by their ids, stage metres.
+/// Places of a frame's pixels by pixel id, stage metres.
 pub type PlacesById = BTreeMap<u32, Vec2>;
 
-/// The picture of a frame.
+/// Returns the places of a frame's pixels by pixel id.
 pub(super) fn picture(frame: &Frame) -> PlacesById {
     frame.pixels.iter().map(|pixel| (pixel.id, pixel.at)).collect()
 }

@@ -1,4 +1,4 @@
-//! A curve of a robot without times: a place for each share of the curve.
+//! The curve of a robot without times: a place for each share of the curve, from 0 at its begin to 1 at its end.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use lightbots_base::Vec2;
 
 use super::smooth_line::SmoothLine;
 
-/// Step of the numerical derivative, as a share of the curve.
+/// Distance from a share to either side at which the numerical derivative is taken, as a share of the curve.
 const STEP: f64 = 1e-4;
 /// Number of chords whose lengths add up to the length of a shape.
 const LENGTH_STEPS: u32 = 64;
@@ -15,21 +15,24 @@ const LENGTH_STEPS: u32 = 64;
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     curve: ShapeCurve,
-    /// Offsets at the begin and at the end, metres.
+    /// Displacements of the curve at its begin and at its end, metres. Between them the displacement changes smoothly.
     offsets: (Vec2, Vec2),
 }
 
 #[derive(Clone, Debug)]
+/// The kinds of curves. Places are in stage metres.
 pub(crate) enum ShapeCurve {
     /// A straight line.
     Line { from: Vec2, to: Vec2 },
-    /// A turn of `arm` about `center` by `turn` radians. Meanwhile the length of `arm` changes to `size` times.
+    /// A turn about `center` by `turn` radians, counter-clockwise if positive. It begins at `center + arm`. Meanwhile
+    /// the length of the arm changes to `size` times.
     Turn { center: Vec2, arm: Vec2, turn: f64, size: f64 },
-    /// The stretch of a track from `from_m` to `to_m` along it, moved by `offset`.
+    /// The part of a track from `from_m` to `to_m` metres along it, displaced by `offset`, metres.
     Stretch { track: Arc<SmoothLine>, from_m: f64, to_m: f64, offset: Vec2 },
-    /// A smooth curve through places, each at its share of the curve.
+    /// A smooth curve through `places`; place k is at the share `shares[k]` of the curve.
     Through { places: Arc<[Vec2]>, shares: Arc<[f64]> },
-    /// `times` circles from `at`, which is at the angle `begin` of the circle, radians.
+    /// `times` circles, counter-clockwise. They begin at `at`, in the direction `begin` from the centre of the circle,
+    /// radians.
     Circles { at: Vec2, radius_m: f64, begin: f64, times: f64 },
 }
 
@@ -58,7 +61,8 @@ impl ShapeCurve {
         }
     }
 
-    /// Number of path pieces that follow the curve within a tenth of a millimetre, on floors of 20 m.
+    /// Number of path pieces that are needed to follow the curve within a tenth of a millimetre, on floors of up to 20
+    /// m.
     fn pieces(&self) -> usize {
         match self {
             Self::Line { .. } => 1,
@@ -80,25 +84,25 @@ impl Shape {
         self.curve.at(share) + begin * (1.0 - eased(share)) + end * eased(share)
     }
 
-    /// The derivative of the place by the share, metres.
+    /// The derivative of the place with respect to the share, metres.
     pub(crate) fn slope(&self, share: f64) -> Vec2 {
         let (from, to) = ((share - STEP).max(0.0), (share + STEP).min(1.0));
         (self.at(to) - self.at(from)) / (to - from)
     }
 
-    /// Number of pieces that follow the shape closely.
+    /// Number of path pieces that are needed to follow the shape closely.
     pub(crate) fn pieces(&self) -> usize {
         self.curve.pieces()
     }
 
-    /// Length, metres.
+    /// Length of the shape, metres, as the sum of [`LENGTH_STEPS`] chords.
     pub(crate) fn length_m(&self) -> f64 {
         let at = |step: u32| self.at(f64::from(step) / f64::from(LENGTH_STEPS));
         (0..LENGTH_STEPS).map(|step| at(step).distance(at(step + 1))).sum()
     }
 
-    /// Displaces the shape so that it begins at `start` and ends at `end`; `None` leaves that end where the curve has
-    /// it.
+    /// Displaces the shape so that it begins at `start` and ends at `end`. For `None`, the shape begins or ends where
+    /// its curve does.
     pub(crate) fn between(mut self, start: Option<Vec2>, end: Option<Vec2>) -> Self {
         let offset = |to: Option<Vec2>, share: f64| to.map_or(Vec2::ZERO, |to| to - self.curve.at(share));
         self.offsets = (offset(start, 0.0), offset(end, 1.0));
@@ -106,7 +110,7 @@ impl Shape {
     }
 }
 
-/// The cubic Hermite spline through places at shares.
+/// Returns the place at a share of the cubic Hermite spline that passes through `places[k]` at the share `shares[k]`.
 fn through(places: &[Vec2], shares: &[f64], share: f64) -> Vec2 {
     let last = places.len() - 1;
     let index = shares.partition_point(|&begin| begin <= share).clamp(1, last) - 1;
@@ -124,7 +128,8 @@ fn through(places: &[Vec2], shares: &[f64], share: f64) -> Vec2 {
         + slope(index + 1) * (span * (u3 - u2))
 }
 
-/// Smooth step from 0 to 1 with a slope of 0 at both ends, so that offsets do not change directions there.
+/// Smooth step from 0 to 1 with a slope of 0 at both ends. With it, displacements do not change the directions at the
+/// ends of a curve.
 fn eased(share: f64) -> f64 {
     share * share * (3.0 - 2.0 * share)
 }

@@ -1,13 +1,13 @@
-//! A smooth curve through places, parametrised by its length.
+//! A smooth curve through places, on which a place is given by the length along the curve.
 
 use lightbots_base::Vec2;
 
-/// Largest distance between consecutive places of a track of up to 400 m, metres.
+/// Largest distance between consecutive places of a curve of up to 400 m, metres.
 const STEP_M: f64 = 0.004;
-/// Most steps between the places of a track. Longer tracks than 400 m have longer steps.
+/// Most steps between the places of a curve. Curves longer than 400 m have longer steps.
 const MOST_STEPS: usize = 100_000;
 
-/// A curve as places at equal distances along it.
+/// A curve, stored as places at equal distances along it.
 #[derive(Clone, Debug)]
 pub(crate) struct SmoothLine {
     places: Vec<Vec2>,
@@ -15,7 +15,8 @@ pub(crate) struct SmoothLine {
 }
 
 impl SmoothLine {
-    /// A Catmull-Rom spline through `points`, whose corners are rounded by a mean over `rounding_m` of its length.
+    /// Makes a Catmull-Rom spline through `points`, stage metres. Its corners are rounded by moving averages over
+    /// `rounding_m` metres of its length.
     pub(crate) fn through(points: &[Vec2], rounding_m: f64) -> Self {
         let mut fine = Vec::new();
         for index in 1..points.len() {
@@ -30,16 +31,17 @@ impl SmoothLine {
         fine.extend(points.last());
         let even = evened(&fine);
         let half = (rounding_m / 2.0 / even.step_m).round() as usize;
-        // A moving average, taken twice, has no step in its curvature.
+        // A moving average that is taken twice leaves no step in the curvature.
         evened(&rounded(&rounded(&even.places, half), half))
     }
 
-    /// Its length, metres.
+    /// Length of the curve, metres.
     pub(crate) fn length_m(&self) -> f64 {
         self.step_m * self.places.len().saturating_sub(1) as f64
     }
 
-    /// Returns the place `along_m` from the beginning. Beyond both ends, the curve goes straight on.
+    /// Returns the place at the length `along_m` metres from the beginning. Beyond both ends, the curve continues as a
+    /// straight line.
     pub(crate) fn at(&self, along_m: f64) -> Vec2 {
         let last = self.places.len() - 1;
         if last == 0 {
@@ -51,8 +53,8 @@ impl SmoothLine {
         from + (to - from) * (steps - index as f64)
     }
 
-    /// Returns the length along the track of the place nearest to `at`, metres. Only places between the two given
-    /// lengths are searched.
+    /// Returns the length along the curve, metres, at which it is nearest to `at`. Only the part between the lengths
+    /// `from_m` and `to_m` is searched.
     pub(crate) fn nearest_m(&self, at: Vec2, (from_m, to_m): (f64, f64)) -> f64 {
         let last = self.places.len() - 1;
         let index = |along_m: f64| ((along_m / self.step_m).max(0.0) as usize).min(last);
@@ -67,7 +69,7 @@ fn catmull_rom([a, b, c, d]: [Vec2; 4], t: f64) -> Vec2 {
     (b * 2.0 + (c - a) * t + (a * 2.0 - b * 5.0 + c * 4.0 - d) * t2 + (b * 3.0 - a - c * 3.0 + d) * t3) * 0.5
 }
 
-/// Resamples a line at equal distances along it.
+/// Resamples a line through places at equal distances along it, of at most [`STEP_M`] for lines of up to 400 m.
 fn evened(line: &[Vec2]) -> SmoothLine {
     let Some(&first) = line.first() else { return SmoothLine { places: vec![Vec2::ZERO], step_m: STEP_M } };
     let length_m: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -88,8 +90,8 @@ fn evened(line: &[Vec2]) -> SmoothLine {
     SmoothLine { places, step_m }
 }
 
-/// Replaces each place by the mean of the places up to `half` steps before and after it. Near the ends, fewer places
-/// count, so that the ends stay.
+/// Replaces each place by the mean of the places up to `half` steps before and after it. Near the ends of the line,
+/// fewer places count, so that the two ends stay where they are.
 fn rounded(places: &[Vec2], half: usize) -> Vec<Vec2> {
     let mut sums = vec![Vec2::ZERO];
     for &at in places {

@@ -1,4 +1,5 @@
-//! Timing of ways: the shortest drive within the limits of all robots, and its timed paths.
+//! Timing of ways (the paths of robots in a prescribed drive): finds the least duration within the limits of all
+//! robots, and makes timed paths.
 
 use lightbots_base::{Limits, Piece, Span, Vec2};
 use lightbots_show::Easing;
@@ -8,25 +9,26 @@ use crate::Path;
 use crate::motion::progress::ProgressLaw;
 use crate::motion::{quarter_turn, whole_millis};
 
-/// Most corrections of the duration. Each multiplies it by the largest ratio of a motion to its limit.
+/// Most corrections of the duration. Each correction multiplies it by the largest ratio of a motion to its limit.
 const MOST_TRIES: usize = 24;
-/// Share of the limits that timing uses; the rest is for rounding to whole milliseconds.
+/// Share of the limits that timing uses; the rest is for the rounding of durations to whole milliseconds.
 const SHARE: f64 = 0.995;
-/// Length below which a part counts as a rest, metres.
+/// Length below which a part of a way counts as a rest, metres.
 const STILL_M: f64 = 1e-6;
-/// Speed below which the turn rate of a path is not limited, m/s. It is less than the proof's `CREEP_MPS`.
+/// Speed below which the turn rate of a path is not limited, m/s. It must be less than the proof's `CREEP_MPS`.
 const SLOW_MPS: f64 = 0.01;
 
-/// Timed paths of one drive. Those that the planner times begin with a rest in which robots turn, and last equally
-/// long.
+/// Timed paths of one drive. Paths from ways with parts begin with a rest in which robots turn, and last equally long.
+/// Paths that the show has timed stay unchanged.
 pub(super) struct TimedDrive {
     /// `paths[goal]`: the path of the robot to that goal.
     pub paths: Vec<Path>,
-    /// Least duration of all ways that the planner times, within the limits; 0 if none of them moves a robot.
+    /// Least duration within the limits of all ways with parts, including the first rest; 0 if none of them moves a
+    /// robot.
     pub least: Span,
 }
 
-/// Times the ways: as fast as the limits allow, or in the duration `asked` if that is longer.
+/// Times all ways: as fast as the limits allow, or in the duration `asked` if that is longer.
 pub(super) fn timed(
     ways: &[PrescribedWay],
     limits: &Limits,
@@ -49,8 +51,8 @@ pub(super) fn timed(
     TimedDrive { paths, least }
 }
 
-/// A way, with those of its parts that are at least [`STILL_M`] long. Lengths are computed once, because they are sums
-/// over many places.
+/// A way, and those of its parts that are at least [`STILL_M`] long. The lengths of parts are computed only once,
+/// because they are sums over many places.
 struct MovingWay<'a> {
     way: &'a PrescribedWay,
     /// Parts with their lengths, metres.
@@ -68,7 +70,7 @@ impl<'a> MovingWay<'a> {
     }
 }
 
-/// Returns a lower bound on the duration of all ways.
+/// Returns a lower bound on the duration of the drive, without its first rest.
 fn first_guess(ways: &[MovingWay<'_>], limits: &Limits) -> Span {
     let speed = limits.speed_mps.max(1e-3);
     let seconds = ways.iter().flat_map(|way| &way.parts).map(|(part, length_m)| {
@@ -78,7 +80,7 @@ fn first_guess(ways: &[MovingWay<'_>], limits: &Limits) -> Span {
     whole_millis(seconds.fold(0.0, f64::max))
 }
 
-/// Returns the factor by which the drive must be slower so that all limits hold; at most 1 if they hold.
+/// Returns the factor by which the duration `drive` must be multiplied so that all limits hold; at most 1 if they hold.
 fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -> f64 {
     let one = |way: &MovingWay<'_>| {
         let path = path(way, limits, easing, drive, quarter_turn(limits) + drive);
@@ -88,7 +90,8 @@ fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -
     ways.iter().map(one).fold(0.0, f64::max) / SHARE
 }
 
-/// Returns the largest ratio of a piece's motion to its limit: above 1, the piece is too fast.
+/// Returns the largest ratio of a piece's motion to its limit, sampled at nine moments: above 1, the piece is too fast.
+/// `from`: place where the piece begins.
 fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
     if piece.is_rest(from) {
         return 0.0;
@@ -134,7 +137,7 @@ fn path(moving: &MovingWay<'_>, limits: &Limits, easing: Easing, drive: Span, wh
     path
 }
 
-/// Adds the pieces of a part that lasts `lasts`, from rest to rest.
+/// Adds to `path` the pieces of a part that lasts `lasts`, from rest to rest.
 fn add_part(path: &mut Path, part: &WayPart, lasts: Span, limits: &Limits, easing: Easing) {
     let law = ProgressLaw::lasting(lasts.as_secs(), limits, easing);
     let moments = moments(&law, part.shape.pieces());
@@ -153,8 +156,9 @@ fn add_part(path: &mut Path, part: &WayPart, lasts: Span, limits: &Limits, easin
     }
 }
 
-/// Returns the moments at which pieces end: the ends of both ramps and, within these and between them, as many as the
-/// shape needs. The moments are increasing whole milliseconds.
+/// Returns the moments at which pieces of a part end, counted from the begin of the part: the ends of both ramps of
+/// speed, and further moments within and between the ramps, as many as the shape needs. They are increasing whole
+/// milliseconds.
 fn moments(law: &ProgressLaw, pieces: usize) -> Vec<Span> {
     let (ramp_s, drive_s) = (law.ramp_s(), law.drive_s);
     let ramp_pieces = ((pieces as f64 * law.share(ramp_s)).ceil() as usize).max(1);

@@ -1,20 +1,20 @@
-//! The prescribed way of one robot.
+//! The prescribed way of one robot: its whole path in a prescribed drive.
 
 use lightbots_base::Vec2;
 
 use super::shape::Shape;
 use crate::Path;
 
-/// The way of one robot: its path in a prescribed drive.
+/// The way of one robot: its whole path in a prescribed drive.
 #[derive(Clone, Debug)]
 pub(crate) enum PrescribedWay {
     /// Parts in order, which the planner times within one drive.
     Parts(Vec<WayPart>),
-    /// A timed path of the show.
+    /// A timed path that the show contains.
     Timed(Path),
 }
 
-/// A part of a way, which begins and ends at rest.
+/// A part of a way. The robot is at rest at its begin and end.
 #[derive(Clone, Debug)]
 pub(crate) struct WayPart {
     /// Begin and end of the part, as shares of the duration of the whole drive.

@@ -1,21 +1,22 @@
-//! Least distance of a cubic Bézier curve from the origin, proven by its convex hull.
+//! Least distance of a cubic Bézier curve from the origin, proven by convex hulls of its control points.
 
 use lightbots_base::Vec2;
 
-/// The control points of a cubic.
+/// The four control points of a cubic Bézier curve.
 pub(super) type Cubic = [Vec2; 4];
 
 /// Largest error of distances, metres.
 const TOLERANCE_M: f64 = 1e-7;
-/// Most parts that are divided; curves on a floor need some dozens. All further parts count by their hulls, which are
-/// at least as near.
+/// Most parts that are divided; curves on a floor need some dozens. All further parts count with the distance of their
+/// hulls, which is a lower bound.
 const MOST_PARTS: usize = 100_000;
-/// Most divisions of a part; parts are shorter than [`SHORTEST`] before that.
+/// Most successive divisions of a part. Parts become shorter than [`SHORTEST`] before that.
 const DEEPEST: usize = 62;
-/// Stretches of the parameter below this are not divided any more.
+/// Parts whose range of the parameter is shorter than this are not divided any more.
 const SHORTEST: f64 = 1e-7;
 
-/// The curve's least distance from the origin and its parameter there, if it is less than `enough`.
+/// Returns the curve's least distance from the origin and the parameter there. `None` if the curve is nowhere nearer
+/// than `enough`.
 pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
     let mut search = Search { best: enough, at: None, parts: 0 };
     search.offer(curve[0].length(), 0.0);
@@ -26,9 +27,9 @@ pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
 
 /// Branch and bound over parts of a curve.
 struct Search {
-    /// The least distance found up to here, metres; before the first find, the bound that it must be below.
+    /// The least distance that was found so far, metres. Before the first find, the distance that it must be below.
     best: f64,
-    /// Parameter of the point at that distance.
+    /// Parameter of the curve's point at that distance; `None` before the first find.
     at: Option<f64>,
     parts: usize,
 }
@@ -40,7 +41,8 @@ impl Search {
         }
     }
 
-    /// Searches the part `between` two parameters, which is the result of `depth` divisions.
+    /// Searches a part of the curve, from one parameter to another (`between`). The part is the result of `depth`
+    /// divisions.
     fn divide(&mut self, part: &Cubic, between: (f64, f64), depth: usize) {
         self.parts += 1;
         let lower = distance_of_hull(part);
@@ -65,7 +67,7 @@ impl Search {
     }
 }
 
-/// Returns a lower bound of the curve's distance from the origin, metres.
+/// Returns a lower bound of the curve's least distance from the origin, metres, by its convex hull.
 pub(super) fn distance_of_hull(curve: &Cubic) -> f64 {
     let chord = curve[3] - curve[0];
     let share = share_of_foot(curve[0], chord);
@@ -79,7 +81,8 @@ fn share_of_foot(start: Vec2, chord: Vec2) -> f64 {
     if length_squared > 0.0 { (-start.dot(chord) / length_squared).clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// A guess at the parameter of the curve's point nearest to the origin: a few Newton steps from the chord's foot.
+/// Estimates the parameter of the curve's point nearest to the origin: a few Newton steps from the point of the chord
+/// that is nearest.
 fn foot(curve: &Cubic) -> f64 {
     let mut u = share_of_foot(curve[0], curve[3] - curve[0]);
     for _ in 0..4 {
@@ -94,11 +97,11 @@ fn foot(curve: &Cubic) -> f64 {
         }
         u = (u - place.dot(slope) / second).clamp(0.0, 1.0);
     }
-    // At an end there is nothing to cut off: halve instead.
+    // At an end, a division would cut nothing off, so the curve is halved.
     if u <= 1e-9 || u >= 1.0 - 1e-9 { 0.5 } else { u }
 }
 
-/// The curve's point at `u`.
+/// The curve's point at the parameter `u`.
 pub(super) fn point(curve: &Cubic, u: f64) -> Vec2 {
     let w = 1.0 - u;
     curve[0] * (w * w * w)
@@ -107,7 +110,7 @@ pub(super) fn point(curve: &Cubic, u: f64) -> Vec2 {
         + curve[3] * (u * u * u)
 }
 
-/// The curve before and after `u` (de Casteljau).
+/// Splits the curve at the parameter `u` into the curves before and after it (de Casteljau).
 pub(super) fn split(curve: &Cubic, u: f64) -> (Cubic, Cubic) {
     let [a, b, c, d] = *curve;
     let (ab, bc, cd) = (a.lerp(b, u), b.lerp(c, u), c.lerp(d, u));
@@ -116,7 +119,7 @@ pub(super) fn split(curve: &Cubic, u: f64) -> (Cubic, Cubic) {
     ([a, ab, abc, middle], [middle, bcd, cd, d])
 }
 
-/// The curve between `from` and `to`, 0 ≤ from < to ≤ 1.
+/// The curve between the parameters `from` and `to`, 0 ≤ from < to ≤ 1.
 pub(super) fn part(curve: &Cubic, from: f64, to: f64) -> Cubic {
     let left = if to < 1.0 { split(curve, to).0 } else { *curve };
     if from > 0.0 { split(&left, from / to).1 } else { left }

@@ -1,4 +1,4 @@
-//! Whether one robot can drive its path: speed, acceleration, wheels, turns, and no steps in velocity.
+//! Whether one robot can drive its path: checks speed, acceleration, wheels, turns, and that velocity has no steps.
 
 use super::course::{CREEP_MPS, Course};
 use super::facing::Facing;
@@ -6,19 +6,20 @@ use super::verdict::FaultKind;
 use crate::Path;
 use lightbots_base::{Limits, Span, Vec2};
 
-/// Share by which limits may be exceeded: rounding to whole microseconds.
+/// Share by which limits may be exceeded, because durations are rounded to whole microseconds.
 const SHARE: f64 = 1e-3;
 /// Largest step in velocity that does not count as a jump, m/s.
 const STEP_MPS: f64 = 1e-3;
-/// Squared speed times turning rate below which a piece counts as straight, m²/s² · rad/s.
+/// A piece counts as straight if its squared speed times its turn rate is below this, m²/s² · rad/s.
 const STRAIGHT: f64 = 1e-12;
 /// Largest coordinate of a place, metres; a path with a larger one is malformed, because squares would not be exact.
 const FARTHEST_M: f64 = 1e6;
-/// Bisections of a stretch whose turning is undecided; then its least speed counts as [`CREEP_MPS`] or more. An
-/// undecided speed gets twice as many, and then counts as too fast.
+/// Number of bisections of a piece whose turn rate is undecided. After them, its least speed is taken as [`CREEP_MPS`]
+/// or more. An undecided speed gets twice as many bisections, and then counts as too fast.
 const HALVINGS: u32 = 8;
 
-/// Calls `fault` with the first illegal motion of each kind, and the begin of its piece.
+/// Calls `fault` once for each kind of illegal motion in a path, with the begin of the first piece that has it.
+/// `horizon`: time at which the path must end.
 pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl FnMut(FaultKind, Span)) {
     if !is_well_formed(path, horizon) {
         return fault(FaultKind::Malformed, Span::ZERO);
@@ -63,7 +64,7 @@ fn is_well_formed(path: &Path, horizon: Span) -> bool {
     are_places && is_place(&path.start) && path.as_ref().duration() == horizon
 }
 
-/// Whether the speed is above the limit anywhere in a course.
+/// Whether the speed exceeds `limit`, m/s, anywhere on a piece.
 fn exceeds_speed(course: &Course, limit: f64, halvings: u32) -> bool {
     if course.speed_bound() <= limit {
         return false;
@@ -75,7 +76,7 @@ fn exceeds_speed(course: &Course, limit: f64, halvings: u32) -> bool {
     exceeds_speed(&left, limit, halvings - 1) || exceeds_speed(&right, limit, halvings - 1)
 }
 
-/// Reports turns and wheels of a course that are too fast.
+/// Reports a fault if a robot turns too fast on a piece, or one of its wheels is too fast.
 fn judge_turning(course: &Course, limits: &Limits, halvings: u32, report: &mut dyn FnMut(FaultKind)) {
     let (swing, top) = (course.swing_bound(), course.speed_bound());
     if swing <= STRAIGHT || top < CREEP_MPS {

@@ -1,23 +1,24 @@
-//! Whether a robot has enough time to turn where its path turns. It has the time in which it is too slow for its
-//! direction to matter.
+//! Whether a robot has enough time to turn to a new direction where its path changes direction at low speed. For that
+//! it has the time in which it is so slow that its direction hardly matters.
 
 use super::course::{CREEP_MPS, Course};
 use lightbots_base::{Limits, Vec2};
 
-/// Time that a robot may lack for a turn while it is slow, seconds: it catches up while it drives off.
+/// Time that a robot may lack for a turn while it is slow, seconds. It finishes the turn while it drives off.
 const GRACE_S: f64 = 0.05;
-/// Share of the creep speed above which a robot may count as fast. Between this and the creep speed, it may count as
-/// slow or fast.
+/// Share of [`CREEP_MPS`] above which a robot may count as fast. Between this speed and [`CREEP_MPS`], it may count as
+/// slow or as fast.
 const FAST_SHARE: f64 = 0.9;
-/// Most stretches of one piece; driven paths need some dozens. A piece that needs more is rejected.
+/// Most parts into which one piece is divided; paths that robots drive need some dozens. A piece that needs more is
+/// rejected.
 const MOST_STRETCHES: usize = 10_000;
-/// Shorter stretches that are neither slow nor fast give no time for turning, seconds.
+/// Parts shorter than this that are neither slow nor fast give no time for turning, seconds.
 const SHORTEST_S: f64 = 1e-3;
 
-/// The direction of a robot along its path, and the time that it has and needs for turns.
+/// The direction of a robot while it follows its path, and the time that it has and needs for turns.
 pub(super) struct Facing<'a> {
     limits: &'a Limits,
-    /// Direction at the end of its last fast motion; `None` before the first drive.
+    /// Direction at the end of the robot's last fast motion; `None` before its first.
     heading: Option<Vec2>,
     /// Time for which the robot has been slow since its last fast motion, seconds.
     slow_s: f64,
@@ -30,8 +31,8 @@ impl<'a> Facing<'a> {
         Self { limits, heading: None, slow_s: 0.0, behind_s: 0.0 }
     }
 
-    /// Follows a piece that takes `seconds`. Returns whether there is time for all turns at its begin and where it is
-    /// slow.
+    /// Follows the next piece of the path, which lasts `seconds`. Returns whether the robot had enough time for each
+    /// turn before it moves fast on this piece.
     pub fn follow(&mut self, course: &Course, seconds: f64) -> bool {
         let mut left = MOST_STRETCHES;
         self.go_on(course, seconds, &mut left) && left > 0
@@ -61,7 +62,7 @@ impl<'a> Facing<'a> {
         self.go_on(&second, seconds / 2.0, left) && in_time
     }
 
-    /// Begins fast motion along a line. Returns whether there was time to turn towards it.
+    /// Begins fast motion with this velocity. Returns whether there was time to turn to its direction.
     fn turn(&mut self, velocity: Vec2) -> bool {
         let Some(line) = velocity.normalized() else { return true };
         self.behind_s = (self.behind_s + self.needed_s(line) - self.slow_s).max(0.0);
@@ -69,7 +70,8 @@ impl<'a> Facing<'a> {
         self.behind_s <= GRACE_S
     }
 
-    /// Time of a turn towards a line, forwards or backwards, whichever is nearer.
+    /// Time to turn towards the unit vector `towards`, seconds. The robot may then drive forwards or backwards,
+    /// whichever needs the smaller turn.
     fn needed_s(&self, towards: Vec2) -> f64 {
         let angle = match self.heading {
             Some(heading) => Vec2::new(heading.dot(towards).abs(), heading.cross(towards).abs()).angle(),

@@ -21,7 +21,7 @@ impl Bounds {
         self.max = Vec2::new(self.max.x.max(place.x), self.max.y.max(place.y));
     }
 
-    /// The least squared distance between two boxes.
+    /// The least squared distance between two boxes, square metres; 0 if they overlap.
     pub fn distance_squared(&self, other: &Self) -> f64 {
         let x = (self.min.x - other.max.x).max(other.min.x - self.max.x).max(0.0);
         let y = (self.min.y - other.max.y).max(other.min.y - self.max.y).max(0.0);
@@ -36,7 +36,7 @@ impl Bounds {
 /// Most cells along one side of the grid.
 const MOST_CELLS: f64 = 1024.0;
 
-/// Calls `near(i, j)`, i < j, at least for all pairs of boxes nearer to each other than `reach_m`, each pair once.
+/// Calls `near(i, j)`, i < j, once for each pair of boxes that are nearer to each other than `reach_m` metres.
 pub(super) fn near_pairs(boxes: &[Bounds], reach_m: f64, mut near: impl FnMut(usize, usize)) {
     let mut whole = Bounds::EMPTY;
     let mut side = 0.0f64;

@@ -10,20 +10,20 @@ pub(super) const SLACK_M: f64 = 1e-6;
 /// Paths to be checked, and the conditions that they must meet.
 #[derive(Clone, Copy, Debug)]
 pub struct ProofInput<'a> {
-    /// The path of each robot.
+    /// `[robot]`: its path. All paths must last equally long.
     pub paths: &'a [Path],
-    /// Discs of a robot's size that do not move, stage metres.
+    /// Centres of discs of a robot's size that do not move, stage metres.
     pub standing: &'a [Vec2],
-    /// No-go areas.
+    /// No-go areas that robots must not touch.
     pub obstacles: &'a [Obstacle],
-    /// Half the floor's width and depth, metres.
+    /// Half the floor's width and depth, metres. The floor's centre is the origin of stage space.
     pub half_floor: Vec2,
     /// Limits of the robots.
     pub limits: &'a Limits,
-    /// Least distance of two centres, metres. A pair that begins or ends closer must only keep the smaller of those
-    /// two distances.
+    /// Least distance that two centres must keep, metres. A pair that begins or ends closer must only keep the smaller
+    /// of its distances at the begin and the end.
     pub gap_m: f64,
-    /// Least distance between a robot's rim and an obstacle, metres. A robot that begins or ends closer must only keep
-    /// that distance.
+    /// Least distance between a robot's rim and a no-go area, metres. A robot that begins or ends closer must only keep
+    /// the smaller of its distances there.
     pub obstacle_gap_m: f64,
 }

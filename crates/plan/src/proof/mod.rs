@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** the proof shares nothing with the planner but the path type, because a mistake of the planner must
 //! not repeat in its proof. The proof reads only the pieces of paths. Distances and speeds are bounded by convex hulls
-//! of Bézier control points. Pieces are divided until the bounds decide; nothing is sampled.
+//! of Bézier control points. Pieces are divided until the bounds decide; only [`stop_safe`] uses samples.
 
 mod course;
 mod curve;
@@ -29,7 +29,8 @@ use crate::Path;
 use crate::cancel::Cancel;
 use lightbots_base::Span;
 
-/// Checks paths. Returns all conflicts and faults, and the closest pair. If a path is malformed, pairs are not checked.
+/// Checks paths. Returns all conflicts (pairs that come too close), all faults (illegal motion), and the closest pair.
+/// If a path is malformed, pairs are not checked.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
     prove_unless(input, Cancel::NEVER)
 }
@@ -43,7 +44,7 @@ pub(crate) fn prove_unless(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Proof 
     proof
 }
 
-/// [`prove_unless`] for single robots only: returns the faults.
+/// Checks each path alone, without pairs of robots, and returns the faults.
 pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     let (horizon, mut faults) = (horizon(input), Vec::<Fault>::new());
     for (robot, path) in input.paths.iter().enumerate() {

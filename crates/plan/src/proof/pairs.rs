@@ -1,4 +1,4 @@
-//! Least distance of every pair of discs.
+//! Least distance of every pair of discs, which are robots and standing discs.
 
 use super::grid::{Bounds, near_pairs};
 use super::input::{ProofInput, SLACK_M};
@@ -8,12 +8,12 @@ use crate::cancel::Cancel;
 use lightbots_base::{Span, Vec2};
 use std::collections::BTreeMap;
 
-/// Pairs between two polls of the cancellation.
+/// Number of pairs between two polls of the cancellation.
 const POLLED: usize = 4096;
-/// Most slices of time.
+/// Most slices of time into which the drive is divided.
 const MOST_SLICES: f64 = 2000.0;
 
-/// Returns all pairs that come closer than allowed, and the closest pair of all.
+/// Returns all pairs that come closer than allowed, and the closest pair of all. `horizon`: duration of the drive.
 pub(super) fn judge(
     input: &ProofInput<'_>,
     horizon: Span,
@@ -38,14 +38,15 @@ pub(super) fn judge(
 
 /// Robots and standing discs over time.
 struct Discs {
-    /// Stretches of all discs, one disc after the other.
+    /// Pieces of all discs' paths, one disc after the other.
     stretches: Vec<Stretch>,
     /// `first[disc]..first[disc + 1]`: range of a disc's stretches.
     first: Vec<usize>,
     horizon_us: i64,
-    /// Length of the longest path by its control polygons, metres.
+    /// Greatest length of the control polygon of a path, metres; the path itself is no longer.
     longest_m: f64,
-    /// Distance at the start of the closest pair with a robot, metres. The least distance of all pairs is at most this.
+    /// Distance, at the start, of the closest pair of discs of which one is a robot, metres. The least distance during
+    /// the drive is at most this.
     closest_at_start_m: f64,
 }
 
@@ -69,20 +70,22 @@ impl Discs {
         Self { stretches, first, horizon_us, longest_m, closest_at_start_m }
     }
 
-    /// Longest motion of a robot in a slice, metres: half the usual distance of neighbours, so that few boxes overlap.
+    /// Longest distance that a robot should drive in a slice of time, metres: half the usual distance of neighbours, so
+    /// that few boxes overlap.
     fn step_m(&self, input: &ProofInput<'_>) -> f64 {
         let area = 4.0 * input.half_floor.x.abs() * input.half_floor.y.abs();
         let usual = (area / self.first.len() as f64).sqrt() / 2.0;
         usual.max(input.gap_m).clamp(1e-3, 1e3)
     }
 
-    /// Returns the places where a disc begins and ends, stage metres.
+    /// Returns the places where the motion of a disc begins and ends, stage metres.
     fn ends(&self, disc: usize) -> (Vec2, Vec2) {
         (self.stretches[self.first[disc]].curve[0], self.stretches[self.first[disc + 1] - 1].curve[3])
     }
 }
 
-/// The least distance between two places of which one is among the first `moving`; infinite where there are none.
+/// The least distance between two of `places`, of which at least one is among the first `moving`, metres; infinite if
+/// there are no two.
 fn closest_two(places: &[Vec2], moving: usize) -> f64 {
     let mut bounds = Bounds::EMPTY;
     places.iter().for_each(|&place| bounds.include(place));
@@ -115,7 +118,8 @@ struct Slice {
 }
 
 impl Slice {
-    /// Cuts the motion of all discs during the slice. `cursors[disc]` is the stretch in which the disc is.
+    /// Cuts the motion of all discs from `from_us` to `to_us`, microseconds after the start. `cursors[disc]`: index of
+    /// the disc's piece at or before `from_us`, among its own pieces.
     fn cut(&mut self, discs: &Discs, cursors: &mut [usize], from_us: i64, to_us: i64) {
         (self.from_us, self.to_us) = (from_us, to_us);
         self.cuts.clear();
@@ -165,7 +169,7 @@ impl Slice {
     }
 }
 
-/// The closest pair and the conflicts found up to here.
+/// The closest pair and the conflicts that were found so far.
 struct Verdict<'a> {
     input: &'a ProofInput<'a>,
     closest: Option<Closest>,
@@ -173,7 +177,7 @@ struct Verdict<'a> {
 }
 
 impl Verdict<'_> {
-    /// Distance beyond which a pair is neither a conflict nor the closest pair, metres.
+    /// Distance from which a pair is neither a conflict nor the closest pair, metres.
     fn reach_m(&self) -> f64 {
         self.closest.map_or(f64::INFINITY, |closest| closest.distance_m).max(self.input.gap_m)
     }

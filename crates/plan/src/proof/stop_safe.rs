@@ -1,10 +1,13 @@
-//! Stop-safety: the moments at which a robot may stop dead without any contact.
+//! Stop-safety: the moments at which a robot may stop dead (suddenly and for good, as if it had failed) without any
+//! contact.
 //!
-//! A robot that stops dead stays where it is. A robot that would touch it before the fleet rests brakes at the grip
-//! limit after the reaction time. All other robots drive on until one HOLD, which is sent as soon as the first robot
-//! brakes, has eased the fleet to rest. A robot that brakes becomes an obstacle too. It may brake at any moment from
-//! the first at which it may see the dead robot to the last at which it must. Robots behind it must be able to stop in
-//! turn at each of these moments. Moments are sampled.
+//! Assumptions of the measurement: the dead robot stays where it is. A robot that would touch it before the fleet rests
+//! brakes at the grip limit after the reaction time. As soon as the first robot brakes, one HOLD is sent. All other
+//! robots drive on until this HOLD has eased them to rest.
+//!
+//! A braking robot becomes an obstacle too. It may begin to brake at any moment from the first at which it may see the
+//! dead robot to the last at which it must. The robots behind it must be able to stop at each of these moments.
+//! Moments are sampled.
 
 mod corridor;
 mod rows;
@@ -23,35 +26,36 @@ pub(crate) use rows::STEP;
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 
-/// Number of steps for which near pairs are searched once.
+/// Number of steps of 50 ms for which near pairs are searched at once.
 const BLOCK: usize = 8;
-/// Most sampled moments; longer drives are sampled more coarsely.
+/// Most sampled moments of a drive. Drives of more than 500 s are sampled less often than every 50 ms.
 const MOST_MOMENTS: usize = 10_000;
 
-/// Assumptions about a fleet of which one robot stops dead.
+/// Assumptions about a fleet in which one robot stops dead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopAssumptions {
-    /// Time from the stop until the wheels of a near robot begin to brake, seconds.
+    /// Time from the dead stop until the wheels of a near robot begin to brake, seconds.
     pub reaction_s: f64,
-    /// Path time from the stop until the fleet rests on a HOLD if no robot sees the dead one, seconds.
+    /// Path time from the dead stop until a HOLD has eased the fleet to rest, if no robot sees the dead robot, seconds.
+    /// Path time runs while robots drive along their paths, and stands during a HOLD.
     pub silence_s: f64,
-    /// Path time from the moment at which a robot brakes for something that is not in its plan until the fleet rests,
-    /// seconds.
+    /// Path time from the moment at which a robot brakes for something unplanned until a HOLD has eased the fleet to
+    /// rest, seconds.
     pub alarm_s: f64,
-    /// Gap between rims below which two robots count as in contact, metres.
+    /// Gap between rims below which two robots count as touching, metres.
     pub spare_m: f64,
-    /// Gap between rims below which a robot may brake for another that is near its path, metres.
+    /// A robot brakes for another if its path would bring their rims closer than this gap, metres.
     pub wary_m: f64,
     /// Gap between rims beyond which a robot does not brake for another, metres.
     pub sight_m: f64,
 }
 
 impl Default for StopAssumptions {
-    /// The reaction time is that of `base`. A silent robot is requested to report after 0.56 s and counts as lost after
-    /// 0.8 s, which is checked every 0.1 s. Then a HOLD is sent. It takes effect 0.15 s later, and its ease of 0.3 s
-    /// costs half of that. A robot that brakes reports it at once: the report takes 0.02 s, then a HOLD follows as
-    /// above. Robots are up to 3 mm off their paths. Places between two moments are interpolated linearly, with an
-    /// error of at most 0.3 mm at 1 m/s².
+    /// `reaction_s` is [`REACTION_S`]. `silence_s`: the controller requests a report from a silent robot after 0.56 s.
+    /// It takes the robot for lost after 0.8 s, which it checks every 0.1 s, and sends a HOLD. This takes effect 0.15 s
+    /// later, and its ease of 0.3 s costs half of that in path time. `alarm_s`: the report of a robot that brakes takes
+    /// 0.02 s, then a HOLD follows as above. `spare_m`: robots are up to 3 mm off their paths. Places between two
+    /// moments are interpolated linearly, with an error of at most 0.3 mm at 1 m/s².
     fn default() -> Self {
         Self {
             reaction_s: REACTION_S,
@@ -64,12 +68,12 @@ impl Default for StopAssumptions {
     }
 }
 
-/// The moments of a transition at which robots may stop dead.
+/// The moments of a transition at which robots must not stop dead, and the number of all moments that were sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StopSafety {
-    /// Number of pairs of a robot that drives in this transition and a sampled moment.
+    /// Number of sampled pairs of a robot that drives in this transition and a moment.
     pub moments: usize,
-    /// Moments at which a dead stop may lead to a contact, sorted by moment, then by robot.
+    /// Pairs of a robot and a moment at which its dead stop may lead to a contact, sorted by moment, then by robot.
     pub unsafe_moments: Vec<UnsafeMoment>,
     /// Time between two sampled moments: 50 ms, or more for drives of more than 500 s.
     pub pace: Span,
@@ -80,19 +84,19 @@ pub struct StopSafety {
 pub struct UnsafeMoment {
     /// Index of the robot.
     pub robot: usize,
-    /// The moment, after the transition's start.
+    /// The moment, counted from the transition's start.
     pub at: Span,
     /// Place of the robot at that moment, stage metres.
     pub place: Vec2,
-    /// Index of the robot that would touch it. If `missing_m` is 0, that robot can stop, but another behind that robot
-    /// cannot stop in turn.
+    /// Index of the other robot that would touch `robot`. If `missing_m` is 0, the other robot can stop, but a third
+    /// robot behind it cannot stop in turn.
     pub by: usize,
-    /// Distance that `by` lacks to stop in time, metres.
+    /// Distance that `by` lacks to stop without touching `robot`, metres.
     pub missing_m: f64,
 }
 
 impl StopSafety {
-    /// Share of moments at which robots may stop dead, 0 to 1; 1 where no robot drives.
+    /// Share of the sampled `moments` at which robots may stop dead, 0 to 1; 1 if no robot drives.
     pub fn share(&self) -> f64 {
         1.0 - self.unsafe_moments.len() as f64 / self.moments.max(1) as f64
     }
@@ -104,22 +108,23 @@ impl StopSafety {
             .reduce(|worst, one| if one.missing_m > worst.missing_m { one } else { worst })
     }
 
-    /// Whether a robot may stop dead at a moment: the sampled moments before and after it are safe.
+    /// Whether a robot may stop dead at a moment, counted from the transition's start: the sampled moments before and
+    /// after it are safe for this robot.
     pub fn is_safe(&self, robot: usize, at: Span) -> bool {
         let near = |one: &&UnsafeMoment| one.robot == robot && (one.at - at).0.abs() < self.pace.0;
         !self.unsafe_moments.iter().any(|one| near(&one))
     }
 }
 
-/// Measures a transition's stop-safety under the usual assumptions.
+/// Measures a transition's stop-safety under the default [`StopAssumptions`].
 ///
-/// `paths[robot]`: all paths must last equally long, as for [`super::prove`].
+/// `paths[robot]`: its timed path. All paths must last equally long, as for [`super::prove`].
 pub fn stop_safety(paths: &[Path], limits: &Limits) -> StopSafety {
     measured(paths, limits, &StopAssumptions::default(), Cancel::NEVER)
 }
 
 /// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called once
-/// for every eight moments.
+/// for every eight sampled moments, or once for each moment of very long drives.
 pub fn stop_safety_unless(
     paths: &[Path],
     limits: &Limits,
@@ -160,30 +165,33 @@ pub(crate) fn measured(
     StopSafety { moments, unsafe_moments: sweep.found, pace }
 }
 
-/// A sweep over all moments, from the last to the first, because a dead stop only affects later moments.
+/// A sweep over all sampled moments, from the last to the first, because a dead stop only affects later moments.
 struct Sweep {
     law: Law,
-    /// Steps from one moment to the next.
+    /// Number of steps of 50 ms from one sampled moment to the next.
     stride: usize,
-    /// `[moments ahead][robot]`: whether another robot would touch the robot if it braked to rest at that moment.
+    /// `[k][robot]`: whether another robot would touch the robot if the robot braked to rest k + 1 sampled moments
+    /// after the current one.
     cannot_brake: VecDeque<Vec<bool>>,
+    /// Unsafe moments that the sweep has found, the latest moment first.
     found: Vec<UnsafeMoment>,
 }
 
-/// The effect of `robot`, which has stopped dead, on `by`.
+/// A pair of robots: `robot` stops dead, and the path of `by` comes near its place.
 struct Meeting {
     robot: usize,
     by: usize,
     braking: Braking,
-    /// Whether a third robot would touch `by` if `by` braked at one of the moments at which it may or must.
+    /// Whether a third robot would touch `by` if `by` began to brake at one of the moments at which it may.
     chained: bool,
 }
 
 impl Sweep {
-    /// Finds the robots that must not stop dead at one moment. These are robots that another would touch. They are also
-    /// robots for which another may brake at a moment at which that one must not stop.
+    /// Finds the robots that must not stop dead at one moment, and adds them to `found`. There are two kinds of them.
+    /// Another robot cannot stop before it touches the dead robot. Or another robot may brake for the dead robot at a
+    /// moment at which a third robot would touch the braking one.
     ///
-    /// `row`: index of the moment in the rows.
+    /// `row`: index of the moment in the window of `rows`.
     fn look(&mut self, rows: &Rows<'_>, row: usize, near: &Near) {
         let mut meetings = self.meetings(rows, row, near);
         let kept = self.law.ahead.div_ceil(self.stride);
@@ -216,7 +224,7 @@ impl Sweep {
         self.cannot_brake.push_front(cannot_brake);
     }
 
-    /// Finds the robots that may come near the place of another at a moment of a block.
+    /// Finds the pairs of robots of which one may come near the other's place at a moment of a block.
     fn near(&self, rows: &Rows<'_>, block: usize, drives: &[bool]) -> Near {
         let robots = 0..drives.len();
         let boxes: Vec<Bounds> = robots.clone().map(|robot| rows.bounds(robot)).collect();
@@ -237,7 +245,7 @@ impl Sweep {
         Near { corridors, pairs }
     }
 
-    /// Returns every pair of which `by` comes near the place of `robot`, in the order of the pairs.
+    /// Returns a meeting for each pair of `near` of which `by` comes near the place of `robot` at the moment `row`.
     fn meetings(&self, rows: &Rows<'_>, row: usize, near: &Near) -> Vec<Meeting> {
         let mut meetings = Vec::new();
         for &(robot, by) in &near.pairs {
@@ -257,44 +265,45 @@ impl Sweep {
     }
 }
 
-/// Robots that may come near others in a block of moments.
+/// Pairs of robots that may come near each other in a block of moments.
 struct Near {
-    /// `[robot]`: corridor around its path from the first moment of the block on.
+    /// `[robot]`: corridor around its path, from the first moment of the block to the end of the window.
     corridors: Vec<Corridor>,
-    /// `(robot, by)`: a robot, and another that may come near its place. Sorted by robot, the last one first.
+    /// `(robot, by)`: `by` may come near the place of `robot`. Sorted by `robot`, the greatest index first.
     pairs: Vec<(usize, usize)>,
 }
 
-/// How a robot brakes for another that stands in its way.
+/// How a robot brakes for another that has stopped dead in its way. Steps of 50 ms are counted from the dead stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Braking {
-    /// First step ahead in which it may begin to brake; 0 if it cannot stop in time.
+    /// First step in which the robot may begin to brake; 0 if it cannot stop in time.
     pub first: u8,
-    /// Last step ahead in which it may begin to brake; 0 if it cannot stop in time.
+    /// Last step in which the robot may begin to brake; 0 if it cannot stop in time.
     pub last: u8,
-    /// The step in which it would come near if it did not brake.
+    /// The step in which the robot would come nearer than [`Law::wary_m`] if it did not brake.
     pub touched: u8,
-    /// Distance that it lacks to stop in time, metres.
+    /// Distance that the robot lacks to stop in time, metres; 0 if it can stop.
     pub missing_m: f32,
 }
 
 impl Braking {
-    /// Whether it cannot stop in time.
+    /// Whether the robot cannot stop in time.
     pub fn is_contact(&self) -> bool {
         self.last == 0
     }
 }
 
-/// Rules: what counts as a contact, and how robots brake.
+/// What counts as a contact, and how robots brake: [`StopAssumptions`] as distances of centres and numbers of steps.
 pub(crate) struct Law {
+    /// Distance of two centres below which robots count as touching, metres.
     contact_m: f64,
-    /// Distance of two centres within which one may brake for the other, metres.
+    /// Distance of two centres below which one robot brakes for the other, metres.
     wary_m: f64,
-    /// Distance of two centres beyond which neither sees the other, metres.
+    /// Distance of two centres beyond which neither robot sees the other, metres.
     sight_m: f64,
-    /// The farthest a robot drives in a step, metres.
+    /// Longest distance that a robot drives in a step of 50 ms, metres.
     step_m: f64,
-    /// Number of steps ahead that matter.
+    /// Number of steps after a dead stop until the fleet rests at the latest.
     ahead: usize,
     of: StopAssumptions,
 }
@@ -308,8 +317,8 @@ impl Law {
         Self { contact_m, wary_m, sight_m, step_m, ahead, of }
     }
 
-    /// Returns how a robot, which is `at(steps ahead)`, brakes after another stopped dead at `place`; `None` if it does
-    /// not come near.
+    /// Returns how a robot brakes after another robot stopped dead at `place`. `at(step)` is the planned place of the
+    /// first robot `step` steps after the dead stop. `None` if the first robot does not come nearer than `wary_m`.
     pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<Braking> {
         let apart_m = place.distance(at(0));
         let need_m = self.contact_m.min(apart_m) - 1e-6;
@@ -330,7 +339,8 @@ impl Law {
         Some(Braking { first: first as u8, last: last as u8, touched: touched as u8, missing_m: 0.0 })
     }
 
-    /// Returns the step in which a robot comes nearer to a place than `need_m`; `None` if it does not.
+    /// Returns the step in which a robot comes nearer to `place` than `need_m`; `None` if it does not within `ahead`
+    /// steps.
     fn touched(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, need_m: f64) -> Option<usize> {
         let mut step = 0;
         while step < self.ahead {
@@ -338,20 +348,21 @@ impl Law {
             if spare_m < 0.0 {
                 return Some(step);
             }
-            // It drives no farther than this in a step.
+            // A robot drives at most `step_m` in a step, so it cannot come too near in the skipped steps.
             step += (spare_m / self.step_m) as usize + 1;
         }
         None
     }
 
-    /// Least distance of a robot from a place if its wheels begin to brake after `delay_s`, metres.
+    /// Least distance of a robot from `place` if its wheels begin to brake `delay_s` after the dead stop, metres.
     fn stopped_m(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, delay_s: f64) -> f64 {
         let steps = 0..self.step_of(delay_s);
         let before = steps.map(|step| point_to_segment(place, at(step), at(step + 1)));
         before.fold(self.rolling_m(place, at, delay_s), f64::min)
     }
 
-    /// Least distance of a robot from a place after the begin of the step in which its wheels begin to brake, metres.
+    /// Least distance of a robot from `place` if its wheels begin to brake `delay_s` after the dead stop, metres.
+    /// Counted only from the begin of the step in which they begin to brake.
     fn rolling_m(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, delay_s: f64) -> f64 {
         let (step, step_s) = (self.step_of(delay_s), STEP.as_secs());
         let (from, to) = (at(step), at(step + 1));
@@ -361,12 +372,13 @@ impl Law {
         point_to_segment(place, from, from.lerp(to, share))
     }
 
+    /// Index of the step that contains the moment `delay_s` after the dead stop, at most the last step.
     fn step_of(&self, delay_s: f64) -> usize {
         ((delay_s / STEP.as_secs() + 1e-9) as usize).min(self.ahead - 1)
     }
 }
 
-/// A time in whole steps, rounded up.
+/// Converts seconds to whole steps of 50 ms, rounded up.
 fn steps(seconds: f64) -> usize {
     (seconds / STEP.as_secs() - 1e-9).ceil().max(0.0) as usize
 }

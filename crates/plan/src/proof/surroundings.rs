@@ -8,14 +8,14 @@ use crate::Path;
 use lightbots_base::{Span, Vec2};
 use lightbots_show::Obstacle;
 
-/// Bisections after which an undecided curve is a fault.
+/// Number of bisections after which an undecided curve counts as a fault.
 const HALVINGS: u32 = 24;
 
-/// Calls `fault` with the begin of the first piece that leaves the floor, and of the first that comes too near to an
-/// obstacle.
+/// Calls `fault` for the first piece that leaves the floor, and for the first piece that comes too near to an obstacle,
+/// with the begin of the piece.
 pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(FaultKind, Span)) {
     let (start, end) = (path.start, path.as_ref().end());
-    // A robot that starts or ends outside may be as far out as that.
+    // A robot that starts or ends off the floor may be as far off as that start or end.
     let radius = input.limits.radius_m;
     let room = |half: f64, a: f64, b: f64| (half - radius).max(a.abs()).max(b.abs()) + SLACK_M;
     let limit = Vec2::new(room(input.half_floor.x, start.x, end.x), room(input.half_floor.y, start.y, end.y));
@@ -41,7 +41,7 @@ pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(F
     }
 }
 
-/// Distance of a place from an obstacle's rim, metres; 0 within it.
+/// Distance of a place from an obstacle's rim, metres; 0 inside the obstacle.
 fn distance(thing: &Obstacle, place: Vec2) -> f64 {
     match *thing {
         Obstacle::Disc { at, radius_m } => (at.distance(place) - radius_m).max(0.0),
@@ -51,7 +51,7 @@ fn distance(thing: &Obstacle, place: Vec2) -> f64 {
     }
 }
 
-/// Whether a curve comes nearer to an obstacle than `need`.
+/// Whether a curve comes nearer to an obstacle's rim than `need` metres.
 fn touches(thing: &Obstacle, curve: &Cubic, need: f64) -> bool {
     match *thing {
         Obstacle::Disc { at, radius_m } => {
@@ -70,8 +70,9 @@ fn touches(thing: &Obstacle, curve: &Cubic, need: f64) -> bool {
     }
 }
 
-/// Whether a condition on places holds along a curve. `surely(part)` may only be true if the condition holds in the
-/// whole part. An undecided curve counts as `false`.
+/// Whether a condition on places holds everywhere on a curve. `holds(place)` is the condition. `surely(part)` may only
+/// return `true` if the condition holds on the whole part. A curve that is undecided after `halvings` bisections counts
+/// as `false`.
 fn keeps(
     curve: &Cubic,
     halvings: u32,

@@ -1,22 +1,22 @@
-//! Paths as stretches of time, so that two of them can be compared moment by moment.
+//! Paths as pieces with times, so that two paths can be compared moment by moment.
 
 use super::curve::{Cubic, nearest, part, point};
 use crate::Path;
 use lightbots_base::Vec2;
 
-/// One piece of a path and when it is driven.
+/// One piece of a path, and the time in which it is driven.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    /// Begin after the transition's start, microseconds; less than `end_us`.
+    /// Begin of the piece, microseconds after the transition's start; less than `end_us`.
     pub begin_us: i64,
-    /// End after the transition's start, microseconds.
+    /// End of the piece, microseconds after the transition's start.
     pub end_us: i64,
     /// Control points, stage metres.
     pub curve: Cubic,
 }
 
 impl Stretch {
-    /// The curve between two moments within the stretch.
+    /// The curve between two moments within the piece, microseconds after the transition's start.
     pub fn between(&self, from_us: i64, to_us: i64) -> Cubic {
         if (from_us, to_us) == (self.begin_us, self.end_us) {
             return self.curve;
@@ -32,8 +32,8 @@ impl Stretch {
     }
 }
 
-/// Adds the stretches of one path to `into`, without gaps from 0 to `horizon_us`. A path that ends earlier rests at its
-/// end.
+/// Adds the pieces of one path to `into`, without gaps from 0 to `horizon_us`. A path that ends earlier gets a rest at
+/// its end.
 pub(super) fn stretches(path: &Path, horizon_us: i64, into: &mut Vec<Stretch>) {
     let (mut start, mut begin_us) = (path.start, 0i64);
     for piece in &path.pieces {
@@ -49,8 +49,9 @@ pub(super) fn stretches(path: &Path, horizon_us: i64, into: &mut Vec<Stretch>) {
     }
 }
 
-/// Finds the closest approach of two robots from `from_us` to `to_us`, if it is closer than `enough` metres. Returns
-/// the distance, the moment in microseconds, and the place half way between them.
+/// Finds the closest approach of two robots from `from_us` to `to_us`, if they come closer than `enough` metres.
+/// Returns the distance, the moment in microseconds after the transition's start, and the place half way between the
+/// two centres.
 pub(super) fn closest(
     a: &[Stretch],
     b: &[Stretch],

@@ -5,13 +5,13 @@ use lightbots_base::{Span, Vec2};
 /// The verdict of the proof.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Proof {
-    /// Pairs that come closer than allowed, each at its closest moment, sorted by indices. Standing discs have the
-    /// indices after those of the robots.
+    /// Pairs that come closer than allowed, each at its closest moment, sorted by the indices of the pair. Standing
+    /// discs have the indices after those of the robots.
     pub conflicts: Vec<Closest>,
     /// Illegal motion of single robots, sorted by robot.
     pub faults: Vec<Fault>,
-    /// The closest approach of all pairs of which at least one is a robot. `None` if there is no pair, or a path is
-    /// malformed.
+    /// The closest approach of all pairs of which at least one is a robot. `None` if there is no pair of that kind, or
+    /// a path is malformed.
     pub closest: Option<Closest>,
 }
 
@@ -22,33 +22,34 @@ pub struct Fault {
     pub robot: usize,
     /// Kind of the fault.
     pub kind: FaultKind,
-    /// Begin of the faulty piece, after the start of the transition.
+    /// Begin of the faulty piece, counted from the start of the transition.
     pub at: Span,
 }
 
 /// Kinds of illegal motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// A number is not finite, a duration not positive, or the path ends at another time than the others.
+    /// A number is not finite, a duration is not positive, or the path does not end at the same time as the longest
+    /// path.
     Malformed,
-    /// Faster than its limit.
+    /// The robot is faster than its speed limit.
     Speed,
-    /// More acceleration than its limit.
+    /// The acceleration is above its limit.
     Acceleration,
-    /// A step in velocity, or no rest at the begin or the end.
+    /// The velocity has a step, or the robot does not begin and end at rest.
     Jump,
-    /// A turn faster than its limit, while driving or between two drives.
+    /// A turn faster than its limit, while the robot drives or between two drives.
     Turn,
-    /// A wheel faster than its limit.
+    /// A wheel turns faster than its limit.
     Wheel,
-    /// Off the floor.
+    /// The rim of the robot leaves the floor.
     Floor,
-    /// Too near to an obstacle.
+    /// The robot comes too near to a no-go area.
     Obstacle,
 }
 
 impl Proof {
-    /// Whether the paths may be driven.
+    /// Whether the paths may be driven: there are no conflicts and no faults.
     pub fn holds(&self) -> bool {
         self.conflicts.is_empty() && self.faults.is_empty()
     }
@@ -59,9 +60,9 @@ impl Proof {
 pub struct Closest {
     /// Distance of the centres, metres.
     pub distance_m: f64,
-    /// Moment of the approach, after the start of the transition.
+    /// Moment of the closest approach, counted from the start of the transition.
     pub at: Span,
-    /// Indices of the two robots. Standing discs have the indices after those of the robots.
+    /// Indices of the two robots, the smaller first. Standing discs have the indices after those of the robots.
     pub pair: (usize, usize),
     /// Point half way between the two centres, stage metres.
     pub place: Vec2,

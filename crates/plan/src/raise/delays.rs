@@ -1,8 +1,9 @@
-//! Delays of single robots that make more moments stop-safe.
+//! Finds delays of single robots that make more moments stop-safe. At a stop-safe moment, a robot may stop dead and no
+//! other robot touches it.
 //!
-//! If robot `by` would touch `robot` after `robot` stopped dead, `by` is delayed until it can stop, or else `robot` is
-//! delayed behind `by`. If a delayed robot then comes too near a third one, that one is delayed in turn, up to its
-//! largest delay. A chain of delays is kept only if no pair in it gets worse.
+//! Robot `by` may touch `robot` after `robot` stopped dead. Then `by` is delayed until it can stop, or else `robot` is
+//! delayed until it follows `by`. If a delayed robot then comes too near to a third robot, the third robot is delayed
+//! in turn, up to its largest delay. A chain of delays is kept only if no pair in it gets worse.
 
 mod pair;
 
@@ -14,18 +15,19 @@ use lightbots_base::{Limits, Span, Vec2};
 use pair::{LEVEL, PairLaw};
 use std::collections::BTreeMap;
 
-/// Longest delay of a robot. Pairs that come near each other only after longer delays are not checked.
+/// Longest delay of a robot. Pairs that could come near each other only with longer delays are not checked.
 const MOST: Span = Span::from_millis(400);
-/// Most moments of pairs that are checked, for each robot of the transition.
+/// Most checks of a pair at a moment, for each robot of the transition.
 const MOST_LOOKS: usize = 1_500;
-/// Most moments of pairs that are checked in all.
+/// Most checks of a pair at a moment, in all.
 const MOST_LOOKS_IN_ALL: usize = 3_000_000;
-/// Stride, in moments, with which tracks are searched for near robots.
+/// Number of moments from one to the next at which robots are searched for near robots.
 const STRIDE: usize = 4;
-/// Most delayed robots in one chain.
+/// Most robots that one chain of delays may contain.
 const MOST_CHAIN: usize = 64;
 
-/// Returns `[robot]`: its delay. `most`: how much later than planned the last robot may arrive.
+/// Returns `[robot]`: the delay of its start. `before`: the stop-safety without delays. `most`: how much later than
+/// planned the last robot may arrive.
 pub(super) fn delays(
     paths: &[Path],
     before: &StopSafety,
@@ -42,7 +44,7 @@ pub(super) fn delays(
         .collect();
     pairs.sort_unstable();
     pairs.dedup();
-    // In the second round some chains fit that did not fit before.
+    // All pairs are tried twice: in the second round, some chains fit that did not fit before.
     for (robot, by) in pairs.iter().chain(&pairs).copied() {
         if search.looks == 0 || cancel.is_wanted() {
             break;
@@ -54,7 +56,7 @@ pub(super) fn delays(
     search.levels.iter().map(|level| LEVEL * i64::from(*level)).collect()
 }
 
-/// A robot that may come near another, and the first and last moment at which it may.
+/// A robot that may come near another robot, and the first and the last moment at which it may, in steps of 50 ms.
 #[derive(Clone, Copy)]
 struct Near {
     other: usize,
@@ -64,13 +66,15 @@ struct Near {
 
 struct Search<'a> {
     law: PairLaw<'a>,
-    /// `[robot][moment]`: its place without delays, stage metres.
+    /// `[robot][moment]`: its place without delays, stage metres. Moments are [`STEP`] apart.
     tracks: Vec<Vec<Vec2>>,
+    /// `[robot]`: its delay, in units of [`LEVEL`].
     levels: Vec<u8>,
-    /// `[robot]`: its largest allowed delay, in levels.
+    /// `[robot]`: its largest allowed delay, in units of [`LEVEL`].
     most: Vec<u8>,
+    /// Results of [`Search::near`] that are known, by robot.
     near: BTreeMap<usize, Vec<Near>>,
-    /// Number of moments of pairs that may still be checked.
+    /// Number of checks of a pair at a moment that are left.
     looks: usize,
 }
 
@@ -95,8 +99,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Delays `later` until it would not touch `sooner` after `sooner` stopped dead, and delays other robots as far as
-    /// that requires. `None`, without any change, if that is impossible.
+    /// Delays robot `later` until it would not touch robot `sooner` after `sooner` stopped dead, and the reverse.
+    /// Delays other robots as far as that requires. `None`, without any change, if that is impossible.
     fn put_behind(&mut self, sooner: usize, later: usize) -> Option<()> {
         let pair = self.near(later).iter().find(|near| near.other == sooner).copied()?;
         if self.cost(later, &pair)? == 0 {
@@ -134,7 +138,8 @@ impl<'a> Search<'a> {
         Some(())
     }
 
-    /// Raises a robot's delay to the least that brings the cost of a pair down to `allowed`; `None` if no delay does.
+    /// Raises a robot's delay to the least delay at which the cost of the pair is at most `allowed`; `None` if no delay
+    /// suffices.
     fn delay(&mut self, robot: usize, pair: &Near, allowed: u32) -> Option<()> {
         for level in self.levels[robot] + 1..=self.most[robot] {
             if self.cost_at(robot, pair, (level, self.levels[pair.other]))? <= allowed {
@@ -149,14 +154,15 @@ impl<'a> Search<'a> {
         self.cost_at(robot, pair, (self.levels[robot], self.levels[pair.other]))
     }
 
-    /// Returns the cost of a pair with these delays, see [`PairLaw::cost`]; `None` if the checks are used up.
+    /// Returns the cost of a pair with these delays, in units of [`LEVEL`], as [`PairLaw::cost`] defines it; `None` if
+    /// no checks are left.
     fn cost_at(&mut self, robot: usize, pair: &Near, levels: (u8, u8)) -> Option<u32> {
         self.looks = self.looks.checked_sub(pair.last - pair.first + 1)?;
         let tracks = (&self.tracks[robot][..], &self.tracks[pair.other][..]);
         Some(self.law.cost(tracks, levels, (pair.first, pair.last)))
     }
 
-    /// Returns all robots that may come near a robot.
+    /// Returns all robots that may come near `robot`, with any delays.
     fn near(&mut self, robot: usize) -> Vec<Near> {
         if let Some(known) = self.near.get(&robot) {
             return known.clone();
@@ -174,7 +180,7 @@ impl<'a> Search<'a> {
         };
         let found: Vec<Near> =
             (0..self.tracks.len()).filter(|other| *other != robot).filter_map(near).collect();
-        // Each moment of this search costs a tenth of a check of a stop.
+        // A moment in this search takes about a tenth of the work of a check of a pair.
         self.looks = self.looks.saturating_sub(self.tracks.len() * own.len() / (10 * STRIDE));
         self.near.insert(robot, found.clone());
         found

@@ -5,7 +5,7 @@ use std::collections::{BinaryHeap, VecDeque};
 
 use lightbots_base::Vec2;
 
-/// Marks a missing node.
+/// Marks a missing node, where the index of a node is expected.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// Places on the floor, and the lines between them along which a robot may drive.
@@ -13,7 +13,7 @@ pub(crate) trait Graph {
     /// Place of each node, stage metres.
     fn places(&self) -> &[Vec2];
 
-    /// Returns the nodes that have a line to a node. Each line leads both ways.
+    /// Returns the nodes that a robot may drive to from a node in one straight line. Each line leads both ways.
     fn neighbours(&self, node: u32) -> impl Iterator<Item = u32>;
 
     /// Place of a node, stage metres.
@@ -21,13 +21,14 @@ pub(crate) trait Graph {
         self.places()[node as usize]
     }
 
-    /// Length of the line between two nodes, metres.
+    /// Length of the straight line between two nodes, metres.
     fn length_m(&self, a: u32, b: u32) -> f64 {
         self.place(a).distance(self.place(b))
     }
 }
 
-/// `[node]`: number of lines from a node to `goal`; `u16::MAX` where there is no path (breadth first).
+/// Returns `[node]`: the least number of lines from the node to `goal`; `u16::MAX` if there is no path (breadth-first
+/// search).
 pub(crate) fn steps_to(graph: &impl Graph, goal: u32) -> Vec<u16> {
     let mut steps = vec![u16::MAX; graph.places().len()];
     let mut queue = VecDeque::from([goal]);
@@ -46,14 +47,14 @@ pub(crate) fn steps_to(graph: &impl Graph, goal: u32) -> Vec<u16> {
 
 /// The cheapest paths from some nodes to all others.
 pub(crate) struct CheapestPaths {
-    /// `[node]`: cost from the nearest source; infinite where there is no path.
+    /// `[node]`: least cost from a source to the node; infinite if there is no path.
     pub costs: Vec<f64>,
-    /// `[node]`: the node before it on its path; [`NONE`] at a source and where there is no path.
+    /// `[node]`: the node before it on its cheapest path; [`NONE`] at a source, and if there is no path.
     pub before: Vec<u32>,
 }
 
-/// Finds the cheapest paths from `sources`, which are nodes and their initial costs (Dijkstra 1959). `cost(from, to)`
-/// of a line is positive, or infinite if the line must not be used.
+/// Finds the cheapest paths from `sources` to all nodes (Dijkstra 1959). Each source is a node and an initial cost.
+/// `cost(from, to)` of a line is positive, or infinite if the line must not be used.
 pub(crate) fn cheapest_paths(
     graph: &impl Graph,
     sources: impl IntoIterator<Item = (u32, f64)>,
@@ -83,7 +84,7 @@ pub(crate) fn cheapest_paths(
     paths
 }
 
-/// A reached node. The order is reversed, so that a heap returns the cheapest node first.
+/// A node that the search has reached. Its order is reversed, so that a max-heap returns the cheapest node first.
 #[derive(PartialEq)]
 struct Reached {
     cost: f64,
@@ -108,7 +109,8 @@ impl Ord for Reached {
 mod tests {
     use super::*;
 
-    /// A square of 1 m with one corner that has a line to its left neighbour alone, and a node apart.
+    /// A square with sides of 1 m, one corner of which has a line only to its left neighbour, and a fifth node without
+    /// lines.
     struct Square([Vec2; 5]);
 
     impl Graph for Square {

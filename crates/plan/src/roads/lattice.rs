@@ -1,4 +1,4 @@
-//! A hexagonal lattice over the floor: six directions, and the densest packing of discs.
+//! A hexagonal lattice over the floor: the densest packing of discs, with six directions at each node.
 
 use lightbots_base::Vec2;
 
@@ -6,35 +6,37 @@ use crate::instance::Instance;
 use crate::margins::MARGIN_M;
 use crate::roads::graph::{Graph, NONE};
 
-/// Most near nodes that are considered for the edges of an added node.
+/// Most near nodes that are considered as neighbours of an added node.
 const MOST_BESIDE: usize = 24;
 /// Most nodes of a lattice; larger lattices are not made.
 const MOST_NODES: usize = 200_000;
 
-/// Free places on the floor and their neighbours.
+/// A lattice: free places on the floor, the nodes, and their neighbours.
 pub(crate) struct Lattice {
     /// Place of each node, stage metres.
     pub places: Vec<Vec2>,
-    /// `[node][direction]`: direction k points to k · 60°; [`NONE`] where there is no edge.
+    /// `[node][direction]`: the neighbour in direction k, which points at k · 60° from the x axis; [`NONE`] if there is
+    /// no edge.
     pub neighbours: Vec<[u32; 6]>,
-    /// Distance of neighbours, metres.
+    /// Distance between neighbours, metres.
     pub pitch_m: f64,
     columns: i64,
     rows: i64,
+    /// Place of row 0, column 0, stage metres.
     corner: Vec2,
     /// `[row][column]`: its node, or [`NONE`].
     nodes: Vec<u32>,
-    /// Number of nodes in rows and columns. The nodes after these were added anywhere.
+    /// Number of nodes in rows and columns. Nodes with greater indices were added at other places.
     in_rows: usize,
 }
 
 impl Lattice {
-    /// The lattice of an instance's floor; `None` where it would be too large.
+    /// The lattice of an instance's floor with this pitch, metres. `None` if it would have more than [`MOST_NODES`].
     pub fn new(instance: &Instance, pitch_m: f64) -> Option<Self> {
         Self::around_places(instance, pitch_m, &[], 0.0)
     }
 
-    /// [`Self::new`] without nodes nearer than `apart_m` to any of `places`.
+    /// [`Self::new`], but without nodes nearer than `apart_m` metres to any of `places`.
     pub fn around_places(instance: &Instance, pitch_m: f64, places: &[Vec2], apart_m: f64) -> Option<Self> {
         let rise = pitch_m * 3.0_f64.sqrt() / 2.0;
         let (width, depth) = (instance.inner.x * 2.0, instance.inner.y * 2.0);
@@ -99,8 +101,8 @@ impl Lattice {
         }
     }
 
-    /// Adds a node at any place. Connects it to nodes within `reach_m` for which `is_beside` holds, nearest first, at
-    /// most one in each of six directions.
+    /// Adds a node at any place. Connects it to nodes within `reach_m` metres for which `is_beside` holds, nearest
+    /// first, at most one in each of six directions.
     pub fn add(&mut self, place: Vec2, reach_m: f64, is_beside: impl Fn(Vec2) -> bool) {
         let node = self.places.len() as u32;
         let near = self.around(place, reach_m, MOST_BESIDE);
@@ -125,7 +127,7 @@ impl Lattice {
         if inside { self.nodes[(row * self.columns + column) as usize] } else { NONE }
     }
 
-    /// The nodes within `reach_m` of a place, nearest first, at most `most`.
+    /// The nodes within `reach_m` metres of a place, nearest first, at most `most`.
     pub fn around(&self, place: Vec2, reach_m: f64, most: usize) -> Vec<u32> {
         let rise = self.pitch_m * 3.0_f64.sqrt() / 2.0;
         let from = place - self.corner;

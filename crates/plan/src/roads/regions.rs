@@ -1,5 +1,5 @@
-//! Regions of the floor that no gap connects. Obstacles with too narrow a gap between them count as one wall. Gaps
-//! between shapes are measured exactly; only the area of a wall is rounded to grid squares.
+//! Regions of the floor between which no robot can drive. Obstacles with too narrow a gap between them count as one
+//! wall. Gaps between shapes are measured exactly; only the area of a wall is rounded to squares of a grid.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::nearest_in_rect;
@@ -11,26 +11,27 @@ use crate::margins::REGION_M;
 
 /// Number of grid squares in a robot's radius.
 const SQUARES_A_RADIUS: f64 = 3.0;
-/// Most grid squares; larger floors count as one region.
+/// Most grid squares; floors with more of them are not divided into regions.
 const MOST_SQUARES: f64 = 4e6;
-/// Thickness of the wall around an obstacle, as a share of a robot's radius. It exceeds one square, and no robot's
-/// centre can be within it.
+/// Thickness of the wall around an obstacle, as a share of a robot's radius. It must exceed one square, and be so small
+/// that no robot's centre can be within it.
 const WALL_SHARE: f64 = 0.5;
-/// Thickness of the wall on either side of the line across a closed gap, in squares: enough that no fill leaks through.
+/// Thickness of the wall on either side of the line across a gap that is too narrow, in squares. A thinner wall would
+/// let the filling of a region leak through.
 const GAP_SQUARES: f64 = 0.75;
-/// Search radius for the region of a place, in squares.
+/// Radius, in squares, within which a place in a wall takes the region of the nearest square.
 const MOST_RINGS: i64 = 4;
-/// Marks a square that is not filled yet.
+/// Marks a square that has no region yet.
 const NONE: u32 = u32::MAX;
 /// Marks a square of a wall.
 const WALL: u32 = u32::MAX - 1;
 
-/// Something that does not move.
+/// A thing that does not move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Thing {
-    /// An obstacle, by its index.
+    /// An obstacle, by its index in the problem's list.
     Obstacle(usize),
-    /// A standing robot, by its index.
+    /// A standing robot, by its index in the problem's list.
     Standing(usize),
     /// The floor's edge.
     Edge,
@@ -39,21 +40,24 @@ pub(crate) enum Thing {
 /// A gap that is too narrow to drive through.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
-    /// The two things beside it.
+    /// The two things on either side of the gap.
     pub between: (Thing, Thing),
-    /// Width from rim to rim, metres; 0 or less where the two touch.
+    /// Width from rim to rim, metres; 0 or less if the two things touch or overlap.
     pub wide_m: f64,
-    /// Ends of its narrowest line, stage metres.
+    /// Ends of the line across the gap where it is narrowest, stage metres. For rims that are round, these ends lie
+    /// inside the things.
     pub ends: (Vec2, Vec2),
 }
 
-/// Regions of the floor.
+/// The floor, divided into regions.
 pub(crate) struct Regions {
+    /// Half the floor's width and depth, metres.
     half: Vec2,
+    /// Side of a grid square, metres.
     square_m: f64,
     columns: i64,
     rows: i64,
-    /// `[square]`: its region, or [`WALL`].
+    /// `[square]`: the number of its region, or [`WALL`]. Squares are numbered row by row.
     part_of: Vec<u32>,
     /// Number of regions.
     pub parts: usize,
@@ -62,7 +66,8 @@ pub(crate) struct Regions {
     shapes: Vec<(Thing, Shape)>,
 }
 
-/// A rectangle with round corners: a disc is a point with round corners.
+/// A rectangle that is enlarged by `round_m` on all sides and thereby has round corners. A disc is a single point
+/// enlarged by its radius.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
     min: Vec2,
@@ -78,17 +83,17 @@ impl Shape {
         }
     }
 
-    /// Returns the place in the shape's rectangle that is nearest to `from`.
+    /// Returns the place in the shape's rectangle, without its enlargement, that is nearest to `from`.
     fn core(&self, from: Vec2) -> Vec2 {
         nearest_in_rect(from, self.min, self.max)
     }
 
-    /// Distance of a place from the rim, metres; negative within the round corners.
+    /// Distance of a place from the shape's rim, metres; negative inside. In the inner rectangle it is −`round_m`.
     fn off_m(&self, place: Vec2) -> f64 {
         self.core(place).distance(place) - self.round_m
     }
 
-    /// Returns the shortest line between the rectangles of two shapes.
+    /// Returns the ends of the shortest line between the rectangles of two shapes, without their enlargement.
     fn line_to(&self, other: &Self) -> (Vec2, Vec2) {
         let middle = |a_min: f64, a_max: f64, b_min: f64, b_max: f64| {
             let (low, high) = (a_min.max(b_min), a_max.min(b_max));
@@ -107,14 +112,15 @@ impl Shape {
     }
 }
 
-/// Least width of a gap between two things through which a robot can drive, metres.
+/// Least width of a gap between two things through which a robot can drive, metres: its diameter and [`REGION_M`] on
+/// either side. If the second thing is the floor's edge, there is no margin on that side.
 pub(crate) fn enough_m(problem: &TransitionProblem, (_, other): (Thing, Thing)) -> f64 {
     let margins = if other == Thing::Edge { 1.0 } else { 2.0 };
     problem.limits.contact_m() + margins * REGION_M
 }
 
 impl Regions {
-    /// Regions of a problem's floor; `None` without obstacles, or where the floor is too large.
+    /// Regions of a problem's floor; `None` if it has no obstacles, or if it needs more than [`MOST_SQUARES`].
     pub fn new(problem: &TransitionProblem, cancel: Cancel<'_>) -> Option<Self> {
         let half = problem.half_floor;
         let square_m = problem.limits.radius_m / SQUARES_A_RADIUS;
@@ -193,7 +199,7 @@ impl Regions {
         }
     }
 
-    /// Marks the squares within `around_m` of a rectangle as wall if `is_in` holds for their middle.
+    /// Marks squares within `around_m` metres of a rectangle as wall, if `is_in` holds for the middle of the square.
     fn wall(&mut self, min: Vec2, max: Vec2, around_m: f64, is_in: impl Fn(Vec2) -> bool) {
         let around = Vec2::new(around_m, around_m);
         let ((left, low), (right, high)) = (self.square(min - around), self.square(max + around));
@@ -243,7 +249,7 @@ impl Regions {
         }
     }
 
-    /// Returns the region of a place, or the nearest one within [`MOST_RINGS`] squares; `None` if there is none.
+    /// Returns the region of a place, or the nearest region within [`MOST_RINGS`] squares; `None` if there is none.
     pub fn part(&self, place: Vec2) -> Option<u32> {
         let (column, row) = self.square(place);
         (0..=MOST_RINGS).find_map(|ring| {
@@ -259,8 +265,8 @@ impl Regions {
         })
     }
 
-    /// Whether a gap lies between region `part` and another region. Both sides are examined `off_m` from the middle of
-    /// the gap.
+    /// Whether a gap lies between region `part` and another region. The regions `off_m` metres to either side of the
+    /// middle of the gap are compared.
     fn leads_out(&self, gap: &Gap, part: u32, off_m: f64) -> bool {
         let (from, to) = gap.ends;
         let Some(along) = (to - from).normalized() else { return false };
@@ -271,14 +277,14 @@ impl Regions {
         }
     }
 
-    /// Returns the widest of the too narrow gaps between a region and others.
+    /// Returns the widest of the too narrow gaps between region `part` and other regions; `None` if there is none.
     pub fn way_out(&self, part: u32) -> Option<Gap> {
         let off_m = self.square_m * (MOST_RINGS as f64 - 1.0);
         let out = self.gaps.iter().filter(|gap| gap.wide_m > 0.0 && self.leads_out(gap, part, off_m));
         out.copied().max_by(|a, b| a.wide_m.total_cmp(&b.wide_m))
     }
 
-    /// Returns the things that bound a region.
+    /// Returns the obstacles and standing robots that bound region `part`.
     pub fn around(&self, part: u32) -> Vec<Thing> {
         let is_of = |&(_, shape): &&(Thing, Shape)| {
             let reach = shape.round_m + self.square_m * (SQUARES_A_RADIUS * WALL_SHARE + 2.0);
@@ -294,7 +300,7 @@ impl Regions {
     }
 }
 
-/// Distance of a place from a line, metres.
+/// Distance of a place from the straight line between `from` and `to`, metres.
 fn off_line(place: Vec2, from: Vec2, to: Vec2) -> f64 {
     let along = to - from;
     let share = (place - from).dot(along) / along.length_squared().max(1e-12);

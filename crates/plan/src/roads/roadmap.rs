@@ -1,5 +1,5 @@
-//! The graph for stop-and-go. Its nodes are all starts and ends, places beside corners and in gaps, and a lattice. Its
-//! edges are all short lines that are free.
+//! The graph for stop-and-go trajectories. Its nodes are all starts and ends, places beside corners and in gaps, and a
+//! lattice. Its edges are all lines between nodes that are short enough and free.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::{nearest_in_rect, point_to_segment};
@@ -12,40 +12,42 @@ use crate::roads::visibility::VisibilityGraph;
 
 /// Length of the longest edge, in pitches.
 const REACH: f64 = 1.5;
-/// Lower bound of the length of the longest edge, metres.
+/// Least value of [`Roadmap::reach_m`], metres: edges may be this long even if the pitch is small.
 const LEAST_REACH_M: f64 = 0.075;
-/// Least distance of a node from others, in pitches.
+/// Least distance of a node from others, in pitches. Starts, ends and places beside corners may be closer.
 const APART: f64 = 0.5;
-/// Most nodes in a row beside a corner.
+/// Most nodes in a row that begins beside a corner of a wall.
 const MOST_IN_ROW: usize = 40;
-/// Bisections that find the last node of a row.
+/// Number of bisections that find the last free place of a row.
 const HALVINGS: usize = 12;
 /// Most nodes of a roadmap; larger roadmaps are not made.
 const MOST_NODES: usize = 5_000;
-/// Cost of each stop in addition to the length of a path, metres: about what a robot drives in the time of a stop.
+/// Cost of each stop, as metres of path: about the distance that a robot drives in the time of a stop.
 const STOP_M: f64 = 0.05;
 
-/// Places and the edges between them.
+/// A roadmap: places, the nodes, and the edges between them.
 pub(crate) struct Roadmap {
     /// Place of each node, stage metres.
     pub places: Vec<Vec2>,
-    /// `[node]`: nodes with a free line to it, nearest first.
+    /// `[node]`: the nodes with an edge to it, nearest first.
     pub edges: Vec<Vec<u32>>,
-    /// `[node]`: whether only robots that start or end there may use it, because it is too near to a wall.
+    /// `[node]`: whether only robots that start or end at the node may use it, because it is too near to a wall for
+    /// others.
     is_private: Vec<bool>,
-    /// `[robot]`: its start.
+    /// `[robot]`: the node of its start.
     pub starts: Vec<u32>,
-    /// `[robot]`: its end; `None`: anywhere.
+    /// `[robot]`: the node of its end; `None` if it may end anywhere.
     pub ends: Vec<Option<u32>>,
-    /// Length of the longest edge, metres.
+    /// Greatest length of an edge, metres.
     pub reach_m: f64,
-    /// Half the extents of the rectangle of all nodes but starts and ends, metres.
+    /// Half the extents, metres, of the rectangle that contains all nodes except starts and ends.
     inner: Vec2,
 }
 
 impl Roadmap {
-    /// The roadmap of an instance with a lattice of this pitch. All nodes but starts and ends are at least `off_edge_m`
-    /// from the floor's edge. `None` if it would be too large, or the planner is cancelled.
+    /// The roadmap of an instance, with a lattice of this pitch, metres. All nodes except starts and ends keep rims at
+    /// least `off_edge_m` metres from the floor's edge. `None` if it would have more than [`MOST_NODES`], or the
+    /// planner is cancelled.
     pub fn new(
         instance: &Instance,
         visibility: &VisibilityGraph,
@@ -107,7 +109,8 @@ impl Roadmap {
         }
     }
 
-    /// Adds nodes in a row from a place, as far as the line is free. The last node is at the end of the free line.
+    /// Adds nodes in a row from `from`, one `step` apart, as far as the line is free. The last node is at the end of
+    /// the free line. Nodes closer than `apart_m` metres to others are left out.
     fn add_row(&mut self, instance: &Instance, from: Vec2, step: Vec2, apart_m: f64) {
         let mut at = from;
         for _ in 0..MOST_IN_ROW {
@@ -146,13 +149,13 @@ impl Roadmap {
         self.edges = edges;
     }
 
-    /// Whether a robot may be at a node.
+    /// Whether a robot may be at a node: the node is far enough from walls, or it is the robot's start or end.
     pub fn may_be(&self, robot: usize, node: u32) -> bool {
         !self.is_private[node as usize] || self.starts[robot] == node || self.ends[robot] == Some(node)
     }
 
-    /// Returns `[node]`: cost of a robot's path to its end, with stops, metres. Infinite if there is no path; 0 for a
-    /// spare robot.
+    /// Returns `[node]`: cost of a robot's path from the node to its end, metres, with [`STOP_M`] for each stop.
+    /// Infinite if there is no path; 0 for a spare robot.
     pub fn far_m(&self, robot: usize) -> Vec<f64> {
         let Some(end) = self.ends[robot] else { return vec![0.0; self.places.len()] };
         let cost = |from: u32, to: u32| match self.may_be(robot, to) {
@@ -174,7 +177,7 @@ impl Graph for Roadmap {
 }
 
 /// Whether a robot can drive straight from one place to another on the floor, with its rim [`ROADMAP_M`] from every
-/// wall. If an end is closer to a wall, the line only has to keep that distance.
+/// wall. If the robot is closer to a wall at an end of the line, the line only has to keep that smaller distance.
 fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
     let on_floor = |at: Vec2| at.x.abs() <= instance.inner.x + 1e-6 && at.y.abs() <= instance.inner.y + 1e-6;
     on_floor(from)
@@ -186,7 +189,7 @@ fn is_clear(instance: &Instance, from: Vec2, to: Vec2) -> bool {
         })
 }
 
-/// Distance of a line from a shape, metres; 0 where it goes through.
+/// Distance of a straight line from a shape, metres; 0 if the line goes through the shape.
 fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
     let to_line = |place: Vec2| point_to_segment(place, from, to);
     match *shape {
@@ -202,7 +205,7 @@ fn off_shape(shape: &Obstacle, from: Vec2, to: Vec2) -> f64 {
     }
 }
 
-/// Whether a line goes through a rectangle (Liang and Barsky 1984).
+/// Whether a straight line touches a rectangle or goes through it (Liang and Barsky 1984).
 fn meets(min: Vec2, max: Vec2, from: Vec2, to: Vec2) -> bool {
     let line = to - from;
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);

@@ -1,5 +1,5 @@
-//! The shortest path of one robot around walls: over the lattice, then without needless corners. Where the lattice does
-//! not fit through a gap, the path follows the visibility graph.
+//! The shortest paths of robots around walls: over the lattice, then without needless corners. If the lattice has no
+//! path, because it does not fit through a gap, the path follows the visibility graph.
 
 use std::cell::OnceCell;
 
@@ -11,10 +11,11 @@ use crate::roads::graph::{Graph, steps_to};
 use crate::roads::lattice::Lattice;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Radius around a start or end in which its path enters the lattice, in pitches.
+/// Radius around a start or end, in pitches, within which its path must enter or leave the lattice.
 const REACH: f64 = 3.0;
 
-/// Corners of each robot's path from its start to its end; `None` if a robot is walled in, or the planner is cancelled.
+/// Returns `[robot]`: the corners of its path, from its start to its end. A spare robot stays at its start. `None` if a
+/// robot is walled in, or the planner is cancelled.
 pub(crate) fn shortest_paths(
     instance: &Instance,
     lattice: &Lattice,
@@ -58,7 +59,7 @@ fn shortest_path(instance: &Instance, lattice: &Lattice, start: Vec2, end: Vec2)
     Some(without_detours(instance, &path))
 }
 
-/// The path without needless corners.
+/// Removes corners of a path that a robot can bypass on a straight line with a gap of [`COMFORT_M`] from walls.
 fn without_detours(instance: &Instance, path: &[Vec2]) -> Vec<Vec2> {
     let mut without_detours = vec![path[0]];
     let mut at = 0;

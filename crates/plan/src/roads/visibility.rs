@@ -1,5 +1,5 @@
-//! Shortest paths through gaps that a lattice does not fit through: from corner to corner along free lines (a
-//! visibility graph; Lozano-Pérez and Wesley 1979).
+//! Shortest paths through gaps that a lattice does not fit through. They lead from corner to corner of walls along free
+//! lines (a visibility graph; Lozano-Pérez and Wesley 1979).
 
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
@@ -9,30 +9,32 @@ use crate::margins::VISIBILITY_M;
 use crate::roads::graph::{Graph, NONE, cheapest_paths};
 use crate::roads::lattice::Lattice;
 
-/// Most walls of a visibility graph. With more it is empty, because too many pairs of corners would see each other.
+/// Most walls of a visibility graph. With more walls it stays empty, because too many pairs of corners would see each
+/// other.
 pub(crate) const MOST_WALLS: usize = 24;
-/// Least distance of an added node from others, in pitches.
+/// Least distance of an added lattice node from other nodes, in pitches.
 const LEAST_PITCH: f64 = 0.83;
-/// Longest edge of an added node, in pitches.
+/// Longest edge of an added lattice node, in pitches.
 const MOST_PITCH: f64 = 1.45;
-/// A gap is narrow if it is wider than a robot by less than this, metres. Two robots do not pass each other there.
+/// A gap is narrow if it is wider than a robot by less than this, metres. Two robots cannot pass each other in it.
 const NARROW_M: f64 = 0.04;
-/// Factor on the node distance when a line is divided evenly, so that nodes of crossing lines fit beside it.
+/// Factor on the least distance of nodes when a line is divided evenly, so that nodes on crossing lines fit beside its
+/// nodes.
 const EVEN: f64 = 1.08;
-/// Distance between the places at which an additional node is tried, metres.
+/// Distance between neighbouring places at which an additional node is tried, metres.
 const FILL_STEP_M: f64 = 0.01;
-/// Corners of the polygon around a disc.
+/// Number of corners of the polygon around a disc.
 const DISC_CORNERS: u32 = 8;
 
 /// Places beside the corners of walls, and the free lines between these places.
 pub(crate) struct VisibilityGraph {
     places: Vec<Vec2>,
-    /// `[place]`: places with a free line to it.
+    /// `[place]`: indices of the places that have a free line to it.
     sees: Vec<Vec<u32>>,
 }
 
 impl VisibilityGraph {
-    /// The graph of an instance; empty with too many walls.
+    /// The graph of an instance; empty if there are more than [`MOST_WALLS`].
     pub fn new(instance: &Instance) -> Self {
         let off_m = instance.limits.radius_m + VISIBILITY_M;
         let walls = if instance.walls.len() > MOST_WALLS { &[][..] } else { &instance.walls[..] };
@@ -43,8 +45,8 @@ impl VisibilityGraph {
         Self { places, sees }
     }
 
-    /// Makes a lattice that reaches through gaps: first nodes in narrow gaps, then rows, then more nodes wherever one
-    /// fits. `None` if it would be too large, or the planner is cancelled.
+    /// Makes a lattice that reaches through gaps. Nodes in narrow gaps come first, then the usual rows, then more nodes
+    /// wherever one fits. `None` if it would be too large, or the planner is cancelled.
     pub fn lattice(&self, instance: &Instance, pitch_m: f64) -> Option<Lattice> {
         let (apart_m, reach_m) = (pitch_m * LEAST_PITCH, pitch_m * MOST_PITCH);
         let gaps = self.in_gaps(instance, apart_m);
@@ -70,8 +72,8 @@ impl VisibilityGraph {
         Some(lattice)
     }
 
-    /// Places in narrow gaps on lines from corner to corner, at least `apart_m` from each other. Places that divide a
-    /// line evenly come first, so that its ends are among them.
+    /// Returns places in narrow gaps on lines from corner to corner, at least `apart_m` metres from each other. Places
+    /// that divide a line evenly are tried first, so that the ends of the line are among them.
     fn in_gaps(&self, instance: &Instance, apart_m: f64) -> Vec<Vec2> {
         let mut gaps: Vec<Vec2> = Vec::new();
         for step_m in [apart_m * EVEN, FILL_STEP_M] {
@@ -100,7 +102,8 @@ impl VisibilityGraph {
         gaps
     }
 
-    /// Corners of the shortest path from one place to another; `None` where there is none.
+    /// Returns the corners of the shortest path between two places, with both places, stage metres; `None` if there is
+    /// no path. The path has at least one corner of a wall on it.
     pub fn path(&self, instance: &Instance, start: Vec2, end: Vec2) -> Option<Vec<Vec2>> {
         let sources = seen(instance, &self.places, start);
         let sources = sources.into_iter().map(|at| (at, start.distance(self.place(at))));
@@ -129,7 +132,8 @@ impl Graph for VisibilityGraph {
     }
 }
 
-/// Whether the gaps between a robot and the two nearest walls or edges add up to less than [`NARROW_M`].
+/// Whether the two smallest gaps between a robot at `place` and walls or edges of the floor add up to less than
+/// [`NARROW_M`].
 fn is_narrow(instance: &Instance, place: Vec2) -> bool {
     let edges = [instance.inner.x - place.x.abs(), instance.inner.y - place.y.abs()];
     let off_walls = (0..instance.walls.len()).map(|wall| instance.off_wall(wall, place).0);
@@ -139,12 +143,13 @@ fn is_narrow(instance: &Instance, place: Vec2) -> bool {
     two.0 + two.1 < NARROW_M
 }
 
+/// Indices of the places to which a robot can drive straight from `from`.
 fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<u32> {
     let is_seen = |&at: &u32| instance.is_way_free(from, places[at as usize], VISIBILITY_M - 1e-5);
     (0..places.len() as u32).filter(is_seen).collect()
 }
 
-/// Corners of the polygon around a wall whose sides keep `off_m` from the wall.
+/// Corners of the polygon around a wall whose sides are `off_m` metres from the wall.
 fn around(wall: &Obstacle, off_m: f64) -> Vec<Vec2> {
     match *wall {
         Obstacle::Disc { at, radius_m } => {

@@ -1,4 +1,4 @@
-//! Issues that planning finds in the frames of a show.
+//! Issues (errors and warnings for the user) that planning finds in the frames of a show.
 
 use crate::margins::MARGIN_M;
 use crate::transition::touching;
@@ -6,8 +6,8 @@ use crate::{BindingIssue, Bindings, BoundFrame, Infeasible, Transition};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
-/// Adds the issues that no plan can solve: too few robots, pixels that touch, or that are off the floor or in
-/// obstacles.
+/// Adds errors of frame `index` that no plan can solve: too few robots, or pixels that are too close to each other, to
+/// the floor's edge or to no-go areas. `dark`: ids of pixels without a robot.
 pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], issues: &mut Issues) {
     let frame = &show.frames[index];
     let name = name_of(show, index);
@@ -45,7 +45,7 @@ pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], i
     list("in-obstacle", &format!("robots need {:.0} mm to no-go areas", radius * 1e3), ids(&blocked), issues);
 }
 
-/// The issue of a frame without a plan.
+/// Returns the error for a frame to which no legal drive was found.
 pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], infeasible: &Infeasible) -> Issue {
     let ids: Vec<u32> =
         infeasible.goals.iter().filter_map(|&goal| pixels.get(goal)).map(|pixel| pixel.id).collect();
@@ -58,13 +58,13 @@ pub(super) fn no_plan(show: &Show, index: usize, pixels: &[&Pixel], infeasible: 
     Issue::error("no-plan", message).in_frame(index).with_pixels(ids)
 }
 
-/// The issue of a drive that is not the one that the show prescribes.
+/// Returns the warning for a drive that is not the drive that the show prescribes.
 pub(super) fn not_as_prescribed(show: &Show, index: usize, why: &str) -> Issue {
     let message = format!("the drive to {} is an ordinary one: {why}", name_of(show, index));
     Issue::warning("not-as-prescribed", message).in_frame(index)
 }
 
-/// The issue of a drive that takes longer than the frame asks for.
+/// Returns the warning for a drive that takes longer than the frame asks for.
 pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64) -> Issue {
     let name = name_of(show, index);
     let message = format!(
@@ -73,10 +73,10 @@ pub(super) fn takes_longer(show: &Show, index: usize, asked_s: f64, takes_s: f64
     Issue::warning("takes-longer", message).in_frame(index)
 }
 
-/// Largest deviation from its absolute time with which a frame still begins in time, seconds.
+/// Largest deviation of a frame's begin from its absolute time that gets no warning, seconds.
 const IN_TIME_S: f64 = 0.05;
 
-/// Adds a warning for each frame that does not begin at its absolute time, with a remedy.
+/// Adds a warning for each frame that does not begin at its absolute time (`Frame::at_s`), with a remedy.
 pub(super) fn of_nails(show: &Show, transitions: &[Transition], issues: &mut Issues) {
     let mut begins_s = 0.0;
     for (index, (frame, transition)) in show.frames.iter().zip(transitions).enumerate() {
@@ -100,7 +100,7 @@ pub(super) fn of_nails(show: &Show, transitions: &[Transition], issues: &mut Iss
     }
 }
 
-/// Adds an issue if pixels ask for more names than there are robots, and it is not known which robot has which name.
+/// Adds an error if pixels ask for more names than there are robots, and it is not known which robot has which name.
 pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: &mut Issues) {
     let names = robots_asked_for(show);
     if !bindings.names_known && names > robots {
@@ -109,7 +109,7 @@ pub(super) fn of_names(show: &Show, robots: usize, bindings: &Bindings, issues: 
     }
 }
 
-/// Adds the issues of unexpected bindings in a frame.
+/// Adds an issue for each problem of the bindings of pixels to robots in a frame.
 pub(super) fn of_bound_frame(show: &Show, frame: usize, bound: &BoundFrame<'_>, issues: &mut Issues) {
     for &(id, issue) in &bound.issues {
         let pixel = show.frames[frame].pixels.iter().find(|pixel| pixel.id == id);
@@ -140,7 +140,7 @@ fn name_of(show: &Show, index: usize) -> String {
     frame_label(index, &show.frames[index].name)
 }
 
-/// The first few ids as text.
+/// Lists the first eight ids as text, and counts the others.
 fn few(ids: &[u32]) -> String {
     let mut text: Vec<String> = ids.iter().take(8).map(u32::to_string).collect();
     if ids.len() > 8 {

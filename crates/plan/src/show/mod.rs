@@ -1,5 +1,5 @@
-//! Plans a whole show: transition 0 leads from the places of the robots to frame 0, each further one from frame to
-//! frame.
+//! Plans a whole show. Transition 0 leads from the places of the robots to frame 0, and transition k from frame k − 1
+//! to frame k.
 
 mod issues;
 #[cfg(test)]
@@ -20,35 +20,37 @@ use std::sync::{Mutex, PoisonError};
 /// Options for planning a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowOptions {
-    /// Overrides the identity of the show and its frames.
+    /// Overrides the identity setting of the show and of all frames: whether a pixel id is the same robot in every
+    /// frame. `None` keeps the setting.
     pub identity: Option<Identity>,
-    /// `robots[start]`: name of the robot there, for pixels that ask for a robot by name. Empty if names are not known
-    /// yet. The planner then chooses a robot for each name, which is the same in every frame.
+    /// `robots[start]`: name of the robot at that start, for pixels that ask for a robot by name. Empty if names are
+    /// not known yet. The planner then chooses one robot for each name, for all frames.
     pub robots: Vec<String>,
-    /// Leaves out the second pass, for previews: stop-safety is neither raised nor measured, and absolute times are not
-    /// checked. The paths are still proven.
+    /// For previews: stop-safety is neither raised nor measured, and absolute times of frames are not checked. The
+    /// paths are still proven.
     pub as_preview: bool,
 }
 
 /// The plan of a show.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShowPlan {
-    /// `transitions[k]` leads to frame k. Empty if the show has validation errors. With any other error among `issues`,
+    /// `transitions[k]` leads to frame k. Empty if the show has validation errors. If `issues` has any other error,
     /// transitions are for drawing only, because not all are proven.
     pub transitions: Vec<Transition>,
-    /// `mapping[k][robot]`: id of the pixel that the robot shows in frame k; `None` if the robot is spare.
+    /// `mapping[k][robot]`: id of the pixel that the robot shows in frame k; `None` if the robot shows none.
     pub mapping: Vec<Vec<Option<u32>>>,
-    /// Index of the robot to which each name belongs.
+    /// Names of robots; each value is the index of the robot.
     pub names: BTreeMap<String, usize>,
-    /// Issues of the show. With an error among them, the plan must not be played.
+    /// Problems of the show and its plan. If one of them is an error, the plan must not be played.
     pub issues: Issues,
     /// Duration of the show, seconds: the sum of all transitions and air times.
     pub duration_s: f64,
     /// Lower bound of `duration_s`, seconds: the sum of the transitions' lower bounds and all air times.
     pub lower_bound_s: f64,
-    /// The closest approach of two centres in the whole show.
+    /// The closest approach of two centres in the whole show; `None` if no transition has one.
     pub closest: Option<ShowClosest>,
-    /// `stop_safety[k]`: the moments of transition k at which robots may stop dead. Empty for a preview.
+    /// `stop_safety[k]`: the moments of transition k at which robots must not stop dead, because another robot would
+    /// touch them. Empty for a preview.
     pub stop_safety: Vec<StopSafety>,
     /// `explanations[k]`: the solvers that ran for transition k, and why its plan was chosen.
     pub explanations: Vec<Explanation>,
@@ -57,9 +59,9 @@ pub struct ShowPlan {
 /// The closest approach of two centres in a show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShowClosest {
-    /// Index of the transition.
+    /// Index of the transition in which they are closest.
     pub transition: usize,
-    /// The two robots, with distance, place and moment.
+    /// The two robots, their distance, place and moment.
     pub closest: Closest,
 }
 
@@ -69,13 +71,15 @@ impl ShowPlan {
         !self.issues.iter().any(Issue::is_error)
     }
 
-    /// Share of the moments of driving robots at which they may stop dead, 0 to 1.
+    /// Share of the sampled moments of driving robots at which they may stop dead without a contact, 0 to 1. It is 1 if
+    /// stop-safety was not measured.
     pub fn stop_safe_share(&self) -> f64 {
         let sum = |count: fn(&StopSafety) -> usize| self.stop_safety.iter().map(count).sum::<usize>();
         1.0 - sum(|safety| safety.unsafe_moments.len()) as f64 / sum(|safety| safety.moments).max(1) as f64
     }
 
-    /// Returns the transition and moment at which a robot that stops dead leaves another the least room to stop.
+    /// Returns the unsafe moment with the greatest `missing_m`, and the index of its transition. `None` if all moments
+    /// are safe.
     pub fn least_stop_safe(&self) -> Option<(usize, &UnsafeMoment)> {
         let worst = self.stop_safety.iter().enumerate();
         let worst = worst.filter_map(|(transition, safety)| Some((transition, safety.worst()?)));
@@ -83,14 +87,14 @@ impl ShowPlan {
     }
 }
 
-/// Plans a show for robots at `starts` (stage metres). Planning never fails: an impossible frame becomes an issue. A
-/// show in which [`validate`] finds errors is not planned; the issues are these errors.
+/// Plans a show for robots at `starts` (stage metres). Planning always returns a plan: a frame without a legal drive
+/// becomes an issue. A show in which [`validate`] finds errors is not planned; the issues of its plan are these errors.
 pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     planned(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
 /// [`show`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called about every tenth of a second on
-/// this thread, and must be cheap.
+/// the calling thread, and must be cheap.
 pub fn show_unless(
     show: &Show,
     starts: &[Vec2],
@@ -100,7 +104,7 @@ pub fn show_unless(
     show_with(&OneThread, show, starts, options, is_wanted)
 }
 
-/// [`show_unless`] with several threads. The plan is the same, bit for bit, with any number of them.
+/// [`show_unless`] on several threads, by `workers`. The plan is the same, bit for bit, for any number of threads.
 pub fn show_with(
     workers: &dyn Workers,
     show: &Show,
@@ -149,16 +153,17 @@ fn whole(
     plan
 }
 
-/// A drive before its stop-safety is raised.
+/// The planned drive to a frame, before its stop-safety is raised.
 struct Drive {
     problem: TransitionProblem,
     transition: Transition,
     is_infeasible: bool,
-    /// `[robot]`: id of the pixel that it shows.
+    /// `[robot]`: id of the pixel that the robot shows; `None` if it shows none.
     shown: Vec<Option<u32>>,
 }
 
-/// Raises the stop-safety of all drives. The ends of paths stay the same, so each drive is an independent task.
+/// Raises and measures the stop-safety of all drives. The ends of paths stay the same, so each drive is an independent
+/// task. Returns for each drive what its robots show, its transition and its stop-safety.
 fn all_raised(
     drives: Vec<Drive>,
     workers: &dyn Workers,
@@ -167,7 +172,7 @@ fn all_raised(
     let slots: Vec<Mutex<(Drive, StopSafety)>> =
         drives.into_iter().map(|drive| Mutex::new((drive, StopSafety::default()))).collect();
     workers.each(slots.len(), &|| cancel.is_wanted(), &|index, is_wanted| {
-        // Each slot belongs to one task, so a lock is never poisoned by another.
+        // Each slot belongs to a single task, so no other task can poison its lock.
         let mut slot = slots[index].lock().unwrap_or_else(PoisonError::into_inner);
         let (drive, safety) = &mut *slot;
         if !drive.is_infeasible {
@@ -179,7 +184,7 @@ fn all_raised(
 }
 
 /// Plans the drives of a show that has no validation errors, each from the end of the drive before it. Their
-/// stop-safety is not raised yet. The returned plan does not contain the drives.
+/// stop-safety is not raised yet. The returned plan has issues, names and explanations, but not the drives.
 fn chained(
     show: &Show,
     starts: &[Vec2],

@@ -1,36 +1,40 @@
-//! Facts that decide which groups and rows of the schedule run.
+//! The values that decide which groups and rows of the schedule run.
 
-/// Factor on the least duration: an acceptable solution takes less than this many times the least plus
-/// [`ACCEPTABLE_MORE_S`].
+/// A solution is acceptable if it lasts less than `ACCEPTABLE` × the least duration + [`ACCEPTABLE_MORE_S`].
 const ACCEPTABLE: f64 = 4.0;
-/// Time that an acceptable solution may take in addition, seconds.
+/// Seconds added to that bound, so that short drives are not rejected.
 const ACCEPTABLE_MORE_S: f64 = 4.0;
-/// Factor on the least duration: a slow solution takes more than this many times the least plus [`SLOW_MORE_S`]. An
-/// order from a lattice may then be faster.
+/// A solution is slow if it lasts more than `SLOW` × the least duration + [`SLOW_MORE_S`]. A solution over a lattice
+/// may then be faster.
 const SLOW: f64 = 1.8;
-/// Time that a solution that is not slow may take in addition, seconds.
+/// Seconds added to that bound, so that short drives do not count as slow.
 const SLOW_MORE_S: f64 = 1.5;
 
-/// Facts on which the schedule's conditions depend.
+/// The values on which the schedule's conditions and targets depend.
 pub(super) struct Facts {
+    /// Whether there are too many robots to compare solutions.
     pub is_large: bool,
+    /// Whether there are many robots and the best guess needs much additional time.
     pub promises_little: bool,
     pub has_walls: bool,
+    /// Whether there is no solution, and even the best row left more contacts than additional time is expected to
+    /// resolve.
     pub is_hopeless: bool,
     pub is_solved: bool,
-    /// Whether the best solution has less than the usual clearance between walls.
+    /// Whether the best solution was found between walls with less than the usual clearance of robots.
     pub is_close: bool,
-    /// Duration of the best solution with its penalty, seconds; infinite where there is none.
+    /// Duration of the best solution, seconds, multiplied by a penalty if it `is_close`; infinite if there is no
+    /// solution.
     pub lasts_s: f64,
     /// Duration of the longest path at full speed, seconds.
     pub least_s: f64,
-    /// Work that is left.
+    /// Work that is left, in units of [`super::schedule::Budget`].
     pub work: usize,
-    /// Rows of the group that have run.
+    /// Number of rows of the current group that have run.
     pub tries: usize,
-    /// Whether a row of the group made the best solution faster.
+    /// Whether a row of the current group made the best solution faster.
     pub is_faster: bool,
-    /// Whether a row of the group before its last one made the best solution faster.
+    /// Whether a row of the current group made the best solution faster that was not the last to run.
     pub was_faster: bool,
 }
 

@@ -1,4 +1,4 @@
-//! First guess from a solution over the lattice, in which no two robots meet.
+//! First guess from a multi-agent path finding over a lattice, in which no two robots meet.
 
 use lightbots_base::Vec2;
 
@@ -10,8 +10,8 @@ use crate::roads::graph::NONE;
 use crate::roads::lattice::Lattice;
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// Makes splines from a solution over the lattice, at a speed at which corners are about legal. `None` if there is no
-/// solution.
+/// Makes splines from a multi-agent path finding over the lattice. Their speed is about the greatest at which the
+/// corners of lattice paths are legal. `None` if the search finds no solution.
 pub(crate) fn from_lattice(instance: &Instance, lattice: &Lattice) -> Option<SplineSet> {
     let starts = assign_nodes(instance, lattice, &instance.starts)?;
     let bound: Vec<usize> = (0..instance.robots()).filter(|&robot| instance.ends[robot].is_some()).collect();

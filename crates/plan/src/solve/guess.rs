@@ -1,4 +1,5 @@
-//! First guesses: all robots follow their shortest paths in one manner, and may overlap.
+//! First guesses: all robots follow their shortest paths in one [`Manner`], and may touch. A deformation separates them
+//! later. In this file, `moment` is a share of the drive's duration, 0 to 1.
 
 use lightbots_base::Vec2;
 use lightbots_show::Easing;
@@ -9,47 +10,48 @@ use crate::solve::path_set::{PathSet, crowding, point_along};
 use crate::spline::retime::{moments, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 
-/// Bows that guesses have, as shares of the length of a line; a negative bow is to the left.
+/// The bows of all guesses, as shares of the length of a line: positive to the right, negative to the left.
 const BOWS: [f64; 5] = [0.0, 0.12, 0.25, 0.5, -0.12];
-/// Share of the time in which a dense fleet spreads at the start. It gathers in an equal share at the end.
+/// Share of the duration in which a dense fleet spreads at the start. It gathers in an equal share at the end.
 const LOOSENED: f64 = 0.3;
-/// Ratio of the top speed to the mean speed while the fleet spreads.
+/// Ratio of the top speed to the mean speed of a robot while the fleet spreads.
 const GENTLE: f64 = 1.5;
-/// Moments at which congestion is measured.
+/// Number of equal steps of the duration, between which congestion is measured.
 const SAMPLES: usize = 16;
-/// Weight of excess speed in the badness of a guess, in which congestion has the weight 1.
+/// Weight of excess speed in the badness of a guess. Congestion has the weight 1.
 const RUSH: f64 = 0.03;
-/// Penalty on a guess for each of `early`, `level` and `spread` in its manner.
+/// Penalty on the badness of a guess for each of `early`, `level` and `spread` that its manner has.
 const ODD: f64 = 0.005;
-/// Largest badness of a guess that needs no additional time.
+/// Largest badness of a guess that is expected to need no additional time.
 const EASY: f64 = 0.1;
-/// Additional time for each unit of badness, as a share of the least duration.
+/// Additional time for each unit of badness above [`EASY`], as a share of the least duration.
 const STRETCH: f64 = 4.0;
-/// Most additional time of a guess, as a share of the least duration. Fleets of 1,000 robots mostly need more, but the
-/// deformation finds better moments for it.
+/// Most additional time of a guess, as a share of the least duration. Fleets of 1,000 robots mostly need more. The
+/// deformation adds it at better moments than a guess can.
 const MOST_STRETCH: f64 = 0.4;
-/// Parts of the time between two moments, for retiming.
+/// Number of parts into which the time between two measurements of congestion is divided for retiming.
 const PARTS: usize = 16;
 
-/// How robots follow their paths.
+/// How robots follow their shortest paths. By default, all robots have driven the same share of their paths at each
+/// moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Manner {
-    /// Sideways bow of straight lines, as a share of their length: to the right, or to the left if negative. Robots
-    /// that meet head-on then pass each other.
+    /// Sideways bow of straight lines, as a share of their length: to the right, or to the left if negative. With it,
+    /// robots that meet head-on pass each other.
     pub bow: f64,
-    /// Whether all robots drive equally fast and those with short paths arrive early. Then only a few meet at a time
-    /// where paths cross.
+    /// Whether all robots drive equally fast, so that robots with short paths arrive early. Then fewer robots meet at a
+    /// time where paths cross.
     pub early: bool,
-    /// Whether robots are kept from gathering in the middle.
+    /// Whether robots are kept from gathering in the middle of the fleet.
     pub level: bool,
-    /// Whether a dense fleet spreads on its way.
+    /// Whether a dense fleet spreads after the start and gathers before the end, while robots drive along their paths.
     pub spread: bool,
-    /// Whether the fleet spreads before any robot drives to its goal, and gathers only after all have arrived.
+    /// Whether the fleet spreads before any robot drives along its path, and gathers only after all have arrived.
     pub staged: bool,
 }
 
 impl Manner {
-    /// All manners of guesses in minimum time.
+    /// All manners that guesses in minimum time try.
     pub fn all() -> impl Iterator<Item = Self> {
         let flags = [false, true];
         let loose = flags.into_iter().flat_map(move |spread| flags.map(|level| (spread, level)));
@@ -60,21 +62,22 @@ impl Manner {
     }
 }
 
-/// Paths in one manner.
+/// A first guess: the shortest paths of all robots in one manner.
 pub(crate) struct Guess<'a> {
     path_set: &'a PathSet<'a>,
     pub manner: Manner,
     progress: ProgressLaw,
-    /// Rank of the guess: congestion, excess speed and the penalty of its manner; less is better.
+    /// Measure by which guesses are ranked: congestion, excess speed and the penalty of its manner. Less is better.
     pub badness: f64,
     /// The badness without the penalty of the manner.
     plain_badness: f64,
-    /// Congestion at each measured moment.
+    /// `[sample]`: congestion after that many of [`SAMPLES`] equal steps of the duration; 0 at the start and at the
+    /// end.
     congestion: [f64; SAMPLES + 1],
 }
 
 impl<'a> Guess<'a> {
-    /// The guess of a manner. Pairs closer than `near_m` are congestion.
+    /// The guess of a manner. Pairs of robots with centres closer than `near_m` metres count as congestion.
     pub fn new(path_set: &'a PathSet<'a>, easing: Easing, manner: Manner, near_m: f64) -> Self {
         let longer = 1.0 + 2.0 * manner.bow * manner.bow;
         let progress = ProgressLaw::new(path_set.longest_m, &path_set.instance.limits, easing, longer);
@@ -87,15 +90,15 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// Whether another guess has the same paths: its manner differs at most in `early`, and its badness without penalty
-    /// is equal.
+    /// Whether another guess has the same trajectories: its manner differs at most in `early`, and its badness without
+    /// penalty is equal.
     pub fn is_like(&self, other: &Self) -> bool {
         let timed = |guess: &Self| Manner { early: true, ..guess.manner };
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
-    /// Returns the guess as splines with spans of about `span_s` seconds, which last `stretch` times as long as at full
-    /// speed. Moments with congestion get more of this time.
+    /// Returns the guess as splines with spans of about `span_s` seconds. They last `stretch` times as long as at full
+    /// speed. Moments with congestion get more of the additional time.
     pub fn splines(&self, stretch: f64, span_s: f64) -> SplineSet {
         let parts = SAMPLES * PARTS;
         let congestion = (0..parts).map(|part| {
@@ -108,13 +111,14 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// The guess as splines that take `drive_s` seconds, with spans of about `span_s`.
+    /// Returns the guess as splines that last `drive_s` seconds, with spans of about `span_s` seconds.
     pub fn splines_lasting(&self, drive_s: f64, span_s: f64) -> SplineSet {
         let evenly = |spans: usize| (0..=spans).map(|step| step as f64 / spans as f64).collect();
         self.splines_through(drive_s, span_s, evenly)
     }
 
-    /// Returns the guess as splines through the places at `moments(spans)`: shares of the time, one more than spans.
+    /// Returns the guess as splines whose control points are the robots' places at `moments(spans)`. These are shares
+    /// of the duration, one more than there are spans.
     fn splines_through(&self, drive_s: f64, span_s: f64, moments: impl Fn(usize) -> Vec<f64>) -> SplineSet {
         let spans = ((drive_s / span_s).ceil() as usize).clamp(6, MOST_SPANS);
         let places: Vec<Vec<Vec2>> =
@@ -124,12 +128,12 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// Returns the time scale that a guess of this badness is expected to need.
+    /// Returns the factor on the least duration that a guess of this badness is expected to need.
     pub fn stretch(&self) -> f64 {
         1.0 + ((self.badness - EASY) * STRETCH).clamp(0.0, MOST_STRETCH)
     }
 
-    /// Least duration in this manner, seconds.
+    /// Least duration of the drive in this manner, seconds.
     pub fn least_s(&self) -> f64 {
         if self.manner.staged {
             let out_s = GENTLE * self.path_set.farthest_loosened() / self.path_set.instance.limits.speed_mps;
@@ -139,14 +143,14 @@ impl<'a> Guess<'a> {
         }
     }
 
-    /// Returns the share of the longest path that is done after a share of the time.
+    /// Returns the share of the longest path that is done at `moment`.
     fn share(&self, moment: f64) -> f64 {
         let within = (moment - LOOSENED) / (1.0 - 2.0 * LOOSENED);
         let moment = if self.manner.staged { within.clamp(0.0, 1.0) } else { moment };
         self.progress.share(moment * self.progress.drive_s)
     }
 
-    /// Places of all robots after a share of the time.
+    /// Places of all robots at `moment`, stage metres.
     fn places(&self, moment: f64) -> Vec<Vec2> {
         let share = self.share(moment);
         let mut places: Vec<Vec2> =
@@ -161,7 +165,7 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// Returns [`Self::places`], but leaves a robot on its path if it would be in a wall.
+    /// Returns [`Self::places`], but puts a robot that would be in a wall on its shortest path.
     fn free_places(&self, moment: f64) -> Vec<Vec2> {
         let mut places = self.places(moment);
         if !self.path_set.instance.walls.is_empty() {
@@ -176,7 +180,7 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// Returns the share of a robot's path that is done when the share `share` of the longest path is done.
+    /// Returns the share of the robot's own path that is done when the share `share` of the longest path is done.
     fn share_of(&self, robot: usize, share: f64) -> f64 {
         let length = self.path_set.lengths[robot];
         if self.manner.early && length > 0.0 {
@@ -186,6 +190,8 @@ impl<'a> Guess<'a> {
         }
     }
 
+    /// Returns a robot's place when the share `share` of the longest path is done, with the bow of its manner, stage
+    /// metres.
     fn place(&self, robot: usize, share: f64) -> Vec2 {
         let (path, length) = (&self.path_set.paths[robot], self.path_set.lengths[robot]);
         let share = self.share_of(robot, share);
@@ -201,7 +207,7 @@ impl<'a> Guess<'a> {
         }
     }
 
-    /// Badness without the penalty, and congestion at each moment.
+    /// Returns the badness without the penalty of the manner, and the congestion at each measured moment.
     fn judged(&self, near_m: f64) -> (f64, [f64; SAMPLES + 1]) {
         let robots = self.path_set.paths.len().max(1) as f64;
         let step_m = self.path_set.instance.limits.speed_mps * self.progress.drive_s / SAMPLES as f64;

@@ -1,4 +1,5 @@
-//! First guesses of one problem, ranked by their badness.
+//! First guesses of one problem, ranked by their badness. A first guess is a set of paths on which robots may still
+//! touch.
 
 use super::guess::{Guess, Manner};
 use super::path_set::PathSet;
@@ -8,14 +9,14 @@ use crate::instance::Instance;
 use crate::motion::progress::ProgressLaw;
 use crate::optimise::contacts::Clearances;
 
-/// Penalty in addition to [`Guess::badness`] if the manner of a guess differs from that of a better guess only in its
-/// bow.
+/// Penalty on the badness of a guess in [`Guesses::diverse`] if its manner differs from that of a better guess only in
+/// the bow.
 const ALIKE: f64 = 0.06;
 
-/// Paths and first guesses of one problem in which all robots have paths.
+/// Shortest paths and first guesses of one problem. Every robot has a path.
 pub(super) struct Guesses<'a> {
     pub path_set: &'a PathSet<'a>,
-    /// First guesses, the most promising first.
+    /// First guesses, the least badness first.
     pub ranked: Vec<Guess<'a>>,
     /// Duration of the longest path at full speed, seconds.
     pub least_s: f64,
@@ -33,7 +34,8 @@ impl<'a> Guesses<'a> {
         Self { path_set, ranked, least_s }
     }
 
-    /// Returns the guess of a row in minimum time. `None` if another row has this guess already, or none has that rank.
+    /// Returns the guess that a row in minimum time takes. `None` for a rank that no guess has, and for [`Pick::Plain`]
+    /// if [`Pick::Best`] is the same guess.
     pub fn pick(&self, pick: Pick) -> Option<&Guess<'a>> {
         let best = self.ranked.first()?;
         match pick {
@@ -44,8 +46,9 @@ impl<'a> Guesses<'a> {
         }
     }
 
-    /// Returns the guesses in another order: those that differ from a better one only in their bow come later. If the
-    /// better one fails, they mostly fail too. Of several guesses with equal paths, only one is returned.
+    /// Returns the guesses in another order: a guess that differs from a better guess only in its bow comes later,
+    /// because it mostly fails if the better one fails. Of several guesses with equal trajectories, only the best is
+    /// returned.
     pub fn diverse(&self) -> Vec<&Guess<'a>> {
         let all = &self.ranked;
         let straight = |at: usize| Manner { bow: 0.0, ..all[at].manner };
@@ -59,7 +62,7 @@ impl<'a> Guesses<'a> {
     }
 }
 
-/// Describes a manner and clearances in a few words.
+/// Describes a manner and clearances in a few words, for the explanation.
 pub(super) fn named(manner: Manner, clearances: Clearances) -> String {
     let Manner { bow, early, level, spread, staged } = manner;
     let flags = [(early, "early"), (level, "level"), (spread, "spread"), (staged, "staged")];

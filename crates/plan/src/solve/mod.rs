@@ -1,13 +1,14 @@
-//! Timed paths where straight lines conflict: close pixels, fixed identity, walls, standing and spare robots.
+//! Timed paths for drives in which robots on straight lines would touch: close pixels, fixed identity, walls, standing
+//! and spare robots.
 //!
-//! [`schedule`] is a table of solvers, and [`run`] goes through it. Most solvers make a first guess, in which robots
-//! may overlap, and deform it until there is no contact ([`crate::optimise`]). Paths are splines, one for each robot,
-//! all on one clock. First guesses are shortest paths in one manner ([`guess`]), or the order of a solution over a
-//! lattice ([`from_lattice`]). The last resort is stop-and-go over a roadmap ([`stop_and_go`]): it is slow, but
+//! [`schedule`] is a table of solvers, and [`run`] goes through it. Most solvers make a first guess, on which robots
+//! may touch, and deform it until there is no contact ([`crate::optimise`]). Paths are splines, one for each robot, all
+//! on one clock. First guesses are shortest paths in one manner ([`guess`]), or paths of a multi-agent path finding
+//! over a lattice ([`from_lattice`]). The last resort is stop-and-go over a roadmap ([`stop_and_go`]): it is slow, but
 //! complete on its nodes and needs no deformation.
 //!
-//! All distances are those of the Elisa-3; robots of other sizes are scaled to it first ([`scale`]). Every loop is
-//! bounded, nothing is random, and the proof decides ([`verify`]).
+//! All distances are those of the Elisa-3; problems with robots of other sizes are scaled to it first ([`scale`]).
+//! Every loop is bounded, nothing is random, and the proof decides whether paths are accepted ([`verify`]).
 
 mod facts;
 mod from_lattice;
@@ -30,16 +31,16 @@ use crate::{Meeting, Repaired, TransitionProblem};
 pub(crate) use run::Solution;
 use scale::Scale;
 
-/// Finds collision-free timed paths for a given assignment. `goal_of[start]` is the goal of that robot, or `None` for a
-/// spare robot, which may step aside.
+/// Finds collision-free timed paths for a given assignment. `goal_of[start]` is the index of the goal of that robot, or
+/// `None` for a spare robot, which may step aside.
 ///
-/// If there are none, returns the meetings of the row of the schedule that left the fewest. They are empty if that row
-/// failed for another reason.
+/// If no solver finds paths, returns the pairs of robots that still touch in the row of the schedule that left the
+/// fewest. The list is empty if that row failed for another reason.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     solve(problem, goal_of, Cancel::NEVER).result
 }
 
-/// [`repair`] with an explanation. The result means nothing if the planner is cancelled.
+/// [`repair`] with an explanation and a cancellation. The result means nothing if the planner is cancelled.
 pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Solution {
     let mut explanation = Explanation::default();
     for scale in Scale::of(&problem.limits) {
@@ -47,7 +48,8 @@ pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], canc
         explanation.append(rows);
         let Ok(found) = result else { continue };
         let found = scale.repaired(problem, goal_of, found);
-        // The proof is needed again, because the speed below which robots may turn freely does not scale.
+        // The scaled problem has a proof already. It does not suffice, because the speed below which robots may turn
+        // freely does not scale.
         if prove_unless(&problem.to_prove(&found.paths), cancel).holds() {
             return Solution { result: Ok(found), explanation };
         }
@@ -57,7 +59,7 @@ pub(crate) fn solve(problem: &TransitionProblem, goal_of: &[Option<usize>], canc
     Solution { result, explanation }
 }
 
-/// [`solve`] without scaling the robots to the Elisa-3.
+/// [`solve`] without scaling the problem to the Elisa-3's size.
 fn unscaled(problem: &TransitionProblem, goal_of: &[Option<usize>], cancel: Cancel<'_>) -> Solution {
     match Instance::new(problem, goal_of) {
         Some(instance) => run::run(problem, &Instance { cancel, ..instance }),

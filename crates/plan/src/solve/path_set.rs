@@ -1,29 +1,30 @@
-//! The shortest paths of all robots, and how a dense fleet is kept from gathering or spread out on them.
+//! The shortest paths of all robots, and two displacements of a dense fleet on them: `level` keeps it from gathering in
+//! the middle, `loosen` spreads it.
 
 use lightbots_base::Vec2;
 
 use crate::instance::Instance;
 use crate::optimise::cells::{Cells, Disc};
 
-/// Share by which robots are moved towards an even spread.
+/// Share of the distance to its evenly spread place by which [`PathSet::level`] moves a robot.
 const LEVELLED: f64 = 0.6;
-/// Distance between neighbours in a spread fleet, metres.
+/// Mean distance between neighbours that a spread fleet aims at, metres.
 const LOOSE_M: f64 = 0.14;
 
 /// The shortest paths of all robots.
 pub(crate) struct PathSet<'a> {
     pub instance: &'a Instance<'a>,
-    /// Corners of each path.
+    /// `[robot]`: the corners of its path, from its start to its end, stage metres.
     pub paths: &'a [Vec<Vec2>],
-    /// Length of each path, metres.
+    /// `[robot]`: length of its path, metres.
     pub lengths: Vec<f64>,
     /// Length of the longest path, metres.
     pub longest_m: f64,
-    /// Coordinates of starts and of ends along each axis, sorted.
+    /// `[axis]`: coordinates of all starts and of all ends along x or y, each sorted, metres.
     spreads: [(Vec<f64>, Vec<f64>); 2],
-    /// The middle of all starts and ends, stage metres.
+    /// The middle of the rectangle around all starts and ends, stage metres.
     middle: Vec2,
-    /// Factor by which the fleet gets wider along each axis when it spreads.
+    /// Factor along each axis by which the fleet gets wider when it spreads, at least 1.
     wider: Vec2,
 }
 
@@ -46,8 +47,8 @@ impl<'a> PathSet<'a> {
         Self { instance, paths, lengths, longest_m, spreads, middle, wider }
     }
 
-    /// Moves places along both axes towards the spread of starts and ends. The place of rank k moves towards the line
-    /// from the k-th start to the k-th end.
+    /// Moves `places[robot]` along both axes towards an even spread, when the share `share` of the drive is done. Along
+    /// each axis, the place of rank k moves towards the line from the k-th start to the k-th end.
     pub fn level(&self, places: &mut [Vec2], share: f64) {
         for (axis, (starts, ends)) in self.spreads.iter().enumerate() {
             let of = |place: &Vec2| if axis == 0 { place.x } else { place.y };
@@ -61,7 +62,7 @@ impl<'a> PathSet<'a> {
         }
     }
 
-    /// The largest displacement when the fleet spreads where it starts, metres.
+    /// The farthest that a robot moves when the fleet fully spreads at its starts, metres.
     pub fn farthest_loosened(&self) -> f64 {
         let starts: Vec<Vec2> = self.paths.iter().map(|path| path[0]).collect();
         let mut loose = starts.clone();
@@ -69,7 +70,7 @@ impl<'a> PathSet<'a> {
         starts.iter().zip(&loose).map(|(from, to)| from.distance(*to)).fold(0.0, f64::max)
     }
 
-    /// Moves places outwards by a share of the full spread.
+    /// Moves `places[robot]` away from the middle, by the share `share` of the full spread.
     pub fn loosen(&self, places: &mut [Vec2], share: f64) {
         for (robot, place) in places.iter_mut().enumerate() {
             let out = *place - self.middle;
@@ -79,7 +80,8 @@ impl<'a> PathSet<'a> {
     }
 }
 
-/// The middle of all starts and ends, and the factor along each axis by which the fleet can spread on its floor.
+/// The middle of the rectangle around all starts and ends, and the factor along each axis by which the fleet can spread
+/// on its floor.
 fn room(instance: &Instance, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2) {
     let extent = |(starts, ends): &(Vec<f64>, Vec<f64>)| {
         let (Some(first), Some(last)) = (starts.first(), starts.last()) else { return (0.0, 0.0) };
@@ -97,7 +99,7 @@ fn room(instance: &Instance, spreads: &[(Vec<f64>, Vec<f64>); 2]) -> (Vec2, Vec2
     (middle, Vec2::new(wider(left, right, instance.inner.x), wider(front, back, instance.inner.y)))
 }
 
-/// Returns the congestion of places: each pair closer than `near_m` adds 1 minus its distance over `near_m`.
+/// Returns the congestion of `places`: each pair closer than `near_m` metres adds 1 − its distance / `near_m`.
 pub(crate) fn crowding(cells: &mut Cells, places: &[Vec2], near_m: f64) -> f64 {
     let disc = |(robot, &at): (usize, &Vec2)| Disc { at, radius: 0.0, owner: robot as u32 };
     let discs: Vec<Disc> = places.iter().enumerate().map(disc).collect();
@@ -111,8 +113,8 @@ pub(crate) fn length(path: &[Vec2]) -> f64 {
     path.windows(2).map(|segment| segment[0].distance(segment[1])).sum()
 }
 
-/// Returns the place `length_m` along a line through corners, or the end of a shorter line. A path has at least one
-/// corner.
+/// Returns the place at the length `length_m` along a line through corners, or the end of a shorter line. A path has at
+/// least one corner.
 pub(crate) fn point_along(path: &[Vec2], mut length_m: f64) -> Vec2 {
     for segment in path.windows(2) {
         let length = segment[0].distance(segment[1]);

@@ -1,4 +1,4 @@
-//! Runs the schedule until a plan is good enough or the budget is spent.
+//! Runs the schedule of solvers for one problem, and chooses among the solutions.
 
 use std::cell::OnceCell;
 
@@ -27,40 +27,42 @@ use crate::roads::visibility::{MOST_WALLS, VisibilityGraph};
 use crate::spline::set::SplineSet;
 use crate::{Meeting, Path, Repaired, TransitionProblem};
 
-/// Length of a span that first guesses aim at, seconds: the smallest curve at full speed takes as long.
+/// Length of a span that first guesses aim at, seconds: the time that the smallest curve takes at full speed.
 const SPAN_S: f64 = 0.25;
-/// Length of a span in first guesses of large fleets, seconds: fewer spans are less work.
+/// Length of a span in first guesses of large fleets, seconds: longer, because fewer spans are less work.
 const LONG_SPAN_S: f64 = 0.33;
-/// Meetings for each robot above which slack does not help.
+/// Number of meetings per robot above which slack does not help. A meeting is a pair of robots that still touch.
 const HOPELESS: usize = 3;
-/// Most robots for which solutions are compared. With more, the first acceptable solution is taken.
+/// Most robots for which several solutions are compared. With more robots, the first acceptable solution is taken.
 const MOST_TO_COMPARE: usize = 600;
-/// Above this number of robots, successive halving runs first if the best guess needs more than [`LITTLE_PROMISED`]
+/// With more robots than this, successive halving runs first if the best guess needs more than [`LITTLE_PROMISED`]
 /// times the least duration.
 const MANY: usize = 350;
-/// Time scale of the best guess above which it promises little.
+/// Time scale above which the best guess counts as slow; see [`MANY`].
 const LITTLE_PROMISED: f64 = 1.16;
-/// Guesses that take part in the first round of successive halving.
+/// Number of guesses in the first round of successive halving.
 const RACERS: usize = 2;
-/// Sweeps of each guess in the first round.
+/// Number of sweeps of each guess in the first round.
 const FIRST_SWEEPS: usize = 7;
-/// Number of contacts for each robot below which a guess ends the first round: no other guess is tried.
+/// If a guess leaves fewer contacts per robot than this, the first round ends: no other guess takes part.
 const PROMISING: usize = 6;
-/// Factor on the contacts of the guess that was ranked first, when guesses are compared after the first round.
+/// Factor on the number of contacts of the highest-ranked guess when guesses are compared after the first round. It
+/// favours this guess.
 const HEAD_START: f64 = 0.9;
-/// Rounds in which robots with illegal motion are smoothed and the contacts that follow are resolved.
+/// Number of rounds in which splines with illegal motion are smoothed, and contacts that follow are resolved.
 const AMENDMENTS: usize = 4;
-/// Sweeps of each of those rounds.
+/// Most sweeps of each of those rounds.
 const AMENDING_SWEEPS: usize = 72;
-/// Factor on the duration of a solution between walls with less than [`WIDE`] clearance, as a penalty: one robot that
-/// brakes there blocks others.
+/// Ranking penalty: between walls, a solution whose robots are closer than [`WIDE`] counts as 25 % longer, because one
+/// braking robot blocks others there.
 const CLOSE: f64 = 1.25;
 
 /// A solution that the proof accepts.
 struct Candidate {
+    /// Index of its row in `Run::rows`.
     row: usize,
     solution: Trajectories,
-    /// Duration with its penalty, seconds.
+    /// Duration multiplied by its penalty, seconds.
     lasts_s: f64,
     is_close: bool,
 }
@@ -72,8 +74,8 @@ enum Trajectories {
 
 /// The result of a run of the schedule.
 pub(crate) struct Solution {
-    /// The chosen paths, or the meetings of the row that left the fewest. These are empty if that row failed for
-    /// another reason.
+    /// The chosen paths, or the pairs of robots that still touch in the row that left the fewest. These are empty if
+    /// that row failed for another reason.
     pub result: Result<Repaired, Vec<Meeting>>,
     pub explanation: Explanation,
 }
@@ -108,12 +110,12 @@ struct Run<'a> {
     instance: &'a Instance<'a>,
     visibility: &'a OnceCell<VisibilityGraph>,
     guesses: Option<&'a Guesses<'a>>,
-    /// Work that is left, in units of [`Budget`].
+    /// Work that is left for the groups of the schedule, in units of [`Budget`].
     work: usize,
-    /// Number of pairs of moves that stop-and-go may still check.
+    /// Number of checks of two robots' moves that stop-and-go may still make.
     looks: usize,
     candidates: Vec<Candidate>,
-    /// Meetings of the row that left the fewest.
+    /// Pairs of robots that still touch in the row that left the fewest, at least one if any row left some.
     left_over: Vec<Meeting>,
     rows: Vec<ExplainedRow>,
 }
@@ -143,13 +145,13 @@ impl Run<'_> {
         self.instance.robots() > MOST_TO_COMPARE
     }
 
-    /// Whether there are walls, and few enough for a visibility graph.
+    /// Whether there are walls, and few enough of them for a visibility graph.
     fn has_walls(&self) -> bool {
         (1..=MOST_WALLS).contains(&self.instance.walls.len())
     }
 
-    /// The fastest solution, on which the schedule's conditions depend. The choice among all solutions is made at the
-    /// end.
+    /// The fastest solution so far by `lasts_s`, on which the schedule's conditions depend. The final choice is made in
+    /// [`Run::outcome`] by the order on candidate plans.
     fn fastest(&self) -> Option<&Candidate> {
         self.candidates.iter().min_by(|one, other| one.lasts_s.total_cmp(&other.lasts_s))
     }
@@ -158,7 +160,8 @@ impl Run<'_> {
         self.instance.cancel.is_wanted()
     }
 
-    /// Runs the rows of a group until its target is reached, or reports the group as skipped.
+    /// Runs the rows of a group until its target is reached. If its condition does not hold, reports the group as
+    /// skipped.
     fn group(&mut self, group: &Group) {
         let facts = self.facts();
         let needs_guesses = !matches!(group.rows[0].solver, Solver::StopAndGo { .. });
@@ -188,7 +191,8 @@ impl Run<'_> {
         }
     }
 
-    /// Runs a row. Returns whether it counts as a try.
+    /// Runs a row. `tries`: number of rows of the group that ran before. Returns `false` if the row has no guess and
+    /// thus did not run.
     fn row(&mut self, row: &SolverRow, tries: usize) -> bool {
         let (wide, is_large) = (WIDE.robots_m, self.is_large());
         let SolverRow { solver, clearances, stretch, sweeps } = *row;
@@ -233,12 +237,12 @@ impl Run<'_> {
         }
     }
 
-    /// Deforms some guesses by a few sweeps each. Then finishes the one with the fewest contacts, and the others until
-    /// a solution is acceptable.
+    /// Deforms some guesses by a few sweeps each. Then finishes the deformation of the guess with the fewest contacts,
+    /// and of the other guesses in turn, until a solution is acceptable.
     fn successive_halving(&mut self, guesses: &Guesses<'_>, row: &SolverRow) {
         let (instance, clearances) = (self.instance, row.clearances);
         let diverse = guesses.diverse();
-        // Guesses that are `level` and `early` mostly win, so a second guess is not needed.
+        // Guesses that are both `level` and `early` mostly win, so a second guess is not needed.
         let is_favourite = diverse.first().is_some_and(|first| first.manner.level && first.manner.early);
         let mut starts = diverse.into_iter().take(MOST_TRIES).map(|guess| {
             let slower = guess.stretch();
@@ -285,12 +289,12 @@ impl Run<'_> {
         self.keep(name, Trajectories::StopAndGo(found), lasts_s, false);
     }
 
-    /// Deforms a first guess.
+    /// Deforms a first guess, and keeps or rejects the result.
     fn relax(&mut self, name: String, splines: SplineSet, effort: Effort) {
         self.finish(name, Relaxation::new(self.instance, splines, effort), effort);
     }
 
-    /// Finishes a deformation that may have begun, and keeps or rejects its result.
+    /// Finishes a deformation, which may have begun already, and keeps or rejects its result.
     fn finish(&mut self, name: String, mut relaxation: Relaxation, effort: Effort) {
         relaxation.go_on(effort.sweeps, &mut self.work);
         match relaxation.outcome().and_then(|splines| self.amended(splines, effort)) {
@@ -309,8 +313,8 @@ impl Run<'_> {
         }
     }
 
-    /// Returns the splines once the proof holds. Robots with illegal motion get a smoother spline, and contacts that
-    /// follow are resolved. `Err` if the proof does not hold in the end.
+    /// Returns the splines as soon as the proof accepts them. Splines with illegal motion are smoothed, and contacts
+    /// that follow are resolved. `Err` if the proof rejects the last splines too, with the pairs that touch, if known.
     fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, Vec<Meeting>> {
         let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
         for _ in 0..AMENDMENTS {
@@ -338,7 +342,7 @@ impl Run<'_> {
         self.rows.push(ExplainedRow { solver, outcome });
     }
 
-    /// The duration of a solution at full speed.
+    /// The duration of a solution at full speed, including the first turn.
     fn least_of(&self, solution: &Trajectories) -> Span {
         match solution {
             Trajectories::StopAndGo(found) => found.least,
@@ -349,7 +353,7 @@ impl Run<'_> {
         }
     }
 
-    /// The paths of a solution in the asked duration.
+    /// Returns the paths of a solution, driven in the asked duration, or at full speed if that is longer.
     fn repaired(&self, solution: &Trajectories) -> Repaired {
         match solution {
             Trajectories::StopAndGo(found) => found.clone(),
@@ -362,7 +366,7 @@ impl Run<'_> {
         }
     }
 
-    /// Chooses among all solutions by the order on candidate plans.
+    /// Chooses among all solutions by the order on candidate plans (`order.rs`), and makes the explanation.
     fn outcome(mut self) -> Solution {
         let mut plans: Vec<Repaired> =
             self.candidates.iter().map(|candidate| self.repaired(&candidate.solution)).collect();

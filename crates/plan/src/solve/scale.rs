@@ -1,4 +1,4 @@
-//! Scales robots of other sizes to the Elisa-3, for which all distances were measured, on a floor of the scaled size.
+//! Scales problems with robots of other sizes to robots of the Elisa-3's size, for which all distances were measured.
 
 use lightbots_base::{Limits, Piece, Vec2};
 use lightbots_show::Obstacle;
@@ -7,16 +7,17 @@ use crate::Repaired;
 use crate::margins::{MARGIN_M, ROOMY_M};
 use crate::{Path, TransitionProblem};
 
-/// Difference from 1 below which a scale is left out.
+/// A scale that differs from 1 by less than this is not tried.
 const ALIKE: f64 = 1e-9;
 
-/// Factor from lengths of the problem to lengths of the Elisa-3.
+/// Factor by which lengths of the problem are multiplied, so that its robots get the size of the Elisa-3.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale(f64);
 
 impl Scale {
-    /// Scales to try for robots of these limits; none for the Elisa-3's size. Margins do not scale: the first scale
-    /// leaves the clearance of [`ROOMY_M`], the second what must be proven.
+    /// Scales to try for robots of these limits; none for robots of the Elisa-3's size. Gaps between rims do not scale:
+    /// in the first scale, the gap [`ROOMY_M`] of the problem is the same gap of the Elisa-3. In the second scale, this
+    /// holds for [`MARGIN_M`].
     pub fn of(limits: &Limits) -> Vec<Self> {
         let usual = Limits::ELISA_3;
         let pairs = |margin_m: f64| (usual.contact_m() + margin_m) / (limits.contact_m() + margin_m);
@@ -28,7 +29,7 @@ impl Scale {
         scales.into_iter().map(Self).collect()
     }
 
-    /// Returns the transition scaled to robots of the Elisa-3's size.
+    /// Returns the problem scaled to robots of the Elisa-3's size.
     pub fn problem(self, problem: &TransitionProblem) -> TransitionProblem {
         let places = |places: &[Vec2]| places.iter().map(|&place| place * self.0).collect();
         let radius_m = Limits::ELISA_3.radius_m;
@@ -64,7 +65,7 @@ impl Scale {
         }
     }
 
-    /// Scales solved paths back to the robots of `problem` with the assignment `goal_of[start]`.
+    /// Scales the paths of a scaled problem back to `problem`. `goal_of[start]` is the assignment.
     pub fn repaired(
         self,
         problem: &TransitionProblem,
@@ -77,7 +78,7 @@ impl Scale {
         Repaired { paths, least: found.least }
     }
 
-    /// Scales a path back. The result begins and ends exactly at the given places.
+    /// Scales a path back. The result begins and ends exactly at the given start and end, without rounding errors.
     fn path(self, start: Vec2, end: Option<Vec2>, path: &Path) -> Path {
         let last = path.as_ref().end();
         let place = |at: Vec2| match end {
@@ -110,7 +111,8 @@ mod tests {
         }
     }
 
-    /// Duration as a multiple of that of a robot alone.
+    /// Solves the problem with goal i for robot i. Returns its duration as a multiple of that of a single robot on the
+    /// longest line.
     fn ratio(problem: &TransitionProblem) -> f64 {
         let goal_of: Vec<Option<usize>> = (0..problem.starts.len()).map(Some).collect();
         let found = repair(problem, &goal_of).expect("a way");

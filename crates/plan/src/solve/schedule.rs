@@ -1,9 +1,10 @@
-//! The schedule of solvers: which first guesses are deformed, with which clearances, time scale and budget.
+//! The schedule of solvers: which first guesses are deformed, with which clearances, time scale and budget. A first
+//! guess is a set of paths on which robots may still touch; the deformation then separates them.
 //!
 //! [`super::run`] goes through the groups in order. It skips a group whose condition does not hold, and leaves a group
 //! as soon as its target is reached. To add a solver, add a variant to [`Solver`], a row here, and its first guess in
-//! `Run::row` (`run.rs`). All rows of a group need guesses, or none does. At most [`MOST_TRIES`] rows of a group run,
-//! so the last rows of a longer group may never run.
+//! `Run::row` (`run.rs`). Either all rows of a group need [`super::guesses`], or none does. At most [`MOST_TRIES`] rows
+//! of a group run, so the last rows of a longer group may never run.
 
 use super::facts::Facts;
 use super::guess::Manner;
@@ -14,45 +15,48 @@ use crate::optimise::contacts::Clearances;
 /// The method that makes the first guess of a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Solver {
-    /// Shortest paths in minimum time, in one manner.
+    /// Shortest paths in minimum time, in one [`Manner`].
     MinimumTime(Pick),
-    /// Several manners of a large fleet: a few sweeps for each, then the one with the fewest contacts goes on.
+    /// Shortest paths of a large fleet in several manners. Each guess gets a few sweeps of the deformation, then the
+    /// guess with the fewest contacts is deformed further.
     SuccessiveHalving,
-    /// Shortest paths with slack. The duration is `times` the least duration, or `times` × `least_s` seconds if that is
-    /// longer.
+    /// Shortest paths with slack. The duration is `times` × the least duration of the guess, or `times` × `least_s`
+    /// seconds if that is longer.
     WithSlack { manner: Manner, times: f64, least_s: f64 },
-    /// The order of a solution over a hexagonal lattice of this pitch.
+    /// Paths of a multi-agent path finding over a hexagonal lattice of this pitch, metres. No two robots meet on them.
     FromLattice { pitch_m: f64 },
-    /// The order of a solution over a lattice that also has nodes in the gaps between walls.
+    /// As `FromLattice`, but the lattice also has nodes in the gaps between walls.
     ThroughGaps { pitch_m: f64 },
-    /// Stop-and-go trajectories over a roadmap of this pitch, with nodes `off_edge_m` off the floor's edge.
+    /// Stop-and-go trajectories over a roadmap of this pitch, with nodes `off_edge_m` off the floor's edge, metres.
+    /// They are not deformed.
     StopAndGo { pitch_m: f64, off_edge_m: f64 },
 }
 
-/// Which of the ranked guesses a row takes.
+/// Which of the guesses in minimum time a row takes. They are ranked by how promising they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pick {
-    /// The best guess.
+    /// The guess of rank 0.
     Best,
-    /// The guess of straight lines driven together, unless it is the best guess.
+    /// The guess in which robots drive their shortest paths with the same progress. The row is skipped if this is the
+    /// guess of rank 0.
     Plain,
-    /// The guess of this rank.
+    /// The guess of this rank, from 0. The row is skipped if there are fewer guesses.
     Ranked(usize),
 }
 
-/// One row: one first guess and how it is deformed.
+/// One row of the schedule: a first guess, and how it is deformed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SolverRow {
     pub solver: Solver,
     /// Distances that the deformation aims at.
     pub clearances: Clearances,
-    /// Largest time scale of the deformation: it may take this many times as long as the guess.
+    /// Largest factor by which the deformation may lengthen the duration of the guess.
     pub stretch: f64,
-    /// Most sweeps of the deformation.
+    /// Most sweeps of the deformation. A sweep handles each contact once.
     pub sweeps: usize,
 }
 
-/// Rows that share a condition, a budget and a target.
+/// Rows that share a condition (`when`), a budget of work and a target (`until`).
 pub(super) struct Group {
     pub name: &'static str,
     pub when: When,
@@ -61,51 +65,54 @@ pub(super) struct Group {
     pub rows: &'static [SolverRow],
 }
 
-/// Limit on the work of a group. The unit is one robot on one span in one sweep, or one contact that is resolved.
+/// Limit on the work of a group. One unit of work is one robot on one span in one sweep, or one contact in one sweep.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Budget {
-    /// The work that is left.
+    /// The work that the groups before left.
     Left,
-    /// The work that is left, but at most this.
+    /// The work that the groups before left, but at most this.
     AtMost(usize),
-    /// The work that is left, but at least this.
+    /// The work that the groups before left, but at least this.
     AtLeast(usize),
-    /// This amount, whatever is left.
+    /// This amount, whatever the groups before left.
     Of(usize),
 }
 
-/// Condition of a group.
+/// Condition under which a group runs. [`Facts`] has the values that it depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum When {
-    /// Too many robots to compare solutions, or many whose best guess needs much time.
+    /// There are too many robots to compare solutions; or there are many robots, and the best guess needs much
+    /// additional time.
     Large,
-    /// Few enough robots to compare solutions, and none is acceptable yet.
+    /// There are few enough robots to compare solutions, and no solution is acceptable yet.
     SmallUnsolved,
-    /// Too many robots to compare solutions, and none is acceptable yet.
+    /// There are too many robots to compare solutions, and no solution is acceptable yet.
     LargeUnsolved,
-    /// No solution is acceptable yet, and contacts are not far too many for slack to help.
+    /// No solution is acceptable yet, and the best attempt left so few contacts that more time may resolve them.
     SlackMayHelp,
-    /// Few enough robots to compare solutions, and an order from a lattice may be faster.
+    /// There are few enough robots to compare solutions, and no solution is acceptable yet or the best is slow. A
+    /// solution over a lattice may be faster.
     SmallSlow,
-    /// Walls, and the best solution is slow or closer than usual.
+    /// There are walls, and the best solution is slow or has less than the usual clearance.
     WallsSlowOrClose,
-    /// Walls, and the best solution is slow.
+    /// There are walls, and the best solution is slow.
     WallsSlow,
-    /// No solution at all.
+    /// There is no solution.
     NoSolution,
 }
 
-/// Target of a group.
+/// Target of a group: no further row of the group runs once it is reached.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Until {
     /// A solution is acceptable.
     Acceptable,
-    /// A solution is good. After [`ENOUGH_TRIES`] tries, or with less than [`WORK_TO_SPARE`] work left, it need only be
-    /// acceptable.
+    /// A solution is good. After [`ENOUGH_TRIES`] rows of the group, or with less than [`WORK_TO_SPARE`] work left, an
+    /// acceptable solution is enough.
     Good,
-    /// A row made the best solution faster, or it is acceptable.
+    /// A row of the group made the best solution faster, or the best solution is acceptable.
     Faster,
-    /// A row before the last one made the best solution faster, and the best solution is not slow.
+    /// The best solution is not slow, and a row of the group made it faster that was not the last to run. One more row
+    /// thus runs after an improvement.
     FasterAndNotSlow,
     /// There is a solution.
     Solved,
@@ -125,7 +132,7 @@ impl When {
         }
     }
 
-    /// Returns the reason for which a group is skipped, for the explanation.
+    /// Returns why a group is skipped, for the explanation.
     pub fn why_not(self) -> &'static str {
         match self {
             Self::Large => "the fleet is small enough to compare solutions",
@@ -154,39 +161,41 @@ impl Until {
     }
 }
 
-/// Tries after which a solution in minimum time need only be acceptable.
+/// Number of rows of a group after which a solution need not be good, only acceptable.
 const ENOUGH_TRIES: usize = 4;
-/// Work below which no better solution is looked for.
+/// Work left below which a solution need not be good, only acceptable.
 const WORK_TO_SPARE: usize = 14_000_000;
-/// Work for all guesses in minimum time: some seconds on one core.
+/// Work of the whole schedule, unless a group sets its own budget: some seconds on one core.
 pub(super) const MOST_WORK: usize = 22_000_000;
-/// Most work for guesses with slack.
+/// Most work for the group "with slack".
 const SLACK_WORK: usize = 8_000_000;
-/// Work for guesses from lattices.
+/// Work for each group "from lattice".
 const LATTICE_WORK: usize = 18_000_000;
-/// Factor on the least duration below which a solution is good.
+/// A solution is good if it lasts less than this many times the least duration.
 const GOOD: f64 = 1.15;
 
-/// Distance between neighbouring lattice nodes, metres: robots that follow each other around corners stay 0.83 of it
-/// apart.
+/// Distance between neighbouring lattice nodes, metres. Robots that follow each other around a corner come as close as
+/// 0.83 of this pitch.
 pub(super) const PITCH_M: f64 = 0.072;
-/// Pitch of the second attempt, metres: fewer robots fit, but paths have more clearance.
+/// Pitch of the second attempt over a lattice, metres: fewer robots fit on it, but their paths have more clearance.
 const LOOSE_PITCH_M: f64 = 0.078;
-/// Pitch of the last attempt between walls, metres: nodes in gaps may be as close together as robots may.
+/// Pitch of the last attempt between walls, metres. 0.83 of it is hardly more than the distance that the proof demands
+/// of two centres.
 const TIGHT_PITCH_M: f64 = 0.069_5;
 
-/// Clearances of the first guess: for robots that follow curves with poor sensors on slippery floors.
+/// Clearances of the first rows in minimum time. They suit robots that follow curves with poor sensors on slippery
+/// floors.
 pub(super) const ROOMY: Clearances =
     Clearances { robots_m: 0.067_5, walls_m: 0.011_5, edge_m: EDGE_M, slack_m: 0.002 };
-/// Clearances of further guesses.
+/// Clearances of the other rows in minimum time, and of successive halving.
 pub(super) const WIDE: Clearances =
     Clearances { robots_m: 0.062_5, walls_m: 0.007_5, edge_m: EDGE_M, slack_m: 0.002 };
-/// Clearances of guesses from lattices and with slack.
+/// Clearances of rows "from lattice" and most rows "with slack".
 const NARROW: Clearances =
     Clearances { robots_m: 0.059_5, walls_m: 0.006_5, edge_m: EDGE_M, slack_m: 0.001_5 };
-/// Clearances of the last rows: hardly more than is proven.
+/// Clearances of the last rows of groups: hardly more than the proof demands.
 const TIGHT: Clearances = Clearances { robots_m: 0.057_5, walls_m: 0.003_3, edge_m: 0.0, slack_m: 0.000_2 };
-/// [`TIGHT`] with a clearance of [`EDGE_M`] from the floor's edge.
+/// [`TIGHT`], but with the clearance [`EDGE_M`] from the floor's edge.
 const TIGHT_OFF_EDGE: Clearances = Clearances { edge_m: EDGE_M, ..TIGHT };
 
 const _: () = assert!(TIGHT.robots_m < NARROW.robots_m);
@@ -194,20 +203,20 @@ const _: () = assert!(NARROW.robots_m < WIDE.robots_m);
 const _: () = assert!(WIDE.robots_m < ROOMY.robots_m);
 const _: () = assert!(WORK_TO_SPARE < MOST_WORK);
 
-/// Clearances in a narrow gap: in front of it robots keep as far apart as elsewhere, and one follows another through
-/// it.
+/// Clearances for a narrow gap between walls, through which one robot follows another. Robots are `walls_m` from its
+/// walls, but as far apart as elsewhere.
 const fn in_gap(walls_m: f64, slack_m: f64) -> Clearances {
     Clearances { robots_m: 0.065, walls_m, slack_m, ..TIGHT_OFF_EDGE }
 }
 
-/// The manner in which all robots drive straight lines together.
+/// The manner in which all robots drive their shortest paths with the same progress.
 const TOGETHER: Manner = Manner { bow: 0.0, early: false, level: false, spread: false, staged: false };
-/// [`TOGETHER`] with a fleet that spreads on the way.
+/// [`TOGETHER`], but the fleet spreads on its way.
 const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
-/// [`LOOSE`] with a fleet that spreads before the drive.
+/// [`LOOSE`], but the fleet spreads before any robot drives to its goal.
 const STAGED: Manner = Manner { staged: true, ..LOOSE };
 
-/// Largest time scale of a solution in minimum time, as a multiple of the least duration.
+/// Largest duration of a solution in minimum time, as a multiple of the least duration.
 pub(super) const MOST_STRETCH: f64 = 2.4;
 
 const fn minimum_time(pick: Pick, clearances: Clearances) -> SolverRow {
@@ -330,7 +339,7 @@ pub(super) const SCHEDULE: [Group; 8] = [
     },
 ];
 
-/// Most rows of a group that are tried.
+/// Most rows of a group that run. Rows without a guess do not count.
 pub(super) const MOST_TRIES: usize = 8;
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! The last resort: stop-and-go over a roadmap. Distances of moves are exact, the search is complete on the nodes but
-//! for its bounded work, and its result needs no deformation.
+//! The last resort: stop-and-go over a roadmap. The search checks exact distances between moving robots, so its result
+//! needs no deformation. It is complete on the nodes of the roadmap, except that its work is bounded.
 
 use lightbots_base::{Span, Vec2};
 
@@ -13,11 +13,12 @@ use crate::roads::graph::NONE;
 use crate::roads::roadmap::Roadmap;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Most pairs of moves that are checked in all rows: some seconds for a fleet without a solution.
+/// Most checks of two robots' moves, of all stop-and-go rows together: some seconds for a fleet without a solution.
 pub(super) const MOST_LOOKS: usize = 120_000_000;
 
-/// Finds stop-and-go trajectories over a roadmap, which is given by its pitch and its distance from the floor's edge,
-/// metres. `None` if there are none. Subtracts the checks of pairs from `looks`.
+/// Finds stop-and-go trajectories over a roadmap, which is given by its pitch and the distance of its nodes from the
+/// floor's edge, metres. They last `asked` or longer. Returns `None` if there are none. Subtracts from `looks` the
+/// number of checks of two robots' moves.
 pub(super) fn stop_and_go(
     instance: &Instance,
     visibility: &VisibilityGraph,
@@ -46,7 +47,8 @@ mod tests {
     use crate::seeded::Seeded;
     use lightbots_base::Limits;
 
-    /// A square grid in which every robot gets another place; the floor is half as wide again.
+    /// `side` × `side` robots on a square grid, whose goals are the same places in random order. The floor is 1.5 times
+    /// as wide as the grid.
     fn shuffled(side: usize, apart_m: f64) -> TransitionProblem {
         let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart_m;
         let starts: Vec<Vec2> = (0..side * side).map(|i| Vec2::new(at(i % side), at(i / side))).collect();

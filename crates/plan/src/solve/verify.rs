@@ -1,4 +1,4 @@
-//! Checks splines with the proof, and slows them down a little if that makes the proof hold.
+//! Checks splines with the proof, and slows all robots down a little if the proof then holds.
 
 use lightbots_base::Span;
 
@@ -8,19 +8,19 @@ use crate::motion::quarter_turn;
 use crate::proof::{FaultKind, Proof, faults, prove_unless};
 use crate::spline::set::SplineSet;
 
-/// Time scales in which the proof is tried: a turn that is a little too sharp for one robot is driven more slowly by
-/// all.
+/// Factors on the duration with which the proof is tried. All robots drive more slowly if one robot's turn is a little
+/// too sharp.
 const SLOWDOWNS: [f64; 3] = [1.0, 1.02, 1.05];
 
 /// Splines that the proof rejects.
 pub(super) struct Rejected {
     pub splines: SplineSet,
-    /// Robots and spans whose motion is not legal; empty where slower driving cannot help.
+    /// Indices of robots and of their spans whose motion is illegal; empty if slower driving cannot help.
     pub faulty_spans: Vec<(usize, usize)>,
 }
 
-/// Returns the splines with the least of [`SLOWDOWNS`] with which the proof holds, both at full speed and in the asked
-/// duration.
+/// Returns the splines, slowed down by the least of [`SLOWDOWNS`] with which the proof holds. It must hold both at full
+/// speed and in the asked duration. `Err` if it holds with none.
 pub(super) fn verified(
     problem: &TransitionProblem,
     instance: &Instance,
@@ -56,18 +56,19 @@ fn rejection(
 ) -> Option<Proof> {
     let paths = splines.paths(quarter_turn(&problem.limits), span);
     let input = problem.to_prove(&paths);
-    // Most rejected splines turn too fast, which shows without checking pairs.
+    // Most rejected splines turn too fast. The check of each robot alone shows this, and it takes less time than the
+    // check of pairs.
     let alone = Proof { faults: faults(&input, instance.cancel), ..Proof::default() };
     let proof = if alone.holds() { prove_unless(&input, instance.cancel) } else { alone };
     (!proof.holds()).then_some(proof)
 }
 
-/// The least time of a span within the limits.
+/// The least duration of a span within the robots' limits, rounded up to microseconds.
 pub(super) fn least_span(instance: &Instance, splines: &SplineSet) -> Span {
     Span((splines.least_span_s(&instance.limits) * 1e6).ceil() as i64)
 }
 
-/// The time of a span: `least`, or more where the problem asks for a longer duration.
+/// The duration of a span: `least`, or longer if the problem asks for a longer duration of the drive.
 pub(super) fn span_of(
     problem: &TransitionProblem,
     instance: &Instance,

@@ -1,24 +1,24 @@
-//! Bernstein coefficients of a span's speed and turn: a polynomial stays between its least and its greatest
-//! coefficient. Velocity and acceleration are for span length 1; a span is given by the three steps between its
+//! Bernstein coefficients of a span's squared speed and of its turn. A polynomial stays between its least and its
+//! greatest coefficient. The unit of time is the duration of the span, which is given by the three steps between its
 //! control points.
 
 use lightbots_base::Vec2;
 
-/// Bernstein coefficients of a span's squared velocity.
+/// Bernstein coefficients of a span's squared speed, degree 4.
 pub(crate) fn squares(steps: &[Vec2; 3]) -> [f64; 5] {
     let [first, middle, last] = [(steps[0] + steps[1]) * 0.5, steps[1], (steps[1] + steps[2]) * 0.5];
     let inner = (first.dot(last) + 2.0 * middle.length_squared()) / 3.0;
     [first.length_squared(), first.dot(middle), inner, middle.dot(last), last.length_squared()]
 }
 
-/// Bernstein coefficients of a span's velocity × acceleration, raised to degree 4.
+/// Bernstein coefficients of the cross product of a span's velocity and acceleration, raised to degree 4.
 pub(crate) fn crosses(steps: &[Vec2; 3]) -> [f64; 5] {
     let (first, last) = (steps[0].cross(steps[1]), steps[1].cross(steps[2]));
     let middle = (first + steps[0].cross(steps[2]) + last) / 4.0;
     [first, (first + middle) / 2.0, (first + 4.0 * middle + last) / 6.0, (middle + last) / 2.0, last]
 }
 
-/// Bernstein coefficients of the two halves of a polynomial (de Casteljau).
+/// Bernstein coefficients of the first and the second half of a polynomial (de Casteljau).
 pub(crate) fn halves(mut whole: [f64; 5]) -> [[f64; 5]; 2] {
     let (mut before, mut after) = (whole, whole);
     for round in 1..5 {

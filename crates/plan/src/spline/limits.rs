@@ -1,4 +1,5 @@
-//! Projects splines onto the limits of speed, acceleration and turn rate, one after the other.
+//! Moves control points of splines so that speed, acceleration and turn rate keep their limits: a projection onto one
+//! limit after the other.
 
 use lightbots_base::Vec2;
 
@@ -6,25 +7,25 @@ use crate::instance::Instance;
 use crate::spline::set::SplineSet;
 use crate::spline::turn_rate::{DirtySpans, TurnRate};
 
-/// Passes over a spline in one sweep.
+/// Most passes over a spline in one call of [`LimitProjector::project`].
 const PASSES: usize = 2;
 
-/// The limits of an instance for spans of one length.
+/// The limits of an instance's robots, for spans of one duration.
 pub(crate) struct LimitProjector<'a> {
     instance: &'a Instance<'a>,
     turn_rate: TurnRate,
     smoothing_passes: usize,
-    /// Least distance of rims from the floor's edge, metres.
+    /// Least distance of robots' rims from the floor's edge, metres.
     off_edge_m: f64,
-    /// Longest step between control points, metres.
+    /// Longest step between two neighbouring control points, metres, by the speed limit.
     step_m: f64,
-    /// Longest second difference of control points, metres.
+    /// Longest second difference of three neighbouring control points, metres, by the acceleration limit.
     bow_m: f64,
 }
 
 impl<'a> LimitProjector<'a> {
-    /// Prepares to project splines with the spans of `splines`, which stay `off_edge_m` from the floor's edge. Fast
-    /// turns are smoothed in at most `smoothing_passes` passes.
+    /// Prepares to project splines with spans of the same duration as those of `splines`. Rims stay `off_edge_m` metres
+    /// from the floor's edge. Fast turns are smoothed in at most `smoothing_passes` passes.
     pub fn new(
         instance: &'a Instance<'a>,
         splines: &SplineSet,
@@ -41,7 +42,7 @@ impl<'a> LimitProjector<'a> {
         }
     }
 
-    /// Projects a robot's spline onto its limits in the spans of `dirty`. Returns the spans that may still break
+    /// Projects a robot's spline onto its limits in the spans of `dirty`. Returns the spans that may still exceed
     /// limits; `None` if the spline keeps all limits.
     pub fn project(
         &self,
@@ -71,14 +72,15 @@ impl<'a> LimitProjector<'a> {
     }
 }
 
-/// Makes one pass over a spline, towards control points at most `step` apart with second differences of at most `bow`.
-/// Adds changed spans to `dirty`, and returns whether a limit was clearly exceeded.
+/// Makes one pass over a robot's spline. It moves control points so that neighbours are at most `step` metres apart,
+/// and second differences are at most `bow` metres. Adds changed spans to `dirty`, and returns whether a limit was
+/// clearly exceeded.
 fn project_once(splines: &mut SplineSet, robot: usize, step: f64, bow: f64, dirty: &mut DirtySpans) -> bool {
     let (start, end) = splines.ends(robot);
     let last = splines.spans;
     let spline = splines.spline_mut(robot);
     let mut moved = |point: usize| dirty.add_point(point);
-    // At the ends, acceleration is three times the offset of the first free point.
+    // At the ends, the second difference is three times the distance of the first free point from the end.
     let mut changed = tether(&mut spline[2], start, bow / 3.0, || moved(2));
     if let Some(end) = end {
         changed |= tether(&mut spline[last], end, bow / 3.0, || moved(last));
@@ -116,6 +118,7 @@ fn project_once(splines: &mut SplineSet, robot: usize, step: f64, bow: f64, dirt
     changed
 }
 
+/// Moves `point` towards `to` if it is farther away than `reach` metres. Returns whether it was clearly farther.
 fn tether(point: &mut Vec2, to: Vec2, reach: f64, moved: impl FnOnce()) -> bool {
     let out = *point - to;
     let length = out.length();

@@ -1,4 +1,4 @@
-//! Uniform cubic B-splines in time: one per robot, all on one clock.
+//! Uniform cubic B-splines over time: one per robot, all on one clock.
 
 pub(crate) mod hull;
 pub(crate) mod limits;

@@ -1,15 +1,15 @@
-//! Retiming: more time goes to the moments with congestion.
+//! Retiming: the speed along paths changes so that moments with congestion get more time.
 
-/// Returns the time scale of each of equal parts of a drive whose whole time scale is `times`. Parts with more
-/// congestion get more time, at most `most` times their old one.
+/// Divides a drive into equal parts, and returns the factor on the duration of each part. On average it is `times`, but
+/// at most `most` for a part. The additional time is proportional to the part's congestion.
 pub(crate) fn time_scaled(congestion: &[f64], times: f64, most: f64) -> Vec<f64> {
     let mean = congestion.iter().sum::<f64>() / congestion.len().max(1) as f64;
     let share = |congestion: f64| if mean > 0.0 { congestion / mean } else { 1.0 };
     congestion.iter().map(|&congestion| (1.0 + (times - 1.0) * share(congestion)).min(most)).collect()
 }
 
-/// Returns `[step]`: the moment of the old drive, counted in parts, at the end of each of `steps` equal steps of the
-/// new drive. Part `k` lasts `lasts[k]` in the new drive.
+/// Returns `[step]` for 0 to `steps`: the moment of the old drive at the end of each of `steps` equal steps of the new
+/// drive. Moments are counted in parts of the old drive. Part `k` lasts `lasts[k]` in the new drive.
 pub(crate) fn moments(lasts: &[f64], steps: usize) -> Vec<f64> {
     let whole: f64 = lasts.iter().sum();
     let (mut part, mut passed) = (0, 0.0);
@@ -25,7 +25,7 @@ pub(crate) fn moments(lasts: &[f64], steps: usize) -> Vec<f64> {
     [0.0].into_iter().chain(inner).chain([lasts.len() as f64]).collect()
 }
 
-/// Smooths congestion: each pass averages every part with its two neighbours.
+/// Smooths congestion over time: each pass replaces every part by half of it and a quarter of each neighbour.
 pub(crate) fn smoothed(mut congestion: Vec<f64>, passes: usize) -> Vec<f64> {
     let last = congestion.len().saturating_sub(1);
     for _ in 0..passes {

@@ -1,9 +1,9 @@
-//! The paths of all robots as uniform cubic B-splines in time (de Boor, A Practical Guide to Splines). The paths are
-//! smooth without stops, and changes are local: a control point moves four spans only.
+//! The paths of all robots as uniform cubic B-splines over time (de Boor, A Practical Guide to Splines). The paths are
+//! smooth without stops, and changes are local: a control point moves only four spans.
 //!
-//! A spline of `spans` spans has `spans + 3` control points; points `i..i + 4` rule span `i`. Points 2 to `spans` are
-//! free. The two points at either end follow from them, so that the spline starts and ends at rest at its ends. A
-//! spare robot comes to rest at its last free point.
+//! A spline of `spans` spans has `spans + 3` control points; points `i..i + 4` determine span `i`. Points 2 to `spans`
+//! are free. The two points at either end follow from the free points, so that the robot rests at its start and its
+//! end. A spare robot has no given end, and comes to rest at its last free point.
 
 use lightbots_base::{Limits, Piece, Span, Vec2};
 
@@ -12,9 +12,10 @@ use crate::instance::Instance;
 use crate::spline::turn_rate::{DirtySpans, TurnRate};
 use crate::spline::weights::{basis, blend, fold};
 
-/// Most spans of a spline: a path holds 128 pieces, and the rests at both ends need some.
+/// Most spans of a spline. Each span becomes a piece of a path, which holds 128 pieces; the rests at both ends need
+/// some of them.
 pub(crate) const MOST_SPANS: usize = 124;
-/// Smoothing passes at a span with illegal motion.
+/// Number of smoothing passes around a span with illegal motion.
 const SMOOTHING: usize = 4;
 
 /// The splines of all robots, on one clock.
@@ -24,15 +25,17 @@ pub(crate) struct SplineSet {
     pub spans: usize,
     /// Duration of a span, seconds.
     pub span_s: f64,
-    /// Factor by which the splines are driven more slowly than the limits ask for.
+    /// Factor by which the splines last longer than the limits demand; 1 if they do not.
     pub slowdown: f64,
+    /// `[robot]`: start and end of its spline, stage metres; no end for a spare robot.
     ends: Vec<(Vec2, Option<Vec2>)>,
-    /// Control points, `[robot][spans + 3]`.
+    /// `[robot][point]`: control points, `spans + 3` for each robot, stage metres.
     points: Vec<Vec2>,
 }
 
-/// Returns the free control points of a spline through these places between its spans. Each place is a sixth of one
-/// point, two thirds of the next and a sixth of the one after. The Thomas algorithm solves this tridiagonal system.
+/// Returns the free control points of a spline from `start` to `end` that passes through `places` between its spans.
+/// Each place is a sixth of one point, two thirds of the next and a sixth of the one after. The Thomas algorithm solves
+/// this tridiagonal system.
 fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option<Vec2>) -> Vec<Vec2> {
     let last = places.len() - 1;
     let (mut points, mut shares) = (Vec::with_capacity(last + 1), Vec::with_capacity(last + 1));
@@ -59,8 +62,9 @@ fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option
 }
 
 impl SplineSet {
-    /// Splines whose free control points are `place(robot, step)` for steps 1 to `spans - 1`, so that corners become
-    /// round. The outer points follow from each robot's start and goal. Panics if there are more than [`MOST_SPANS`] spans.
+    /// Makes splines whose free control points are `place(robot, step)` for steps 1 to `spans - 1`, so that corners of
+    /// a path become round. Step 0 is the start and step `spans` the end. The outer points follow from each robot's
+    /// start and end. Panics if there are more than [`MOST_SPANS`] spans.
     pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
         assert!(spans <= MOST_SPANS, "a path holds at most {MOST_SPANS} spans, not {spans}");
@@ -84,20 +88,20 @@ impl SplineSet {
         self.span_s * self.spans as f64
     }
 
-    /// Control points of a robot.
+    /// The control points of a robot's spline.
     pub fn spline(&self, robot: usize) -> &[Vec2] {
         let width = self.spans + 3;
         &self.points[robot * width..(robot + 1) * width]
     }
 
-    /// Control points of a robot, to change; call [`Self::tie_ends`] afterwards.
+    /// The control points of a robot's spline, to be changed; call [`Self::tie_ends`] afterwards.
     pub fn spline_mut(&mut self, robot: usize) -> &mut [Vec2] {
         let width = self.spans + 3;
         &mut self.points[robot * width..(robot + 1) * width]
     }
 
-    /// Deforms a robot's spline until it keeps the turn rate in the spans of `dirty`, in at most `passes`. Returns the
-    /// spans that are left, and whether anything changed.
+    /// Deforms a robot's spline until it keeps the turn rate limit in the spans of `dirty`, in at most `passes` passes.
+    /// Returns the spans that may still exceed it, and whether anything changed.
     pub fn smooth_turns(
         &mut self,
         robot: usize,
@@ -121,7 +125,7 @@ impl SplineSet {
         &self.spline(robot)[span..span + 4]
     }
 
-    /// The place on a robot's span at the moment of these weights, stage metres.
+    /// The place of a robot on its span, stage metres. `weights` are those of the control points at the wanted moment.
     pub fn place(&self, robot: usize, span: usize, weights: &[f64; 4]) -> Vec2 {
         blend(self.span(robot, span), weights)
     }
@@ -131,7 +135,7 @@ impl SplineSet {
         self.ends[robot]
     }
 
-    /// Makes the outer control points follow the free ones, so that the spline is at rest at its ends.
+    /// Sets the outer control points of a robot from the free ones, so that its spline is at rest at both ends.
     pub fn tie_ends(&mut self, robot: usize) {
         let (start, end) = self.ends[robot];
         let last = self.spans;
@@ -142,8 +146,8 @@ impl SplineSet {
         spline[last + 1] = end.map_or(spline[last], |end| end * 1.5 - spline[last] * 0.5);
     }
 
-    /// Moves all robots through the same places at other times. The new spline has one span less than `was` has
-    /// moments; its span `k` ends where the old one was after `was[k + 1]` spans.
+    /// Moves all robots through the same places at other times. After `k` spans, the new splines are where the old ones
+    /// were after `was[k]` spans. The new splines have one span less than `was` has entries.
     pub fn retime(&mut self, was: &[f64]) {
         let (before, last) = (self.spans, was.len() - 1);
         let at = |&was: &f64| {
@@ -162,7 +166,7 @@ impl SplineSet {
         (0..self.robots()).for_each(|robot| self.tie_ends(robot));
     }
 
-    /// Smooths a robot's spline around a span.
+    /// Smooths the control points of a robot's spline that determine a span or its neighbours.
     pub fn smooth(&mut self, robot: usize, span: usize) {
         let last = self.spans;
         for _ in 0..SMOOTHING {
@@ -175,13 +179,14 @@ impl SplineSet {
         }
     }
 
-    /// Weights by which the free control points of a span move a place on it. Points at the ends follow free ones, so
-    /// their weights are added to those.
+    /// Weights by which the free control points of a span move a place on the span. `weights` are those of all four
+    /// points. Points at the ends of the spline follow free points, so their weights are added to those of the free
+    /// points.
     pub fn influence(&self, robot: usize, span: usize, weights: &[f64; 4]) -> [f64; 4] {
         fold(weights, span, self.spans, self.ends[robot].1.is_none())
     }
 
-    /// Moves a span's control points by `shift` times their influence.
+    /// Moves each of a span's four control points by `shift` times its influence.
     pub fn displace(&mut self, robot: usize, span: usize, influence: &[f64; 4], shift: Vec2) {
         let outer = span < 2 || span + 3 > self.spans;
         let spline = &mut self.spline_mut(robot)[span..span + 4];
@@ -193,7 +198,8 @@ impl SplineSet {
         }
     }
 
-    /// Factor by which a robot's spline is too fast; 1 is just legal.
+    /// The factor on the duration with which a robot's spline just keeps the limits of speed, acceleration and turn
+    /// rate. Above 1, the spline is too fast.
     pub fn time_scale(&self, robot: usize, limits: &Limits) -> f64 {
         let spline = self.spline(robot);
         let (mut speed, mut accel) = (0.0_f64, 0.0_f64);
@@ -209,17 +215,18 @@ impl SplineSet {
         speed.max(accel.sqrt()).max(TurnRate::new(self.span_s, limits).time_scale(spline))
     }
 
-    /// The greatest time scale of all robots.
+    /// The greatest [`Self::time_scale`] of all robots.
     pub fn greatest_time_scale(&self, limits: &Limits) -> f64 {
         (0..self.robots()).map(|robot| self.time_scale(robot, limits)).fold(0.0, f64::max)
     }
 
-    /// Least duration of a span within the limits, seconds.
+    /// Least duration of a span with which all robots keep their limits, with a small margin, multiplied by `slowdown`,
+    /// seconds.
     pub fn least_span_s(&self, limits: &Limits) -> f64 {
         self.span_s * self.greatest_time_scale(limits) * 1.002 * self.slowdown
     }
 
-    /// The splines as timed paths: a rest of `turn`, then the spans, `span` each.
+    /// The splines as timed paths: a rest that lasts `turn`, then the spans, which last `span` each.
     pub fn paths(&self, turn: Span, span: Span) -> Vec<Path> {
         (0..self.robots()).map(|robot| self.path(robot, turn, span)).collect()
     }

@@ -1,34 +1,37 @@
 //! The turn rate of a differential drive: a slow robot must not change its direction fast. Driving back along the same
-//! line is no turn, so a near reversal becomes an exact one.
+//! line is not a turn, so a near reversal becomes an exact reversal.
 
 use lightbots_base::{Limits, Vec2};
 
 use crate::spline::hull::{crosses, halves, squares};
 use crate::spline::weights::{blend, fold};
 
-/// Speed below which the direction does not matter, m/s. The proof has the same rule with a higher speed.
+/// Speed below which a robot's direction does not matter, m/s. The proof has the same rule with a higher speed.
 const CREEP_MPS: f64 = 0.008;
-/// Sampled moments of a span.
+/// Number of sampled moments of a span.
 const MOMENTS: usize = 16;
-/// Share of the limit that is used, because a robot may turn faster between two sampled moments.
+/// Share of the turn rate limit that is used, because a robot may turn faster between two sampled moments.
 const BETWEEN_MOMENTS: f64 = 0.96;
-/// Below this share of the speed that a turn needs, the span becomes a reversal instead of a curve.
+/// If the robot is slower than this share of the speed that its turn needs, the span becomes a reversal instead of a
+/// curve.
 const REVERSAL: f64 = 0.5;
-/// Spans whose steps are all shorter than this many `creep_m` are smoothed instead of turned.
+/// A span is smoothed instead of turned if the three steps between its control points are all shorter than this many
+/// `creep_m`.
 const WIGGLE: f64 = 3.0;
-/// Multiple of [`CREEP_MPS`] below which a robot counts as slow. While it is slow, it may turn by what this time
-/// allows.
+/// Multiple of [`CREEP_MPS`] below which a robot counts as slow. The direction may change during a slow stretch by as
+/// much as the turn rate limit allows in the time of that stretch.
 const SLOW: f64 = 2.6;
-/// Ratio of v² to a² below which the speed between two sampled moments may be over 2 % lower than at these.
+/// Ratio of v² to a², with the span as the unit of time, below which samples do not suffice: between two of them, the
+/// speed may be over 2 % lower.
 const NARROW_SWING: f64 = 0.25;
-/// Share of the turn limit that may be used near the stop of a reversal.
+/// Share of the turn rate limit that is allowed near the stop of a reversal.
 const REVERSAL_UNDERCUT: f64 = 0.6;
-/// Weights of a span's control points for its third derivative.
+/// Weights of a span's four control points for its third derivative over time, the jerk.
 const JERK: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
-/// Share of the limit that a correction aims at, so that corrections end.
+/// Share of the turn rate limit that a correction aims at, so that corrections end.
 const UNDERCUT: f64 = 0.97;
 
-/// Motion on a span of length 1: velocity is a parabola.
+/// Motion on a span, with the duration of the span as the unit of time. Velocity is a quadratic function of time.
 struct SpanMotion {
     velocity: Vec2,
     acceleration: Vec2,
@@ -50,7 +53,8 @@ impl SpanMotion {
         self.acceleration + self.jerk * u
     }
 
-    /// One bit for each sampled moment: whether its speed is below `speed_m`.
+    /// One bit for each sampled moment, the first in bit 0: whether the speed there is below `speed_m`, metres per
+    /// span.
     fn slow_moments(&self, speed_m: f64) -> u32 {
         let squares: [f64; MOMENTS] =
             std::array::from_fn(|index| self.velocity(moment(index)).length_squared());
@@ -59,7 +63,7 @@ impl SpanMotion {
         bits.fold(0, |all, bit| all | bit)
     }
 
-    /// The slowest moment near `u`, by Newton's method on v².
+    /// Finds the slowest moment near `u`, by Newton's method on v². Moments are shares of the span, 0 to 1.
     fn slowest(&self, mut u: f64) -> f64 {
         for _ in 0..4 {
             let (v, a) = (self.velocity(u), self.acceleration(u));
@@ -73,14 +77,14 @@ impl SpanMotion {
     }
 }
 
-/// Weights of a span's control points for velocity and acceleration at its share `u`.
+/// Weights of a span's four control points for velocity and acceleration at the share `u` of the span, 0 to 1.
 fn slopes(u: f64) -> ([f64; 4], [f64; 4]) {
     let w = 1.0 - u;
     let inner = [(3.0 * u * u - 4.0 * u) / 2.0, (-3.0 * u * u + 2.0 * u + 1.0) / 2.0];
     ([-w * w / 2.0, inner[0], inner[1], u * u / 2.0], [w, 3.0 * u - 2.0, 1.0 - 3.0 * u, u])
 }
 
-/// The sampled moments: the middle of each part of a span.
+/// The sampled moments, as shares of the span: the middle of each of [`MOMENTS`] equal parts.
 fn moments() -> impl Iterator<Item = f64> {
     (0..MOMENTS).map(moment)
 }
@@ -89,12 +93,12 @@ fn moment(index: usize) -> f64 {
     (index as f64 + 0.5) / MOMENTS as f64
 }
 
-/// Spans of a spline that may break the turn rate.
+/// Spans of a spline that may exceed the turn rate limit.
 #[derive(Clone, Copy)]
 pub(crate) struct DirtySpans {
     /// One bit for each span.
     spans: u128,
-    /// Whether a slow robot may turn too far.
+    /// Whether the robot may turn too far while it is slow; [`TurnRate::slow_turn`] then has to check it.
     slow_turns: bool,
 }
 
@@ -109,35 +113,36 @@ impl DirtySpans {
         self.spans == 0
     }
 
-    /// Adds a span whose control points moved, and all spans that share points with it.
+    /// Adds a span whose control points moved, and all spans that share control points with it.
     pub fn add(&mut self, span: usize) {
         self.spans |= (0x7f_u128 << span) >> 3;
         self.slow_turns = true;
     }
 
-    /// Adds the spans that a control point rules.
+    /// Adds the spans whose shape depends on a control point.
     pub fn add_point(&mut self, point: usize) {
         self.spans |= (0xf_u128 << point) >> 3;
         self.slow_turns = true;
     }
 }
 
-/// The turn rate limit for spans of one length.
+/// The turn rate limit for spans that all last equally long.
 pub(crate) struct TurnRate {
-    /// Largest turn within a span, radians.
+    /// Largest turn that is allowed in the time of a span, radians.
     turn: f64,
-    /// Shortest step within a span whose direction matters, metres.
+    /// Distance that a robot drives at [`CREEP_MPS`] in the time of a span, metres. The direction of shorter steps does
+    /// not matter.
     creep_m: f64,
 }
 
 impl TurnRate {
-    /// For spans of `span_s` seconds.
+    /// The limit for spans of `span_s` seconds.
     pub fn new(span_s: f64, limits: &Limits) -> Self {
         Self { turn: limits.turn_radps * span_s * BETWEEN_MOMENTS, creep_m: CREEP_MPS * span_s }
     }
 
-    /// Deforms a spline once where it turns too fast in the spans of `dirty`. Returns the spans that changed. `spare`
-    /// as in [`fold`].
+    /// Deforms a spline once where it turns too fast in the spans of `dirty`. Returns the spans that it changed.
+    /// `spare`: as in [`fold`].
     pub fn smooth_turns(&self, spline: &mut [Vec2], spare: bool, dirty: DirtySpans) -> DirtySpans {
         let mut again = DirtySpans::NOTHING;
         let spans = spline.len() - 3;
@@ -162,7 +167,8 @@ impl TurnRate {
         again
     }
 
-    /// Returns displacements of a span's control points that lower its turn rate; `None` if none are needed.
+    /// Returns displacements of a span's four control points that lower its turn rate; `None` if none are needed.
+    /// `fastest`: moment of the fastest turn, as a share of the span. `folded`: applies [`fold`] to weights.
     fn corrected(
         &self,
         four: &[Vec2],
@@ -183,7 +189,7 @@ impl TurnRate {
         })
     }
 
-    /// Returns the greatest turn rate of a spline as a multiple of the limit.
+    /// Returns the greatest turn rate of a spline as a multiple of the limit. At 1, the turn rate is just legal.
     pub fn time_scale(&self, spline: &[Vec2]) -> f64 {
         let fastest = spline.windows(4).fold(0.0_f64, |most, four| {
             let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
@@ -192,8 +198,8 @@ impl TurnRate {
         (fastest / self.turn).max(self.slow_turn(spline).map_or(0.0, |(_, time_scale)| time_scale))
     }
 
-    /// Returns the worst turn of a slow robot: the span in which it is fast again, and the turn over what its slow time
-    /// allows. `None` if all turns are legal.
+    /// Returns the worst turn of a slow stretch: the span in which the robot is fast again, and its turn as a multiple
+    /// of what the time of the stretch allows. `None` if all these turns are legal.
     fn slow_turn(&self, spline: &[Vec2]) -> Option<(usize, f64)> {
         let slow_m = SLOW * self.creep_m;
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
@@ -235,7 +241,8 @@ impl TurnRate {
         worst
     }
 
-    /// The greatest turn rate of a span and its moment; `None` where none can break the limit.
+    /// Returns the greatest turn of a span, radians per span, and its moment as a share of the span; `None` if the span
+    /// cannot exceed the limit.
     fn fastest(&self, four: &[Vec2]) -> Option<(f64, f64)> {
         if self.is_easy(four) {
             return None;
@@ -266,12 +273,12 @@ impl TurnRate {
         Some(worst)
     }
 
-    /// Whether a span is too short for a reversal.
+    /// Whether the steps between a span's control points are so short that it cannot become a reversal.
     fn only_wiggles(&self, four: &[Vec2]) -> bool {
         four.windows(2).all(|step| step[0].distance(step[1]) < WIGGLE * self.creep_m)
     }
 
-    /// Whether the convex hull of a span's velocity shows that the span keeps the limit.
+    /// Whether the convex hull of a span's velocity shows, without sampling, that the span keeps the limit.
     fn is_easy(&self, four: &[Vec2]) -> bool {
         let steps = [four[1] - four[0], four[2] - four[1], four[3] - four[2]];
         let along = steps[1];
@@ -282,8 +289,9 @@ impl TurnRate {
         (slowest > 0.0 && swing * square <= may * may) || self.stays_below(&steps, self.creep_m)
     }
 
-    /// Whether a span surely turns by less than `turn`, or keeps the limit. The difference is a polynomial. It stays
-    /// above its least Bernstein coefficient, and above those of its halves, which are closer bounds.
+    /// Whether a span surely turns by at most `turn` radians per span, or keeps the limit. turn · v² − |v × a| is a
+    /// polynomial. It is nowhere below the least of its Bernstein coefficients, nor below those of its halves, which
+    /// are closer bounds.
     fn stays_within(&self, four: &[Vec2], turn: f64) -> bool {
         if self.is_easy(four) {
             return true;
@@ -297,13 +305,13 @@ impl TurnRate {
                 .all(|side| halves(std::array::from_fn(|i| may[i] - does[i] * side)).iter().all(is_positive))
     }
 
-    /// Whether a span's speed stays below a limit, by the convex hull of its steps.
+    /// Whether a span's speed stays below `speed_m` metres per span, by the convex hull of its steps.
     fn stays_below(&self, steps: &[Vec2; 3], speed_m: f64) -> bool {
         steps.iter().all(|step| step.length_squared() < speed_m * speed_m)
     }
 
-    /// Displacements of control points after which |v × a| ≤ turn · v², to first order. `v` and `a` come with their
-    /// weights.
+    /// Returns displacements of control points after which |v × a| ≤ turn · v², to first order; `None` if that holds.
+    /// `v` and `a`: the weights of the control points, and the velocity and acceleration.
     fn widened(&self, v: ([f64; 4], Vec2), a: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (a_weights, a)) = (v, a);
         let cross = v.cross(a);
@@ -322,10 +330,11 @@ impl TurnRate {
         Some(slope.map(|s| s * (-far / steep)))
     }
 
-    /// Least displacements of the control points that turn a near stop into a reversal. At a reversal, the velocity has
-    /// no component perpendicular to the acceleration, and the perpendicular jerk is small: the path returns along
-    /// itself. Near a stop, the turn rate is half the perpendicular jerk divided by the acceleration. `jerk`: weights
-    /// of the jerk, and the acceleration. `None` if the span is a reversal already, or the acceleration is zero.
+    /// Returns the least displacements of control points that turn a near stop into a reversal. At a reversal, the
+    /// velocity has no component perpendicular to the acceleration, and the perpendicular jerk is small: the path
+    /// returns along itself. Near a stop, the turn rate is half the perpendicular jerk divided by the acceleration.
+    /// `v`: weights and value of the velocity. `jerk`: weights of the jerk, and the acceleration. `None` if the span is
+    /// a reversal already, or the acceleration is zero.
     fn reversed(&self, four: &[Vec2], v: ([f64; 4], Vec2), jerk: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (j_weights, a)) = (v, jerk);
         let across = a.normalized()?.left();
@@ -344,7 +353,7 @@ impl TurnRate {
     }
 }
 
-/// Numbers of the set bits, the least first.
+/// Indices of the set bits, the least first.
 fn ones(mut bits: u128) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let least = bits.trailing_zeros();
@@ -353,7 +362,8 @@ fn ones(mut bits: u128) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Displacements of a span's free control points towards the middle of their neighbours.
+/// Displacements of a span's two middle control points, as far as they are free, towards the middle of their
+/// neighbours. `last`: index of the spline's last free point.
 fn smoothed(four: &[Vec2], span: usize, last: usize) -> [Vec2; 4] {
     std::array::from_fn(|i| {
         let inner = (1..3).contains(&i) && (2..=last).contains(&(span + i));

@@ -1,8 +1,8 @@
-//! Weights of the four control points that rule a span.
+//! Weights of the four control points that determine a span of a uniform cubic B-spline.
 
 use lightbots_base::Vec2;
 
-/// Weights of a span's four control points at its share `u`.
+/// Weights of a span's four control points at the share `u` of the span, 0 to 1.
 pub(crate) fn basis(u: f64) -> [f64; 4] {
     let w = 1.0 - u;
     let (u2, u3) = (u * u, u * u * u);
@@ -14,14 +14,15 @@ pub(crate) fn basis(u: f64) -> [f64; 4] {
     ]
 }
 
-/// Weighted sum of a span's control points.
+/// Weighted sum of a span's four control points.
 #[inline]
 pub(crate) fn blend(points: &[Vec2], weights: &[f64; 4]) -> Vec2 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
 }
 
-/// Adds the weights of control points at the ends of a spline to those of the free points that they follow. Only points
-/// 2 to `last` are free. `spare`: whether the robot comes to rest at its last free point.
+/// Adds the weights of the control points at the ends of a spline, which follow free points, to the weights of those
+/// free points. Points 2 to `last` are free. `spare`: whether the robot is spare and comes to rest at its last free
+/// point.
 pub(crate) fn fold(weights: &[f64; 4], span: usize, last: usize, spare: bool) -> [f64; 4] {
     if span >= 2 && span + 3 <= last {
         return *weights;

@@ -1,4 +1,4 @@
-//! Paths of an assignment, with the proof's verdict.
+//! A candidate: paths for an assignment, with the proof's verdict.
 
 use super::following;
 use crate::cancel::Cancel;
@@ -8,35 +8,37 @@ use crate::proof::{Proof, ProofInput, prove_unless};
 use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Limits, Span};
 
-/// Most robots for which following distances are checked; with more, the check takes too long.
+/// Most robots for which following distances are checked, because the check takes long for more. A following distance
+/// lets a robot stop behind another robot that stops dead.
 const ROOM_MOST: usize = 1000;
 
-/// Aim of a deformation.
+/// What a deformation of straight lines aims at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Aim {
-    /// Comfortable clearance between all pairs.
+    /// The comfortable clearance, [`COMFORT_M`], between all pairs.
     Comfort,
-    /// The following distance as well: room to stop behind the robot ahead.
+    /// The following distance as well: room for a robot to stop behind the robot ahead.
     Room,
 }
 
 /// Paths that may have contacts.
 pub(super) struct Candidate {
     pub transition: Transition,
-    /// The proof's verdict. A pair conflicts if it is closer than the comfortable clearance or, with at most
-    /// [`ROOM_MOST`] robots, closer than its following distance.
+    /// The proof's verdict, with wider distances than for a plan. A pair counts as a conflict if it is closer than the
+    /// comfortable clearance or, with at most [`ROOM_MOST`] robots, closer than its following distance.
     pub proof: Proof,
-    /// Number of conflicts below the comfortable clearance.
+    /// Number of conflicts with less than the comfortable clearance.
     uncomfortable: usize,
-    /// Comfortable distance of centres, metres.
+    /// Distance of two centres with the comfortable clearance, metres.
     comfort_m: f64,
-    /// Number of contacts and faults: pairs closer than the least margin, and robots with illegal motion.
+    /// Number of contacts and faults. A contact is a pair closer than the least margin, [`MARGIN_M`]; a fault is
+    /// illegal motion of a robot.
     pub wrong: usize,
 }
 
 impl Candidate {
-    /// A candidate of straight lines on which all robots have the same progress. `start_of[goal]` is the start of the
-    /// robot for that goal; robots without a goal stay.
+    /// Makes a candidate of straight lines on which all robots have the same progress. `start_of[goal]` is the start of
+    /// the robot for that goal; robots without a goal stay.
     pub fn straight(problem: &TransitionProblem, start_of: &[usize], cancel: Cancel<'_>) -> Self {
         let mut ends = problem.starts.clone();
         let mut goal_of = vec![None; ends.len()];
@@ -56,8 +58,9 @@ impl Candidate {
         candidate
     }
 
-    /// A candidate of paths of equal duration, which are `slower` times as slow as the limits allow. Following
-    /// distances are checked as at full speed, so that the least duration does not depend on the asked one.
+    /// Makes a candidate of paths of equal duration, which are driven `slower` times as slowly as the limits allow.
+    /// Following distances are checked as at full speed, so that the least duration does not depend on the asked
+    /// duration.
     pub fn of_paths(
         problem: &TransitionProblem,
         paths: Vec<Path>,
@@ -99,7 +102,7 @@ impl Candidate {
         self.wrong == 0
     }
 
-    /// Returns the pairs to displace for an aim; none if there are too many.
+    /// Returns the pairs that a deformation with this aim must displace; none if there are too many.
     pub fn worth_deforming(&self, aim: Aim) -> Vec<Closest> {
         let is_asked = |found: &&Closest| aim == Aim::Room || found.distance_m < self.comfort_m;
         let robots = self.transition.paths.len();
@@ -119,26 +122,27 @@ impl Candidate {
         self.proof.holds()
     }
 
-    /// Whether this candidate is better than `other`: fewer contacts and faults, then fewer uncomfortable pairs, then
-    /// fewer pairs without their following distance.
+    /// Whether this candidate is better than `other`. Fewer contacts and faults count first, then fewer pairs without
+    /// comfortable clearance, then fewer pairs without their following distance.
     pub fn improves_on(&self, other: &Self) -> bool {
         self.wrong < other.wrong || (self.wrong == other.wrong && self.is_roomier_than(other))
     }
 
-    /// [`Self::improves_on`] without regard to contacts and faults.
+    /// [`Self::improves_on`], but contacts and faults do not count.
     pub fn is_roomier_than(&self, other: &Self) -> bool {
         let rank = |of: &Self| (of.uncomfortable, of.proof.conflicts.len());
         rank(self) < rank(other)
     }
 }
 
-/// Factor by which a drive of `duration` is slower than one of `least`; the rest for turning does not count.
+/// Factor by which a drive that lasts `duration` is slower than a drive that lasts `least`. The rest at the begin, in
+/// which robots turn, does not count.
 pub(super) fn slower_than(least: Span, duration: Span, limits: &Limits) -> f64 {
     let rest = turn_time(core::f64::consts::FRAC_PI_2, limits);
     (duration - rest).as_secs() / (least - rest).as_secs().max(1e-6)
 }
 
-/// A transition with empty paths, for problems with numbers that are not finite or not sensible.
+/// Makes a transition with empty paths, for problems with numbers that are not finite or not sensible.
 pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     Transition {
         goal_of: vec![None; problem.starts.len()],
@@ -150,7 +154,7 @@ pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     }
 }
 
-/// A transition in which all robots stay for the asked duration.
+/// Makes a transition in which all robots stay for the asked duration.
 pub(super) fn standing_still(problem: &TransitionProblem) -> Transition {
     let mut transition =
         Candidate::straight(&TransitionProblem { goals: Vec::new(), ..problem.clone() }, &[], Cancel::NEVER)

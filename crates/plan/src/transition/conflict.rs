@@ -1,4 +1,4 @@
-//! Messages about robots that do not get past each other, with a remedy.
+//! Messages about robots for which the planner found no paths past each other, with a remedy.
 
 use lightbots_base::Vec2;
 
@@ -8,17 +8,17 @@ use crate::margins::MARGIN_M;
 use crate::proof::Proof;
 use crate::{Infeasible, Transition, TransitionProblem};
 
-/// Most pairs named in a message.
+/// Most pairs of robots that a message names.
 const MOST_NAMED: usize = 4;
-/// Distance of pixels, in diameters, at which any robot may show any pixel. Straight lines with the least sum of
-/// squares then keep clear of each other (Turpin et al. 2014).
+/// Distance of pixels, in diameters of a robot, that suffices if any robot may show any pixel. Straight lines with the
+/// least sum of squares then keep clear of each other (Turpin et al. 2014).
 const FREE_DIAMETERS: f64 = core::f64::consts::SQRT_2;
-/// Distance of pixels, in diameters, that suffices with fixed identity: measured with shuffled grids that fill the
-/// floor, up to 1,000 robots.
+/// Distance of pixels, in diameters of a robot, that suffices with fixed identity: measured with shuffled grids that
+/// fill the floor, up to 1,000 robots.
 const BOUND_DIAMETERS: f64 = 2.25;
 
-/// Returns the message for a problem without a plan. `left` are the pairs that did not get past each other. If it is
-/// empty, the conflicts of the straight lines are named instead.
+/// Returns the message for a problem without a plan. `left` are the pairs of robots for which no paths past each other
+/// were found. If it is empty, the conflicts of the straight lines (`transition`, `proof`) are named instead.
 pub(super) fn infeasible(
     problem: &TransitionProblem,
     transition: &Transition,
@@ -54,7 +54,7 @@ pub(super) fn infeasible(
     Infeasible { goals, starts, message }
 }
 
-/// Conflicts of the straight lines, the closest first.
+/// Returns the contacts of the straight lines, the closest pair first.
 fn on_straight_lines(problem: &TransitionProblem, proof: &Proof) -> Vec<Meeting> {
     let least_m = problem.limits.contact_m() + MARGIN_M;
     let mut close: Vec<_> = proof.conflicts.iter().filter(|found| found.distance_m < least_m).collect();
@@ -62,7 +62,7 @@ fn on_straight_lines(problem: &TransitionProblem, proof: &Proof) -> Vec<Meeting>
     close.into_iter().map(|found| Meeting { pair: found.pair, place: found.place }).collect()
 }
 
-/// Names a pair by the goals of its robots and the place where they meet.
+/// Names a pair of robots by their goals and the place where they meet.
 fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting) -> String {
     let at = |place: Vec2| format!("({:.2}, {:.2})", place.x, place.y);
     let name = |robot: usize| {
@@ -76,7 +76,7 @@ fn named(problem: &TransitionProblem, transition: &Transition, meeting: &Meeting
     format!("{} and {} near {} m", name(meeting.pair.0), name(meeting.pair.1), at(meeting.place))
 }
 
-/// Suggests a change of the show that makes room.
+/// Suggests a change of the show that gives robots more room.
 fn remedy(problem: &TransitionProblem) -> String {
     let is_bound = problem.pinned.iter().any(Option::is_some);
     let diameters = if is_bound { BOUND_DIAMETERS } else { FREE_DIAMETERS };

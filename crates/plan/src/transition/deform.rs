@@ -1,4 +1,5 @@
-//! Displaces the paths of close pairs by a few millimetres, at little or no cost of time.
+//! Deforms straight lines: displaces the paths of pairs that come too close by a few millimetres, at little or no cost
+//! of time.
 
 use super::candidate::{Aim, Candidate, slower_than};
 use super::following;
@@ -9,15 +10,15 @@ use crate::{Closest, Path, Transition, TransitionProblem};
 use lightbots_base::{Piece, Span, Vec2};
 use std::collections::BTreeMap;
 
-/// Conflicts between two polls of the cancellation.
+/// Number of conflicts between two polls of the cancellation.
 const POLLED: usize = 1024;
-/// Most rounds of deformation and proof.
+/// Most rounds, each a deformation and a proof.
 const ROUNDS: usize = 6;
-/// Successive rounds without a better deformation after which the deformation ends.
+/// Number of successive rounds without a better result after which the deformation ends.
 const MOST_IN_VAIN: usize = 2;
-/// Bound on robots × rounds of deformation that aim at the following distance.
+/// Bound on the number of robots × rounds, for rounds that aim at the following distance.
 const ROOM_WORK: usize = 2_000;
-/// Largest time scale that a deformation may need.
+/// Largest factor on the duration that a deformation with this aim may need.
 const fn slowest(aim: Aim) -> f64 {
     match aim {
         Aim::Comfort => 1.06,
@@ -25,11 +26,11 @@ const fn slowest(aim: Aim) -> f64 {
     }
 }
 
-/// Factor on a displacement, because it has faded a little at the closest moment.
+/// Factor on a displacement: at the moment at which the pair is closest, the displacement has already faded a little.
 const EXTRA: f64 = 1.15;
 
-/// Returns the better of the straight candidate for `start_of[goal]` and its deformation. Deforms only if few pairs
-/// conflict.
+/// Returns the better of a candidate of straight lines, `straight`, and its deformation. `start_of[goal]` is its
+/// assignment. Makes at most `rounds` rounds, and none if too many pairs conflict.
 pub(super) fn deform(
     problem: &TransitionProblem,
     start_of: &[usize],
@@ -41,7 +42,7 @@ pub(super) fn deform(
     if wished <= straight.transition.least {
         return deformed(problem, straight, rounds, cancel);
     }
-    // A deformation at full speed has the least duration, and may be driven as slowly as asked.
+    // The deformation is made at full speed, so that it has the least duration. Then it is driven as slowly as asked.
     let hurried = TransitionProblem { duration: None, ..problem.clone() };
     let mut quick = deformed(&hurried, Candidate::straight(&hurried, start_of, cancel), rounds, cancel);
     if !quick.improves_on(&straight) {
@@ -59,7 +60,8 @@ pub(super) fn deform(
     candidate
 }
 
-/// The best deformation of a candidate at full speed: first for clearance, then for the following distance.
+/// Returns the best deformation of a candidate at full speed: first for the comfortable clearance, then for the
+/// following distance.
 fn deformed(
     problem: &TransitionProblem,
     straight: Candidate,
@@ -106,7 +108,7 @@ fn deformed(
 }
 
 /// Slows all paths of a candidate until they keep the limits, because a robot at full speed has no speed left for a
-/// displacement. Returns the candidate unchanged if it needs more than [`slowest`].
+/// displacement. Returns the candidate unchanged if it would have to be slower than [`slowest`] allows.
 fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
     let too_fast = deformed
         .proof
@@ -121,7 +123,8 @@ fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cance
     Candidate::of_paths(problem, paths, deformed.transition.goal_of, 1.0, cancel)
 }
 
-/// Factor by which a path must be slowed down to keep speed and acceleration, by its control points.
+/// Factor by which the duration of a path must be multiplied to keep the limits of speed and acceleration, by its
+/// control points; at least 1.
 fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     let (speed, accel) = (problem.limits.speed_mps.max(1e-3), problem.limits.accel_mps2.max(1e-3));
     path.as_ref().timed().fold(1.0, |most, (from, _, piece)| {
@@ -134,8 +137,8 @@ fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     })
 }
 
-/// The path with the time after `rest` multiplied by `factor`. Moments are rounded to whole milliseconds, in the same
-/// way for all paths.
+/// Returns the path with all time after `rest` multiplied by `factor`. Moments are rounded to whole milliseconds, in
+/// the same way for all paths.
 fn slower(path: &Path, rest: Span, factor: f64) -> Path {
     let late = |at: Span| at.min(rest) + whole_millis((at - rest).as_secs() * factor);
     let pieces = path.as_ref().timed().map(|(_, begin, piece)| {
@@ -145,7 +148,8 @@ fn slower(path: &Path, rest: Span, factor: f64) -> Path {
     Path { start: path.start, pieces: pieces.collect() }
 }
 
-/// Displaces a pair at its closest moment; the robot with the longer path moves more.
+/// Displaces the robots of a pair away from each other at their closest moment. Shares are proportional to the lengths
+/// of their lines. Standing discs do not move.
 fn part(
     problem: &TransitionProblem,
     lines: &[Path],
@@ -165,7 +169,7 @@ fn part(
         Aim::Comfort => problem.limits.contact_m() + COMFORT_M,
         Aim::Room => following::wanted_m(lines, found, &problem.limits, 1.0),
     };
-    // A pair that starts or ends closer only has to keep that distance.
+    // A pair that starts or ends closer only has to keep the smaller distance.
     let ends_m = |at_end: bool| {
         let end = |disc: usize| match lines.get(disc) {
             Some(line) if at_end => line.as_ref().end(),

@@ -1,4 +1,4 @@
-//! Problems without any solution, and their messages.
+//! Finds problems that have no solution, and makes messages about them.
 
 use crate::{Infeasible, TransitionProblem};
 use lightbots_base::Vec2;
@@ -6,11 +6,11 @@ use lightbots_show::Obstacle;
 
 /// Largest coordinate of a place on a floor, metres. Up to it, numbers are exact to a micrometre.
 const FARTHEST_M: f64 = 10_000.0;
-/// Range of sensible limits of robots; values outside it are mistakes in any unit.
+/// Range of sensible limits of robots, in metres, seconds and radians. Values outside it are mistakes in any unit.
 const SANE: core::ops::RangeInclusive<f64> = 1e-4..=1e5;
 
-/// Checks that all numbers are finite and sensible; `Err` says which are not. All other checks need a problem that
-/// passes this one.
+/// Checks that all numbers of a problem are finite and sensible; `Err` names one that is not. All other checks need a
+/// problem that passes this check.
 pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> {
     // Comparisons with NaN are false.
     let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
@@ -44,8 +44,8 @@ pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> 
     Err(infeasible(Vec::new(), message.into()))
 }
 
-/// Checks that the goals can be shown at all. There must be enough robots, and no goals that touch. All goals must be
-/// on the floor, clear of obstacles and standing robots.
+/// Checks that robots can stand at all goals at the same time. There must be enough robots, and no goals at which
+/// robots would touch. All goals must be on the floor, clear of no-go areas and standing robots.
 pub(super) fn possible(problem: &TransitionProblem) -> Result<(), Infeasible> {
     let (starts, goals) = (&problem.starts, &problem.goals);
     if goals.len() > starts.len() {
@@ -108,8 +108,8 @@ fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), 
     Ok(())
 }
 
-/// Returns two places nearer to each other than `reach_m`, if there are any: the smaller index, the greater index and
-/// their distance, metres.
+/// Returns two of `places` that are nearer to each other than `reach_m`: the smaller index, the greater index and their
+/// distance, metres. `None` if there are no two.
 pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f64)> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].x.total_cmp(&places[b].x).then(a.cmp(&b)));
@@ -127,7 +127,7 @@ pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f
     None
 }
 
-/// Returns the message about pins that contradict each other.
+/// Returns the message about pins that contradict each other, with all pinned goals.
 pub(super) fn pins(problem: &TransitionProblem) -> Infeasible {
     let goals =
         (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());

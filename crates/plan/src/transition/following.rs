@@ -1,20 +1,20 @@
-//! The following distance: room to stop behind a robot that stops dead.
+//! The following distance of two robots: with it, a robot can stop behind a robot ahead that stops dead.
 //!
-//! A robot needs its reaction time and its braking distance. Robots that pass side by side, or slowly, need only the
-//! comfortable clearance.
+//! It covers the way that a robot drives in its reaction time, and its braking distance. Robots that pass side by side,
+//! or slowly, need only the comfortable clearance.
 
 use crate::margins::COMFORT_M;
 use crate::{Closest, Path};
 use lightbots_base::braking::stopping_m;
 use lightbots_base::{Limits, Vec2};
 
-/// Greatest following distance, between centres, metres.
+/// Greatest following distance of any two robots, between centres, metres.
 pub(super) fn widest_m(limits: &Limits) -> f64 {
     limits.contact_m() + COMFORT_M.max(stopping_m(limits.speed_mps))
 }
 
-/// Following distance of a pair at its closest moment, between centres, metres, if the paths are driven `faster` times
-/// as fast. A pair with a standing disc, which has an index beyond the paths, needs only the comfortable clearance.
+/// Following distance of a pair at its closest moment, between centres, metres, if its paths are driven `faster` times
+/// as fast as they are given. A standing disc, whose index is beyond the paths, needs only the comfortable clearance.
 pub(super) fn wanted_m(paths: &[Path], found: &Closest, limits: &Limits, faster: f64) -> f64 {
     let (i, j) = found.pair;
     let comfort_m = limits.contact_m() + COMFORT_M;
@@ -25,8 +25,8 @@ pub(super) fn wanted_m(paths: &[Path], found: &Closest, limits: &Limits, faster:
     limits.contact_m() + COMFORT_M.max(stopping_m(following_mps.min(limits.speed_mps)))
 }
 
-/// Speed at which one robot would approach the other if the other stood, m/s; the greater of the two. `apart` is the
-/// direction from `one` to `other`.
+/// The greater of two speeds, m/s: at which `one` would approach the other robot if that stood, and at which `other`
+/// would approach `one` if `one` stood. `apart`: unit vector from `one` to `other`. `one` and `other`: velocities, m/s.
 fn following_mps(apart: Vec2, one: Vec2, other: Vec2) -> f64 {
     one.dot(apart).max(-other.dot(apart)).max(0.0)
 }

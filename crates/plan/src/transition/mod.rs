@@ -1,4 +1,5 @@
-//! One transition: assignment, straight lines, and the schedule of solvers where straight lines conflict.
+//! Plans one transition: assignment, straight lines, and the schedule of solvers if robots on straight lines would
+//! touch.
 
 mod candidate;
 mod conflict;
@@ -26,13 +27,14 @@ use lightbots_base::Span;
 use reachability::Walls;
 use straight::straight_lines;
 
-/// Plans a transition. Returns the proven plan that the order on candidate plans prefers, or why there is none.
+/// Plans a transition. Returns the proven plan that the order on candidate plans (`order.rs`) prefers, or why there is
+/// none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }
 
 /// [`transition`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called about every tenth of a second
-/// on this thread, and must be cheap.
+/// on the calling thread, and must be cheap.
 pub fn transition_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,
@@ -40,20 +42,21 @@ pub fn transition_unless(
     unless(is_wanted, |cancel| attempt(problem, cancel).into_result())
 }
 
-/// The result of planning a transition: it can be drawn even if it must not be driven.
+/// The result of planning a transition. It always has paths that can be drawn, even if they must not be driven.
 pub(crate) struct Attempt {
-    /// The best transition. If `infeasible` is set, it is only a drawing, mostly of straight lines with conflicts.
+    /// The best transition. If `infeasible` is set, its paths are only for drawing, mostly straight lines with
+    /// conflicts.
     pub transition: Transition,
-    /// Why the transition must not be driven; `None` if it may be.
+    /// Why the transition must not be driven; `None` if it may be driven.
     pub infeasible: Option<Infeasible>,
-    /// The solvers that ran.
+    /// The solvers that ran, and the reason for the choice.
     pub explanation: Explanation,
-    /// Why the drive is not the one that the show prescribes, if it prescribes one.
+    /// Why the transition is not the drive that the show prescribes. `None` if it is, or if the show prescribes none.
     pub not_as_prescribed: Option<&'static str>,
 }
 
 impl Attempt {
-    /// An attempt whose transition may be drawn, but must not be driven.
+    /// An attempt whose transition may be drawn, but must not be driven, for the reason `why`.
     fn infeasible(transition: Transition, why: Infeasible) -> Self {
         Self { infeasible: Some(why), ..Self::feasible(transition, Explanation::default()) }
     }
@@ -70,7 +73,8 @@ impl Attempt {
     }
 }
 
-/// The best transition, proven or not: the one that the show prescribes, or else the planner's.
+/// Plans the best transition, proven or not: the drive that the show prescribes, or else an ordinary drive by the
+/// planner.
 pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     if let Err(infeasible) = feasibility::measurable(problem) {
         return Attempt::infeasible(candidate::unmoved(problem), infeasible);
@@ -84,8 +88,8 @@ pub(crate) fn attempt(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attemp
     }
 }
 
-/// The drive that the show prescribes. If robots or pixels are not where it begins and ends, the planner's drive
-/// instead, with the reason.
+/// Plans the drive that the show prescribes. If robots or pixels are not where it begins and ends, plans an ordinary
+/// drive instead, with the reason. If the prescribed drive must not be driven, the ordinary drive is only drawn.
 fn as_prescribed(problem: &TransitionProblem, prescribed: &Prescribed, cancel: Cancel<'_>) -> Attempt {
     match prescribed::attempt(problem, prescribed, cancel) {
         Ok(transition) => {
@@ -106,8 +110,8 @@ fn as_prescribed(problem: &TransitionProblem, prescribed: &Prescribed, cancel: C
     }
 }
 
-/// The planner's drive, in which robots start one after the other. If they would touch, all start together, and the
-/// reason is given.
+/// Plans an ordinary drive in which robots start one after the other, along `stagger.direction`. If they would touch,
+/// all start together, and the reason is given.
 fn one_after_another(problem: &TransitionProblem, stagger: Stagger, cancel: Cancel<'_>) -> Attempt {
     let delay = Span::from_secs(stagger.delay_s.max(0.0));
     let quicker = problem.duration.map(|asked| (asked - delay).max(Span::ZERO));
@@ -124,7 +128,7 @@ fn one_after_another(problem: &TransitionProblem, stagger: Stagger, cancel: Canc
     }
 }
 
-/// The planner's best transition, proven or not.
+/// Plans the best ordinary transition, proven or not, without regard to what the show prescribes.
 fn ordinary(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     let impossible = feasibility::possible(problem).err();
     let Some(choice) = Choice::unless(cancel, &problem.starts, &problem.goals, &problem.pinned) else {
@@ -147,7 +151,7 @@ fn ordinary(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
             Attempt::infeasible(transition, infeasible)
         }
     };
-    // The waiting place of a spare robot is no goal of the problem.
+    // A spare robot's waiting place is not a goal of the problem.
     for goal in &mut attempt.transition.goal_of {
         *goal = goal.filter(|&goal| goal < problem.goals.len());
     }
@@ -156,7 +160,7 @@ fn ordinary(problem: &TransitionProblem, cancel: Cancel<'_>) -> Attempt {
     attempt
 }
 
-/// The best transition with an assignment from `choice`.
+/// Plans the best transition with an assignment from `choice`, for any number of spare robots.
 fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Attempt {
     let found = if choice.spares() == 0 {
         settle(problem, choice, cancel)
@@ -168,7 +172,7 @@ fn solve(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> At
     })
 }
 
-/// [`settle`] for more robots than goals: the spare robots first get places at which they wait.
+/// [`settle`] if there are more robots than goals. The spare robots first get places at which they wait.
 fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let start_of = choice.least_squares().solve(0.0)?;
     let (whole, start_of) = spares::with_spares(problem, start_of, cancel);
@@ -177,7 +181,7 @@ fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>)
 }
 
 /// Returns straight lines if the proof accepts them, else the result of the schedule of solvers. Every robot must have
-/// a goal. `None` if there is no assignment.
+/// a goal or a waiting place. `None` if there is no assignment.
 fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let mut explanation = Explanation::default();
     let candidate = straight_lines(problem, choice, cancel, &mut explanation)?;
@@ -202,7 +206,8 @@ fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> O
     })
 }
 
-/// Makes a transition of solved paths; `Err` without any meeting if the proof rejects them.
+/// Makes a transition of the paths of a solver, with the assignment of `straight`. `Err` without any meeting if the
+/// proof rejects the paths.
 fn proven(
     problem: &TransitionProblem,
     straight: &Transition,

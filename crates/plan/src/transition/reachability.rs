@@ -1,4 +1,5 @@
-//! Regions of the floor that no gap connects: assigns robots to pixels within each region, or says what is cut off.
+//! Regions of the floor between which no robot can drive: assigns robots to pixels within each region, or says which
+//! robots or pixels are cut off.
 
 use lightbots_base::Vec2;
 
@@ -7,22 +8,22 @@ use crate::cancel::Cancel;
 use crate::roads::regions::{Gap, Regions, Thing, enough_m};
 use crate::{Infeasible, TransitionProblem};
 
-/// Most no-go areas named in a message.
+/// Most no-go areas that a message names.
 const MOST_NAMED: usize = 4;
-/// Least width of a gap that a message names, metres.
+/// Least width of a gap that a message names, metres; a narrower gap counts as none.
 const LEAST_GAP_M: f64 = 0.001;
 
 /// How walls restrict a transition.
 pub(super) enum Walls {
-    /// No restriction: all robots can drive to all goals, or the regions of places are unknown.
+    /// No restriction: all robots can drive to all goals, or the regions of some places are unknown.
     Open,
-    /// Each robot must stay in its region. `[goal]`: the start assigned to that goal.
+    /// Each robot must stay in its region. `[goal]`: index of the start assigned to that goal.
     Apart(Vec<Option<usize>>),
     /// A robot or a pixel is cut off.
     Closed(Infeasible),
 }
 
-/// Finds how walls restrict a transition, by the regions of its floor.
+/// Finds how walls restrict a transition, by the regions into which they divide its floor.
 pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
     let Some(regions) = Regions::new(problem, cancel).filter(|regions| regions.parts > 1) else {
         return Walls::Open;
@@ -46,9 +47,9 @@ pub(super) fn look(problem: &TransitionProblem, cancel: Cancel<'_>) -> Walls {
 struct Partition<'a> {
     problem: &'a TransitionProblem,
     regions: Regions,
-    /// `[start]`: its region.
+    /// `[start]`: number of its region.
     starts: Vec<u32>,
-    /// `[goal]`: its region.
+    /// `[goal]`: number of its region.
     goals: Vec<u32>,
 }
 
@@ -109,12 +110,14 @@ impl Partition<'_> {
         self.infeasible(who, self.goals[goals[0]], goals, Vec::new())
     }
 
-    /// Returns the one of two regions that has fewer robots and pixels.
+    /// Returns the region, of regions `a` and `b`, that has fewer robots and pixels.
     fn smaller(&self, a: u32, b: u32) -> u32 {
         let count = |part: u32| self.starts.iter().chain(&self.goals).filter(|&&other| other == part).count();
         if count(a) < count(b) { a } else { b }
     }
 
+    /// Returns the message about robots or pixels that are cut off in region `part`: `who` says which. The message
+    /// names the things around the region, and a gap that would help.
     fn infeasible(&self, who: String, part: u32, goals: Vec<usize>, starts: Vec<usize>) -> Infeasible {
         let things = named(&self.regions.around(part));
         let remedy = match self.regions.way_out(part) {
@@ -141,7 +144,7 @@ impl Partition<'_> {
         )
     }
 
-    /// Assigns robots to goals within each region; `[goal]`: the start assigned to that goal. `None` if there is no
+    /// Assigns robots to goals within each region. Returns `[goal]`: index of its start; `None` if there is no
     /// assignment.
     fn sent(&self, cancel: Cancel<'_>) -> Option<Vec<Option<usize>>> {
         let mut start_of = vec![None; self.goals.len()];
@@ -171,7 +174,7 @@ impl Partition<'_> {
     }
 }
 
-/// Whole millimetres, rounded up.
+/// Converts metres to whole millimetres, rounded up.
 fn whole_mm(metres: f64) -> f64 {
     (metres * 1e3 - 1e-6).ceil()
 }
@@ -180,7 +183,7 @@ fn place(at: Vec2) -> String {
     format!("({:.2}, {:.2}) m", at.x + 0.0, at.y + 0.0)
 }
 
-/// Names things as text. No-go areas count from 1, in the order of the show.
+/// Names things in a message. No-go areas are numbered from 1, in the order of the show.
 fn named(things: &[Thing]) -> String {
     let numbers: Vec<String> = things
         .iter()

@@ -1,16 +1,16 @@
-//! Places where spare robots wait.
+//! Finds places where spare robots (robots without a goal) wait.
 
 use crate::TransitionProblem;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 use std::collections::BTreeMap;
 
-/// Rings of places tried around a spare robot.
+/// Bound on the number of rings of places that are tried around a spare robot. Rings are one robot's radius apart.
 const RINGS: i32 = 400;
 
-/// Adds a goal for each spare robot, after the real goals, and returns the extended problem and its assignment.
-/// `start_of[goal]` is the assignment of the real goals. A spare robot waits where it stands if no goal or other disc
-/// is near, else at the nearest free place.
+/// Adds a goal for each spare robot, after the real goals. Returns the extended problem and its assignment.
+/// `start_of[goal]` is the assignment of the real goals. A spare robot waits where it stands if it is far enough from
+/// all goals and standing discs, else at the nearest free place.
 pub(super) fn with_spares(
     problem: &TransitionProblem,
     mut start_of: Vec<usize>,
@@ -23,7 +23,7 @@ pub(super) fn with_spares(
     }
     let spares: Vec<usize> = (0..problem.starts.len()).filter(|&start| !shows[start]).collect();
     let mut taken = Taken::new(problem);
-    // The places of robots that may stay are taken first. The others then get free places among them.
+    // The places of robots that may stay are taken first. The other spare robots then get free places beside them.
     let (stay, go): (Vec<usize>, Vec<usize>) =
         spares.into_iter().partition(|&spare| taken.is_clear(problem.starts[spare]));
     for &spare in &stay {
@@ -40,9 +40,9 @@ pub(super) fn with_spares(
     (whole, start_of)
 }
 
-/// Places to keep clear of, in square cells as wide as the distance to keep.
+/// Places that spare robots must keep clear of, in square cells as wide as the distance to keep.
 struct Taken {
-    /// Distance that lets other robots pass between (Turpin et al. 2014), metres.
+    /// Distance of two places, metres, that lets other robots pass between (Turpin et al. 2014).
     spacing_m: f64,
     cells: BTreeMap<(i64, i64), Vec<Vec2>>,
 }
@@ -73,7 +73,7 @@ impl Taken {
     }
 }
 
-/// The nearest free place on rings around `from`.
+/// Returns the nearest free place on rings around `from`; `None` if there is none.
 fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Cancel<'_>) -> Option<Vec2> {
     let (half, radius) = (problem.half_floor, problem.limits.radius_m);
     let step = radius.max(1e-3);

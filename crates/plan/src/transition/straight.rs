@@ -1,5 +1,5 @@
-//! Straight lines without contacts. Pairs that pass too close are displaced a little. If contacts are left, assignments
-//! with longer lines are tried.
+//! Finds straight lines on which no robots touch. Pairs that pass too close are displaced a little. If contacts are
+//! left, assignments with longer lines are tried.
 
 use super::candidate::Candidate;
 use super::deform::deform;
@@ -9,13 +9,14 @@ use crate::cancel::Cancel;
 use crate::explain::{Explanation, RowOutcome};
 use crate::order::{PlanQuality, choose};
 
-/// Shares by which the longest path may exceed the bottleneck distance, in the order in which they are tried.
+/// Shares by which the longest line may exceed the bottleneck distance, in the order in which they are tried.
 const SLACKS: [f64; 7] = [0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15];
-/// Bound on robots × rounds of deformation if all distances are legal already, and only clearance is improved.
+/// Bound on the number of robots × rounds of deformation, if straight lines have no contacts and only their clearance
+/// is improved.
 const COMFORT_WORK: usize = 30_000;
 
-/// Returns the first contact-free candidate, else the one that the order on candidate plans prefers. `None` if there is
-/// no assignment, or the planner is cancelled.
+/// Returns the first candidate without contacts, else the candidate that the order on candidate plans prefers. `None`
+/// if there is no assignment, or the planner is cancelled.
 pub(super) fn straight_lines(
     problem: &TransitionProblem,
     choice: &Choice,

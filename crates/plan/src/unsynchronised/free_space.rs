@@ -1,22 +1,22 @@
-//! Straight lines and paths for one robot while all others stand still. They are collision-free at any speed, because
-//! nothing else moves.
+//! Straight lines and paths for one robot while all other robots stand still. They are collision-free at any speed,
+//! because nothing else moves.
 
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use lightbots_base::{Limits, Vec2};
 use lightbots_show::Obstacle;
 use std::collections::VecDeque;
 
-/// Clearance of a robot without a common clock, metres: its line is not quite straight, and its stop is known to some
-/// millimetres.
+/// Clearance of a robot without a common clock from others, metres. Its line is not quite straight, and the place where
+/// it stops is known to some millimetres only.
 const MARGIN_M: f64 = 0.02;
-/// Side of a grid cell in the first search for a path, metres.
+/// Side of a grid cell in the usual search for a path, metres.
 pub(super) const CELL_M: f64 = 0.04;
-/// Longest straight line from the start to the grid, metres.
+/// Longest straight line from the start of a path to the first grid cell, metres.
 const NEAR_M: f64 = 0.16;
-/// Most cells of the grid; larger floors are not searched.
+/// Most cells of the grid; on floors with more cells, no path is searched.
 const CELLS_MAX: usize = 1_000_000;
 
-/// The floor on which one robot moves while all others stand.
+/// The floor on which one robot moves while all other robots stand still.
 #[derive(Clone, Copy, Debug)]
 pub struct FreeSpace<'a> {
     /// Half the floor's width and depth, metres.
@@ -25,28 +25,28 @@ pub struct FreeSpace<'a> {
     pub obstacles: &'a [Obstacle],
     /// Radius of a robot, metres.
     pub radius_m: f64,
-    /// Distance that centres keep, metres. Near a start or goal that is closer to a disc, the line only has to keep
-    /// that distance.
+    /// Distance that centres of robots and discs keep, metres. If a line starts or ends closer to a disc, it only has
+    /// to keep that smaller distance.
     pub gap_m: f64,
     /// Side of a cell of the search grid, metres.
     pub cell_m: f64,
 }
 
 impl<'a> FreeSpace<'a> {
-    /// The floor of robots that drive straight lines without a common clock.
+    /// The floor of robots without a common clock, with the usual gap and grid.
     pub fn new(half_floor: Vec2, obstacles: &'a [Obstacle], limits: &Limits) -> Self {
         let gap_m = limits.contact_m() + MARGIN_M;
         Self { half_floor, obstacles, radius_m: limits.radius_m, gap_m, cell_m: CELL_M }
     }
 
-    /// Whether the line `a`–`b` keeps the gap to a disc at `p`. If `a` or `b` is closer than the gap, the line only has
-    /// to keep that distance. The end `b` must be at least two radii of a robot from `p` in any case.
+    /// Whether the line `a`–`b` keeps the gap to a disc at `p`. If `a` or `b` is closer to `p` than the gap, the line
+    /// only has to keep that smaller distance. The end `b` must be at least two radii of a robot from `p` in any case.
     pub fn clears_disc(&self, a: Vec2, b: Vec2, p: Vec2) -> bool {
         let needed = self.gap_m.min(a.distance(p)).min(b.distance(p));
         point_to_segment(p, a, b) >= needed - 1e-9 && b.distance(p) >= 2.0 * self.radius_m
     }
 
-    /// Whether the line `a`–`b` is clear of the obstacles.
+    /// Whether a robot that drives along the line `a`–`b` touches no obstacle.
     pub fn clears_obstacles(&self, a: Vec2, b: Vec2) -> bool {
         self.obstacles.iter().all(|obstacle| match *obstacle {
             Obstacle::Disc { at, radius_m } => point_to_segment(at, a, b) >= radius_m + self.radius_m,
@@ -61,12 +61,13 @@ impl<'a> FreeSpace<'a> {
         })
     }
 
-    /// Whether the line `a`–`b` is clear of discs and obstacles.
+    /// Whether the line `a`–`b` keeps clear of all `discs`, as [`Self::clears_disc`], and of the obstacles.
     pub fn is_clear(&self, a: Vec2, b: Vec2, discs: &[Vec2]) -> bool {
         discs.iter().all(|&disc| self.clears_disc(a, b, disc)) && self.clears_obstacles(a, b)
     }
 
-    /// Waypoints from `from` to `to` around all discs and obstacles, without `from`; `None` if there is no path.
+    /// Returns waypoints of a path from `from` to `to` around all discs and obstacles, without `from`; `None` if there
+    /// is no path.
     pub fn path(&self, from: Vec2, to: Vec2, discs: &[Vec2]) -> Option<Vec<Vec2>> {
         let came_from = self.search(from, discs, |place| self.is_clear(place, to, discs))?;
         let mut places = vec![to];
@@ -86,8 +87,8 @@ impl<'a> FreeSpace<'a> {
         Some(path)
     }
 
-    /// Waypoints to the nearest place that is at least `room_m` from all discs, from `keep_free` and from `from`.
-    /// `None` if there is none.
+    /// Returns waypoints of a path from `from` to the nearest free place. It is at least `room_m` metres from all
+    /// `discs`, from all places of `keep_free`, and from `from`. `None` if there is none.
     pub fn path_aside(
         &self,
         from: Vec2,
@@ -103,9 +104,9 @@ impl<'a> FreeSpace<'a> {
         self.path(from, *back.first()?, discs)
     }
 
-    /// Searches the grid breadth first from `from` for the nearest place at which `wanted` holds. Returns the places on
-    /// the way there in reverse order, without `from`. `None` if there is none, or the floor has more cells than
-    /// [`CELLS_MAX`].
+    /// Searches the grid breadth first from `from` for the nearest cell at whose place `wanted` holds. Returns the
+    /// places of the path to that cell in reverse order, without `from`; empty if `wanted` holds at `from`. `None` if
+    /// there is none, or the floor has more cells than [`CELLS_MAX`].
     fn search(&self, from: Vec2, discs: &[Vec2], wanted: impl Fn(Vec2) -> bool) -> Option<Vec<Vec2>> {
         if wanted(from) {
             return Some(Vec::new());
@@ -151,7 +152,7 @@ impl<'a> FreeSpace<'a> {
         None
     }
 
-    /// `[cell]`: whether a robot must not stand there.
+    /// Returns `[cell]`: whether a robot must not stand there, because of an obstacle or one of `discs`.
     fn blocked(&self, columns: usize, rows: usize, room: Vec2, discs: &[Vec2]) -> Vec<bool> {
         let place = |cell: usize| {
             Vec2::new(
@@ -161,7 +162,7 @@ impl<'a> FreeSpace<'a> {
         };
         let mut blocked: Vec<bool> =
             (0..columns * rows).map(|cell| !self.clears_obstacles(place(cell), place(cell))).collect();
-        // The gap and half a cell as the sides of a right angle: steps between two free cells then keep the gap too.
+        // The hypotenuse of the gap and half a cell: steps between two free cells then keep the gap too.
         let free_m = self.gap_m.hypot(self.cell_m / 2.0);
         let reach = (free_m / self.cell_m) as i64 + 1;
         for &disc in discs {

@@ -1,9 +1,9 @@
-//! Plans for robots without a common clock. They understand the command TARGET but no routes, and their speed is
-//! unknown.
+//! Plans for robots without a common clock. These robots understand the command TARGET (a place to drive to) but no
+//! routes, and their speed is unknown.
 //!
-//! These robots drive straight lines, in an order in which no two can meet at any speed. [`stages`] finds the order.
-//! [`StraightDrive::yields`] lets drives overlap in time. The controller lets a robot drive only as far as the progress
-//! of the drives that it yields to allows.
+//! They drive straight lines, in an order in which no two robots can meet at any speed. [`stages`] finds the order.
+//! [`StraightDrive::yields`] lets drives overlap in time: a drive yields to earlier drives that it would meet. The
+//! controller lets a robot drive only as far as the progress of those earlier drives allows.
 
 mod free_space;
 mod order;
@@ -19,11 +19,12 @@ use crate::Path;
 use lightbots_base::Vec2;
 use order::Order;
 
-/// Most times that robots step aside, on average for each robot, before the search fails.
+/// Most times that robots step aside before the search fails, on average for each robot.
 const ASIDES_EACH: usize = 1;
 
-/// Finds stages that bring all robots to their goals; `None` if no order was found. `drive` plans the synchronised
-/// robots among the given discs, which stand meanwhile. It returns `None` if they cannot drive yet.
+/// Finds stages that bring all robots to their goals; `None` if no order was found. `drive` plans the paths of the
+/// synchronised robots among the given discs (stage metres), which stand still meanwhile. It returns `None` if they
+/// cannot drive yet.
 pub fn stages(
     problem: &UnsynchronisedProblem<'_>,
     mut drive: impl FnMut(&[Vec2]) -> Option<Vec<(usize, Path)>>,
@@ -80,8 +81,8 @@ mod tests {
         UnsynchronisedProblem { space, starts, goals, unsynchronised, standing: &[] }
     }
 
-    /// Drives robots at random speeds with random delays of reports, each robot as far as the reports allow. Asserts
-    /// that all robots arrive, and that none comes nearer to another than `gap_m`.
+    /// Simulates the drives: robots have random speeds and random delays of reports, and drive only as far as these
+    /// reports allow. Asserts that all robots arrive, and that no two come nearer to each other than `gap_m`.
     fn drive_anyhow(places: &mut [Vec2], drives: &[StraightDrive], gap_m: f64, seed: u64) {
         let mut dice = seed;
         let mut chance = |bound: u64| (congruential(&mut dice) >> 33) % bound;

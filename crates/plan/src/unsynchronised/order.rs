@@ -1,4 +1,4 @@
-//! The search for an order of straight drives.
+//! The search for an order of straight drives in which no robot meets another.
 
 use super::free_space::FreeSpace;
 use super::problem::{DriveStage, UnsynchronisedProblem};
@@ -7,11 +7,12 @@ use super::straight::{StraightDrive, add_yields};
 use crate::Path;
 use lightbots_base::Vec2;
 
-/// Number of robots for which a detour is searched. The robot with the cheapest detour goes first.
+/// Number of robots for which a detour is searched, or more until one is found. The robot with the cheapest detour
+/// drives first.
 const DETOURS_TRIED: usize = 12;
-/// Cost of a stop on a detour, metres.
+/// Cost of each stop on a detour, as metres of path.
 const STOP_M: f64 = 0.15;
-/// Cost of each waiting robot whose straight line a robot's goal blocks, metres.
+/// Cost of a detour for each waiting robot whose straight line the goal of the detour blocks, as metres of path.
 const BLOCKS_M: f64 = 0.3;
 /// Side of a grid cell in the search for paths through narrow gaps, metres.
 const FINE_CELL_M: f64 = 0.012;
@@ -19,15 +20,18 @@ const FINE_CELL_M: f64 = 0.012;
 /// The state of the search for an order.
 pub(super) struct Order<'a, 'b> {
     problem: &'a UnsynchronisedProblem<'b>,
-    /// `[robot]`: its place after all drives found up to here, stage metres.
+    /// `[robot]`: its place after all drives that were ordered so far, stage metres.
     places: Vec<Vec2>,
     /// `[robot]`: whether it is unsynchronised and not at its goal.
     pub waiting: Vec<bool>,
-    /// `[robot]`: number of discs and obstacles on its straight line; up to date only while the robot waits.
+    /// `[robot]`: number of robots, discs and obstacles on its straight line to its goal. Obstacles count as one. Up to
+    /// date only while the robot waits.
     blockers: Vec<usize>,
-    /// `[robot]`: number of waiting robots whose straight line its goal blocks.
+    /// `[robot]`: number of waiting robots whose straight line would be blocked by the robot at its goal.
     blocked: Vec<usize>,
+    /// Drives of the current stage, in order.
     drives: Vec<StraightDrive>,
+    /// Finished stages.
     stages: Vec<DriveStage>,
 }
 
@@ -47,7 +51,7 @@ impl<'a, 'b> Order<'a, 'b> {
         order
     }
 
-    /// Recounts which robots wait, and what blocks each straight line.
+    /// Counts anew which robots wait, and what blocks each straight line.
     fn look_around(&mut self) {
         let robots = 0..self.places.len();
         let waits =
@@ -69,23 +73,23 @@ impl<'a, 'b> Order<'a, 'b> {
         (0..self.places.len()).filter(|&other| self.waiting[other] && self.would_block(robot, other)).count()
     }
 
-    /// Whether robot `other`, where it is, blocks the straight line of `robot` to its goal.
+    /// Whether robot `other`, at its present place, blocks the straight line of `robot` to its goal.
     fn blocks(&self, robot: usize, other: usize) -> bool {
         let (space, goal) = (&self.problem.space, self.problem.goals[robot]);
         let at = self.places[other];
-        // A robot that has yet to leave needs the gap too: no other robot may stop closer to it.
+        // If robot `other` must still leave its place, it needs the gap too: no robot may stop closer to it.
         let near = at != self.problem.goals[other] && goal.distance(at) < space.gap_m;
         other != robot && (near || !space.clears_disc(self.places[robot], goal, at))
     }
 
-    /// Whether the goal of `robot` blocks the straight line of robot `other` to its goal.
+    /// Whether `robot`, once at its goal, would block the straight line of robot `other` to the goal of `other`.
     fn would_block(&self, robot: usize, other: usize) -> bool {
         let goals = self.problem.goals;
         other != robot && !self.problem.space.clears_disc(self.places[other], goals[other], goals[robot])
     }
 
-    /// Returns the robot to drive next, straight to its goal. Of all robots whose line is clear and whose goal blocks
-    /// no other line, it has the longest line.
+    /// Returns the robot that drives next, straight to its goal; `None` if there is none. Of all robots whose line is
+    /// clear and whose goal blocks no other line, it has the longest line.
     pub fn next(&self) -> Option<usize> {
         let is_free = |&robot: &usize| self.waiting[robot] && self.blockers[robot] + self.blocked[robot] == 0;
         let way_m = |robot: usize| self.places[robot].distance(self.problem.goals[robot]);
@@ -93,7 +97,7 @@ impl<'a, 'b> Order<'a, 'b> {
         (0..self.places.len()).filter(is_free).max_by(shorter)
     }
 
-    /// Adds a straight drive of a robot, and updates the counts.
+    /// Adds a straight drive of a robot to `to`, and updates the counts.
     pub fn go(&mut self, robot: usize, to: Vec2) {
         let others = |order: &Self| -> Vec<usize> {
             (0..order.places.len()).filter(|&other| other != robot && order.waiting[other]).collect()
@@ -120,8 +124,8 @@ impl<'a, 'b> Order<'a, 'b> {
         }
     }
 
-    /// Adds drives by which all unsynchronised robots leave, so that others can pass. With `return_too`, they then
-    /// drive to their goals. `None` if no such drives are found.
+    /// Adds drives by which all unsynchronised robots leave their places, so that others can pass. With `return_too`,
+    /// they then drive to their goals. `None` if no such drives are found.
     pub fn clear_out(&mut self, return_too: bool) -> Option<()> {
         let UnsynchronisedProblem { space, goals, unsynchronised, standing, .. } = self.problem;
         let (movers, others): (Vec<usize>, Vec<usize>) =
@@ -141,7 +145,7 @@ impl<'a, 'b> Order<'a, 'b> {
         Some(())
     }
 
-    /// Adds the stage of the synchronised robots.
+    /// Adds the stage in which the synchronised robots drive `paths`, each with the index of its robot.
     pub fn follow(&mut self, paths: Vec<(usize, Path)>) {
         self.end_drives();
         paths.iter().for_each(|(robot, path)| self.places[*robot] = path.as_ref().end());
@@ -157,20 +161,21 @@ impl<'a, 'b> Order<'a, 'b> {
         }
     }
 
-    /// Returns the stages found.
+    /// Ends the search, and returns all stages.
     pub fn finish(mut self) -> Vec<DriveStage> {
         self.end_drives();
         self.stages
     }
 
-    /// Returns the discs that stand while the synchronised robots drive, stage metres.
+    /// Returns the places of all unsynchronised robots and standing discs, which stand while the synchronised robots
+    /// drive, stage metres.
     pub fn unsynchronised_and_standing(&self) -> Vec<Vec2> {
         let waiting = (0..self.places.len()).filter(|&robot| self.problem.unsynchronised[robot]);
         waiting.map(|robot| self.places[robot]).chain(self.problem.standing.iter().copied()).collect()
     }
 
-    /// Finds a path around others to a robot's goal, or a path aside for a robot in the way. Returns `(robot,
-    /// waypoints, whether the path is only aside)`.
+    /// Finds a path around others to a robot's goal, or else a path aside for a robot that stands in the way. Returns
+    /// `(robot, waypoints, whether the path is only aside)`; `None` if there is neither.
     pub fn detour(&self) -> Option<(usize, Vec<Vec2>, bool)> {
         let UnsynchronisedProblem { space, goals, unsynchronised, standing, .. } = self.problem;
         let discs_of = |robot: usize| -> Vec<Vec2> {

@@ -1,14 +1,14 @@
-//! The last resort if no robot can reach its goal: all unsynchronised robots leave, and return in an order in which
-//! each finds a path.
+//! The last resort if no robot can reach its goal: all unsynchronised robots leave their places. They return in an
+//! order in which each robot finds a path.
 
 use super::free_space::FreeSpace;
 use lightbots_base::Vec2;
 
-/// Distance that a robot keeps from everything else after it has left, as a multiple of the gap. Above 2, other robots
-/// can pass between.
+/// Distance that a robot keeps from all others after it has left, as a multiple of the gap. With more than 2, other
+/// robots can pass between.
 const APART: f64 = 2.1;
 
-/// Robots that drive one after the other, and the discs among which they drive.
+/// Robots that drive one after the other (the movers), and the discs among which they drive.
 pub(super) struct Rearrangement<'a> {
     pub space: &'a FreeSpace<'a>,
     /// Indices of the robots that move.
@@ -18,7 +18,7 @@ pub(super) struct Rearrangement<'a> {
 }
 
 impl Rearrangement<'_> {
-    /// Returns straight drives in order, `(robot, to)`, that bring all movers from `places` to places away from
+    /// Returns straight drives in order, `(robot, to)`, that bring all movers from `places[robot]` to places away from
     /// `keep_free`. `None` if a robot finds no path.
     pub fn leave(&self, places: &[Vec2], keep_free: &[Vec2]) -> Option<Vec<(usize, Vec2)>> {
         let room_m = APART * self.space.gap_m;
@@ -32,9 +32,9 @@ impl Rearrangement<'_> {
         )
     }
 
-    /// Returns straight drives in order, `(robot, to)`, that bring all movers from `away` to their goals. The search
-    /// runs backwards in time: the first robot that can leave its goal arrives there last. `None` if a robot finds no
-    /// path.
+    /// Returns straight drives in order, `(robot, to)`, that bring all movers from `away[robot]` to `goals[robot]`. The
+    /// search runs backwards in time: the first robot that could leave its goal arrives there last. `None` if a robot
+    /// finds no path.
     pub fn come_back(&self, away: &[Vec2], goals: &[Vec2]) -> Option<Vec<(usize, Vec2)>> {
         let left = self.peel(goals, |robot, discs| self.space.path(goals[robot], away[robot], discs))?;
         let back = left.into_iter().rev().flat_map(|(robot, mut path)| {
@@ -46,8 +46,8 @@ impl Rearrangement<'_> {
         Some(back.collect())
     }
 
-    /// Moves robots out of `places` one after the other, always the first that finds a path past all others. Returns
-    /// their paths in that order.
+    /// Moves robots out of `places[robot]` one after the other, always the first robot for which `path(robot, discs)`
+    /// finds a path past all others. Returns the robots and their paths in that order; `None` if a robot finds none.
     fn peel(
         &self,
         places: &[Vec2],

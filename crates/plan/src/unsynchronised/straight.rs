@@ -1,23 +1,24 @@
-//! Straight drives of robots without a common clock, and how far each robot may drive while others are on their drives.
+//! Straight drives of robots without a common clock, and how far a robot may drive while earlier drives of other robots
+//! are not finished.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 use std::collections::BTreeMap;
 
-/// Number of bisections in the search for the clear part of a drive. 14 leave an error of 1 mm on a floor of 16 m.
+/// Number of bisections in the search for the clear part of a drive. With 14, the error is 1 mm on a floor of 16 m.
 const HALVINGS: usize = 14;
 /// Tolerance for rounding when distances are compared, metres.
 const ROUNDING_M: f64 = 1e-9;
 
 /// Assumed speed of a robot without a common clock, m/s. Only the estimate of the duration uses it.
 const SPEED_MPS: f64 = 0.27;
-/// Time that a drive takes in addition to covering its distance, seconds: the turn at its start and the report at its
+/// Time that a drive takes in addition to driving its distance, seconds: the turn at its start, and the report at its
 /// end.
 const OVERHEAD_S: f64 = 0.6;
-/// Assumed time between the departure of a robot and that of a robot that yields to it, seconds.
+/// Assumed time from the start of a drive to the start of a drive that yields to it, seconds.
 const HEADWAY_S: f64 = 0.4;
 
-/// A straight drive of one robot from its place to another.
+/// A straight drive of one robot from a place to another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightDrive {
     /// Index of the robot.
@@ -26,22 +27,23 @@ pub struct StraightDrive {
     pub from: Vec2,
     /// Place where the drive ends, stage metres.
     pub to: Vec2,
-    /// Earlier drives of other robots that would meet this one. This drive never comes within the gap of their
-    /// remaining parts.
+    /// Earlier drives of other robots that this drive would meet. While it is driven, its robot stays at least
+    /// [`Yield::gap_m`] from the remaining line of each of them.
     pub yields: Vec<Yield>,
 }
 
-/// An earlier drive that has the right of way.
+/// An earlier drive that a drive yields to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yield {
     /// Index of the earlier drive in the list of drives.
     pub to: usize,
-    /// Distance to keep between the centre of this robot and the remaining line of the earlier drive, metres.
+    /// Distance to keep between the centre of the robot that yields and the remaining line of the earlier drive,
+    /// metres.
     pub gap_m: f64,
 }
 
 impl StraightDrive {
-    /// A drive that yields to no other.
+    /// A drive that does not yield to any other drive.
     pub fn new(robot: usize, from: Vec2, to: Vec2) -> Self {
         Self { robot, from, to, yields: Vec::new() }
     }
@@ -56,7 +58,8 @@ impl StraightDrive {
         self.from + (self.to - self.from) * share
     }
 
-    /// Share of the drive that a robot at `place` has completed; may be less than 0 or more than 1.
+    /// Share of the drive that is done when the robot is at `place`; may be less than 0 or more than 1. It is 1 for a
+    /// drive of length 0.
     pub fn share_at(&self, place: Vec2) -> f64 {
         let line = self.to - self.from;
         let squared = line.length_squared();
@@ -68,8 +71,8 @@ impl StraightDrive {
         point_to_segment(place, self.from, self.to)
     }
 
-    /// Share of this drive, 0 to 1, up to which its line keeps `gap_m` from the remaining part of another drive. The
-    /// share `passed` of the other drive is done. The result holds at any speed of both robots.
+    /// Share of this drive, 0 to 1, up to which its line stays at least `gap_m` metres from the remaining line of
+    /// `other`. The share `passed` of `other` is done. The result holds at any speed of both robots.
     pub fn clear_share(&self, other: &Self, passed: f64, gap_m: f64) -> f64 {
         let left = (other.at(passed.clamp(0.0, 1.0)), other.to);
         let clear = |share: f64| segment_to_segment((self.from, self.at(share)), left) >= gap_m - ROUNDING_M;
@@ -85,8 +88,8 @@ impl StraightDrive {
     }
 }
 
-/// Sets the yields of drives. The drives must be collision-free one after the other; with these yields they are also
-/// collision-free when they overlap in time.
+/// Sets the yields of drives. The drives must be collision-free if they are driven one after the other; with these
+/// yields, they are also collision-free if they overlap in time.
 pub(super) fn add_yields(drives: &mut [StraightDrive], gap_m: f64) {
     let (mut next, mut next_of) = (vec![usize::MAX; drives.len()], BTreeMap::new());
     for (place, drive) in drives.iter().enumerate().rev() {
@@ -107,8 +110,8 @@ pub(super) fn add_yields(drives: &mut [StraightDrive], gap_m: f64) {
     }
 }
 
-/// Estimates the duration of drives without disturbance, seconds. The estimate is rough, because the speed of these
-/// robots is unknown.
+/// Estimates the time until the last of `drives` ends, if nothing delays them, seconds. The estimate is rough, because
+/// the speed of these robots is unknown.
 pub fn expected_s(drives: &[StraightDrive]) -> f64 {
     let (mut begins, mut ends) = (Vec::<f64>::new(), Vec::<f64>::new());
     for (place, drive) in drives.iter().enumerate() {

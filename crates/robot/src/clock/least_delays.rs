@@ -1,22 +1,23 @@
 //! The least delays of both directions of a link, which bound the offset of the show clock.
 //!
-//! No message arrives before it was sent, so that each question bounds the offset from above and each answer from
-//! below. The quickest question and the quickest answer need not belong together. Over a link with much jitter, both
-//! are quicker than those of any one round trip. The middle between both bounds is the offset if the link is equally
-//! quick in both directions.
+//! No message arrives before it was sent. So each question bounds the offset from above, and each answer bounds it from
+//! below. The quickest question and the quickest answer need not belong to the same round trip. Over a link with much
+//! jitter, their sum is less than any single round trip. If the link is equally quick in both directions, the middle
+//! between both bounds is the offset.
 
 use lightbots_base::{Instant, Span};
 
-/// Number of delays kept of each direction. With 2, the gap between them tells little about how much the least may
-/// exceed the shortest possible one. With more, it tells more about the link than about its quickest messages.
+/// Number of least delays that are kept for each direction. The gap between them estimates by how much the least delay
+/// exceeds the shortest possible one. With 2, this estimate is poor. With more than 3, the gap depends on the slower
+/// messages of the link.
 const KEPT: usize = 3;
 
-/// The least delays of messages in one direction, ascending, microseconds. They include the offset: plus for questions,
-/// minus for answers.
+/// The least delays of messages in one direction, ascending, microseconds. The offset is added to those of questions
+/// and subtracted from those of answers.
 #[derive(Clone, Copy, Debug)]
 struct Direction {
     delays_us: [f64; KEPT],
-    /// When the message with the least delay came.
+    /// When the answer with the least delay of this direction was handled, own clock.
     least_at: Instant,
 }
 
@@ -38,14 +39,14 @@ impl Direction {
         self.delays_us[0]
     }
 
-    /// How much the least delay may exceed the shortest possible one, microseconds. Infinite until [`KEPT`] delays are
-    /// known.
+    /// Estimate of how much the least delay exceeds the shortest possible delay, microseconds. Infinite until [`KEPT`]
+    /// delays are known.
     fn gap_us(&self) -> f64 {
         self.delays_us[KEPT - 1] - self.delays_us[0]
     }
 }
 
-/// Estimate of the offset by the least delays.
+/// Estimate of the offset by the least delays: the middle of its bounds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Middle {
     /// The offset, microseconds.
@@ -64,14 +65,15 @@ pub(super) struct LeastDelays {
 impl LeastDelays {
     pub const NONE: Self = Self { there: Direction::NONE, back: Direction::NONE };
 
-    /// Adapts the delays to a change of the offset by `change_us`, with an error of `error_us`, microseconds.
+    /// Adapts the delays to a predicted change of the offset by `change_us`, microseconds. The bounds widen by
+    /// `error_us` on each side, the error of the prediction.
     pub fn age(&mut self, change_us: f64, error_us: f64) {
         self.there.delays_us.iter_mut().for_each(|delay_us| *delay_us += error_us + change_us);
         self.back.delays_us.iter_mut().for_each(|delay_us| *delay_us += error_us - change_us);
     }
 
-    /// Takes an answer that came at `now`, microseconds: the question took `there_us` less the offset, the answer
-    /// `back_us` plus the offset.
+    /// Adds the delays of a round trip whose answer arrived at `now`. `there_us`: delay of the question plus the
+    /// offset; `back_us`: delay of the answer minus the offset; both microseconds.
     pub fn take(&mut self, now: Instant, there_us: f64, back_us: f64) {
         if there_us + self.back.least_us() < 0.0 || back_us + self.there.least_us() < 0.0 {
             // Earlier delays contradict this one: one of both clocks was set, or drifts more than was thought.
@@ -86,8 +88,8 @@ impl LeastDelays {
         [-self.back.least_us(), self.there.least_us()]
     }
 
-    /// Estimates the offset at `now` as the middle of its bounds, after a number of `answers`. `drift`: 1 sigma of the
-    /// drift, as a share.
+    /// Estimates the offset at `now`, own clock, as the middle of its bounds. `answers`: number of answers until now;
+    /// `drift`: standard deviation of the drift, as a share.
     pub fn middle(&self, now: Instant, answers: u32, drift: f64) -> Middle {
         let [gap_there, gap_back] = [self.there.gap_us(), self.back.gap_us()];
         let age = |direction: &Direction| (now - direction.least_at).max(Span::ZERO).0 as f64;

@@ -1,22 +1,23 @@
-//! Outlier gate: a fix far from the prediction is rejected, until [`OUTLIERS`] in a row agree with each other.
+//! Outlier gate: a fix far from the prediction is rejected as an outlier. Once [`OUTLIERS`] outliers agree with each other,
+//! the estimate jumps to them.
 
 use lightbots_base::{Instant, Span, Vec2, wrap};
 
-/// Largest innovation of an inlier, standard deviations. Below, good fixes of a robot that was pushed are rejected. Above,
-/// outliers near the robot pull it off its place.
+/// Largest innovation of an inlier, in standard deviations of the innovation. With a smaller value, good fixes of a robot
+/// that was pushed are rejected. With a larger value, outliers near the robot pull it off its place.
 const GATE: f64 = 5.0;
-/// Innovation of a place below which a fix is an inlier whatever the covariance says, metres: three sigma of the
+/// A position fix whose innovation is less than this is an inlier whatever the covariance says, metres: three sigma of the
 /// default noise.
 const GATE_FLOOR_M: f64 = 0.006;
-/// Innovation of a heading below which a fix is an inlier whatever the covariance says, radians.
+/// A heading fix whose innovation is less than this is an inlier whatever the covariance says, radians.
 const GATE_FLOOR_RAD: f64 = 0.1;
-/// Number of outliers in a row that agree after which the pose jumps to them: 0.16 s of fixes. Below, a burst of
-/// reflections moves the robot. Above, a robot that was carried away stands for longer.
+/// Number of agreeing outliers at which the estimate jumps to them: 0.16 s of fixes. With a smaller value, a burst of
+/// reflections moves the estimate. With a larger value, a robot that was carried away stands still for longer.
 const OUTLIERS: u8 = 10;
-/// Two jumps within this time are a fault, because no push moves a robot twice in it.
+/// Two jumps of the place within this time are a fault, because no push moves a robot twice so quickly.
 const JUMPS_APART: Span = Span::from_millis(1000);
 
-/// What becomes of a fix.
+/// How the filter uses a fix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum GateResult {
     /// The fix is rejected.
@@ -30,26 +31,27 @@ pub(super) enum GateResult {
 /// Recent outliers, and the times of the last inliers.
 #[derive(Debug, Default)]
 pub(super) struct OutlierGate {
-    /// Innovation of the latest of the outliers that are counted, metres. Another outlier agrees if its innovation is
-    /// near this one.
+    /// Innovation of the latest position fix among the agreeing outliers, metres. The next outlier agrees if its innovation
+    /// is close to this one.
     odd_off: Vec2,
     last_jump: Option<Instant>,
-    /// When the last place came that was no outlier.
+    /// When the last position fix arrived that was no outlier; `None` if there was none.
     last_place: Option<Instant>,
-    /// When the last heading came that was no outlier.
+    /// When the last heading fix arrived that was no outlier; `None` if there was none.
     last_heading: Option<Instant>,
     odd_places: u8,
-    /// Innovation of the latest of the headings that are counted as outliers, radians.
+    /// Innovation of the latest heading fix among the agreeing outliers, radians.
     odd_turn: f64,
     odd_headings: u8,
     /// Whether two jumps came within [`JUMPS_APART`].
     senseless: bool,
-    /// How far the place has jumped since [`take_jump_m`](Self::take_jump_m) was last called, metres; 0: it has not.
+    /// Sum of the jumps of the place since [`take_jump_m`](Self::take_jump_m) was last called, metres.
     jump_m: f64,
 }
 
 impl OutlierGate {
-    /// Tests the innovation of a place against the variance of the estimate (`believed`) and of the fix (`noise`).
+    /// Tests the innovation `off` of a position fix, metres, against the variances of the estimate (`believed`) and of the
+    /// fix (`noise`). The first fix is always a jump.
     #[inline]
     pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> GateResult {
         let square = off.length_squared();
@@ -72,8 +74,8 @@ impl OutlierGate {
         if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
-    /// Tests the innovation of a heading against the variance of the estimate (`believed`) and of the fix (`noise`). The
-    /// first heading replaces the estimate.
+    /// Tests the innovation `off` of a heading fix, radians, against the variances of the estimate (`believed`) and of the
+    /// fix (`noise`). With `first`, the fix is always a jump.
     #[inline]
     pub(super) fn heading(
         &mut self,
@@ -100,29 +102,29 @@ impl OutlierGate {
         if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
-    /// When the last place came that was no outlier.
+    /// When the last position fix arrived that was no outlier; `None` if there was none.
     pub(super) fn last_place(&self) -> Option<Instant> {
         self.last_place
     }
 
-    /// When the last heading came that was no outlier.
+    /// When the last heading fix arrived that was no outlier; `None` if there was none.
     pub(super) fn last_heading(&self) -> Option<Instant> {
         self.last_heading
     }
 
-    /// How far the place has jumped since the last call, metres; 0: it has not.
+    /// Returns the sum of the jumps of the place since the last call, metres; 0 if there was none.
     pub(super) fn take_jump_m(&mut self) -> f64 {
         core::mem::take(&mut self.jump_m)
     }
 
-    /// Whether two jumps came within [`JUMPS_APART`]. The call clears the flag.
+    /// Returns whether two jumps of the place came within [`JUMPS_APART`]. The call clears the flag.
     pub(super) fn take_senseless(&mut self) -> bool {
         core::mem::take(&mut self.senseless)
     }
 }
 
-/// Counts one more outlier, which agrees with those that are counted or not. One that agrees with no other counts
-/// against those that agree with each other. Returns whether the others are compared with this one from now on.
+/// Counts an outlier: one that agrees with the outliers before raises the count by one, any other lowers it by one. The
+/// count stays at least 1. Returns whether later outliers are to be compared with this one.
 #[inline]
 fn count_outlier(counted: &mut u8, agrees: bool) -> bool {
     *counted = if agrees { *counted + 1 } else { counted.saturating_sub(1) };

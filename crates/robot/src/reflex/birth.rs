@@ -1,4 +1,4 @@
-//! How a track begins: from the plan if a planned neighbour explains a reading, else from the reading alone.
+//! Begins tracks: from the plan if a planned neighbour explains a reading, otherwise from the reading alone.
 
 use super::covariance::Covariance;
 use super::departure::Departure;
@@ -8,20 +8,20 @@ use super::sensors::BESIDE_M;
 use super::track::Track;
 use crate::config::SENSORS;
 
-/// Uncertainty across the line of sight of a place known from one sensor, 1 sigma, as a share of its distance. It
-/// stands for ±19°, evenly spread: there a disc 10 mm away is in the cone of one sensor only.
+/// Uncertainty, across the line of sight, of a place that one sensor sees, 1 sigma, as a share of its distance. It stands
+/// for directions that are evenly spread over ±19°: there a disc 10 mm away is in the cone of one sensor only.
 pub(super) const BEARING_SIGMA: f32 = 0.19;
-/// Difference below which readings of two sensors side by side may be of one disc, metres. At 20 mm, a disc at the edge
-/// of a cone reads that much farther there.
+/// Readings of two adjacent sensors may be of one disc if they differ by less than this, metres. For a disc 20 mm away at
+/// the edge of a sensor's cone, the readings differ by this much.
 const SHARED_M: f32 = 0.015;
-/// How much nearer a disc between two sensors is than either reads, metres. Readings of one sensor alone have this
-/// uncertainty on top of their noise.
+/// How much nearer a disc midway between two sensors is than either sensor reads, metres. It is also added to the noise of a
+/// reading along the line of sight.
 const BETWEEN_M: f32 = 0.002;
-/// Largest error with which a planned neighbour explains a reading, in sigma.
+/// Largest innovation at which a planned neighbour explains a reading, in standard deviations of the innovation.
 const EXPLAINS_SIGMAS: f32 = 4.5;
 
-/// Begins a track of the planned neighbour that explains a reading best; `None` if none does. A neighbour that a track
-/// follows already does not count. Neither does one that has left its plan, because it is not where the plan has it.
+/// Begins a track of the planned neighbour that explains the reading of a sensor best; `None` if no planned neighbour
+/// explains it. Neighbours that have a track do not count, and neither do neighbours that have left their plan.
 pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -> Option<Track> {
     let read_m = scan.reads_m(sensor)?;
     let place_m2 = scan.planned_sigma_m * scan.planned_sigma_m;
@@ -36,8 +36,8 @@ pub(super) fn expected_there(sensor: usize, tracks: &[Track], scan: &Scan<'_>) -
     Some(Track { planned: Some(one.index), departure, ..begun(one.at, one.velocity, covariance, scan) })
 }
 
-/// Difference between a reading and what it would be of a planned neighbour, metres; `None` if that neighbour does not
-/// explain it.
+/// Absolute difference between a reading and the reading that a planned neighbour would give, metres; `None` if the
+/// neighbour does not explain the reading.
 pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, scan: &Scan<'_>) -> Option<f32> {
     let expected = scan.sensors.expected(sensor, one.at);
     let variance = scan.planned_sigma_m * scan.planned_sigma_m + scan.sensors.variance_m2(expected.gap_m);
@@ -46,9 +46,8 @@ pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, sca
     (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
 }
 
-/// Begins a track of an unknown disc from one reading. The disc is assumed straight ahead of the sensor, or midway between
-/// two adjacent sensors with similar readings.
-/// `is_free`: whether a sensor's reading belongs to no track yet.
+/// Begins a track of an unplanned disc from the reading of a sensor. The disc is assumed straight ahead of the sensor, or
+/// midway between two adjacent sensors with similar readings. `is_free`: whether a sensor's reading belongs to no track yet.
 pub(super) fn unknown(sensor: usize, is_free: &dyn Fn(usize) -> bool, scan: &Scan<'_>) -> Track {
     let read_m = scan.gaps_m[sensor];
     let shares = |beside: &usize| {

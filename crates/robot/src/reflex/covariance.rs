@@ -1,4 +1,4 @@
-//! The covariance of a track: place and velocity, two axes each.
+//! The covariance of a track's place and velocity, with two axes each.
 
 use super::point::Point;
 
@@ -35,7 +35,7 @@ impl Symmetric {
     }
 }
 
-/// An independent error that moves place (metres) and velocity (m/s) together, 1 sigma.
+/// An independent source of error that changes place (metres) and velocity (m/s) together, 1 sigma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CommonError {
     pub place: Point,
@@ -47,12 +47,13 @@ pub(crate) struct CommonError {
 pub(crate) struct Covariance {
     place: Symmetric,
     velocity: Symmetric,
-    /// Place with velocity: rows of place (x, y), each with the velocity's x and y.
+    /// Covariance of place with velocity: a row for the place's x and one for its y, each with the velocity's x and y.
     both: [Point; 2],
 }
 
 impl Covariance {
-    /// Independent place and velocity: variances of the place along and across a direction, and of the velocity.
+    /// Covariance of independent place and velocity. `along_m2` and `across_m2`: variances of the place along and
+    /// across the unit vector `along`; `velocity_m2ps2`: variance of the velocity in each axis.
     pub fn new(along: Point, along_m2: f32, across_m2: f32, velocity_m2ps2: f32) -> Self {
         let place = Symmetric { xx: along_m2, xy: 0.0, yy: across_m2 }.rotated(along);
         Self { place, velocity: Symmetric::diagonal(velocity_m2ps2), both: [Point::ZERO; 2] }
@@ -68,14 +69,14 @@ impl Covariance {
         unit.dot(self.velocity.times(unit))
     }
 
-    /// Variance along a unit vector of the place `after_s` seconds from now, square metres.
+    /// Variance, along a unit vector, of the place `after_s` seconds from now at constant velocity, square metres.
     pub fn place_after(&self, unit: Point, after_s: f32) -> f32 {
         let both = unit.x * self.both[0].dot(unit) + unit.y * self.both[1].dot(unit);
         self.place_along(unit) + after_s * (2.0 * both + after_s * self.velocity_along(unit))
     }
 
-    /// Propagates over a step of `dt` seconds at constant velocity, with a change of velocity in an unknown direction
-    /// halfway (1 sigma, m/s).
+    /// Propagates the covariance over a step of `dt` seconds at constant velocity. Halfway, the velocity changes in an
+    /// unknown way by `change_mps` (1 sigma in each axis).
     pub fn predict(&mut self, dt: f32, change_mps: f32) {
         let [x, y] = &mut self.both;
         let velocity = self.velocity;
@@ -87,7 +88,8 @@ impl Covariance {
         self.kick(change_mps, 0.5 * dt);
     }
 
-    /// Adds an unknown change of velocity (1 sigma in each axis, m/s) `ago_s` seconds ago.
+    /// Adds the effect of an unknown change of velocity by `sigma_mps` (1 sigma in each axis) that took place `ago_s`
+    /// seconds ago.
     pub fn kick(&mut self, sigma_mps: f32, ago_s: f32) {
         let variance = sigma_mps * sigma_mps;
         self.velocity.xx += variance;
@@ -105,7 +107,7 @@ impl Covariance {
         self.both[1] = self.both[1].plus(by.velocity.times(by.place.y));
     }
 
-    /// Adds a share of another covariance.
+    /// Adds another covariance times `share`.
     pub fn mix(&mut self, other: &Self, share: f32) {
         for (to, from) in [(&mut self.place, &other.place), (&mut self.velocity, &other.velocity)] {
             to.xx += share * from.xx;
@@ -115,7 +117,8 @@ impl Covariance {
         self.both = [0, 1].map(|row| self.both[row].plus(other.both[row].times(share)));
     }
 
-    /// The covariance of places that are stretched by a factor along a unit vector.
+    /// The covariance after places were stretched by `factor` along the unit vector `along`. Velocities are not
+    /// stretched.
     pub fn stretched(mut self, along: Point, factor: f32) -> Self {
         let stretch = |point: Point| point.plus(along.times((factor - 1.0) * point.dot(along)));
         let rows = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].map(stretch);
@@ -131,7 +134,7 @@ impl Covariance {
         self.place.yy += variance_m2;
     }
 
-    /// Rotates all axes by the angle of a unit vector, because body space has turned.
+    /// Rotates places and velocities by the angle of the unit vector `by`, because body space has turned.
     pub fn rotate(&mut self, by: Point) {
         self.place = self.place.rotated(by);
         self.velocity = self.velocity.rotated(by);
@@ -139,16 +142,17 @@ impl Covariance {
         self.both = [x.times(by.x).minus(y.times(by.y)), x.times(by.y).plus(y.times(by.x))];
     }
 
-    /// Updates by a scalar measurement with this gradient over the place. `variance`: variance of the innovation.
-    /// Returns the corrections of place and velocity.
+    /// Updates the covariance by a scalar measurement whose gradient over the place is `gradient`. `variance`: variance
+    /// of the innovation. Returns the corrections of place and velocity.
     pub fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let place = self.place.times(gradient);
         let velocity = self.both[0].times(gradient.x).plus(self.both[1].times(gradient.y));
         self.gain(place, velocity, innovation, variance)
     }
 
-    /// Updates by a measurement and returns the corrections of place and velocity. `place` and `velocity`: their
-    /// covariances with the measurement. `variance`: variance of the innovation.
+    /// Updates the covariance by a measurement and returns the corrections of place and velocity. The arguments `place`
+    /// and `velocity` are the covariances of place and velocity with the measurement. `variance`: variance of the
+    /// innovation.
     fn gain(&mut self, place: Point, velocity: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let share = 1.0 / variance;
         self.place.minus_outer(place, share);
@@ -158,15 +162,16 @@ impl Covariance {
         (place.times(innovation * share), velocity.times(innovation * share))
     }
 
-    /// Updates by a scalar measurement of the velocity along a unit vector. `variance`: variance of the innovation.
-    /// Returns the corrections of place and velocity.
+    /// Updates the covariance by a scalar measurement of the velocity along a unit vector. `variance`: variance of the
+    /// innovation. Returns the corrections of place and velocity.
     pub fn correct_velocity(&mut self, unit: Point, innovation: f32, variance: f32) -> (Point, Point) {
         let velocity = self.velocity.times(unit);
         let place = Point { x: self.both[0].dot(unit), y: self.both[1].dot(unit) };
         self.gain(place, velocity, innovation, variance)
     }
 
-    /// Squared Mahalanobis length of an error in place and velocity: chi-square with four degrees of freedom.
+    /// Squared Mahalanobis distance of an error in place and velocity. It has a chi-square distribution with four
+    /// degrees of freedom.
     #[cfg(test)]
     pub fn mahalanobis2(&self, place: Point, velocity: Point) -> f64 {
         let [bx, by] = self.both;

@@ -1,61 +1,63 @@
 //! Detection that a planned neighbour has left its plan, by a generalised likelihood ratio test. Source: Willsky and
 //! Jones, *A Generalized Likelihood Ratio Approach to the Detection and Estimation of Jumps in Linear Systems*, 1976.
 //!
-//! The null hypothesis: the neighbour drives by plan, but the readings have an offset that drifts slowly. The offset is
-//! a first-order Gauss-Markov process (Bar-Shalom, Li and Kirubarajan, section 4.2). The alternatives: the neighbour
-//! stopped dead at one of the last places of its path. Each hypothesis has an offset filter of its own and gathers the
-//! logarithm of its likelihood ratio, so that readings of several steps count together.
+//! The null hypothesis: the neighbour drives by plan, and the readings deviate from the plan by a slowly drifting
+//! offset. The offset is a first-order Gauss-Markov process (Bar-Shalom, Li and Kirubarajan, section 4.2). The
+//! alternatives: the neighbour stopped dead at one of the last places of its path. Each hypothesis has its own filter
+//! for the offset. It accumulates the logarithm of its likelihood ratio, so that readings of several steps count
+//! together.
 
 use super::motion::OwnMotion;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 
-/// Number of places at which a neighbour may have stopped that are followed at once. Fewer: by plan a slow neighbour
-/// has left all of them before readings can tell.
+/// Largest number of stop hypotheses: places at which the neighbour may have stopped. With fewer, readings cannot tell
+/// that a slow neighbour stopped before all these places are too old.
 const STOPS: usize = 6;
-/// Distance on the path between two places of [`STOPS`], metres. More: the place of the stop is known less well. Less:
-/// the places cover fewer steps.
+/// Distance on the neighbour's path between the places of two stop hypotheses, metres. With more, the place of a stop
+/// is known less well. With less, the hypotheses cover fewer steps.
 const STOP_EVERY_M: f32 = 0.002;
-/// Share of a log-likelihood ratio that remains after a step. The model of the offset is only approximate, and small
-/// misfits add up in seconds. At 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline, braked
-/// (formation 274).
+/// Share of a log-likelihood ratio that is kept from step to step. The model of the offset is only approximate, and
+/// small errors add up in seconds. At 1, robots that drove side by side for 4 s, 2 mm off the neighbour's spline,
+/// braked wrongly (formation 274).
 const REMEMBERED: f32 = 0.95;
-/// Directions in which a neighbour that comes into sight may stand, radians from the axis of the sensor that sees it
+/// Directions in which a neighbour may stand when it comes into sight, radians from the axis of the sensor that sees it
 /// first: 16° apart.
 const FIRST_BEARINGS_RAD: [f32; 5] = [-0.56, -0.28, 0.0, 0.28, 0.56];
 /// The test of whether one planned neighbour has left its plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Departure {
-    /// Offset of the readings from the plan if the neighbour keeps to it, metres.
+    /// Deviation of the readings from what the plan predicts if the neighbour keeps to it, metres; positive if they are
+    /// longer.
     offset_m: f32,
     /// Variance of the offset, square metres.
     variance: f32,
-    /// How far the neighbour should have driven by plan since the last stop was added, metres.
+    /// How far the neighbour should have driven by plan since the last stop hypothesis was added, metres.
     driven_m: f32,
     stops: heapless::Vec<Stop, STOPS>,
 }
 
-/// The hypothesis that the neighbour stopped at a place.
+/// The hypothesis that the neighbour stopped at the place `at`.
 #[derive(Clone, Copy, Debug)]
 struct Stop {
-    /// Centre of the neighbour there, body space, metres.
+    /// Centre of the stopped neighbour, body space, metres.
     at: Point,
     offset_m: f32,
-    /// Logarithm of its likelihood over that of the null hypothesis.
+    /// Natural logarithm of the likelihood of this hypothesis over that of the null hypothesis.
     log_ratio: f32,
 }
 
 /// How a neighbour left its plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Left {
-    /// It stands at this place, body space, metres.
+    /// It stands; its centre is at this place, body space, metres.
     Stands(Point),
-    /// It left its plan in another way.
+    /// It left its plan in another way than by stopping.
     Strays,
 }
 
 impl Departure {
-    /// A test without readings. `sigma_m`: how far neighbours are off their plan, 1 sigma, metres.
+    /// A test without readings. `sigma_m`: deviation of neighbours from their planned places, 1 sigma, metres.
     pub fn new(sigma_m: f32) -> Self {
         Self {
             offset_m: 0.0,
@@ -65,9 +67,9 @@ impl Departure {
         }
     }
 
-    /// Begins the test of a neighbour that comes into sight of a sensor and is planned at `planned`. It may have
-    /// stopped long before, in any direction at the distance read. If it drives by plan, the first reading gives its
-    /// offset.
+    /// Begins the test of a neighbour that comes into sight of a sensor, with the reading `read_m`. `planned`: its
+    /// centre by plan, body space, metres. The neighbour may have stopped long before, in any direction at the distance
+    /// read. If it drives by plan, the first reading measures its offset.
     pub fn at_first_sight(sensor: usize, read_m: f32, planned: Point, scan: &Scan<'_>) -> Self {
         let (axis, radius_m) = (scan.sensors.axes[sensor], scan.sensors.radius_m);
         let mut departure = Self::new(scan.planned_sigma_m);
@@ -83,15 +85,15 @@ impl Departure {
         departure
     }
 
-    /// Carries the places of the stops over a step in which the robot itself moved.
+    /// Converts the places of the stop hypotheses to body space after a step in which the robot itself moved.
     pub fn predict(&mut self, own: &OwnMotion) {
         for stop in &mut self.stops {
             stop.at = own.carry(stop.at);
         }
     }
 
-    /// Takes the readings of the sensors that see the neighbour. Returns how it has left its plan; `None` if it keeps
-    /// to it.
+    /// Tests the neighbour by the readings of the sensors that see it. `one`: its planned motion. Returns how the
+    /// neighbour has left its plan; `None` if it keeps to the plan.
     pub fn test(
         &mut self,
         one: &Expectation,
@@ -130,8 +132,8 @@ impl Departure {
         None
     }
 
-    /// Adds the hypothesis that the neighbour stops where the plan has it now, once that is far enough from the last
-    /// one. Without room, the least likely one is dropped.
+    /// Adds the hypothesis that the neighbour stops at its present planned place, once this place is [`STOP_EVERY_M`]
+    /// from the last one. If there are too many hypotheses, the least likely one is dropped.
     fn add_stop(&mut self, one: &Expectation, dt: f32) {
         self.driven_m += one.velocity.length() * dt;
         if self.driven_m < STOP_EVERY_M {
@@ -147,15 +149,15 @@ impl Departure {
     }
 }
 
-/// The mean over the sensors that see a neighbour.
+/// Averages over the sensors that see a neighbour.
 struct Mean<'a, S> {
     seen_by: S,
     scan: &'a Scan<'a>,
 }
 
 impl<S: Iterator<Item = usize> + Clone> Mean<'_, S> {
-    /// By how much the sensors read more than they would of a neighbour at `at`, metres, and the variance of that mean.
-    /// `None` if none reads anything.
+    /// Returns how much more the sensors read on average than they would for a neighbour centred at `at`, metres. With
+    /// it, the variance of this mean, square metres. `None` if no sensor has a reading.
     fn off_m(&self, at: Point) -> Option<(f32, f32)> {
         let (mut off_m, mut variance, mut count) = (0.0, 0.0, 0.0);
         for sensor in self.seen_by.clone() {

@@ -1,19 +1,20 @@
-//! Statistics of encounters with other robots for reports (R53): how often the robot braked, and how near another rim
-//! came.
+//! Statistics of encounters with other robots for reports (R53): how often the safety layer braked the robot, and the
+//! least gap to another rim.
 
 use lightbots_base::{Instant, Span};
 
-/// Time without braking after which the next brake counts anew. Below, one brake of a noisy sensor counts several
-/// times. Above, brakes for different robots count as one. Rehearsals count with the same 10 steps of 16 ms.
+/// Time without braking after which braking counts as a new brake. With a smaller value, braking by a noisy sensor
+/// counts several times. With a larger value, brakes for different robots count as one. Rehearsals count with the same
+/// 10 steps of 16 ms.
 const FREE: Span = Span::from_millis(160);
 
 /// Number of brakes, and least gap to another rim.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Encounters {
     brakes: u32,
-    /// When it braked last.
+    /// When the safety layer last braked the robot, own clock.
     braked: Option<Instant>,
-    /// Least gap on the route under way, else on the route finished last, metres.
+    /// Least measured gap on the latest route, metres; `None` if no neighbour was seen on it.
     near_m: Option<f32>,
 }
 

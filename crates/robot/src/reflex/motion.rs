@@ -5,7 +5,7 @@ use super::point::Point;
 /// How a robot moved in a step, in its own body space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OwnMotion {
-    /// Forward, metres.
+    /// Distance driven, metres, forwards positive.
     pub way_m: f32,
     /// Counter-clockwise, radians.
     pub turn_rad: f32,
@@ -14,7 +14,7 @@ pub(crate) struct OwnMotion {
 }
 
 impl OwnMotion {
-    /// Converts a place that does not move from body space before the step to body space after it.
+    /// Converts a fixed place from body space before the step to body space after the step.
     pub fn carry(&self, at: Point) -> Point {
         // The path of the robot bends, so that its chord points in the direction of half the turn.
         let moved = Point::of_small_angle(0.5 * self.turn_rad).times(self.way_m);

@@ -1,4 +1,4 @@
-//! A standing object that the plan does not know: is it a straight edge, the end of one, or a robot? A Gaussian sum
+//! A standing object that the plan does not know: is it a straight edge, the end of an edge, or a robot? A Gaussian sum
 //! filter decides (Alspach and Sorenson, *Nonlinear Bayesian Estimation Using Gaussian Sum Approximations*, 1972). Each
 //! hypothesis is an extended Kalman filter of one outline, weighted by the likelihood of all readings.
 
@@ -11,37 +11,39 @@ use super::scan::Scan;
 use super::view::View;
 use crate::config::{NeighbourModel, SENSORS};
 
-/// Largest number of hypotheses followed at once: those of the first reading, and two ends that come into sight later.
+/// Largest number of hypotheses about an object: those of the first reading, and two for ends that come into sight
+/// later.
 const HYPOTHESES: usize = 24;
-/// Largest error with which a hypothesis explains a reading, in sigma.
+/// Largest innovation at which a hypothesis explains a reading, in standard deviations of the innovation.
 const EXPLAINS_SIGMAS: f32 = 4.0;
-/// A hypothesis is dropped when the natural logarithm of its share in the likelihood of all falls below this.
+/// A hypothesis is dropped once the natural logarithm of its share in the likelihood of all hypotheses is below this.
 const GIVEN_UP_LOG: f32 = -8.0;
-/// Error of the direction of an edge that one sensor sees, 1 sigma, radians. The direction is evenly spread up to where
-/// the next sensor is nearer to the edge.
+/// Error of the direction of an edge that one sensor sees, 1 sigma, radians. Any direction is equally likely up to the
+/// one at which the next sensor would be nearer to the edge.
 const EDGE_SIGMA_RAD: f32 = 0.22;
-/// Directions from a sensor's axis in which the end of an edge may be, radians: cones are ±0.87.
+/// Directions in which the end of an edge is assumed, radians from the sensor's axis; the sensor's cone is ±0.87.
 const END_BEARINGS_RAD: [f32; 3] = [-0.5, 0.0, 0.5];
-/// Error of the place of an end across the line of sight, 1 sigma, as a share of the reading.
+/// Error of the assumed place of an end across the line of sight, 1 sigma, as a share of the reading.
 const END_ACROSS: f32 = 0.24;
-/// Angles between the line of sight to an end and the normal of its edge, radians.
+/// Assumed angles between the line of sight to an end and the normal of its edge, to either side, radians.
 const END_TURNS_RAD: [f32; 3] = [0.15, 0.6, 1.15];
 /// Error of [`END_TURNS_RAD`], 1 sigma, radians.
 const END_SIGMA_RAD: f32 = 0.25;
-/// Directions from a sensor's axis in which the centre of a robot may be, radians.
+/// Directions in which the centre of a standing robot is assumed, radians from the sensor's axis.
 const DISC_BEARINGS_RAD: [f32; 3] = [-0.35, 0.0, 0.35];
-/// Error of the place of a robot across the line of sight, 1 sigma, as a share of the distance.
+/// Error of the assumed place of a standing robot across the line of sight, 1 sigma, as a share of the distance from
+/// the sensor.
 const DISC_ACROSS: f32 = 0.08;
-/// Natural logarithm of the probability above which an obstacle counts as a straight edge: 95 %.
+/// An object counts as a straight edge if the natural logarithm of that probability is above this: 95 %.
 const FLAT_LOG: f32 = -0.05;
-/// Upper bound of an obstacle's log-likelihood ratio, so that a wrong obstacle is lost soon.
+/// Upper bound of an object's log-likelihood ratio, so that an object that was assumed wrongly is dropped soon.
 const MOST_LOG_RATIO: f32 = 12.0;
 
-/// The hypothesis that an obstacle has a certain outline.
+/// The hypothesis that an object has a certain outline.
 #[derive(Clone, Debug)]
 struct Hypothesis {
     outline: Outline,
-    /// Logarithm of its share in the likelihood of all.
+    /// Natural logarithm of the share of this hypothesis in the likelihood of all hypotheses.
     log: f32,
 }
 
@@ -49,27 +51,27 @@ struct Hypothesis {
 #[derive(Clone, Debug)]
 pub(crate) struct StandingObject {
     hypotheses: heapless::Vec<Hypothesis, HYPOTHESES>,
-    /// Natural logarithm of the likelihood of its readings over that of moving neighbours.
+    /// Natural logarithm of the likelihood of its readings as a standing object over that as moving neighbours.
     pub log_ratio: f32,
-    /// Whether a standing object is likelier than moving neighbours, with hysteresis.
+    /// Whether a standing object explains the readings better than moving neighbours, with hysteresis.
     pub is_likely: bool,
     /// Sensors that saw it in the latest step, one bit each.
     pub seen_by: u8,
-    /// Steps in a row in which no sensor saw it.
+    /// Number of steps in a row in which no sensor saw the object.
     pub missed: u8,
 }
 
-/// The readings of a step that may be of an obstacle.
+/// The readings of a step that may belong to standing objects.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readings<'a> {
-    /// Sensors whose readings belong to no known neighbour, one bit each.
+    /// Sensors whose readings belong to no planned neighbour, one bit each.
     pub open: u8,
-    /// Natural logarithm of the density of each sensor's reading if it is of a moving neighbour.
+    /// For each sensor, the natural logarithm of the density of its reading, if the reading is of a moving neighbour.
     pub logs: &'a [f32; SENSORS],
 }
 
 impl StandingObject {
-    /// Begins all hypotheses from the first reading of one sensor, metres.
+    /// Begins an object with all hypotheses that the first reading of one sensor allows. `read_m`: the reading, metres.
     pub fn begin(sensor: usize, read_m: f32, scan: &Scan<'_>) -> Self {
         let sensors = scan.sensors;
         let (axis, sigma_m) = (sensors.axes[sensor], libm::sqrtf(sensors.variance_m2(read_m)));
@@ -95,12 +97,13 @@ impl StandingObject {
         Self { hypotheses, log_ratio: 0.0, is_likely: false, seen_by: 1 << sensor, missed: 0 }
     }
 
-    /// Carries all hypotheses over a step in which the robot itself moved.
+    /// Predicts the outlines of all hypotheses after a step in which the robot itself moved.
     pub fn predict(&mut self, own: &OwnMotion, of: &NeighbourModel) {
         self.hypotheses.iter_mut().for_each(|one| one.outline.predict(own, of));
     }
 
-    /// Takes the readings of a step. `but`: a sensor whose reading was taken before.
+    /// Updates all hypotheses by the readings of a step. `but`: a sensor whose reading was used before, by
+    /// [`begin`](Self::begin).
     pub fn take(&mut self, readings: &Readings<'_>, but: Option<usize>, scan: &Scan<'_>) {
         let explained = self.explained(readings.open, scan);
         self.add_ends(scan);
@@ -121,7 +124,7 @@ impl StandingObject {
         self.missed = if explained == 0 { self.missed.saturating_add(1) } else { 0 };
     }
 
-    /// Those of the sensors in `open` whose readings a hypothesis explains, one bit each.
+    /// The sensors in `open` whose readings any hypothesis explains, one bit each.
     fn explained(&self, open: u8, scan: &Scan<'_>) -> u8 {
         let explains = |sensor: &usize| {
             let Some(read_m) = scan.reads_m(*sensor) else { return false };
@@ -134,8 +137,8 @@ impl StandingObject {
         self.hypotheses.iter().map(|one| one.log)
     }
 
-    /// Adds hypotheses that the edge ends: between where a sensor saw it last and where the next sensors do not see it
-    /// any more.
+    /// Adds hypotheses that the edge has an end. The end is assumed between two places: where a sensor saw the edge
+    /// last, and where the next sensors no longer see it.
     fn add_ends(&mut self, scan: &Scan<'_>) {
         let Some(endless) = self.hypotheses.iter().find(|one| one.outline.form == Form::Edge) else { return };
         let Hypothesis { outline, log } = endless.clone();
@@ -157,7 +160,8 @@ impl StandingObject {
         }
     }
 
-    /// Merges hypotheses that have become alike. The outline of the likelier one stays, with the likelihood of both.
+    /// Merges hypotheses whose outlines have become alike. The outline of the likelier hypothesis is kept, with the
+    /// likelihood of both.
     fn merge(&mut self, of: &NeighbourModel) {
         let mut index = 1;
         while index < self.hypotheses.len() {
@@ -176,8 +180,8 @@ impl StandingObject {
         }
     }
 
-    /// Whether it surely is a straight edge that goes on to both sides of its nearest point. `false` if one sensor
-    /// alone sees it, which cannot tell.
+    /// Whether the object surely is a straight edge that extends to both sides of its nearest point. `false` if only
+    /// one sensor sees the object, because one sensor cannot tell.
     pub fn is_flat(&self) -> bool {
         if self.seen_by.count_ones() < 2 {
             return false;
@@ -186,7 +190,8 @@ impl StandingObject {
         log_sum(flat) - log_sum(self.logs()) > FLAT_LOG
     }
 
-    /// The nearest point: mean and covariance over all hypotheses, weighted by their likelihoods.
+    /// The point of the object that is nearest to the robot: mean and covariance over all hypotheses, weighted by their
+    /// likelihoods.
     pub fn nearest(&self, own: &OwnMotion, of: &NeighbourModel, radius_m: f32) -> NearestPoint {
         let total = log_sum(self.logs());
         let all = || {
@@ -215,7 +220,8 @@ impl Hypothesis {
         })
     }
 
-    /// Takes the readings of the sensors `seen`, and the fact that the sensors `unseen` do not see the outline.
+    /// Updates the hypothesis by the readings of the sensors `seen`, and by the fact that the sensors `unseen` do not
+    /// see the outline. Both are sets with one bit for each sensor.
     fn take(&mut self, seen: u8, unseen: u8, scan: &Scan<'_>) {
         for sensor in bits(seen) {
             let view = self.outline.view(sensor, scan.sensors);
@@ -230,8 +236,8 @@ impl Hypothesis {
         }
     }
 
-    /// Takes a reading and returns the natural logarithm of its density. A reading that the outline does not explain is
-    /// as likely as one of a new neighbour.
+    /// Corrects the outline by a reading and returns the natural logarithm of the reading's density. A reading that the
+    /// outline does not explain has the density of a reading of a new neighbour.
     fn take_reading(&mut self, sensor: usize, view: Option<View>, read_m: f32, scan: &Scan<'_>) -> f32 {
         let unexplained = scan.sensors.new_log;
         let Some(view) = view else {
@@ -247,8 +253,8 @@ impl Hypothesis {
         log_density(off_m, variance).max(unexplained)
     }
 
-    /// Takes the fact that a sensor does not see the outline, and returns the natural logarithm of its probability. The
-    /// outline is out of range, it ends before, or the sensor misses it.
+    /// Uses the fact that a sensor does not see the outline, and returns the natural logarithm of its probability.
+    /// Possible reasons: the outline is out of range, it ends before the sensor's cone, or the sensor misses it.
     fn take_silence(&mut self, sensor: usize, view: &View, scan: &Scan<'_>) -> f32 {
         let (off_m, variance) = self.outline.innovation(view, scan.sensors.range_m, scan.sensors);
         let mut silence =
@@ -263,8 +269,8 @@ impl Hypothesis {
         libm::logf(silence.min(1.0))
     }
 
-    /// How far along the edge the sensor would see it, in the direction in which it goes on, metres. `None` for an
-    /// outline without an end, or out of range.
+    /// The farthest place along the edge that the sensor would see, on the side to which the edge extends, metres.
+    /// `None` for an outline without an end, or out of range.
     fn reach_m(&self, sensor: usize, scan: &Scan<'_>) -> Option<f32> {
         let [right_m, left_m] = self.outline.stretch(sensor, scan.sensors)?;
         match self.outline.form {
@@ -275,7 +281,7 @@ impl Hypothesis {
     }
 }
 
-/// The sensors of a set, one bit each.
+/// Returns the indices of the sensors in the set `of`, which has one bit for each sensor.
 pub(super) fn bits(of: u8) -> impl Iterator<Item = usize> + Clone {
     (0..SENSORS).filter(move |sensor| of >> sensor & 1 == 1)
 }

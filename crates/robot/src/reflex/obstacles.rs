@@ -1,22 +1,22 @@
-//! The standing objects in sight that the plan does not know: which readings belong to them, and how the policy sees
-//! them.
+//! The standing objects in sight that the plan does not know: which readings belong to them, and the tracks that stand
+//! for them.
 
 use super::obstacle::{Readings, StandingObject, bits};
 use super::scan::Scan;
 use super::track::Track;
 
-/// Largest number of obstacles followed at once: the two walls of a corner or a corridor.
+/// Largest number of standing objects that are tracked at once: the two walls of a corner or a corridor.
 const OBSTACLES: usize = 2;
-/// Log-likelihood ratio (natural) of standing over moving below which an obstacle is dropped.
+/// An object is dropped if its `log_ratio` (standing object over moving neighbours) falls to this or below.
 const LEAST_LOG_RATIO: f32 = -8.0;
-/// Number of steps in a row without a reading after which an obstacle has gone.
+/// Number of steps in a row without a reading after which an object is dropped.
 const MISSED_MOST: u8 = 3;
 
-/// All obstacles in sight.
+/// All standing objects in sight.
 #[derive(Debug, Default)]
 pub(crate) struct StandingObjects {
     list: heapless::Vec<StandingObject, OBSTACLES>,
-    /// The likely obstacles, each as a disc of a robot's size that touches it at its nearest point.
+    /// The likely objects, each represented by a disc of a robot's size that touches the object at its nearest point.
     faces: heapless::Vec<Track, OBSTACLES>,
 }
 
@@ -30,12 +30,13 @@ impl StandingObjects {
         self.faces.clear();
     }
 
-    /// The obstacles that are likelier than moving neighbours, as discs that touch them at their nearest points.
+    /// The objects that are likelier than moving neighbours, each represented by a disc that touches the object at its
+    /// nearest point.
     pub fn faces(&self) -> impl Iterator<Item = &Track> {
         self.faces.iter()
     }
 
-    /// Takes the readings of a step.
+    /// Updates all objects by the readings of a step.
     pub fn step(&mut self, readings: &Readings<'_>, scan: &Scan<'_>) {
         let mut open = readings.open;
         for one in &mut self.list {
@@ -56,7 +57,7 @@ impl StandingObjects {
         }
     }
 
-    /// Begins an obstacle with the nearest reading that no obstacle explains, unless all places are taken.
+    /// Begins a new object with the nearest reading that no object explains, unless there are [`OBSTACLES`] already.
     fn begin(&mut self, readings: &Readings<'_>, scan: &Scan<'_>) {
         if self.list.is_full() {
             return;
@@ -68,8 +69,9 @@ impl StandingObjects {
         let _ = self.list.push(one);
     }
 
-    /// Whether obstacles selected by `meant` replace the track of a moving neighbour. They do if they explain all its
-    /// readings or, without a reading, overlap it. A track that the plan names is never replaced.
+    /// Whether the objects for which `meant` returns `true` replace the track of a moving neighbour. They do if they
+    /// explain all its readings. If the track has no reading, they do if they overlap it. A track of a planned
+    /// neighbour is never replaced.
     pub fn hide(&self, track: &Track, contact_m: f32, meant: fn(&Track) -> bool) -> bool {
         if track.is_known() {
             return false;

@@ -1,16 +1,17 @@
 //! The outline of a standing object: a straight edge, the end of an edge, or a disc of a robot's size. An extended
 //! Kalman filter estimates where it is.
 //!
-//! The state is relative to the robot: distance and direction of the normal of the edge, and the place of its end along
-//! the edge. For a disc, the place of the centre stands for that of the end. The object does not move, so its motion in
-//! body space is that of the robot itself.
+//! The state is relative to the robot: the distance to the edge, the direction of the edge's normal, and the place of
+//! the end along the edge. For a disc, the place of its centre is used instead of the end. The object does not move, so
+//! its motion in body space comes only from the robot's own motion.
 
 use super::covariance::{CommonError, Covariance};
 use super::motion::OwnMotion;
 use super::point::Point;
 use crate::config::NeighbourModel;
 
-/// Uncertainty of where a sensor begins to see an edge, metres: what the robot drives in half a step.
+/// Uncertainty of the place at which a sensor begins to see an edge, metres, 1 sigma: what the robot drives in half a
+/// step.
 const SEEN_SIGMA_M: f32 = 0.002;
 
 /// Kind of standing object.
@@ -18,9 +19,9 @@ const SEEN_SIGMA_M: f32 = 0.002;
 pub(crate) enum Form {
     /// A straight edge without an end in sight.
     Edge,
-    /// An edge that goes on from its end to the left, as the robot sees it.
+    /// An edge that extends from its end to the left, as the robot sees it.
     EdgeToLeft,
-    /// An edge that goes on from its end to the right.
+    /// An edge that extends from its end to the right, as the robot sees it.
     EdgeToRight,
     /// A disc of a robot's size.
     Disc,
@@ -30,11 +31,11 @@ pub(crate) enum Form {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outline {
     pub form: Form,
-    /// From the robot's centre to the edge, metres.
+    /// Distance from the robot's centre to the edge along the normal, metres.
     pub distance_m: f32,
-    /// Unit vector from the robot's centre to the edge.
+    /// Unit vector from the robot's centre perpendicular to the edge, body space.
     pub normal: Point,
-    /// Place of the end, or of the disc's centre, along the left of the normal, metres.
+    /// Place of the edge's end, or of the disc's centre, metres to the left of the normal through the robot's centre.
     pub along_m: f32,
     /// Covariance of distance (metres), direction of the normal (radians) and place of the end (metres).
     variance: [[f32; 3]; 3],
@@ -51,7 +52,7 @@ pub(crate) struct NearestPoint {
 }
 
 impl NearestPoint {
-    /// The point that is farther away by `by_m`, metres, in the same direction.
+    /// Moves the point away from the robot by `by_m` metres, in the same direction, with its covariance.
     pub fn behind(self, by_m: f32) -> Self {
         let far_m = self.at.length().max(1e-3);
         let factor = (1.0 + by_m / far_m).max(0.1);
@@ -61,21 +62,23 @@ impl NearestPoint {
 }
 
 impl Outline {
-    /// A straight edge with independent errors of distance, metres, and direction, radians, 1 sigma.
+    /// A straight edge. `sigma_m` and `sigma_rad`: independent errors of distance and direction, 1 sigma.
     pub fn edge(distance_m: f32, normal: Point, sigma_m: f32, sigma_rad: f32) -> Self {
         let variance = [[sigma_m * sigma_m, 0.0, 0.0], [0.0, sigma_rad * sigma_rad, 0.0], [0.0; 3]];
         Self { form: Form::Edge, distance_m, normal, along_m: 0.0, variance }
     }
 
-    /// A disc centred at `at`, with errors along and across the unit vector from a sensor to it, metres, 1 sigma.
+    /// A disc centred at `at`. `towards`: unit vector from a sensor to its centre; `along_m` and `across_m`: errors of
+    /// the centre along and across this vector, metres, 1 sigma.
     pub fn disc(at: Point, towards: Point, along_m: f32, across_m: f32) -> Self {
         let variance = [[along_m * along_m, 0.0, 0.0], [0.0; 3], [0.0, 0.0, across_m * across_m]];
         let form = Form::Disc;
         Self { form, distance_m: at.dot(towards), normal: towards, along_m: at.dot(towards.left()), variance }
     }
 
-    /// An edge with its end at `at`. Its normal is turned by `turn_rad` from the line of sight `towards`, with an error
-    /// of `sigma_rad`. The other errors are along and across the line of sight, metres, 1 sigma.
+    /// An edge with its end at `at`. Its normal is turned by `turn_rad` counter-clockwise from the line of sight
+    /// `towards`, with an error of `sigma_rad`. `along_m` and `across_m`: errors of the end along and across the line
+    /// of sight, metres, 1 sigma.
     pub fn end(
         at: Point,
         towards: Point,
@@ -95,7 +98,8 @@ impl Outline {
         Self { form, distance_m: far_m, normal, along_m: end_m, variance }
     }
 
-    /// This edge with an end somewhere between two places along it, metres.
+    /// Returns this edge with an end that lies anywhere between two places along the edge, metres to the left of the
+    /// normal.
     pub fn ending(&self, form: Form, from_m: f32, to_m: f32) -> Self {
         // An even spread over a length has a standard deviation of 0.29 of it.
         let sigma_m = (0.29 * (to_m - from_m).abs()).max(SEEN_SIGMA_M);
@@ -105,7 +109,7 @@ impl Outline {
         Self { form, along_m: 0.5 * (from_m + to_m), variance, ..*self }
     }
 
-    /// 1 where the edge goes on to the left of its end, −1 to the right, 0 where it has no end.
+    /// Side to which the edge extends from its end: 1 left, −1 right; 0 if it has no end.
     pub fn side(&self) -> f32 {
         match self.form {
             Form::EdgeToLeft => 1.0,
@@ -114,7 +118,7 @@ impl Outline {
         }
     }
 
-    /// Carries the outline over a step in which the robot itself moved.
+    /// Predicts the outline in body space after a step in which the robot itself moved.
     pub fn predict(&mut self, own: &OwnMotion, of: &NeighbourModel) {
         let moved = Point::of_small_angle(0.5 * own.turn_rad).times(own.way_m);
         let (across_m, along_m) = (moved.dot(self.normal), moved.dot(self.normal.left()));
@@ -145,7 +149,7 @@ impl Outline {
         }
     }
 
-    /// Variance of a quantity that has this gradient over distance, direction and end.
+    /// Variance of a quantity whose gradient over distance, direction and end is `gradient`.
     pub fn variance_of(&self, gradient: [f32; 3]) -> f32 {
         dot(self.covariance_with(gradient), gradient)
     }
@@ -154,8 +158,8 @@ impl Outline {
         self.variance.map(|row| dot(row, gradient))
     }
 
-    /// Takes a measurement that has this gradient over distance, direction and end. `variance`: variance of the
-    /// innovation.
+    /// Corrects the outline by a measurement whose gradient over distance, direction and end is `gradient`. `variance`:
+    /// variance of the innovation.
     pub fn correct(&mut self, gradient: [f32; 3], innovation: f32, variance: f32) {
         let moved = self.covariance_with(gradient);
         let share = 1.0 / variance;
@@ -171,8 +175,9 @@ impl Outline {
         self.normal = normal.times(1.0 / normal.length());
     }
 
-    /// Moves the end to `bound_m` along the edge if it is on the wrong side. It becomes no more certain, because the
-    /// next steps say the same again. `sense`: 1 if the edge does not reach as far as `bound_m`, −1 if it does.
+    /// Moves the end towards `bound_m` along the edge (metres) if it is on the wrong side of that place. The end
+    /// becomes no more certain, because the next steps repeat the same information. `sense`: 1 if the edge does not
+    /// reach as far as `bound_m`, −1 if it does.
     pub fn move_end(&mut self, bound_m: f32, sense: f32) {
         let off_m = bound_m - self.along_m;
         if off_m * self.side() * sense > 0.0 {
@@ -181,14 +186,16 @@ impl Outline {
         }
     }
 
-    /// Probability that the edge does not reach as far as a place along it; `None` if it has no end.
+    /// Probability that the edge does not reach as far as the place `bound_m` along it, metres; `None` if the edge has
+    /// no end.
     pub fn ends_before(&self, bound_m: f32) -> Option<f32> {
         let side = self.side();
         let sigma_m = libm::sqrtf(self.variance[2][2].max(1e-8));
         (side != 0.0).then(|| super::likelihood::cumulative((self.along_m - bound_m) * side / sigma_m))
     }
 
-    /// Whether the nearest point is on a straight edge, not its end or a disc.
+    /// Whether the point of the object that is nearest to the robot lies on a straight edge. `false` if it is the end
+    /// of an edge, and for a disc.
     pub fn is_flat(&self) -> bool {
         match self.form {
             Form::Edge => true,
@@ -197,7 +204,8 @@ impl Outline {
         }
     }
 
-    /// The nearest point to the robot's centre. On an edge that point slides along as the robot drives.
+    /// The point of the object that is nearest to the robot's centre. On an edge, this point slides along the edge as
+    /// the robot drives.
     pub fn nearest(&self, own: &OwnMotion, of: &NeighbourModel, radius_m: f32) -> NearestPoint {
         let (normal, left) = (self.normal, self.normal.left());
         let flat = self.is_flat();
@@ -217,7 +225,7 @@ impl Outline {
         if self.form == Form::Disc { estimate.behind(-radius_m) } else { estimate }
     }
 
-    /// Whether two outlines have the same form and nearly the same state, so that one is enough.
+    /// Whether both outlines have the same form and nearly the same state, so that one hypothesis is enough.
     pub fn is_like(&self, other: &Self, of: &NeighbourModel) -> bool {
         self.form == other.form
             && (self.distance_m - other.distance_m).abs() < of.alike_m
@@ -236,7 +244,8 @@ fn add_square(to: &mut [[f32; 3]; 3], of: [f32; 3]) {
     }
 }
 
-/// The columns of the lower triangular (Cholesky) factor of a covariance: its independent errors, 1 sigma each.
+/// Returns the columns of the lower triangular (Cholesky) factor of a covariance. Each column is an independent error,
+/// 1 sigma.
 fn factors(of: &[[f32; 3]; 3]) -> [[f32; 3]; 3] {
     let mut rest = *of;
     core::array::from_fn(|pivot| {

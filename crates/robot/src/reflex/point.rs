@@ -1,6 +1,7 @@
 //! Places and directions of body space in single precision.
 
-/// A place, velocity or direction in body space: x forward, y left. Single precision: sensors are not better.
+/// A place, velocity or direction in body space: x forward, y left. Single precision is finer than the noise of the
+/// sensors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Point {
     pub x: f32,
@@ -42,12 +43,12 @@ impl Point {
         Self { x: self.x * factor, y: self.y * factor }
     }
 
-    /// Turned a quarter to the left.
+    /// The vector turned by a quarter to the left (counter-clockwise).
     pub fn left(self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Rotated by the angle of a unit vector.
+    /// The vector rotated by the angle of the unit vector `by`.
     pub fn rotated(self, by: Self) -> Self {
         Self { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
     }

@@ -1,5 +1,5 @@
-//! How fast the robot may drive for one neighbour. It must be able to stop before the swept discs of both touch. They
-//! are grown by the uncertainty of the neighbour's place.
+//! The speed that one neighbour allows. The robot must be able to stop before its disc comes too near to the disc of
+//! the moving neighbour. The distance to keep grows with the uncertainty of the neighbour's place.
 
 use lightbots_base::braking::{ACTUATION_S, GRIP_MPS2};
 
@@ -8,17 +8,18 @@ use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::SafetyPolicy;
 
-/// Number of halvings in the search for the highest speed: 0.27 m/s to within 1 mm/s.
+/// Number of bisections in the search for the highest allowed speed: from 0.27 m/s down to an error of 1 mm/s.
 const HALVINGS: usize = 8;
-/// Cosine of a neighbour's direction from the front below which driving on does not bring the robot nearer to it.
+/// Cosine of the angle between the direction of driving and the direction to a neighbour. Below this value, the
+/// neighbour does not limit the speed, because driving on brings the robot no nearer to it.
 const ABEAM: f32 = 0.05;
 
-/// The motion that the robot wants along its front; negative is backwards.
+/// The motion along its front that the robot wants; negative is backwards.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
-    /// The speed of the setpoint for its route or target, m/s.
+    /// The wanted speed: that of the setpoint for the route or target, m/s.
     pub speed_mps: f32,
-    /// The speed that its wheels were commanded a step ago, which acts now, m/s.
+    /// The speed that was commanded in the last step, which the wheels carry out now, m/s.
     pub told_mps: f32,
     /// Length of a step, seconds.
     pub dt: f32,
@@ -32,8 +33,8 @@ impl Wish {
     }
 }
 
-/// The highest speed allowed for a neighbour, m/s; `None` if the wanted speed is no danger. `clearance_m`: planned
-/// clearance between the two, if it is known.
+/// The highest speed that a neighbour allows, m/s; `None` if it allows the wanted speed. `clearance_m`: planned
+/// clearance to this neighbour, metres; `None` if it is unknown.
 pub(crate) fn allowed_mps(
     track: &Track,
     wish: &Wish,
@@ -79,21 +80,21 @@ pub(crate) fn allowed_mps(
     Some(safe)
 }
 
-/// The manoeuvre that is checked: to drive on at some speed for a step, then to stop at the grip limit.
+/// The manoeuvre that is checked: the robot drives on at a speed for one step, and then brakes at the grip limit.
 struct Stop<'a> {
     /// Centre of the neighbour, body space, metres.
     at: Point,
     /// Velocity of the neighbour over the floor along the axes of body space, m/s.
     velocity: Point,
-    /// Whether the neighbour stands for a straight edge, which has a nearest point wherever the robot drives along it.
+    /// Whether the neighbour is a straight edge. Its nearest point then moves along with the robot.
     is_flat: bool,
     wish: &'a Wish,
     sense: f32,
 }
 
 impl Stop<'_> {
-    /// The nearest approach until the robot stands: distance of the centres, metres; unit vector towards the neighbour;
-    /// and time until then, seconds.
+    /// The nearest approach during the manoeuvre at `speed_mps`. Returns the distance of the centres, metres, the unit
+    /// vector towards the neighbour, and the time until then, seconds.
     fn nearest(&self, speed_mps: f32) -> (f32, Point, f32) {
         let (reaction_s, grip) = (ACTUATION_S as f32, GRIP_MPS2 as f32);
         let told_mps = self.wish.told_mps * self.sense;

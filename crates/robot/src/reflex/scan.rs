@@ -1,4 +1,4 @@
-//! The inputs of one step: readings, own motion, and the neighbours that the plan has in sight.
+//! The inputs of one step: readings, the robot's own motion, and the neighbours that the plan expects in sight.
 
 use super::motion::OwnMotion;
 use super::point::Point;
@@ -8,27 +8,28 @@ use crate::config::{NeighbourModel, SENSORS};
 /// A neighbour that the plan expects in sight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expectation {
-    /// Its number among the neighbours of the route.
+    /// Its index among the neighbours of the route.
     pub index: u8,
-    /// Its centre, body space, metres.
+    /// Its planned centre, body space, metres.
     pub at: Point,
     /// Planned velocity over the floor along the axes of body space, m/s.
     pub velocity: Point,
-    /// Its planned acceleration, m/s².
+    /// Planned acceleration over the floor along the axes of body space, m/s².
     pub acceleration: Point,
-    /// Least distance from rim to rim that the plan leaves the two, metres.
+    /// Least planned clearance between this neighbour and the robot, metres.
     pub clearance_m: f32,
 }
 
-/// The readings of a step and all that they are compared with.
+/// The readings of a step, and the data with which they are compared.
 #[derive(Clone, Copy)]
 pub(crate) struct Scan<'a> {
-    /// Gap that each sensor reads, metres. A value not below the sensors' range means that the sensor sees nothing.
+    /// Gap that each sensor reads, metres. A value at or above the sensors' range means that the sensor sees nothing.
     pub gaps_m: &'a [f32; SENSORS],
     pub own: &'a OwnMotion,
     pub planned: &'a [Expectation],
     pub sensors: &'a Sensors,
-    /// How far neighbours are off their plan as this robot sees it, 1 sigma in each axis, metres.
+    /// Deviation of neighbours from their planned places in body space, 1 sigma in each axis, metres. It includes the
+    /// place errors of both robots.
     pub planned_sigma_m: f32,
     pub of: &'a NeighbourModel,
 }
@@ -39,7 +40,7 @@ impl Scan<'_> {
         Some(self.gaps_m[sensor]).filter(|&gap_m| gap_m < self.sensors.range_m)
     }
 
-    /// The plan for the neighbour with this number; `None` if the plan does not have it in sight.
+    /// The planned motion of the neighbour with this index; `None` if the plan does not expect it in sight.
     pub fn plan_of(&self, index: Option<u8>) -> Option<&Expectation> {
         self.planned.iter().find(|one| index == Some(one.index))
     }

@@ -1,39 +1,39 @@
-//! The proximity sensors, and what they would read of a disc at a place.
+//! The proximity sensors, and what they would read for a disc at a given place.
 
 use super::point::Point;
 use crate::config::{ProximitySensors, SENSORS};
 
-/// Distance outside a sensor's cone up to which a neighbour may still be what the sensor sees, metres, because its
-/// place is uncertain.
+/// A neighbour may be the object that a sensor sees if its estimated centre is at most this far outside the sensor's
+/// cone, metres. The centre is uncertain.
 pub(super) const BESIDE_M: f32 = 0.012;
 
-/// The sensors of one robot, prepared for the formulas.
+/// The proximity sensors of the robot, in the form that the formulas need.
 #[derive(Clone, Debug)]
 pub(crate) struct Sensors {
     /// Unit vectors of the directions in which they look, body space.
     pub axes: [Point; SENSORS],
-    /// Unit vector of the half angle of their cones.
+    /// Unit vector at half the opening angle of a cone: x is the cosine, y the sine.
     pub cone: Point,
     /// Largest gap that counts as a reading, metres.
     pub range_m: f32,
     noise_m: f32,
     noise_share: f32,
-    /// Natural logarithm of the density of a reading of something new, which may be anywhere within the range.
+    /// Natural logarithm of the density of a reading of a new object, which may be at any distance within the range.
     pub new_log: f32,
-    /// Radius of the robot, and of every disc it sees, metres.
+    /// Radius of the robot, and of each disc in sight, metres.
     pub radius_m: f32,
 }
 
-/// What a sensor would read of a disc.
+/// What a sensor would read for a disc.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected {
-    /// Sensor to rim, metres.
+    /// The reading: distance from the sensor to the rim of the disc, metres.
     pub gap_m: f32,
-    /// Sensor to centre, metres.
+    /// Distance from the sensor to the centre of the disc, metres.
     pub far_m: f32,
-    /// Unit vector from the sensor to the disc's centre: how the reading changes with the disc's place.
+    /// Unit vector from the sensor to the disc's centre. It is also the gradient of the reading over the disc's place.
     pub towards: Point,
-    /// How far inside the sensor's cone the centre is, metres; negative outside.
+    /// How far the disc's centre is inside the sensor's cone, metres; negative if it is outside.
     pub inside_m: f32,
 }
 
@@ -50,12 +50,12 @@ impl Sensors {
         }
     }
 
-    /// Distance of two centres that touch, metres.
+    /// Distance between the centres of two robots that touch, metres.
     pub fn contact_m(&self) -> f32 {
         2.0 * self.radius_m
     }
 
-    /// What a sensor would read of a disc centred at `at`.
+    /// What a sensor would read for a disc centred at `at`, body space.
     pub fn expected(&self, sensor: usize, at: Point) -> Expected {
         let axis = self.axes[sensor];
         let ray = at.minus(axis.times(self.radius_m));

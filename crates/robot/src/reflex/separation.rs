@@ -1,7 +1,7 @@
-//! Separation: a robot nearer to a neighbour than the plan leaves them gives way by a few millimetres.
+//! Separation: a robot that is nearer to a neighbour than planned gives way by a few millimetres.
 //!
-//! A robot is off its route by the errors of its own place, and two neighbours are by the sum of both. Their proximity
-//! sensors measure the gap between them far better. Both give way, each by a part of the missing clearance.
+//! A robot deviates from its route by the error of its own place, so the gap between two robots has the errors of both.
+//! Their proximity sensors measure the gap far better. Both robots give way, each by a part of the missing clearance.
 
 use lightbots_base::Vec2;
 
@@ -9,21 +9,23 @@ use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::SafetyPolicy;
 
-/// Clearance to keep where the planned clearance is unknown, metres.
+/// Clearance to keep to a neighbour if the planned clearance is unknown, metres.
 const UNTOLD_M: f32 = 0.003;
 /// Largest clearance to keep, metres, even if the plan leaves more.
 const MOST_M: f32 = 0.008;
-/// Least clearance to keep, metres, even if the plan leaves less: robots are off their places by that.
+/// Least clearance to keep, metres, even if the plan leaves less. Robots deviate from their places by this much.
 const LEAST_M: f32 = 0.0025;
-/// Closing speed below which a neighbour counts as near as it will be [`SOON_S`] later, m/s. Neighbours that close
-/// faster come near by plan.
+/// If the gap closes slower than this, m/s, the gap after [`SOON_S`] counts instead of the present gap. Neighbours that
+/// close faster come near by plan.
 const DRIFTING_MPS: f32 = 0.1;
-/// Time for which a slow approach is extrapolated, seconds.
+/// How far ahead a slow approach is extrapolated, seconds.
 const SOON_S: f32 = 0.1;
-/// Gap at which a robot gives way twice as far as it would for the same missing clearance at a large gap, metres.
+/// Gap at which a robot gives way twice as far as at a large gap with the same missing clearance, metres.
 const LITTLE_M: f32 = 0.0015;
 
-/// Offset in body space by which a robot gives way to a neighbour, metres. Zero if the clearance is sufficient.
+/// Returns the offset in body space by which the robot gives way to a neighbour, metres; zero if the clearance is
+/// sufficient. `own_mps`: the robot's speed along its front. `clearance_m`: planned clearance, metres; `None` if it is
+/// unknown.
 pub(crate) fn give_way(
     track: &Track,
     own_mps: f32,

@@ -1,9 +1,10 @@
-//! One neighbour that the sensors see: an extended Kalman filter of its place and velocity. Source: Bar-Shalom, Li and
-//! Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001. It has the nearly constant velocity
-//! model of section 6.3, the second-order measurement of 10.3 and the manoeuvre detection of 11.2.
+//! The track (estimate) of one neighbour that the sensors see: an extended Kalman filter of its place and velocity. A
+//! planned neighbour is one that the route names. Source: Bar-Shalom, Li and Kirubarajan, *Estimation with Applications
+//! to Tracking and Navigation*, 2001. The filter has the nearly constant velocity model of section 6.3, the
+//! second-order measurement of 10.3 and the manoeuvre detection of 11.2.
 //!
-//! The place is relative and the velocity absolute: the centre of the neighbour is in body space. The velocity is over
-//! the floor, along the axes of body space. A standing neighbour is the special case of velocity zero.
+//! The place is relative to the robot: the centre of the neighbour in body space. The velocity is absolute: over the
+//! floor, given along the axes of body space. A standing neighbour has velocity zero.
 
 use super::covariance::Covariance;
 use super::departure::Departure;
@@ -14,13 +15,16 @@ use super::scan::Scan;
 use super::sensors::{Expected, Sensors};
 use crate::config::{NeighbourModel, SENSORS};
 
-/// Uncertainty of the edge of a cone, metres: how far a neighbour moves across it in a step.
+/// Uncertainty of where the edge of a sensor's cone lies, metres, 1 sigma: how far a neighbour moves across it in a
+/// step.
 const EDGE_SIGMA_M: f32 = 0.003;
 
-/// Difference from its plan, in place or velocity, above which a neighbour does not keep to the plan, in sigma.
+/// Largest difference of a neighbour's place or velocity from the plan at which it keeps to the plan, in standard
+/// deviations.
 const RECOGNISED_SIGMAS: f32 = 4.5;
 
-/// Number of steps over which a robot's offset from its plan stays much the same.
+/// Number of steps over which a robot's deviation from its plan hardly changes. So the plan counts as one measurement
+/// in this number of steps.
 const CORRELATED_STEPS: f32 = 10.0;
 
 /// A neighbour in sight.
@@ -31,24 +35,27 @@ pub(crate) struct Track {
     /// Its velocity over the floor, along the axes of body space, m/s.
     pub velocity: Point,
     pub covariance: Covariance,
-    /// Number of the planned neighbour that it is taken for, among those of the route.
+    /// Index, among the neighbours of the route, of the planned neighbour that this track follows; `None` if it follows
+    /// none.
     pub planned: Option<u8>,
-    /// Steps in a row in which a sensor that should see it did not.
+    /// Count of steps in a row in which no sensor saw it. A step counts double if a sensor should have seen it.
     pub missed: u8,
     /// Sensors that saw it in the latest step, one bit each.
     pub seen_by: u8,
-    /// The test of whether it still keeps to the plan.
+    /// The test whether the neighbour still keeps to the plan.
     pub departure: Departure,
-    /// Number of the planned neighbour that it was before it left its plan.
+    /// Index, among the neighbours of the route, of the planned neighbour that it was before it left its plan; `None`
+    /// if it left none.
     pub left: Option<u8>,
-    /// Steps since it came into sight, at most 255.
+    /// Number of steps since the neighbour came into sight, at most 255.
     pub age: u8,
-    /// Whether it stands for a straight edge, to which a robot comes nearer only by driving towards it.
+    /// Whether the track stands for a straight edge. A robot that drives along an edge comes no nearer to it.
     pub is_flat: bool,
 }
 
 impl Track {
-    /// A track of the disc that stands for an obstacle and touches it at its nearest point.
+    /// The track that stands for a standing object. `estimate`: centre of a disc of a robot's size that touches the
+    /// object at its nearest point.
     pub fn standing(estimate: &NearestPoint, seen_by: u8, is_flat: bool, scan: &Scan<'_>) -> Self {
         let NearestPoint { at, velocity, covariance } = *estimate;
         let departure = Departure::new(scan.planned_sigma_m);
@@ -72,7 +79,7 @@ impl Track {
         NearestPoint { at: self.at, velocity: self.velocity, covariance: self.covariance }
     }
 
-    /// Whether it is a neighbour that the plan names, or was until it left its plan.
+    /// Whether it is a neighbour that the plan names, or one that has left its plan.
     pub fn is_known(&self) -> bool {
         self.planned.is_some() || self.left.is_some()
     }
@@ -82,7 +89,7 @@ impl Track {
         self.left.is_some() && self.planned.is_none()
     }
 
-    /// Whether it is the planned neighbour with this number, or was until it left its plan.
+    /// Whether it is the planned neighbour with this index, even if it has left its plan.
     pub fn stands_for(&self, index: u8) -> bool {
         self.planned == Some(index) || self.left == Some(index)
     }
@@ -98,7 +105,7 @@ impl Track {
         (0..SENSORS).filter(move |sensor| seen_by >> sensor & 1 == 1)
     }
 
-    /// Takes a reading. Returns the innovation, metres, and its variance, square metres.
+    /// Corrects the track by a reading of a sensor. Returns the innovation, metres, and its variance, square metres.
     pub fn take(&mut self, sensor: usize, read_m: f32, sensors: &Sensors) -> (f32, f32) {
         let expected = sensors.expected(sensor, self.at);
         let (off_m, variance) = self.innovation(&expected, read_m, sensors);
@@ -106,12 +113,12 @@ impl Track {
         (off_m, variance)
     }
 
-    /// Distance from rim to rim, metres.
+    /// Gap between the robot's rim and the neighbour's rim, metres.
     pub fn gap_m(&self, sensors: &Sensors) -> f32 {
         self.at.length() - sensors.contact_m()
     }
 
-    /// Carries the state over a step in which the robot itself moved.
+    /// Predicts the neighbour's state after a step in which the robot itself moved, too.
     pub fn predict(&mut self, own: &OwnMotion, of: &NeighbourModel) {
         let turn = Point::of_small_angle(-own.turn_rad);
         self.at = own.carry(self.at.plus(self.velocity.times(own.dt)));
@@ -125,7 +132,8 @@ impl Track {
         self.covariance.rotate(turn);
     }
 
-    /// Turns the track into one of a neighbour that has left its plan and stands at a place of body space.
+    /// Turns the track into that of a neighbour that has left its plan and stands. `at`: its centre, body space,
+    /// metres.
     pub fn stand(&mut self, at: Point, of: &NeighbourModel) {
         let towards = at.times(1.0 / at.length().max(1e-3));
         let [place_m2, velocity_m2ps2] = [of.stop_sigma_m, of.stop_sigma_mps].map(|sigma| sigma * sigma);
@@ -133,7 +141,8 @@ impl Track {
         self.covariance = Covariance::new(towards, 0.25 * place_m2, place_m2, velocity_m2ps2);
     }
 
-    /// Innovation of a reading, metres, and its variance, square metres.
+    /// Innovation of the reading `read_m` against the expected reading, metres, and the variance of the innovation,
+    /// square metres.
     pub fn innovation(&self, expected: &Expected, read_m: f32, sensors: &Sensors) -> (f32, f32) {
         let across = expected.towards.left();
         // The reading is quadratic in the place across the line of sight: second-order mean and variance.
@@ -144,16 +153,17 @@ impl Track {
         (read_m - expected.gap_m - bend_m, variance)
     }
 
-    /// Takes a measurement that has this gradient over the place. `variance`: variance of the innovation.
+    /// Corrects the track by a measurement whose gradient over the place is `gradient`. `variance`: variance of the
+    /// innovation.
     fn correct(&mut self, gradient: Point, innovation: f32, variance: f32) {
         let (place, velocity) = self.covariance.correct(gradient, innovation, variance);
         self.at = self.at.plus(place);
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Bounds the place along a unit vector to `at`, with an error of `sigma_m`, by other knowledge than readings. It
-    /// counts only as far as the place is less certain. Repeating it at every step therefore makes nothing more
-    /// certain.
+    /// Corrects the place along a unit vector towards `at`, with an error of `sigma_m`, by other knowledge than
+    /// readings. The correction only makes the variance of the place as small as that of `at`, and no smaller. So
+    /// repeating it at every step makes the place no more certain.
     pub fn bound_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let (known, bound) = (self.covariance.place_along(unit), sigma_m * sigma_m);
         if known > bound {
@@ -162,15 +172,15 @@ impl Track {
         }
     }
 
-    /// Corrects the place along a unit vector by a known place `at`, whose error, `sigma_m`, stays the same for
-    /// [`CORRELATED_STEPS`].
+    /// Corrects the place along a unit vector by a known place `at`. Its error `sigma_m` hardly changes for
+    /// [`CORRELATED_STEPS`], so each correction counts only a part.
     pub fn learn_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let variance = self.covariance.place_along(unit) + CORRELATED_STEPS * sigma_m * sigma_m;
         self.correct(unit, at.minus(self.at).dot(unit), variance);
     }
 
-    /// Corrects the velocity along a unit vector by a known one, whose error, `sigma_mps`, stays the same for
-    /// [`CORRELATED_STEPS`].
+    /// Corrects the velocity along a unit vector by a known velocity. Its error `sigma_mps` hardly changes for
+    /// [`CORRELATED_STEPS`], so each correction counts only a part.
     pub fn learn_velocity(&mut self, unit: Point, velocity: Point, sigma_mps: f32) {
         let variance = self.covariance.velocity_along(unit) + CORRELATED_STEPS * sigma_mps * sigma_mps;
         let off = velocity.minus(self.velocity).dot(unit);
@@ -193,8 +203,9 @@ impl Track {
             })
     }
 
-    /// Moves the estimate to the edge of a cone, because it is on the wrong side of it. It becomes no more certain,
-    /// because the next steps say the same again.
+    /// Moves the place towards the edge of a sensor's cone, because it is on the wrong side of that edge. The place
+    /// becomes no more certain, because the next steps repeat the same information. `across`: unit vector along which
+    /// it moves; `gradient`: of `inside_m` over the place.
     pub fn stay_within(&mut self, across: Point, gradient: Point, inside_m: f32) {
         let slope = gradient.dot(across);
         let known = self.covariance.place_along(across);

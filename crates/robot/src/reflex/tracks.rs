@@ -1,4 +1,5 @@
-//! All neighbours in sight: which readings correct which of them, which have come and which have gone.
+//! The tracks (estimates) of all neighbours in sight. This module assigns readings to tracks, begins tracks of new
+//! neighbours, and removes those of neighbours that have gone. Planned neighbours are those that the route names.
 
 use super::birth::{BEARING_SIGMA, expected_there, explained_off_m, unknown};
 use super::departure::{Departure, Left};
@@ -11,24 +12,26 @@ use super::sensors::{BESIDE_M, Sensors};
 use super::track::Track;
 use crate::config::SENSORS;
 
-/// Largest number of neighbours followed at once: as many robots of one size as fit around another.
+/// Largest number of neighbours that are tracked at once: the number of robots that fit around a robot of equal size.
 pub(super) const TRACKS: usize = 6;
-/// Largest innovation of a reading that belongs to a neighbour, metres. Above: readings of another neighbour are taken
-/// for this one's. Below 13 mm: a robot that stops dead is lost instead of followed. The filter follows it one or two
-/// steps late, and each step adds up to 4.3 mm.
+/// Largest innovation at which a reading belongs to a neighbour's track, metres. With a larger value, readings of
+/// another neighbour are assigned to the track. With less than 13 mm, a robot that stops dead is lost: the filter
+/// follows it one or two steps late, and each step adds up to 4.3 mm.
 const ASSIGN_M: f32 = 0.014;
-/// The limit of [`ASSIGN_M`] in sigma of the innovation, where that is more.
+/// Largest innovation at which a reading belongs to a track, in standard deviations of the innovation. The larger one
+/// of this and [`ASSIGN_M`] counts.
 pub(super) const ASSIGN_SIGMAS: f32 = 4.0;
-/// Distance inside a sensor's cone from which a near neighbour surely is seen, metres.
+/// A near neighbour is surely seen if its centre is farther inside a sensor's cone than this, metres.
 const SURELY_INSIDE_M: f32 = 0.008;
-/// Share of the sensors' range below which a neighbour is near enough for that.
+/// A neighbour counts as near in this sense if its gap to the sensor is less than this share of the sensors' range.
 const SURELY_NEAR: f32 = 0.8;
-/// Count of steps without a reading at which a neighbour has gone. A step in which it should be seen counts double.
+/// A track is removed once its count of steps in a row without a reading reaches this. A step in which the neighbour
+/// should be seen counts double.
 const MISSED_MOST: u8 = 3;
-/// Distance of the centres of two tracks below which both are of one disc, metres.
+/// Two tracks whose centres are closer than this are of the same disc, metres.
 const SAME_M: f32 = 0.03;
 
-/// Index of the track that each sensor's reading belongs to.
+/// For each sensor, the index of the track to which its reading belongs; `None` if to none.
 type Owners = [Option<usize>; SENSORS];
 
 /// The neighbours in sight.
@@ -43,19 +46,21 @@ impl Tracks {
         self.list.is_empty() && self.obstacles.is_empty()
     }
 
-    /// The tracks that the policy considers: edges that are sure, and moving neighbours. Any other standing object may
-    /// be a robot, which may drive off at any moment.
+    /// The tracks for which the robot brakes: standing objects that are surely straight edges, and all other neighbours
+    /// as moving ones. Any other standing object may be a robot, which may drive off at any moment.
     pub fn iter<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
         self.explained_by(sensors, |face| face.is_flat)
     }
 
-    /// The likeliest explanation of all readings: standing objects and moving neighbours.
+    /// The tracks of the likeliest explanation of all readings: standing objects, and moving neighbours that these do
+    /// not replace.
     #[cfg(test)]
     pub fn likeliest<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
         self.explained_by(sensors, |_| true)
     }
 
-    /// Obstacles selected by `meant`, and moving neighbours that they do not replace.
+    /// Tracks of the standing objects for which `meant` returns `true`, and of the moving neighbours that these objects
+    /// do not replace.
     fn explained_by<'a>(
         &'a self,
         sensors: &Sensors,
@@ -67,7 +72,7 @@ impl Tracks {
         self.list.iter().filter(move |track| !hidden(track)).chain(faces)
     }
 
-    /// Tracks of moving neighbours, those replaced by standing objects included.
+    /// Tracks of all moving neighbours, including those that standing objects replace.
     #[cfg(test)]
     pub fn list(&self) -> &[Track] {
         &self.list
@@ -78,7 +83,7 @@ impl Tracks {
         self.obstacles.clear();
     }
 
-    /// Takes the readings of a step.
+    /// Updates all tracks by the readings of a step.
     pub fn step(&mut self, scan: &Scan<'_>) {
         for track in &mut self.list {
             track.predict(scan.own, scan.of);
@@ -101,7 +106,8 @@ impl Tracks {
         self.look_for_obstacles(&logs, scan);
     }
 
-    /// Updates the standing objects by the readings that no known neighbour explains. `logs`: see `Readings`.
+    /// Updates the standing objects by the readings that belong to no planned neighbour. `logs`: see
+    /// [`Readings::logs`].
     fn look_for_obstacles(&mut self, logs: &[f32; SENSORS], scan: &Scan<'_>) {
         let known = self.list.iter().filter(|track| track.is_known());
         let open = !known.fold(0, |seen_by, track| seen_by | track.seen_by);
@@ -111,8 +117,8 @@ impl Tracks {
         }
     }
 
-    /// Index of the track that a sensor's reading most likely belongs to. `None` if a planned neighbour that is not
-    /// followed yet explains it better.
+    /// Index of the track to which a sensor's reading most likely belongs. `None` if it fits no track, or if a planned
+    /// neighbour without a track explains the reading better.
     fn owner(&self, sensor: usize, scan: &Scan<'_>) -> Option<usize> {
         let read_m = scan.reads_m(sensor)?;
         let mut best: Option<(f32, usize)> = None;
@@ -136,7 +142,8 @@ impl Tracks {
         (!expected_there(sensor, &self.list, scan).is_some_and(explains_better)).then_some(index)
     }
 
-    /// Begins tracks for readings that belong to no neighbour yet, the nearest first. `logs`: see `Readings`.
+    /// Begins tracks for readings that belong to no track yet, the nearest reading first. `logs`: see
+    /// [`Readings::logs`].
     fn welcome(&mut self, mut owners: Owners, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
         // Each round assigns at least one sensor.
         for _ in 0..SENSORS {
@@ -167,8 +174,8 @@ impl Tracks {
         }
     }
 
-    /// Compares tracks with the plan. A track that keeps to it is taken for that planned neighbour and learns from the
-    /// planned place and velocity.
+    /// Compares tracks with the planned neighbours. A track that keeps to the plan of a neighbour is taken for this
+    /// neighbour, and is corrected by its planned place and velocity.
     fn recognise(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
@@ -192,8 +199,8 @@ impl Tracks {
         }
     }
 
-    /// Replaces a stranger's track by one of a planned neighbour that explains its nearest reading and has no track
-    /// yet. A neighbour that has left its plan is never taken for another.
+    /// Replaces the track of an unplanned neighbour by that of a planned neighbour, if this one explains its nearest
+    /// reading and has no track yet. A track that has left its plan is never replaced.
     fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
@@ -214,8 +221,8 @@ impl Tracks {
         }
     }
 
-    /// Removes one of two tracks in the same place, because two discs are never there: the one that no sensor saw, else
-    /// the younger.
+    /// Removes one of two tracks in the same place, because two discs cannot overlap. If a sensor saw only the later
+    /// one in the list, removes the earlier one; otherwise the later one.
     fn merge(&mut self) {
         let mut index = 1;
         while index < self.list.len() {
@@ -233,7 +240,7 @@ impl Tracks {
     }
 }
 
-/// Whether a neighbour keeps to the plan. Not only its estimate must agree, but also its readings, because a very
+/// Whether a neighbour keeps to the plan `one`. Its estimate and its readings must agree with the plan, because a very
 /// uncertain estimate agrees with anything.
 fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     let explains = |sensor: usize| {
@@ -242,7 +249,8 @@ fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     track.keeps_to(one.at, one.velocity, scan.planned_sigma_m, scan.of) && track.sensors().all(explains)
 }
 
-/// Corrects a track by the readings that belong to it, and by the sensors that do not see it. `logs`: see `Readings`.
+/// Corrects a track by the readings that belong to it, and by the fact that other sensors do not see it. `seen_by`: the
+/// sensors with its readings, one bit each; `logs`: see [`Readings::logs`].
 fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
     track.age = track.age.saturating_add(1);
     track.seen_by = seen_by;
@@ -273,7 +281,7 @@ fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SEN
     track.missed = if seen_by != 0 { 0 } else { track.missed.saturating_add(missed) };
 }
 
-/// Tests whether a planned neighbour has left its plan, and changes its track if it has.
+/// Tests whether a planned neighbour has left its plan, and if so, changes its track to that of an unplanned one.
 fn watch(track: &mut Track, scan: &Scan<'_>) {
     let Some(one) = scan.plan_of(track.planned) else { return };
     let seen_by = track.sensors();
@@ -294,7 +302,8 @@ fn watch(track: &mut Track, scan: &Scan<'_>) {
     track.left = Some(one.index);
 }
 
-/// Bounds the direction of a track: what one sensor sees lies around its axis, what two see lies between them.
+/// Bounds the direction of a track: an object that one sensor sees lies around the axis of this sensor. An object that
+/// two sensors see lies between their axes.
 fn bound_bearing(track: &mut Track, sensors: &Sensors) {
     let sum = track.sensors().fold(Point::ZERO, |sum, sensor| sum.plus(sensors.axes[sensor]));
     let size = sum.length();

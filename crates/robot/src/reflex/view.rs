@@ -1,40 +1,40 @@
-//! What a sensor would read of an outline.
+//! Prediction of what a proximity sensor reads for an outline of a standing object.
 
 use super::outline::{Form, Outline};
 use super::point::Point;
 use super::sensors::Sensors;
 
-/// Sine of the angle between an edge and the side of a sensor's cone below which they do not meet. The sensor would
-/// read the edge from afar.
+/// If the sine of the angle between an edge and the side of a sensor's cone is below this, the two count as not
+/// meeting. They would meet far outside the sensor's range.
 const LEAST_SLOPE: f32 = 0.2;
-/// Farther along an edge than any sensor sees, metres.
+/// A distance along an edge that is farther than any sensor sees, metres.
 const FAR_M: f32 = 10.0;
 
-/// What a sensor would read of an outline, and how that changes with the outline's state: distance, direction, end.
+/// Predicted reading of an outline by a sensor, and its derivatives over the outline's state: distance, direction, end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     /// The reading, metres.
     pub gap_m: f32,
     pub gradient: [f32; 3],
-    /// Gradient of the quantity in which the reading is quadratic.
+    /// Gradient, over the state, of the quantity in which the reading is quadratic.
     pub across: [f32; 3],
-    /// Second derivative of the reading over that quantity.
+    /// Second derivative of the reading over the quantity of `across`.
     pub bend: f32,
 }
 
-/// A sensor and an outline, in the axes of the outline: along its normal, and to the left of the normal.
+/// A sensor and an outline, in the axes of the outline: x along its normal, y to the left of the normal.
 struct Sight<'a> {
     of: &'a Outline,
     radius_m: f32,
     /// Direction of the sensor in these axes: `cos` along the normal, `sin` to its left.
     cos: f32,
     sin: f32,
-    /// From the sensor straight to the edge, metres.
+    /// Distance from the sensor to the edge along the normal, metres.
     height_m: f32,
 }
 
 impl Outline {
-    /// What a sensor would read of the outline; `None` if that is not in its cone.
+    /// Predicts what a sensor reads for the outline; `None` if the outline is not in the sensor's cone.
     pub fn view(&self, sensor: usize, sensors: &Sensors) -> Option<View> {
         let sight = self.sight(sensor, sensors);
         if self.form == Form::Disc {
@@ -63,7 +63,8 @@ impl Outline {
         (nearest_m.abs() < FAR_M).then(|| sight.edge_of_cone(ray))
     }
 
-    /// Innovation of a reading, metres, and its variance, square metres.
+    /// Innovation of the reading `read_m` against its prediction `view`, metres, and the variance of the innovation,
+    /// square metres.
     pub fn innovation(&self, view: &View, read_m: f32, sensors: &Sensors) -> (f32, f32) {
         // The reading is quadratic in the direction of the edge, or in the place of a point across the line of sight.
         // Its mean and variance are of second order.
@@ -73,8 +74,8 @@ impl Outline {
         (read_m - view.gap_m - bend_m, variance)
     }
 
-    /// The stretch of the edge that a sensor sees within its range: its right and left end along the edge, metres.
-    /// `None` if it sees nothing.
+    /// The part of the edge that a sensor sees within its range: the positions of the part's right and left end along
+    /// the edge, metres. `None` if the sensor sees no part.
     pub fn stretch(&self, sensor: usize, sensors: &Sensors) -> Option<[f32; 2]> {
         let sight = self.sight(sensor, sensors);
         let far_m2 = sensors.range_m * sensors.range_m - sight.height_m * sight.height_m;
@@ -95,7 +96,7 @@ impl Outline {
         Sight { of: self, radius_m: sensors.radius_m, cos, sin, height_m }
     }
 
-    /// Directions of the sides of a sensor's cone, the right one first, in the axes of the outline.
+    /// Unit vectors along the sides of a sensor's cone, in the axes of the outline; the right side first.
     fn edges_of_cone(&self, sensor: usize, sensors: &Sensors) -> [Point; 2] {
         let axis = sensors.axes[sensor];
         let in_axes = Point::new(axis.dot(self.normal), axis.dot(self.normal.left()));
@@ -104,26 +105,27 @@ impl Outline {
 }
 
 impl Sight<'_> {
-    /// Place where a ray meets the edge, metres to the left of the point straight ahead. [`FAR_M`] to a side if it
-    /// hardly meets it.
+    /// Place where a ray from the sensor meets the edge, metres to the left of the foot of the normal through the
+    /// sensor. ±[`FAR_M`] if the ray hardly meets the edge.
     fn meets_m(&self, ray: Point) -> f32 {
         if ray.x < LEAST_SLOPE { FAR_M.copysign(ray.y) } else { self.height_m * ray.y / ray.x }
     }
 
-    /// The view of an edge that is nearest straight ahead of the sensor.
+    /// The view of an edge whose point nearest to the sensor is the foot of the normal through the sensor.
     fn foot(&self) -> View {
         let gradient = [1.0, -self.radius_m * self.sin, 0.0];
         View { gap_m: self.height_m, gradient, across: [0.0, 1.0, 0.0], bend: self.radius_m * self.cos }
     }
 
-    /// The view of an edge that is nearest where the side of the cone meets it.
+    /// The view of an edge whose nearest visible point is where the side `ray` of the cone meets it.
     fn edge_of_cone(&self, ray: Point) -> View {
         let gap_m = self.height_m / ray.x;
         let gradient = [1.0 / ray.x, (-self.radius_m * self.sin - gap_m * ray.y) / ray.x, 0.0];
         View { gap_m, gradient, across: [0.0, 1.0, 0.0], bend: self.radius_m * self.cos / ray.x }
     }
 
-    /// The view of an edge that is nearest at its end, `aside_m` to the left of the point straight ahead, metres.
+    /// The view of an edge whose nearest visible point is its end. `aside_m`: place of the end, metres to the left of
+    /// the foot of the normal through the sensor.
     fn point(&self, aside_m: f32) -> View {
         let (height_m, of) = (self.height_m, self.of);
         let far_m = libm::sqrtf(height_m * height_m + aside_m * aside_m).max(1e-3);
@@ -137,7 +139,8 @@ impl Sight<'_> {
         }
     }
 
-    /// The view of the rim of a disc; `None` if its centre is not in the cone.
+    /// The view of the rim of a disc; `None` if the centre of the disc is not in the cone. `cone_cos`: cosine of half
+    /// the opening angle of the cone.
     fn disc(&self, cone_cos: f32) -> Option<View> {
         let aside_m = self.of.along_m - self.radius_m * self.sin;
         let centre = self.point(aside_m);

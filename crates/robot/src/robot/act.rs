@@ -1,4 +1,4 @@
-//! The second part of a step: what the wheels do.
+//! The second part of a step: the wheel rates, and arrivals.
 
 use core::borrow::BorrowMut;
 
@@ -9,20 +9,21 @@ use crate::drive::{BodyPose, Setpoint};
 use crate::reflex::Wish;
 use crate::storage::RouteStorage;
 
-/// Error of the place above which a robot without fixes does not report its arrival, metres, 1 sigma. Below, a robot
-/// that loses its fixes at the end of a route never arrives. Above, it reports arrivals at places where it does not
-/// stand.
+/// A robot whose fixes are overdue does not report its arrival if the error of its place is larger than this, metres, 1
+/// sigma. With a smaller value, a robot that loses its fixes at the end of a route never arrives. With a larger value,
+/// the robot reports arrivals at places where it does not stand.
 const SURE_M: f64 = 0.003;
-/// Predicted error of the place above which a robot without fixes stops and waits for them, metres, 1 sigma. It is less
-/// than the error that makes the robot lost (20 mm). Below, it pauses for short outages. Above, it is lost and abandons
-/// its route.
+/// A robot whose fixes are overdue stops and waits for fixes once the predicted error of its place is larger than this,
+/// metres, 1 sigma. It is less than the error that makes the robot lost (20 mm). With a smaller value, the robot pauses
+/// in short outages. With a larger value, the robot becomes lost and abandons its route.
 const PAUSE_M: f64 = 0.016;
-/// Speed at which a robot without a compass drives straight on to learn its heading, m/s. Below, the fixes' noise hides
-/// the direction for longer. Above, it leaves its place before it knows its heading.
+/// Speed at which a robot with unknown heading drives straight on to learn its heading from its motion, m/s. With a
+/// smaller value, noise of the fixes hides the direction for longer. With a larger value, the robot drives too far
+/// before it knows its heading.
 const CREEP_MPS: f64 = 0.08;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Returns the wheel rates until the next step, left and right, rad/s. Reports an arrival.
+    /// Returns the wheel rates until the next step, left and right, rad/s. Also queues the report of an arrival.
     pub(super) fn act(&mut self, now: Instant, route_time: Option<Instant>, took: Span) -> [f64; 2] {
         if self.hot.supervisor.faulty(now) {
             return self.hot.drive.halt();
@@ -44,7 +45,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         wheels
     }
 
-    /// Returns the wheel rates that the safety layer allows, left and right, rad/s.
+    /// Returns the wheel rates towards the wanted setpoint that the safety layer allows, left and right, rad/s. `dt`:
+    /// length of the step, seconds.
     #[inline(never)]
     fn drive_warily(&mut self, wanted: Setpoint, dt: f64) -> [f64; 2] {
         let hot = &mut self.hot;
@@ -76,7 +78,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Whether the robot stands until fixes come again, because it might be lost if it drove on. The result is stored.
+    /// Decides whether the robot stands still until fixes come again, because it might be lost if it drove on. Stores
+    /// the result in `Hot::pauses`.
     fn pauses(&mut self) -> bool {
         let hot = &mut self.hot;
         hot.pauses = hot.quality.blind
@@ -84,8 +87,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         hot.pauses
     }
 
-    /// The setpoint without the safety layer: along the route under way, else to the target, else a turn towards the
-    /// kept route. `None` if the robot has nothing to do.
+    /// The setpoint before the safety layer limits it: along the route under way, else to the target, else a turn
+    /// towards the kept route. `None` if the robot has nothing to do.
     fn want(&mut self, route_time: Option<Instant>, took: Span) -> Option<Setpoint> {
         let hot = &mut self.hot;
         if !hot.routes.under_way() && hot.seek.is_none() && !hot.routes.keeps_one() {
@@ -117,7 +120,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Reports an arrival, once, when the robot stands at the end of its route or at its target.
+    /// Queues the report of an arrival once the robot stands at the end of its route or at its target, and ends that
+    /// drive.
     fn arrive(&mut self, route_time: Option<Instant>) {
         let is_lost = self.is_lost_now();
         let hot = &mut self.hot;

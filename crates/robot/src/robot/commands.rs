@@ -9,10 +9,10 @@ use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
 
-/// If a `STOP at` would bring the robot to rest this much later or more, the robot stops at once. Below, that happens
-/// on slow links too. Above, a wrong moment lets robots drive on for longer.
+/// If a `STOP at` command would bring the robot to rest later than this, the robot stops at once instead. With a
+/// smaller value, that happens on slow links too. With a larger value, a wrong moment lets robots drive on for longer.
 const LATEST_STOP: Span = Span::from_millis(2000);
-/// Largest valid coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
+/// Largest valid absolute coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
 const FAR_M: f64 = 1000.0;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
@@ -29,7 +29,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Handles a command. `personal`: it came on the robot's own topic.
+    /// Handles a command that arrived at `now`, own clock. `personal`: whether it came on the robot's own topic.
     pub(super) fn handle(&mut self, now: Instant, personal: bool, command: &Command) {
         match *command {
             Command::Target(goal) => self.take_target(goal),
@@ -97,8 +97,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.light.tracks.note(at, hold);
     }
 
-    /// Replaces the routes and the target by a target. One beyond [`FAR_M`] is invalid: it counts as unknown, and the
-    /// robot stops.
+    /// Discards all routes and drives to a target. A target with a coordinate beyond [`FAR_M`] is invalid: it counts as
+    /// an unknown command, and the robot stops.
     fn take_target(&mut self, goal: Vec2) {
         self.hot.stops_at = None;
         self.hot.routes.clear();
@@ -110,8 +110,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Brings the route under way to rest from `at` on, and stops then. Stops at once if no route is under way, the
-    /// show clock is unknown, or the rest would be past or too far ahead.
+    /// Slows the route under way to rest from `at` (show clock) on, and stops once it rests. Stops at once if no route
+    /// is under way or the show clock is unknown. Also stops at once if the moment of rest is past, or [`LATEST_STOP`]
+    /// or more ahead.
     fn stop_from(&mut self, now: Instant, at: Instant) {
         let ends_in = self.hot.clock.show_time(now).map(|show| at + Route::EASE - show);
         match ends_in {
@@ -124,7 +125,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Stops if the moment of a `STOP at` has come.
+    /// Stops the robot if the moment of a `STOP at` command has come.
     pub(super) fn stop_in_time(&mut self, now: Instant) {
         if self.hot.stops_at.is_some_and(|at| now >= at) {
             self.stop();

@@ -1,4 +1,4 @@
-//! The messages that the robot sends, and when it reports something unasked.
+//! The messages that the robot sends, and when it reports without being asked.
 
 use core::borrow::BorrowMut;
 
@@ -10,12 +10,12 @@ use crate::outbox::MessageKind;
 use crate::reflex::Block;
 use crate::storage::RouteStorage;
 
-/// Payload of a message to send. The longest report has 343 bytes.
+/// Payload of an outgoing message. The longest report has 343 bytes.
 pub type Message = heapless::String<376>;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Writes the payload of the next message to `out` and returns its topic. `None`, and an empty `out`, if there is
-    /// none.
+    /// Takes the next outgoing message: writes its payload to `out` and returns its topic. `None`, with an empty `out`,
+    /// if no message waits.
     #[inline]
     pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
         out.clear();
@@ -48,14 +48,14 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if self.hot.is_wary { self.reflex.block() } else { None }
     }
 
-    /// The obstacle to report, with its gap in metres and its direction in the stage in radians. `None` also if the
-    /// pose is unknown.
+    /// The obstacle to report, with its gap in metres and its direction in the stage in radians. `None` if there is no
+    /// such obstacle or the pose is unknown.
     pub(super) fn blocked(&self) -> Option<Blocked> {
         let (block, pose) = (self.block()?, self.pose()?);
         Some(Blocked { gap_m: block.gap_m, towards: wrap(pose.heading + block.towards) })
     }
 
-    /// Puts the messages that are due after a step into the outbox.
+    /// Puts the messages that are due after a step at `now` (own clock) into the outbox.
     pub(super) fn notice(&mut self, now: Instant) {
         let hot = &mut self.hot;
         if hot.takes_routes && hot.supervisor.is_up() && hot.clock.is_question_due(now) {

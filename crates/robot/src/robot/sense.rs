@@ -10,18 +10,20 @@ use crate::drive::BodyPose;
 use crate::routes::InSight;
 use crate::storage::RouteStorage;
 
-/// Distance by which a robot was moved beyond which it does not drive the route that it has, metres: about a robot's size.
-/// Below, a robot that was pushed aside does not go back on its route. Above, one that was lifted drives through others.
+/// A robot that was moved by more than this does not drive the route that it has, metres: about a robot's size. With a
+/// smaller value, a robot that was pushed aside does not go back on its route. With a larger value, a robot that was
+/// lifted drives through others.
 pub(super) const AWAY_M: f64 = 0.05;
-/// Longest time that counts as one step. Above, a pause of the simulation would move a robot along its route without
-/// its wheels. Below, a board that skips a few steps would fall behind its route.
+/// Largest length of a step; longer gaps between steps are cut to it. With a larger value, a pause of the simulation
+/// would move a robot along its route without its wheels. With a smaller value, a board that skips a few steps would
+/// fall behind its route.
 pub(super) const LONGEST_STEP: Span = Span::from_millis(100);
-/// Margin beyond the sensors' range within which a planned neighbour may be in sight, metres, because both robots are
-/// off their places. Below, the safety layer takes a planned neighbour for a stranger. Above, it compares more
-/// neighbours than it need.
+/// A planned neighbour may be in sight up to this much beyond the sensors' range, metres, because both robots deviate
+/// from their planned places. With a smaller value, the safety layer takes a planned neighbour for a stranger. With a
+/// larger value, the safety layer compares more neighbours than necessary.
 const OFF_PLAN_M: f64 = 0.025;
-/// Largest valid wheel turn, as a multiple of what the motors can turn in the longest step. Beyond, the sensor is
-/// broken.
+/// Largest valid wheel turn, as a multiple of what the motors can turn in the longest step. A larger reading means that
+/// the sensor is broken.
 const WHEEL_TURN_RESERVE: f64 = 2.0;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
@@ -54,7 +56,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Passes the readings of the step, and the planned neighbours that may be in sight, to the safety layer.
+    /// Passes the wheel turns, the proximity readings and the planned neighbours that may be in sight to the safety
+    /// layer. `dt`: length of the step, seconds.
     #[inline(never)]
     fn sense_neighbours(&mut self, [left, right]: [f64; 2], gaps_m: Option<&[f32; SENSORS]>, dt: f64) {
         let hot = &mut self.hot;
@@ -69,7 +72,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 }
 
-/// Whether any reading is less than `range_m`. Compares all of them, because that is quicker than to stop at the first.
+/// Whether any reading is less than `range_m`. Compares all readings, because that is quicker than to stop at the first
+/// that is.
 #[inline]
 fn is_any_within(gaps_m: &[f32; SENSORS], range_m: f32) -> bool {
     gaps_m.iter().fold(false, |any, &gap_m| any | (gap_m < range_m))

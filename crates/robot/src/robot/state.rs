@@ -1,4 +1,4 @@
-//! A robot's parts, and what it reports of itself: place, certainty, activity and faults.
+//! The parts of a robot, and its state as it reports it: place, error of the place, activity and faults.
 
 use core::borrow::BorrowMut;
 
@@ -12,13 +12,15 @@ use crate::light::Light;
 use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 
-/// How far ahead a robot without fixes predicts the error of its place for reports. It is the time that a HOLD takes to
-/// reach all robots. Below, the others cannot stop before the robot is lost. Above, all robots wait for short outages.
+/// How far ahead a robot whose fixes are overdue predicts the error of its place for reports. It is the time that a
+/// HOLD takes to reach all robots. With a smaller value, the other robots cannot stop before this robot is lost. With a
+/// larger value, all robots wait for short outages.
 const FORESIGHT: Span = Span::from_millis(500);
 
-/// A whole robot: no allocation, no clock, no IO. Feed it messages and steps, then drain its messages.
+/// The core of a whole robot, without allocation, clock or IO. Pass in messages and call [`step`](Self::step), then
+/// take the outgoing messages.
 ///
-/// `S` holds its routes: a [`RouteStorage`] inside the robot, or a reference to one elsewhere.
+/// `S` is the storage of its routes: a [`RouteStorage`] inside the robot, or a reference to a storage elsewhere.
 #[derive(Debug)]
 pub struct Robot<S = RouteStorage> {
     pub(super) hot: Hot,
@@ -54,19 +56,18 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// The state that every step reads and writes. A simulator of thousands of robots may prefetch it by its address
-    /// and size.
+    /// The state that every step reads and writes. A simulator of thousands of robots may prefetch it into the cache.
     #[inline]
     pub fn hot(&self) -> &Hot {
         &self.hot
     }
 
-    /// The settings it was made with.
+    /// The configuration with which the robot was made.
     pub fn config(&self) -> &Config {
         &self.config
     }
 
-    /// The estimated pose; `None` while place or heading are unknown.
+    /// The estimated pose; `None` while the place or the heading is unknown.
     pub fn pose(&self) -> Option<Pose> {
         self.place().and_then(|_| self.hot.estimate.pose())
     }
@@ -75,8 +76,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         (!self.is_lost(self.hot.now - self.hot.lag)).then(|| self.hot.estimate.at())
     }
 
-    /// The direction in body space of the neighbour for which the safety layer slows the robot in this step, radians.
-    /// `None` if it does not slow the robot.
+    /// Direction of the neighbour for which the safety layer slows the robot in this step, radians counter-clockwise
+    /// from the robot's front. `None` if the safety layer does not slow the robot.
     pub fn braking_towards(&self) -> Option<f64> {
         if self.hot.is_wary { self.reflex.braking_towards() } else { None }
     }
@@ -86,23 +87,23 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.state
     }
 
-    /// The show clock at `now` of its own clock; `None` until it is synchronised.
+    /// The show clock at `now` of the robot's own clock; `None` until the show clock is synchronised.
     pub fn show_time(&self, now: Instant) -> Option<Instant> {
         self.hot.clock.show_time(now)
     }
 
-    /// The show time by which routes advance: the show clock less the lag of the wheels' world. `None` until
+    /// The time by which routes advance: the show clock minus `Inputs::lag`. `None` until the show clock is
     /// synchronised.
     pub(super) fn route_time(&self, now: Instant) -> Option<Instant> {
         self.hot.clock.show_time(now).map(|show| show - self.hot.lag)
     }
 
-    /// Distance of the robot from the present place of its route, metres; `None` without a route under way.
+    /// Distance of the robot from the present place of its route, metres; `None` if no route is under way.
     pub fn off_m(&self) -> Option<f64> {
         self.hot.routes.off_m()
     }
 
-    /// The route's place one step after the latest, stage metres; `None` without a route under way.
+    /// Place of the route one step after the latest step, stage metres; `None` if no route is under way.
     pub fn route_place(&self) -> Option<Vec2> {
         self.hot.routes.due()
     }
@@ -112,7 +113,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.estimate.error_m()
     }
 
-    /// Expected error of the place, 1 sigma, metres, rounded to 0.1 mm. If fixes are overdue, it is the error
+    /// Expected error of the place for reports, 1 sigma, metres, rounded to 0.1 mm. If fixes are overdue: the error at
     /// [`FORESIGHT`] from now.
     pub(super) fn err_m(&self) -> f64 {
         let way_m =
@@ -121,8 +122,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         libm::round(err_m * 1e4) / 1e4
     }
 
-    /// Whether the pose is too uncertain to drive. A robot at rest on a held route is lost only if its last fix is too
-    /// old, however large the error.
+    /// Whether the robot is lost: its pose is too uncertain to drive. A robot at rest on a held route is lost only if
+    /// its last fix is too old, and not because of a large error.
     pub(super) fn is_lost(&self, now: Instant) -> bool {
         if self.hot.routes.rests_held() {
             self.hot.estimate.lost_for_good(now)
@@ -131,7 +132,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// [`Self::is_lost`] as of the step under way.
+    /// [`Self::is_lost`] with the pose quality that was stored in this step.
     pub(super) fn is_lost_now(&self) -> bool {
         if self.hot.routes.rests_held() { self.hot.quality.lost_for_good } else { self.hot.quality.lost }
     }
@@ -169,8 +170,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Number of red flashes for what is wrong: 3 faulty, 2 cut off or link down, 1 lost, 0 nothing. An original robot
-    /// never flashes.
+    /// Number of red flashes that show what is wrong: 3 if faulty, 2 if cut off or the link is down, 1 if lost, 0 if
+    /// nothing is wrong. A robot without abilities never flashes.
     pub(super) fn trouble(&self, now: Instant) -> u8 {
         match self.hot.state {
             _ if !self.hot.shows_trouble => 0,

@@ -1,4 +1,4 @@
-//! The neighbours that the route under way expects in sight of the sensors.
+//! The planned neighbours that should be in sight of the proximity sensors now, by the route under way.
 
 use lightbots_base::Vec2;
 
@@ -7,15 +7,16 @@ use crate::drive::BodyPose;
 use crate::reflex::{Expectation, Point};
 use crate::storage::RouteStorage;
 
-/// Largest number of neighbours expected in sight at once. No more robots have their centres within 0.11 m, but there may
-/// be dozens of places where a silent robot may stand.
+/// Largest number of neighbours that are expected in sight at once. No more robots fit with their centres within 0.11 m. But
+/// a route can name dozens of places at which a silent robot may stand.
 pub(crate) const MAX_IN_SIGHT: usize = 12;
 /// The neighbours expected in sight.
 pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
 
 impl Routes {
-    /// Appends the planned neighbours within `sight_m` of the body, metres, at the path time of the latest step. If
-    /// there are more than [`MAX_IN_SIGHT`], the farthest of those that stand are left out.
+    /// Appends to `expected` the planned neighbours whose centres are within `sight_m` metres of the robot's centre, at the
+    /// path time of the latest step. If there are more than [`MAX_IN_SIGHT`], the farthest of the standing neighbours are
+    /// left out.
     pub(crate) fn expect(
         &self,
         body: BodyPose,
@@ -48,8 +49,8 @@ impl Routes {
         }
     }
 
-    /// Whether the route under way accounts for all neighbours within `range_m`, metres: it lists neighbours, or its
-    /// clearance is larger than that.
+    /// Whether the route under way names all neighbours that may come within `range_m` metres: it lists neighbours, or its
+    /// planned clearance is larger than `range_m`.
     pub(crate) fn tells_neighbours(&self, range_m: f32, storage: &RouteStorage) -> bool {
         self.running.as_ref().is_some_and(|running| {
             let is_alone = running.room_mm.is_some_and(|room_mm| f32::from(room_mm) > 1e3 * range_m);
@@ -58,8 +59,9 @@ impl Routes {
     }
 }
 
-/// Puts a neighbour into a full list, in the place of the farthest one that stands, if it moves or is nearer. Places
-/// where a silent robot may stand are standing neighbours, of which there may be dozens beside a path.
+/// Puts a neighbour into the full list `expected`. It replaces the farthest standing neighbour, if it moves or is nearer
+/// than that one. Standing neighbours can also be places where a silent robot may stand, and there may be dozens of these
+/// beside a path.
 fn take_in(one: Expectation, expected: &mut InSight) {
     let moves = |one: &Expectation| one.velocity != Point::ZERO;
     let far_m = |one: &Expectation| one.at.length();

@@ -9,9 +9,9 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 /// Work for the thread: one hash.
 type Job = Box<dyn FnOnce() + Send>;
 
-/// A thread that hashes passwords, so that hashing does not delay connections. A hash takes a processor and 19 MiB,
-/// some of which the allocator keeps. One test left up to 78 MB on the threads of the runtime, and 59 MB on this one
-/// (2026-11-27, glibc).
+/// A separate thread that hashes passwords, because hashing on the threads of the runtime would delay connections. A hash
+/// takes a processor and 19 MiB, some of which the allocator keeps afterwards. In one test (2026-11-27, glibc), the
+/// allocator kept up to 78 MB after hashing on the runtime's threads, and 59 MB after hashing on this thread.
 #[derive(Debug)]
 pub struct HashThread {
     jobs: Sender<Job>,
@@ -25,7 +25,7 @@ pub struct HashTurn {
 }
 
 impl HashThread {
-    /// Starts the thread, which ends when this value is dropped. Error if the system gives no thread.
+    /// Starts the thread. It ends when the returned value is dropped. Error if the operating system cannot start a thread.
     pub fn start() -> Result<Self, String> {
         let (jobs, inbox) = channel::<Job>();
         let thread = std::thread::Builder::new().name("passwords".into()).spawn(move || {
@@ -38,14 +38,14 @@ impl HashThread {
         Ok(Self { jobs, turns: Arc::new(Semaphore::new(1)) })
     }
 
-    /// Waits until no other request hashes. A request that is cancelled while it waits leaves nothing behind.
+    /// Waits until no other request hashes. A request that is cancelled while it waits gives up its place in the queue.
     pub async fn turn(&self) -> HashTurn {
         // The semaphore is never closed.
         HashTurn { _permit: self.turns.clone().acquire_owned().await.ok() }
     }
 
-    /// Runs `hash` on the thread, and returns its result and the turn. The turn is held until the hashing is over, even
-    /// if the request is cancelled, so that cancelled requests do not queue up here. `None` if the hashing panicked.
+    /// Runs `hash` on the thread, and returns its result and the turn. The turn is held until `hash` has ended, even if the
+    /// request is cancelled. Cancelled requests thus do not queue up here. `None` if `hash` panicked.
     pub async fn run<T: Send + 'static>(
         &self,
         turn: HashTurn,

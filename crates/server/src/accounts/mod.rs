@@ -47,8 +47,8 @@ pub struct ApiToken {
     pub role: AccountRole,
     /// The hash of the token.
     pub hash: Secret,
-    /// Name of the person that made the token. The token ends with that person's account, and never allows more than
-    /// the person's role. `None` if it was made while no sign-in was required.
+    /// Name of the person that made the token. The token ends with that person's account, and never allows more than the
+    /// person's role. `None` if the token was made while no sign-in was required.
     #[serde(default)]
     pub maker: Option<String>,
 }
@@ -62,7 +62,8 @@ pub struct AccountList {
 }
 
 impl AccountList {
-    /// Returns the role that a token has at present. `None` if its maker has no account any more.
+    /// Returns the role that a token has at present: the lower of its own role and its maker's. `None` if its maker has no
+    /// account any more.
     pub fn role_of(&self, token: &ApiToken) -> Option<AccountRole> {
         let Some(maker) = &token.maker else { return Some(token.role) };
         self.people.get(maker).map(|person| person.role.min(token.role))
@@ -128,7 +129,8 @@ impl Accounts {
     }
 }
 
-/// Returns an error for people unless a name has 1 to [`NAME_MAX`] letters, digits, `-`, `_` or `.`.
+/// Checks the name of a person or a token: 1 to [`NAME_MAX`] letters, digits, `-`, `_` or `.`. The error is a sentence for
+/// people.
 pub fn check_name(name: &str) -> Result<(), String> {
     let fits = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
     if (1..=NAME_MAX).contains(&name.chars().count()) && name.chars().all(fits) {
@@ -137,7 +139,7 @@ pub fn check_name(name: &str) -> Result<(), String> {
     Err(format!("A name has 1 to {NAME_MAX} letters, digits and - _ . without spaces."))
 }
 
-/// Returns an error for people if a password is too short or too long.
+/// Checks that a password is neither too short nor too long. The error is a sentence for people.
 pub fn check_password(password: &str) -> Result<(), String> {
     if password.chars().count() < PASSWORD_MIN {
         return Err(format!("A password has at least {PASSWORD_MIN} characters."));

@@ -25,7 +25,7 @@ struct Session {
 
 impl Sessions {
     /// Begins a session and returns its token. `password` is the hash of the person's password. If there are [`MOST`]
-    /// sessions, the oldest one ends.
+    /// sessions already, ends the one that began first.
     pub fn begin(&self, person: &str, password: &str, now: Instant) -> Result<String, String> {
         let (token, hash) = Secret::fresh()?;
         let mut sessions = self.lock();
@@ -40,7 +40,8 @@ impl Sessions {
         Ok(token)
     }
 
-    /// Returns the person and the password hash of a session that has not ended.
+    /// Returns the person and the password hash of the session whose token has the hash `session`. `None` if there is no
+    /// such session, or if it has ended.
     pub fn find(&self, session: &Secret, now: Instant) -> Option<(String, String)> {
         let sessions = self.lock();
         let found = sessions.get(session).filter(|session| now < session.ends)?;

@@ -1,9 +1,9 @@
 //! Limits how often passwords can be guessed. Strangers cannot lock an operator out for ever.
 //!
-//! Three limits hold at once. For each pair of name and network address: a pause after [`TRIES`] wrong passwords,
-//! doubled after each further [`TRIES`]. For each name, and for all names together: a token bucket of wrong passwords
-//! that refills slowly. The two buckets do not hold for this machine, nor for an address from which that name has
-//! signed in before. Strangers cannot use those addresses, so they cannot lock the name out there.
+//! Three limits hold at once. For each pair of name and network address: a pause after [`TRIES`] wrong passwords, doubled
+//! after each further [`TRIES`]. For each name, and for all names together: a token bucket of wrong passwords that refills
+//! slowly. The two buckets do not limit attempts from this machine, nor from an address from which that name has signed in
+//! before. Strangers rarely share such an address, so they cannot lock the name out there.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::net::{IpAddr, Ipv6Addr};
@@ -11,27 +11,28 @@ use std::time::{Duration, Instant};
 
 use super::NAME_MAX;
 
-/// Number of wrong passwords that leads to a pause.
+/// Number of wrong passwords for one name from one address after which a pause follows.
 pub const TRIES: u32 = 5;
-/// The first pause.
+/// Length of the first pause. Each further pause is twice as long as the one before, up to [`PAUSE_MAX`].
 const PAUSE: Duration = Duration::from_secs(60);
 /// The longest pause.
 const PAUSE_MAX: Duration = Duration::from_secs(3600);
-/// After this time without a wrong password, the next pause is the first one again.
+/// Time after a pair's latest wrong password, or after the end of its latest pause, at which its count is forgotten. The
+/// next pause then has the length [`PAUSE`] again.
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(2 * 3600);
 /// Token bucket for the wrong passwords of one name from all addresses together.
 const OF_NAME: Bucket = Bucket { most: 20, refill: Duration::from_secs(60) };
 /// Token bucket for the wrong passwords of all names from all addresses.
 const IN_WHOLE: Bucket = Bucket { most: 60, refill: Duration::from_secs(10) };
-/// Most pairs of name and address whose wrong passwords are remembered. Bounds the memory, because the buckets do not
-/// limit attempts from this machine. Beyond it, the pair whose pause ended first is forgotten. Pushing a pair out takes
-/// this number of wrong passwords. Each of them is hashed, which together takes longer than the first pauses.
+/// Most pairs of name and address whose wrong passwords are counted. Bounds the memory, because the buckets do not limit
+/// attempts from this machine. Beyond it, the pair with the earliest end of its pause is forgotten. An attacker needs about
+/// this number of wrong passwords to get a pair forgotten. Hashing all of them takes longer than the first pauses.
 const PAIRS_MAX: usize = 10_000;
-/// Longest part of a name that is remembered, letters: one more than a name of a person may have. Bounds the memory for
-/// long names.
+/// Number of a name's first characters by which wrong passwords are counted: one more than a valid name may have. Bounds the
+/// memory for long names.
 const LETTERS_MAX: usize = NAME_MAX + 1;
-/// Most pairs of name and address with a successful sign-in that are remembered. Beyond it, the pair that sorts first
-/// is forgotten.
+/// Most pairs of name and address with a successful sign-in that are remembered. Beyond it, the pair whose name is first in
+/// the order of characters is forgotten.
 const KNOWN_MAX: usize = 1_000;
 
 /// Token bucket: it allows `most` wrong passwords at once, and one more after each `refill`.
@@ -40,11 +41,11 @@ struct Bucket {
     refill: Duration,
 }
 
-/// State of a bucket: the moment at which it is full again. `None`: it is full.
+/// State of a bucket: the moment at which it will be full again. `None`: it is full.
 type FullAt = Option<Instant>;
 
 impl Bucket {
-    /// Returns how long the next attempt has to wait.
+    /// Returns how long an attempt at `now` has to wait until the bucket allows it. Zero: not at all.
     fn wait(&self, full_at: FullAt, now: Instant) -> Duration {
         let debt = full_at.map_or(Duration::ZERO, |full| full.saturating_duration_since(now));
         debt.saturating_sub(self.refill * (self.most - 1))
@@ -62,16 +63,16 @@ struct Pair {
     paused_until: Instant,
 }
 
-/// Tries that are left after a wrong password.
+/// What a person may still try after a wrong password.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriesLeft {
-    /// Tries until the next pause; 0: the pause has begun.
+    /// Number of wrong passwords that are left until the next pause; 0: the pause has begun.
     pub tries: u32,
     /// Length of the next pause, or of the pause that has begun.
     pub pause: Duration,
 }
 
-/// Wrong passwords that are remembered, and addresses from which names have signed in.
+/// Counted wrong passwords, and addresses from which names have signed in.
 #[derive(Debug, Default)]
 pub struct SignInTries {
     pairs: BTreeMap<(String, IpAddr), Pair>,
@@ -118,7 +119,7 @@ impl SignInTries {
         TriesLeft { tries, pause }
     }
 
-    /// Notes a right password: forgets the wrong ones of this name and address, and exempts the pair from the buckets.
+    /// Notes a right password: forgets the wrong ones for this name and address, and exempts this pair from the buckets.
     pub fn right(&mut self, name: &str, address: IpAddr) {
         let key = key(name, address);
         self.pairs.remove(&key);
@@ -133,13 +134,13 @@ impl SignInTries {
     }
 }
 
-/// Returns the name and the address by which wrong passwords are counted.
+/// Returns the key by which wrong passwords are counted: the name's first characters, and the address or its network.
 fn key(name: &str, address: IpAddr) -> (String, IpAddr) {
     (name.chars().take(LETTERS_MAX).collect(), network(address))
 }
 
-/// Returns the address by which a client is counted. For IPv6 it is the /64 network, because one machine can use all
-/// addresses of it.
+/// Returns the address by which a client is counted. Of an IPv6 address, this is the /64 network, because one machine can
+/// use every address of its network.
 fn network(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
         IpAddr::V6(address) if !address.is_loopback() => {

@@ -25,7 +25,7 @@ struct BackupList {
     lightbots_backup: u32,
     /// Version of the program that made it.
     program: String,
-    /// Time at which the backup was begun, milliseconds since 1970.
+    /// Time at which the backup was begun, milliseconds since the start of 1970 (UTC).
     began_ms: u64,
     /// The files by their paths in the data folder, with `/` between folders.
     files: BTreeMap<String, BackupFile>,
@@ -35,7 +35,7 @@ struct BackupList {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct BackupFile {
     bytes: u64,
-    /// Time of the last change of the file, milliseconds since 1970.
+    /// Time of the last change of the file, milliseconds since the start of 1970 (UTC).
     modified_ms: u64,
     /// Whether only its owner may read the file.
     is_private: bool,

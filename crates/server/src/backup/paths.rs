@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use super::LIST;
 
-/// Deepest nesting of folders that is looked through. The program needs two: `history/NAME/NUMBER.lightbots.json`.
+/// Deepest folder, in levels below the data folder, that is searched for files. The program needs two:
+/// `history/NAME/NUMBER.lightbots.json`.
 const DEPTH_MAX: usize = 16;
 /// Longest path in a backup, bytes: the limit of Linux for paths.
 const PATH_MAX: usize = 4096;
-/// Files that only a running program uses; backups leave them out. Without the journal, a restored folder does not
-/// resume a run that robots drove on another day. Without the playlist's switch, no show starts by itself after a
-/// restore.
+/// Files that matter only while the program runs. Backups leave them out. With the journal, a restored folder would resume a
+/// run that robots drove on another day. With `playlist-day.json`, shows would start by themselves after a restore.
 pub const OF_A_RUNNING_PROGRAM: [&str; 4] =
     [".lock", ".accounts-lock", "runs/present.lbjournal", "playlist-day.json"];
 /// Ending of files that are still being written, before they replace other files.
@@ -75,8 +75,8 @@ fn is_left_out(path: &str) -> bool {
     path == LIST || path.ends_with(DRAFT) || OF_A_RUNNING_PROGRAM.contains(&path)
 }
 
-/// Returns an error for paths that are too long, that lead out of the folder, or that mean something else on another
-/// system.
+/// Checks the path of a file in a backup. Error if it is too long, if it leads out of the data folder, or if it has
+/// characters with another meaning on other systems.
 pub fn check(path: &str) -> Result<(), &'static str> {
     let parts = || path.split('/');
     if path.len() > PATH_MAX || parts().count() > DEPTH_MAX + 1 {
@@ -91,7 +91,7 @@ pub fn check(path: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// As [`check`], and returns an error for files that no backup holds.
+/// Checks a path as [`check`] does. Also an error for the files that backups leave out.
 pub fn check_restored(path: &str) -> Result<(), &'static str> {
     check(path)?;
     if is_left_out(path) { Err("a backup never holds that file") } else { Ok(()) }

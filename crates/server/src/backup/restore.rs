@@ -1,5 +1,5 @@
-//! Restores a data folder from a backup, all or nothing. Files are unpacked into a folder beside it, which then takes
-//! its name.
+//! Restores a data folder from a backup, all or nothing. Files are unpacked into a new folder beside the data folder. The
+//! new folder is then renamed to the data folder's name.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -22,7 +22,7 @@ const LIST_MAX: u64 = 64 << 20;
 pub struct Restored {
     pub files: usize,
     pub bytes: u64,
-    /// New path of the files that the folder held before; `None` if it held none.
+    /// New path of the folder that `data` named before; `None` if there was no folder, or if it held no files.
     pub before: Option<PathBuf>,
 }
 
@@ -33,8 +33,8 @@ struct Backup {
     list: BackupList,
 }
 
-/// Restores a backup as the data folder `data`. A folder that holds files is an error, or with `replace` is moved
-/// aside.
+/// Restores the backup `file` as the data folder `data`. If `data` holds files already, the result is an error. With
+/// `replace`, the old folder is renamed instead, and keeps its files.
 pub fn restore(file: &Path, data: &Path, replace: bool) -> Result<Restored, Failure> {
     let mut backup = Backup::open(file)?;
     let folder = if fs::symlink_metadata(data).is_ok() { Some(DataFolder::take(data)?) } else { None };
@@ -120,7 +120,8 @@ impl Backup {
     }
 }
 
-/// Reads an entry and keeps its read error, to tell it from an error of the disk that the entry is written to.
+/// Reads an entry of the zip and keeps its read error. The error is then told from one of the disk that the entry is written
+/// to.
 struct Counted<R> {
     entry: R,
     failure: Option<io::Error>,
@@ -157,7 +158,8 @@ fn check(archive: &ZipArchive<BufReader<File>>, list: &BackupList) -> Result<(),
     }
 }
 
-/// Whether a folder holds more than the files that a program leaves in an empty one.
+/// Whether a folder holds any file or folder, except those files of `paths::OF_A_RUNNING_PROGRAM` that lie directly in it. A
+/// program leaves them in an empty data folder.
 fn holds_files(data: &Path) -> Result<bool, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(
@@ -174,8 +176,8 @@ fn holds_files(data: &Path) -> Result<bool, Failure> {
     Ok(false)
 }
 
-/// Gives the folder `staging` the name `data`. If `data` holds files, it is first moved aside, and its new path is
-/// returned. Otherwise it is deleted first.
+/// Gives the folder `staging` the name `data`. If `data` holds files, it is first renamed, and its new path is returned.
+/// Otherwise `data` is deleted first if it exists, and the result is `None`.
 fn put_in_place(staging: &Path, data: &Path, holds_files: bool) -> Result<Option<PathBuf>, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(
@@ -211,7 +213,7 @@ fn beside(folder: &Path, ending: &str) -> PathBuf {
     folder.with_file_name(name)
 }
 
-/// An incomplete folder, which is removed when this value is dropped. After a rename there is nothing to remove.
+/// The folder into which a backup is unpacked. It is removed when this value is dropped, unless it was renamed before.
 struct Staging(PathBuf);
 
 impl Staging {

@@ -16,11 +16,10 @@ use super::{BackupFile, BackupList, FILES_MAX, LIST, VERSION, paths};
 use crate::disk::{self, Readers};
 use crate::failure::Failure;
 
-/// Most times that the folder is looked through. Each further round finds files that were created during the round
-/// before.
+/// Largest number of passes over the folder. Each pass after the first saves files that were created during the pass before.
 const ROUNDS_MAX: usize = 5;
-/// Length from which on a file is stored with 64-bit sizes in the zip, bytes. Half of what 32-bit sizes hold, because
-/// compressed data may be longer.
+/// Length in bytes from which on a file is stored with 64-bit sizes in the zip. It is half of what 32-bit sizes hold,
+/// because compressed data may be longer than the file.
 const LARGE: u64 = 2 << 30;
 
 /// What was saved.
@@ -72,7 +71,7 @@ pub fn save(data: &Path, out: &Path) -> Result<Saved, Failure> {
     Ok(saved)
 }
 
-/// Returns an error if `data` is no folder, or if `out` lies in it: each backup would then hold the one before.
+/// Checks that `data` is a folder and that `out` is not in it. A backup in the data folder would be part of the next backup.
 fn check_places(data: &Path, out: &Path) -> Result<(), Failure> {
     let folder = data.canonicalize().ok().filter(|folder| folder.is_dir()).ok_or_else(|| {
         Failure::input(format!("there is no data folder {}: name it with --data DIR", data.display()))
@@ -127,7 +126,7 @@ fn options(bytes: u64) -> SimpleFileOptions {
     options.large_file(bytes >= LARGE).unix_permissions(0o600)
 }
 
-/// Adds a file with its present content. `None` if it no longer exists.
+/// Adds the file `path` of the data folder to the archive, with its present content. `None` if the file no longer exists.
 fn add(
     archive: &mut ZipWriter<impl Write + Seek>,
     data: &Path,

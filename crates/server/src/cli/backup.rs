@@ -12,7 +12,7 @@ pub struct BackupArguments {
     /// Folder to save [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
-    /// Replace a file that is there already
+    /// Replace the file if it exists already
     #[arg(long)]
     pub replace: bool,
 }
@@ -25,7 +25,7 @@ pub struct RestoreArguments {
     /// Folder to make [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
-    /// Take the place of a folder that holds something; that folder is moved aside
+    /// Restore even if the folder holds files; the old folder is renamed and keeps them
     #[arg(long)]
     pub replace: bool,
 }

@@ -12,8 +12,8 @@ const ARTNET: &str = "127.0.0.1:6454";
 /// Address for sACN if the option has no value: this machine only.
 const SACN: &str = "127.0.0.1:5568";
 
-/// Address for OSC if the option has no value: this machine only. The port is not 53000, which a widespread sound
-/// program uses itself.
+/// Address for OSC if the option has no value: this machine only. The port is not 53000, because a widespread sound program
+/// uses that port itself.
 const OSC: &str = "127.0.0.1:53100";
 
 /// Lighting and sound desks, of `run`
@@ -25,21 +25,21 @@ pub struct DeskArguments {
     /// Receive sACN (E1.31), on 0.0.0.0 multicast too [without an address: from this machine, 127.0.0.1:5568]
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = SACN, value_parser = address)]
     pub sacn: Option<SocketAddr>,
-    /// Which channels belong to which robot: lines ROBOT UNIVERSE CHANNEL and `others UNIVERSE` [default: `others 1`, 170
-    /// robots on each universe]
+    /// Table of the channels of each robot, with lines ROBOT UNIVERSE CHANNEL and `others UNIVERSE` [default: `others 1`,
+    /// 170 robots on each universe]
     #[arg(long, value_name = "FILE")]
     pub patch: Option<PathBuf>,
     /// Receive OSC: /lightbots/go and /lightbots/stop [without an address: from this machine, 127.0.0.1:53100]
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = OSC, value_parser = address)]
     pub osc: Option<SocketAddr>,
-    /// Send OSC there when robots leave for a frame, a picture stands, or a cue waits for GO
+    /// Send OSC to this address when robots leave for a frame, a picture stands, or a cue waits for GO
     #[arg(long, value_name = "HOST:PORT", value_parser = address)]
     pub osc_out: Option<SocketAddr>,
-    /// Play the music of the show on a sound device of this machine, where the show is
+    /// Play the music of the show on a sound device of this machine, at the show's position
     #[cfg(feature = "sound")]
     #[arg(long)]
     pub sound: bool,
-    /// How much earlier music is played, milliseconds
+    /// How much earlier than the show the music is played, milliseconds
     #[cfg(feature = "sound")]
     #[arg(long, value_name = "MS", allow_hyphen_values = true, default_value_t = 0.0)]
     pub sound_offset_ms: f64,

@@ -6,16 +6,17 @@ use lightbots_lighting::LampSettings;
 /// The lamps of the fleet: what they are sent so that they show the colours of the show, of `run` and `play`
 #[derive(Clone, Copy, Debug, Args)]
 pub struct LampArguments {
-    /// Exponent of the light of the lamps over what sRGB means; above 1 where dim colours come out too dark
+    /// Exponent of the lamps' light relative to sRGB; choose a value above 1 if dim colours come out too dark
     #[arg(long, value_name = "G", default_value_t = 1.0, value_parser = gamma)]
     pub lamp_gamma: f64,
-    /// White balance: shares of red, green and blue, 0 to 1, that are white together, such as 1,0.8,0.7
+    /// White balance: the shares of red, green and blue, each 0 to 1, that together look white, such as 1,0.8,0.7
     #[arg(long, value_name = "R,G,B", default_value = "1,1,1", value_parser = white)]
     pub lamp_white: White,
-    /// Most current of a robot's lamp, milliamperes; brighter colours are dimmed and keep their hue [default: not limited]
+    /// Largest current of a robot's lamp, milliamperes; brighter colours are dimmed and keep their hue [default: not
+    /// limited]
     #[arg(long, value_name = "MA", value_parser = milliamperes)]
     pub lamp_max_ma: Option<f64>,
-    /// Current of one channel at full light, milliamperes
+    /// Current of one colour channel at full light, milliamperes
     #[arg(long, value_name = "MA", default_value_t = 20.0, value_parser = milliamperes)]
     pub lamp_channel_ma: f64,
     /// Current of a dark lamp, milliamperes

@@ -28,7 +28,7 @@ pub struct MakeArguments {
     /// Floor in metres [default: 3x3]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor)]
     pub floor: Option<(f64, f64)>,
-    /// Least distance of two robots, metres [default: 0.08, down to 0.062 where there is no room]
+    /// Least distance between two robots' centres, metres [default: 0.08, down to 0.062 where there is no room]
     #[arg(long, value_name = "M", value_parser = metres)]
     pub spacing: Option<f64>,
     /// Longer side of each picture, metres [default: chosen by floor and robots]
@@ -43,7 +43,7 @@ pub struct MakeArguments {
     /// How pictures are shown [default: auto]
     #[arg(long, value_enum)]
     pub way: Option<WayArgument>,
-    /// Colour of words and shapes, such as #ffa500; several are taken letter by letter in turn
+    /// Colour of words and shapes, such as #ffa500; if repeated, the letters of words take the colours in turn
     #[arg(long, value_name = "COLOUR", value_parser = color)]
     pub color: Vec<Rgb>,
     /// A frame for each word of a text
@@ -52,7 +52,7 @@ pub struct MakeArguments {
     /// Frames of the text scrolling past
     #[arg(long)]
     pub scroll: bool,
-    /// Put words on lines so that the whole is about this many times as wide as high
+    /// Break the text into lines so that the whole is about this many times as wide as high
     #[arg(long, value_name = "RATIO", value_parser = metres)]
     pub wrap: Option<f64>,
     /// Seed of everything random
@@ -93,7 +93,7 @@ impl From<StyleArgument> for Style {
 /// How pictures are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum WayArgument {
-    /// The thing where a background is found, else dark to light.
+    /// Silhouette if a plain background is found, else tones.
     Auto,
     /// The thing without its background.
     Silhouette,

@@ -11,7 +11,7 @@ use lightbots_api::AccountRole;
 pub struct PasswdArguments {
     /// Name of the person
     pub user: String,
-    /// What they may do [default: as before; operator for the first person, viewer for others]
+    /// The person's role [default: as before; operator for the first person, viewer for others]
     #[arg(long, value_name = "ROLE", value_parser = roles())]
     pub role: Option<AccountRole>,
     /// Folder of the library, where accounts are kept [default: lightbots in the user's data folder]

@@ -13,7 +13,7 @@ pub struct ReplayArguments {
     /// Data folder of `run` [default: lightbots in the user's data folder]
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
-    /// Also write what came, what was sent and what happened into this file, a JSON object on each line
+    /// Also write each input, output and event into this file, as a JSON object on each line
     #[arg(long, value_name = "FILE")]
     pub lines: Option<PathBuf>,
     /// One JSON object on stdout

@@ -70,8 +70,8 @@ fn authority(out: &Path) -> Result<Authority, Failure> {
     Ok(Issuer::new(params, pair))
 }
 
-/// Checks the server certificate against the authority in the folder as a client does. An authority of another program
-/// fails, because its name differs from the issuer that is written here.
+/// Verifies `server.pem` with the authority in the folder, as a client does. Fails if another program made the authority,
+/// because its name then differs from the issuer that [`issue`] writes.
 fn check(out: &Path) -> Result<(), Failure> {
     let wrong = |error: &dyn std::fmt::Display| unusable(out, &error.to_string());
     let read = |name: &str| CertificateDer::from_pem_file(out.join(name)).map_err(|error| wrong(&error));
@@ -113,7 +113,7 @@ fn params(names: &[String], common: &str, days: u32) -> Result<CertificateParams
         .map_err(|error| Failure::input(format!("a name that certificates cannot hold: {error}")))
 }
 
-/// Returns the name of a client if it can be part of a file name.
+/// Returns `client` if it can be part of a file name, else an error.
 fn file_name(client: &str) -> Result<&str, Failure> {
     let fits = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
     if (1..=64).contains(&client.len()) && client.chars().all(fits) && !client.starts_with('.') {

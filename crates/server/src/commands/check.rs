@@ -36,16 +36,18 @@ pub(super) struct Summary<'a> {
     explanations: Option<Vec<Explained>>,
 }
 
-/// The two robots whose centres come closest in the whole show.
+/// The two robots whose centres come closest in the whole show, at that moment.
 #[derive(Debug, Serialize)]
 struct Pair {
     distance_m: f64,
     /// The frame that the transition leads to, counted from 0.
     to: usize,
-    /// Time after the start of the transition, and after the start of the show, seconds.
+    /// Seconds from the start of the transition to the closest moment.
     at_s: f64,
+    /// Seconds from the start of the show to the closest moment.
     show_at_s: f64,
-    /// Ids of the robots' pixels; null: the robot has none.
+    /// Ids of the pixels to which the two robots drive in the transition, in ascending order. Null, which comes first: a
+    /// spare robot, which has no pixel.
     pixels: [Option<u32>; 2],
     /// Midpoint between the robots, stage metres.
     place: [f64; 2],

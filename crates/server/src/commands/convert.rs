@@ -45,7 +45,8 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     Ok(fine)
 }
 
-/// Reads the input show. With `--onto`, reads that show and puts the colours of the input onto it.
+/// Reads the input show. With `--onto`, reads the show that the option names, and puts the colours of the input onto that
+/// show.
 fn loaded(arguments: &ConvertArguments) -> Result<Loaded, Failure> {
     let input = &arguments.input;
     let Some(onto) = &arguments.onto else { return show_file::load(input) };

@@ -15,12 +15,14 @@ pub enum EnterFor {
     GoOn,
 }
 
-/// The question that waits for an answer, and the receiver of its answer: a line on stdin.
+/// The question at the terminal that waits for Enter; `None`: there is none. Its receiver gets `true` when a line was read,
+/// `false` at the end of the input.
 #[derive(Debug, Default)]
 pub struct EnterKey(Option<(EnterFor, oneshot::Receiver<bool>)>);
 
 impl EnterKey {
-    /// Prints a question, unless the same question is waiting for an answer. It replaces another waiting question.
+    /// Prints `question`, unless it is waiting for an answer already. If another question is waiting, `question` replaces
+    /// it, and the next Enter answers `question`.
     pub fn ask(&mut self, question: EnterFor) {
         match &mut self.0 {
             Some((asked, _)) if *asked == question => return,
@@ -33,8 +35,8 @@ impl EnterKey {
         });
     }
 
-    /// Waits for the answer. Returns the question, and whether Enter was pressed: `false` if there is no terminal.
-    /// Never returns if there is no question.
+    /// Waits for the answer to the waiting question. Returns that question, and whether Enter was pressed: `false` at the
+    /// end of the input. Waits for ever if no question is waiting.
     pub async fn answer(&mut self) -> (EnterFor, bool) {
         let Some((question, receiver)) = &mut self.0 else { return std::future::pending().await };
         let answer = (*question, receiver.await.unwrap_or(false));

@@ -16,7 +16,7 @@ const CHILD: &str = "LIGHTBOTS_READING_CHILD";
 /// Most memory of the child, bytes.
 const MEMORY_MAX: u64 = 400 << 20;
 
-/// Longest time for reading the sources.
+/// Longest time for reading untrusted files. A child that takes longer exits with [`TOO_LONG`].
 const READING_MAX: Duration = Duration::from_secs(10);
 
 /// Exit code of a child that took too long. No command uses this code.
@@ -27,8 +27,8 @@ fn is_child() -> bool {
     std::env::var_os(CHILD).is_some()
 }
 
-/// Runs the same command in a child process if untrusted files are to be read, and returns its outcome. `None` if there
-/// are no such files. Also `None` in the child itself, whose memory is limited here.
+/// If `reads_foreign_files`, runs this command again in a child process and returns the outcome of that child. Otherwise
+/// returns `None`. In the child itself, limits the memory and returns `None`.
 pub fn child_outcome(reads_foreign_files: bool) -> Option<Outcome> {
     if is_child() {
         limit_memory();
@@ -44,8 +44,8 @@ pub fn reading_child() -> Command {
     child
 }
 
-/// Returns why a child could not read and what to do, for a message. `None` if the child ended by itself, after
-/// printing the reason of any failure.
+/// Returns the predicate of a message about a source: why a child could not read it, and what to do. `None` if the child
+/// ended by itself, after printing the reason of any failure. A child that a signal killed counts as out of memory.
 pub fn reading_failure(status: ExitStatus) -> Option<String> {
     match status.code() {
         Some(TOO_LONG) => {
@@ -76,7 +76,7 @@ fn run_in_child() -> Outcome {
 pub struct ReadingTime(Arc<AtomicBool>);
 
 impl ReadingTime {
-    /// Starts the time limit if this process is the child. It holds until [`ReadingTime::decoded`] is called.
+    /// Starts the time limit if this process is the child. The limit holds until [`ReadingTime::decoded`] is called.
     pub fn start() -> Self {
         let done = Arc::new(AtomicBool::new(false));
         if is_child() {

@@ -24,8 +24,8 @@ use crate::{open_files, say, show_file};
 /// Without `--wait`: if no further robot becomes ready for this time, the show starts with fewer robots than pixels. A
 /// shorter time would leave out robots that start slowly.
 const SETTLED: Duration = Duration::from_secs(10);
-/// A run without any event for this time is aborted, because a fault must have gone unnoticed. Longer than any usual
-/// air time.
+/// A run without any event for this time is aborted, unless a frame waits for GO, because a fault must have gone unnoticed.
+/// It is longer than any usual air time.
 const NOTHING: Duration = Duration::from_secs(900);
 
 /// Without a terminal: interval at which the run is checked for a frame to which GO must be given.
@@ -82,8 +82,8 @@ fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outco
     played.map(|()| ok)
 }
 
-/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. If a stop is wanted, the
-/// conductor stops the robots before that.
+/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. The wait has a limit. If a
+/// stop is wanted, the conductor stops the robots before it disconnects.
 async fn finish(stop: &Stop, task: tokio::task::JoinHandle<()>) {
     // The wait is limited, because a broker or a disk may hang.
     let patience = if stop.is_wanted() { GOODBYE } else { SAVED };
@@ -116,7 +116,8 @@ async fn play(
     follow(report, handle, news).await
 }
 
-/// Waits until enough robots are ready. Returns what to do about missing robots. Error if too few are ready in time.
+/// Waits until enough robots are ready. Returns whether the show may start with fewer robots than pixels. Error if too few
+/// robots are ready in time.
 async fn gather(
     arguments: &PlayArguments,
     pixels: usize,
@@ -154,7 +155,7 @@ async fn gather(
     }
 }
 
-/// Whether a robot can take part.
+/// Whether a robot can take part: it reports, knows its place, and is neither lost nor faulty.
 fn is_ready(robot: &RobotView) -> bool {
     let fit = !matches!(robot.reported.state, Some(RobotState::Lost | RobotState::Faulty));
     robot.contact.age == Age::Active && robot.reported.at.is_some() && fit
@@ -259,7 +260,7 @@ async fn waits_for_go(handle: &Handle) -> bool {
     handle.look().await.and_then(|snapshot| snapshot.run).is_some_and(waits)
 }
 
-/// Whether frames repeat until GO, and GO was not given.
+/// Whether frames repeat until GO, and GO has not been given yet.
 fn is_repeating(run: &RunView) -> bool {
     run.repeats.is_some_and(|repeats| !repeats.leaves)
 }
@@ -276,14 +277,14 @@ async fn air_time_over(handle: &Handle) {
     }
 }
 
-/// Gives GO. Prints the refusal if the frame was left meanwhile.
+/// Gives GO. Prints the refusal, for example if the run has left the frame meanwhile.
 async fn go(handle: &Handle) {
     if let Err(refusal) = handle.operate(Operation::Go).await {
         say::note(&refusal.to_string());
     }
 }
 
-/// Resumes the interrupted show. Error if there is no terminal to ask at.
+/// Resumes the interrupted show if `goes_on`. Otherwise returns an error, because there is no terminal to ask at.
 async fn go_on(handle: &Handle, goes_on: bool) -> Result<(), Failure> {
     if !goes_on {
         let why = "robots were out of reach for more than 30 s, and there is no terminal to press Enter on: the show was ended";

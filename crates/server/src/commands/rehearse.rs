@@ -165,7 +165,7 @@ fn title(name: &str, file: &Path) -> String {
     if name.is_empty() { stem.unwrap_or_default() } else { name.to_owned() }
 }
 
-/// Returns the report with numbers rounded like those of `check`.
+/// Returns the report with numbers rounded to the same digits as those of `check`.
 fn readable(mut report: RehearsalReport) -> RehearsalReport {
     for seconds in [&mut report.duration_s, &mut report.lower_bound_s] {
         *seconds = rounded(*seconds, 3);

@@ -18,7 +18,7 @@ use crate::live::run_files::run_file;
 use crate::progress::Bar;
 use crate::say;
 
-/// Longest log that is read, bytes: a hundred runs of the longest kind.
+/// Longest log that is read, bytes: 16 times the longest that `run` records.
 const BYTES_MAX: u64 = 32 << 30;
 
 pub fn run(arguments: &ReplayArguments) -> Outcome {
@@ -45,7 +45,8 @@ pub fn run(arguments: &ReplayArguments) -> Outcome {
     Ok(ok)
 }
 
-/// Returns the path of a run's file. `run` is that path, or the number of a run in the data folder `data`.
+/// Returns the path of a run's file. `run` is that path, or the number of a run in the data folder `data`. A path that
+/// exists has precedence.
 fn path_of(run: &Path, data: Option<&PathBuf>) -> PathBuf {
     let number = run.to_str().and_then(|text| text.parse().ok());
     match number.filter(|_| !run.exists()) {
@@ -65,7 +66,7 @@ fn append(lines: &mut GrowingFile<'_>, line: &RunLine) {
     lines.append(&text);
 }
 
-/// Reads the log of a run and returns what `replay` makes of it. `run` is a file, or the number of a run in the data
+/// Reads the log of a run and returns the result of `replay` on it. `run` is a file, or the number of a run in the data
 /// folder `data`. `doing` is the text at the progress bar.
 pub fn replayed<T>(
     run: &Path,
@@ -109,7 +110,7 @@ fn as_json(report: &ReplayReport) -> serde_json::Value {
     })
 }
 
-/// Whether the log ends as its writer ended it; `None` if the replay did not reach its end.
+/// Whether the log ends as its writer ended it. `None` if the replay did not reach the end of the log.
 fn is_complete(end: LogEnd) -> Option<bool> {
     match end {
         LogEnd::Complete => Some(true),

@@ -60,11 +60,11 @@ struct Examination {
     link: Link,
     clock: Clock,
     yes: bool,
-    /// The awaited answer of the person at the robot.
+    /// Receives the answer of the person at the terminal; `None` if no answer is awaited.
     answer: Option<oneshot::Receiver<String>>,
-    /// Whether the answer is about the light and not about driving.
+    /// Whether the awaited answer is about the robot's light. Otherwise it confirms that the robot may drive.
     is_look: bool,
-    /// Time at which the robot may drive although there is no terminal to confirm that.
+    /// End of the countdown to the drive, if there is no terminal to ask at. `None`: no countdown is running.
     go_at: Option<tokio::time::Instant>,
 }
 
@@ -205,7 +205,7 @@ fn read_line() -> oneshot::Receiver<String> {
     line
 }
 
-/// Waits for the awaited answer; `None` if the input has ended. Never returns if no answer is awaited.
+/// Waits for the answer; `None` if the input has ended. Waits for ever if no answer is awaited.
 async fn answer(awaited: &mut Option<oneshot::Receiver<String>>) -> Option<String> {
     match awaited {
         Some(line) => line.await.ok(),

@@ -47,7 +47,7 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
     Ok(true)
 }
 
-/// Reads the arguments of `--start` into one starting place for each robot.
+/// Reads the arguments of `--start` and returns one starting place for each robot.
 fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
     let words: Vec<&str> = said.iter().flat_map(|text| text.split_whitespace()).collect();
     match (said, words.as_slice()) {
@@ -88,7 +88,7 @@ pub(super) fn conditions(ideal: bool) -> Conditions {
     if ideal { Conditions::ideal() } else { Conditions::default() }
 }
 
-/// Returns the seed that was asked for, or else a random one.
+/// Returns the requested seed, or a random one if none was requested.
 pub(super) fn seed(asked: Option<u64>) -> u64 {
     asked.unwrap_or_else(|| {
         let mut bytes = [0; 8];

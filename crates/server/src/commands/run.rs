@@ -41,14 +41,14 @@ const FIRST: &str = "countdown";
 const USUAL_SEED: u64 = 1;
 /// Most issues of the show that are printed at the start. The screen lists all of them.
 const ISSUES_SHOWN: usize = 5;
-/// Longest time for stopping the robots and disconnecting at the end. After it connections are cut off.
+/// Longest time at the end of the program for stopping the robots and disconnecting. After it, connections are cut off.
 pub const GOODBYE: Duration = Duration::from_secs(5);
 
-/// The lighting desk and the sound desk, as far as the command line asks for them.
+/// The links to a lighting desk and a sound desk; `None` for a link that the command line does not ask for.
 type Desks = (Option<DeskLight>, Option<OscLink>);
 
-/// What `run` started, in the order in which it is stopped. The conductor ends first, while robots and broker can still
-/// report to it that the robots stand.
+/// What `run` started, in the order in which it is stopped. The conductor ends first, while the robots can still report to
+/// it through the broker that they stand.
 #[derive(Default)]
 struct Started {
     conductor: Option<JoinHandle<()>>,
@@ -59,8 +59,8 @@ struct Started {
 }
 
 impl Started {
-    /// Waits for the conductor, which ends by itself once a stop is wanted. Then ends the simulated robots and waits
-    /// for the other tasks.
+    /// Waits for the conductor, which ends once a stop is wanted. Then ends the simulated robots and waits for the other
+    /// tasks.
     async fn end(&mut self) {
         if let Some(conductor) = self.conductor.take() {
             let _ = conductor.await;
@@ -219,13 +219,14 @@ async fn serve(arguments: &RunArguments, stop: &Stop, started: &mut Started) -> 
     Ok(false)
 }
 
-/// Opens the desks that the command line asks for.
+/// Opens the links to lighting and sound desks that the command line asks for.
 async fn open_desks(arguments: &RunArguments) -> Result<Desks, Failure> {
     let light = DeskLight::open(&arguments.desk, arguments.lamps.settings()).await?;
     Ok((light, OscLink::open(&arguments.desk).await?))
 }
 
-/// If the network reaches the web app, prints that, and the address for the first operator if there is none yet.
+/// If the network reaches the web app, prints that. While there are no accounts, also prints the address at which the first
+/// operator gets one.
 fn invite(
     arguments: &RunArguments,
     shared: &Shared,
@@ -270,8 +271,8 @@ fn say_open(certificate: Option<&WebCertificate>) {
     }
 }
 
-/// Returns the seed of the simulated robots and their names. On our own broker its default is fixed, so that pins of a
-/// show still fit. On another broker its default is random, because other robots may have these names.
+/// Returns the seed of the simulated robots and their names. On the embedded broker, the default is fixed, so that pins of a
+/// show still fit. On another broker, the default is random, because other robots there may have these names.
 fn robots_seed(asked: Option<u64>, is_own_broker: bool) -> u64 {
     if is_own_broker { asked.unwrap_or(USUAL_SEED) } else { robots::seed(asked) }
 }
@@ -292,8 +293,8 @@ async fn relay(mut lines: mpsc::Receiver<String>, log: ScreenLog, stop: Stop) {
     }
 }
 
-/// Returns the settings for the screen's form, and the broker for the controller. The broker is that of the command
-/// line, else the one that was chosen on the screen, else our own.
+/// Returns the settings for the screen's form, and the broker for the controller. The broker is that of the command line,
+/// else the one that was chosen on the screen, else the embedded one.
 fn chosen(
     arguments: &RunArguments,
     other: Option<BrokerUrl>,
@@ -319,8 +320,8 @@ fn chosen(
     }
 }
 
-/// Returns the show that is opened at the start, and its name in the library. That is the file of the command line,
-/// else the show that was open last, else an example.
+/// Returns the show that is opened at the start, and its name in the library. The show is the file of the command line, else
+/// the one that was open last, else an example, else any show of the library. Without any: `None` and an empty show.
 fn first_show(arguments: &RunArguments, library: &Library) -> Result<(Option<String>, Show), Failure> {
     if let Some(file) = &arguments.show {
         let opened = show_file::open(file, &arguments.reading)?;

@@ -52,7 +52,7 @@ pub fn note(operation: impl FnOnce() -> Operation) {
 struct Renaming {
     removed: Option<PathBuf>,
     added: Option<(PathBuf, Node)>,
-    /// The change takes effect only if this name exists.
+    /// The change takes effect only if this name exists; `None`: in any case.
     after: Option<PathBuf>,
 }
 
@@ -134,8 +134,9 @@ impl Disk {
         done.iter().for_each(|renaming| renaming.apply(&mut self.synced));
     }
 
-    /// Returns what is found after a power cut: the bytes of each file, and `None` for a folder. `chance` decides for
-    /// each part that was not synced whether it is there.
+    /// Returns what is found after a power cut: the bytes of each file, and `None` for each folder. `chance` is asked about
+    /// each unsynced change of a name whether the disk has it. For each unsynced file, it decides between all bytes and the
+    /// first half.
     pub fn cut(&self, mut chance: impl FnMut() -> bool) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
         let mut names = self.synced.clone();
         for renaming in self.pending.iter().filter(|_| chance()) {

@@ -10,8 +10,8 @@ use lightbots_show::{Asset, AssetHash, Show};
 
 use crate::disk::{self, Readers};
 
-/// Age from which a file that no show names is deleted, at the next start. Until then it can come back with a show
-/// whose deletion is undone, or with a draft in a browser.
+/// Age from which an asset that no show names is deleted, at the next start of the program. Until then, a show that names
+/// the asset can come back: after an undone deletion, or from a draft in a browser.
 const UNUSED_FOR: Duration = Duration::from_secs(30 * 24 * 3600);
 
 /// Files by hash. Clones share them.
@@ -35,7 +35,8 @@ impl AssetStore {
         given.extend(contents);
     }
 
-    /// Writes those files of a show that the folder lacks, also the ones that only a built-in show has.
+    /// Writes the assets of a show to the folder, unless they are there. An asset without content is taken from the built-in
+    /// shows, if one of them has it.
     pub fn keep(&self, show: &Show) -> std::io::Result<()> {
         for (hash, asset) in &show.assets {
             if let Some(content) = asset.content.clone().or_else(|| self.given_content(hash)) {
@@ -53,19 +54,19 @@ impl AssetStore {
         disk::replace(&self.folder.join(hash.to_string()), content, Readers::All)
     }
 
-    /// Fills in the content of a show's assets from the store. A damaged file counts as missing.
+    /// Fills in the content of a show's assets from the store. A missing or damaged asset stays without content.
     pub fn attach(&self, show: &mut Show) {
         for (hash, asset) in show.assets.iter_mut().filter(|(_, asset)| asset.content.is_none()) {
             asset.content = self.of(*hash, asset);
         }
     }
 
-    /// Returns the content of an asset that a show names. A damaged file counts as missing.
+    /// Returns the content of an asset that a show names. `None` if it is missing or damaged.
     pub fn of(&self, hash: AssetHash, asset: &Asset) -> Option<Arc<[u8]>> {
         self.content(hash, asset.bytes).or_else(|| self.given_content(&hash))
     }
 
-    /// Returns the file with this hash and length, bytes, from the folder. A damaged file counts as missing.
+    /// Returns the file with this hash and this length in bytes from the folder. `None` if it is missing or damaged.
     fn content(&self, hash: AssetHash, length: u64) -> Option<Arc<[u8]>> {
         let path = self.folder.join(hash.to_string());
         let about = std::fs::metadata(&path).ok()?;
@@ -75,7 +76,7 @@ impl AssetStore {
         disk::read_regular(&path, length).ok().filter(|bytes| hash_of(bytes) == hash).map(Arc::from)
     }
 
-    /// Returns the file with this hash. A damaged file counts as missing.
+    /// Returns the content of the asset with this hash. `None` if it is missing or damaged.
     pub fn get(&self, hash: AssetHash) -> Option<Arc<[u8]>> {
         let length = std::fs::metadata(self.folder.join(hash.to_string())).map(|about| about.len()).ok();
         length.and_then(|length| self.content(hash, length)).or_else(|| self.given_content(&hash))

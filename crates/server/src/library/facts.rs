@@ -15,8 +15,8 @@ use super::version::etag;
 
 /// The most files whose facts are remembered: all shows that a library lists, and the states of 400 shows.
 const FILES_MAX: usize = 30_000;
-/// Age from which the facts of a file are remembered. A file that was written more recently is read each time, because
-/// a second change may leave its time of change as it is. Some file systems count in steps of two seconds.
+/// Age from which the facts of a file are remembered. A file that was written more recently is read each time, because a
+/// second change may not alter its time of change. Some file systems count that time in steps of two seconds.
 const SETTLED_AFTER: Duration = Duration::from_secs(3);
 
 /// Facts about a show that a list displays.
@@ -30,7 +30,7 @@ pub struct ListFacts {
     pub pixels: usize,
     /// Version of the file, in quotes.
     pub etag: String,
-    /// Why the file holds more than the show.
+    /// Why the file holds more than the show; `None`: it does not.
     pub unread: Option<String>,
 }
 
@@ -41,7 +41,7 @@ impl ListFacts {
         Ok(Self { etag: etag(bytes), ..Self::of_show(&loaded.show, loaded.unread) })
     }
 
-    /// Returns the facts of a show without a file, and thus without a version.
+    /// Returns the facts of a show without a file. The version of the file stays empty.
     pub fn of_show(show: &Show, unread: Option<String>) -> Self {
         let (frames, pixels) = (show.frames.len(), most_pixels(show));
         Self { title: show.name.clone(), frames, pixels, etag: String::new(), unread }
@@ -53,8 +53,8 @@ impl ListFacts {
 struct Stamp {
     bytes: u64,
     modified: SystemTime,
-    /// On Unix the inode number, and the time of the last change of any kind, seconds and nanoseconds. They reveal a
-    /// file that replaced another and has the same time of change.
+    /// On Unix: the inode number, and the time of the last change of any kind, in seconds and nanoseconds. They reveal that
+    /// a file with the same time of change replaced another. On other systems: zeros.
     identity: (u64, i64, i64),
 }
 

@@ -14,18 +14,19 @@ use super::version::etag;
 /// A built-in show, which is read-only and in no folder.
 #[derive(Clone, Debug)]
 pub struct Given {
-    /// Name of the show if no file has that name. Names of its copies begin with it.
+    /// Name under which the show is listed while no other show has that name. Names of its copies begin with it.
     pub base: String,
     /// Origin of the show: an example, or the file of the command line.
     pub origin: ShowOrigin,
     /// Document of the show in our format.
     pub bytes: Vec<u8>,
-    /// Facts that lists display. `unread` says why the show's file holds more than the document.
+    /// Facts that lists display. `unread` in them says why the show's original file holds more than the document.
     pub facts: ListFacts,
 }
 
 impl Given {
-    /// Makes a built-in show with the name `base`. `unread` says why the show's file holds more than the show.
+    /// Makes a built-in show with the name `base`. `unread` says why the show's original file holds more than `show`;
+    /// `None`: it does not.
     pub fn new(base: String, origin: ShowOrigin, show: &Show, unread: Option<String>) -> Self {
         let bytes = LIGHTBOTS.write(show, None).bytes;
         let facts = ListFacts { etag: etag(&bytes), ..ListFacts::of_show(show, unread) };
@@ -48,8 +49,9 @@ impl GivenShows {
         lock(&self.0).get(name).cloned()
     }
 
-    /// Adds a show and returns the name it is listed under. The file of the command line takes the name of an example,
-    /// which is then listed under another. `saved` has the names of the shows in the folder.
+    /// Adds a show and returns the name under which it is listed. If an example has the same name as the file of the command
+    /// line, the file keeps the name, and the example is listed under another name. `saved` has the names of the shows in
+    /// the folder.
     pub fn add(&self, show: Given, saved: &BTreeSet<String>) -> String {
         let (base, origin) = (show.base.clone(), show.origin);
         let mut given = lock(&self.0);
@@ -68,8 +70,8 @@ impl GivenShows {
     }
 }
 
-/// Returns `base`, or if that is taken the first free name of `base (example)`, `base (example 2)` and so on. For the
-/// file of the command line, the word is `file`.
+/// Returns `base` if no show has that name. Otherwise returns the first free name of `base (example)`, `base (example 2)`
+/// and so on. For the file of the command line, `file` replaces `example`.
 fn listed_name(
     base: &str,
     origin: ShowOrigin,
@@ -82,7 +84,7 @@ fn listed_name(
     first_free(names, given, saved)
 }
 
-/// Returns the first of endless `names` that no show has, whatever the case of its letters.
+/// Returns the first of the endless `names` that no show has. Capital and small letters count as the same letter.
 fn first_free(
     mut names: impl Iterator<Item = String>,
     given: &BTreeMap<String, Given>,

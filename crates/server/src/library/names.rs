@@ -24,7 +24,7 @@ pub(super) fn checked(name: &str) -> Result<&str, String> {
     Err(format!("a show's name has 1 to {NAME_MAX} letters, digits, spaces and . , - _ ( ) ! ' +"))
 }
 
-/// Returns an allowed name that is close to a text, with at most 40 characters.
+/// Returns an allowed name of at most 40 characters that is close to a text.
 pub(super) fn tidy_name(text: &str) -> String {
     let letters: String = text.chars().map(|letter| if may_hold(letter) { letter } else { '-' }).collect();
     let short: String = letters.trim_matches(['.', ' ']).chars().take(40).collect();
@@ -32,7 +32,7 @@ pub(super) fn tidy_name(text: &str) -> String {
     if short.is_empty() { "show".into() } else { short.to_owned() }
 }
 
-/// Returns the name that the show of a file gets in the library.
+/// Returns the name that a show gets in the library if it is read from the file at `path`.
 pub fn name_of_file(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     tidy_name(stem(&name))

@@ -14,7 +14,7 @@ pub struct Kept {
     /// Why the show cannot be replaced, for people: its file holds more than the document. `None` if it can be
     /// replaced.
     pub read_only: Option<String>,
-    /// Issues of the pictures of its layers, once they were decoded.
+    /// Issues of the pictures of the show's layers; empty until these pictures are decoded.
     pub issues: Issues,
 }
 

@@ -7,9 +7,9 @@ use super::lock::lock;
 use super::{Condition, Kept, Library, LibraryError, checked};
 
 impl Library {
-    /// Saves a show of any format. It is kept in our format, or as the same file if it is only partly understood. A
-    /// built-in show is not changed: a copy is saved under a free name, which the entry states together with `copy_of`.
-    /// With [`Condition::IsNew`], the name of a built-in show is a conflict.
+    /// Saves a show of any format. The library writes it in our format. Only a file that is partly understood is kept byte
+    /// for byte. A built-in show is not changed: a copy is saved under a free name, which the entry states together with
+    /// `copy_of`. With [`Condition::IsNew`], the name of a built-in show is a conflict.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
         let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
@@ -61,8 +61,8 @@ impl Library {
         }
     }
 
-    /// Deletes a show of the folder. A built-in show cannot be deleted. `renamed_to` is the new name of a renamed show,
-    /// which gets the earlier states.
+    /// Deletes a show of the folder. A built-in show cannot be deleted. If the show was renamed, `renamed_to` is its new
+    /// name, under which its earlier states are kept.
     pub fn delete(
         &self,
         name: &str,

@@ -17,7 +17,7 @@ const FORMATS: [&Format; 2] = [&LIGHTBOTS, &ARCHIVE];
 pub struct ShowFiles(PathBuf);
 
 impl ShowFiles {
-    /// Returns the files in a folder, which is made with the first of them.
+    /// Returns the show files of a folder. The folder is made when the first file is written.
     pub fn new(folder: PathBuf) -> Self {
         Self(folder)
     }
@@ -49,7 +49,7 @@ impl ShowFiles {
         read(&self.present(name))
     }
 
-    /// Writes a show's file in one of both formats, and removes the file in the other.
+    /// Writes a show's file in `format`, and removes the show's file in the other format.
     pub fn replace(&self, name: &str, format: &Format, bytes: &[u8]) -> io::Result<()> {
         disk::replace(&self.path(name, format), bytes, Readers::All)?;
         let others = FORMATS.into_iter().filter(|other| other.ending() != format.ending());

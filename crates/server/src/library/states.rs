@@ -16,8 +16,9 @@ use crate::disk;
 
 /// Number of the latest states of a show that are kept whatever their age.
 pub const STATES: usize = 20;
-/// Number of days for which the last state of each day is kept, and the states of a deleted show.
+/// Number of days for which the last state of each day is kept. The states of a deleted show are kept as long.
 const DAYS: u64 = 30;
+/// Length of a day, milliseconds. Days are those of UTC.
 const DAY_MS: u64 = 24 * 3600 * 1000;
 
 /// States of all shows in one folder.
@@ -25,7 +26,7 @@ const DAY_MS: u64 = 24 * 3600 * 1000;
 pub struct States(PathBuf);
 
 impl States {
-    /// Returns the states in a folder, which is made with the first of them.
+    /// Returns the states of a folder. The folder is made when the first state is kept.
     pub fn new(folder: PathBuf) -> Self {
         Self(folder)
     }
@@ -48,8 +49,8 @@ impl States {
         self.of(show).into_iter().find_map(|(other, file)| (other == number).then_some(file))
     }
 
-    /// Keeps a show's file as a further state, and removes states that are too many. The file itself stays in its
-    /// place. Does nothing if there is no file.
+    /// Keeps a show's file as a further state, and removes surplus states. The file itself stays in its place. Does nothing
+    /// if there is no file.
     pub fn keep(&self, show: &str, file: &Path) -> io::Result<()> {
         if !file.is_file() {
             return Ok(());
@@ -69,7 +70,7 @@ impl States {
         Ok(())
     }
 
-    /// Moves the states of the show `from` behind those of the show `to`, which is its new name.
+    /// Gives the states of the show `from` to its new name `to`. They are numbered after the states that `to` has already.
     pub fn hand_over(&self, from: &str, to: &str) -> io::Result<()> {
         if from == to {
             return Ok(());
@@ -116,8 +117,8 @@ impl States {
     }
 }
 
-/// Returns the files of `states`, the newest first, that are not to be kept. `saved_ms` returns when a file was saved,
-/// milliseconds since 1970.
+/// Returns the files among `states` that are not to be kept. `states` begins with the newest. `saved_ms` returns when a file
+/// was saved, milliseconds since the start of 1970 (UTC).
 fn too_many(states: &[(u32, PathBuf)], saved_ms: impl Fn(&Path) -> u64) -> Vec<PathBuf> {
     let newest = states.first().map_or(0, |(_, file)| saved_ms(file));
     let mut days = BTreeSet::new();

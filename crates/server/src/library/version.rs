@@ -9,7 +9,7 @@ pub(super) fn etag(bytes: &[u8]) -> String {
     format!("\"{:016x}-{:x}\"", bytes.iter().fold(0xcbf2_9ce4_8422_2325, step), bytes.len())
 }
 
-/// Returns when a file was written, milliseconds since 1970; 0 if that is not known.
+/// Returns when a file was last written, milliseconds since the start of 1970 (UTC); 0 if that is not known.
 pub(super) fn modified_ms(path: &Path) -> u64 {
     let modified = std::fs::metadata(path).and_then(|about| about.modified()).ok();
     modified.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).map_or(0, |since| since.as_millis() as u64)

@@ -19,7 +19,7 @@ use crate::web::Shown;
 const USUAL: usize = 30;
 /// Most robots that are simulated because a show needs them.
 const MOST: usize = 5_000;
-/// Time without an edit of the show after which robots are replaced to fit it.
+/// Time without an edit of the show after which the robots are replaced by robots that fit the show.
 const SETTLED: Duration = Duration::from_millis(500);
 
 /// Which robots to simulate.
@@ -29,7 +29,7 @@ pub struct Cast {
     pub broker: BrokerUrl,
     /// Number of robots; `None` for as many as the open show needs.
     pub count: Option<usize>,
-    /// Seed of the simulation. Robots that are replaced by others with the same seed keep their names.
+    /// Seed of the simulation. Robots that are replaced by robots with the same seed keep their names.
     pub seed: u64,
     /// Simulated disturbances.
     pub conditions: Conditions,
@@ -43,8 +43,8 @@ impl Cast {
         count.unwrap_or_else(|| robots_needed(show).clamp(USUAL, MOST))
     }
 
-    /// Keeps robots on the broker until `stop` is wanted. Replaces them when they do not fit the open show. Returns at
-    /// once for 0 robots.
+    /// Keeps simulated robots on the broker until `stop` is wanted. Replaces them when they do not fit the open show.
+    /// Returns at once if there are 0 robots to simulate.
     pub async fn run(self, handle: Handle, mut shown: watch::Receiver<Arc<Shown>>, stop: Stop) {
         while !stop.is_wanted() {
             let show = shown.borrow_and_update().show.clone();

@@ -6,9 +6,9 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use lightbots_base::Instant;
 
-/// The show clock. It begins with the microseconds since 1970 at the program's start. It never goes back, and runs
-/// while the computer sleeps, as robots' clocks do. The clock of a restarted controller thus continues close to that of
-/// its predecessor. The clock can be held for a while, together with all its clones.
+/// The show clock. At the program's start, it shows the microseconds since 1970. It never goes back, and runs while the
+/// computer sleeps, as robots' clocks do. The clock of a restarted controller thus continues close to that of its
+/// predecessor. The clock can be held for a while, together with all its clones.
 #[derive(Clone, Debug)]
 pub struct Clock {
     began: Duration,
@@ -16,12 +16,12 @@ pub struct Clock {
     shared: Arc<Shared>,
 }
 
-/// State that clones share, in microseconds since the start.
+/// State that all clones of a clock share. Its times count in microseconds from `began`.
 #[derive(Debug)]
 struct Shared {
-    /// How long the clock was held in all.
+    /// How long the clock has been held since its start.
     withheld_us: AtomicU64,
-    /// Latest time that the clock may show.
+    /// Latest time that the clock may show; it is held there.
     limit_us: AtomicU64,
     /// Latest time that the clock has shown.
     shown_us: AtomicU64,
@@ -62,13 +62,13 @@ impl Clock {
         elapsed_us.saturating_sub(self.shared.withheld_us.load(Ordering::Relaxed))
     }
 
-    /// Returns how long the clock was held in all, counted up to the last [`grant`](Self::grant).
+    /// Returns how long the clock has been held since its start, up to the last [`grant`](Self::grant).
     pub fn withheld(&self) -> Duration {
         Duration::from_micros(self.shared.withheld_us.load(Ordering::Relaxed))
     }
 
-    /// Returns the moment of tokio's clock at which this clock shows `at`, unless it is held before. The present if
-    /// `at` is over. At most a year ahead.
+    /// Returns the moment of tokio's clock at which this clock shows `at`, unless it is held before. If `at` has passed,
+    /// returns the present moment. A moment more than a year ahead becomes a year ahead.
     pub fn deadline(&self, at: Instant) -> tokio::time::Instant {
         let ahead = Duration::from_micros(at.0.saturating_sub(self.now().0));
         tokio::time::Instant::now() + ahead.min(Duration::from_secs(86_400 * 365))
@@ -95,7 +95,8 @@ fn uptime() -> Duration {
     FIRST.get_or_init(std::time::Instant::now).elapsed()
 }
 
-/// Returns a first route number that no controller started earlier on this machine has reached.
+/// Returns the number for a controller's first route: eight times the seconds since 1970, modulo 2³². A controller that
+/// started earlier on this machine has not reached that number, unless it used more than eight numbers a second.
 pub fn seq_base() -> u32 {
     ((unix_us() / 1_000_000 * 8) as u32).max(1)
 }

@@ -30,14 +30,15 @@ pub use super::orders::News;
 
 /// Most orders that wait for the conductor. The sender of a further order waits until there is room.
 const ORDERS: usize = 256;
-/// Most news that a slow listener may lag behind before it misses the oldest: one event of each robot of a large fleet.
+/// Number of news items by which a slow listener may lag before it misses the oldest. Room for one event of each robot of a
+/// large fleet.
 const EVENTS: usize = 16_384;
 /// Most link events that are handled before the controller's messages are sent and other inputs get a turn.
 const BATCH: usize = 512;
 
 impl Handle {
-    /// Starts a conductor with this show clock, for robots with these lamps. Once `stop` is wanted, the conductor stops
-    /// the robots of a run and ends. Wait for the returned task.
+    /// Starts a conductor with this show clock, for robots with these lamps. Once `stop` is wanted, the conductor stops the
+    /// robots of a run and ends. The caller must wait for the returned task before the program ends.
     pub fn start(
         recording: RecordingTarget,
         (clock, lamp): (Clock, LampSettings),
@@ -80,7 +81,7 @@ struct Conductor {
     pace: Arc<Pace>,
     /// Set to true to cancel the plan that is being made. `None` while no plan is being made.
     planning: Option<Arc<AtomicBool>>,
-    /// The newest plan request, which waits until the plan under way is done or cancelled. Older waiting requests are
+    /// The newest plan request. It waits until the plan that is being made is done or cancelled. Older waiting requests are
     /// dropped.
     next_job: Option<PlanRequest>,
     link: Option<Link>,
@@ -143,7 +144,7 @@ impl Conductor {
         self.drain();
     }
 
-    /// Handles an event of the link and further ones that wait already, `BATCH` in all at most.
+    /// Handles `first` and further events of the link that wait already, at most `BATCH` in total.
     fn take(&mut self, first: LinkEvent) {
         self.hear(first);
         for _ in 1..BATCH {
@@ -190,13 +191,13 @@ impl Conductor {
         }
     }
 
-    /// Has the controller carry out an operation. If the operation begins a run, begins the log of the run first.
+    /// Makes the controller carry out an operation. If the operation begins a run, begins the log of the run first.
     fn operate(&mut self, now: lightbots_base::Instant, operation: Operation) -> Result<(), Refusal> {
         self.recorder.before(&mut self.controller, now, &operation);
         self.controller.operate(now, operation)
     }
 
-    /// Carries out GO that came by MQTT. A refusal becomes a warning.
+    /// Carries out a GO that came by MQTT. A refusal becomes a warning.
     fn go(&mut self, now: lightbots_base::Instant) {
         if let Err(refusal) = self.operate(now, Operation::Go) {
             let _ = self.news.send(News::Warning(format!("GO by MQTT was refused: {refusal}")));
@@ -276,7 +277,7 @@ impl Conductor {
         }
     }
 
-    /// Publishes a message; without a broker it is dropped.
+    /// Publishes a message. Without a link to a broker, the message is dropped.
     fn publish(&mut self, topic: Topic, payload: Vec<u8>) {
         let Some(link) = &self.link else { return };
         if topic == Topic::Broadcast {
@@ -286,8 +287,8 @@ impl Conductor {
         self.pace.commands.say(u64::from(sent && topic != Topic::Broadcast));
     }
 
-    /// Cancels the plan under way if there is a newer request. Starts to make the newest plan once no other is under
-    /// way.
+    /// Cancels the plan that is being made if there is a newer request. Starts to make the newest plan once no plan is being
+    /// made.
     fn plan(&mut self) {
         while let Some(job) = self.controller.next_plan_request() {
             self.next_job = Some(job);
@@ -333,8 +334,8 @@ impl Conductor {
         link.close().await;
     }
 
-    /// Stops the robots of a run and ends. Waits until the robots have reported that they stand, or until the
-    /// controller waits for them no longer.
+    /// Stops the robots of a run and ends. Waits until the robots have reported that they stand, or until the controller
+    /// gives up waiting for them.
     async fn end(mut self) {
         let state = self.controller.state();
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {

@@ -20,14 +20,15 @@ pub const TOGETHER: usize = 50;
 const BATCH: usize = 4096;
 /// Length of a simulation step.
 const STEP: Span = Span::from_millis(16);
-/// Steps that the robots may lag behind the show clock. At this lag the clock stands, where it may wait for the robots.
+/// Number of steps that the robots may lag behind the show clock. At this lag, the clock is held if it may wait for the
+/// robots.
 const BEHIND: i64 = 2;
 /// Time between two checks whether messages that the clock waits for have arrived.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
-/// Messages under way count as lost if none of them arrives for this time.
+/// If no message arrives for this time while messages are under way, these messages count as lost.
 const LOST: Duration = Duration::from_millis(1_000);
 
-/// An event of a connection, after the index of that connection.
+/// Index of a connection, and an event of that connection.
 type Heard = (usize, LinkEvent);
 
 /// Simulated robots with their connections to the broker.
@@ -35,12 +36,13 @@ pub struct Crowd {
     fleet: Fleet,
     clock: Clock,
     pace: Arc<Pace>,
-    /// Start of the simulation, show clock.
+    /// Start of the simulation, time of the show clock.
     began: Instant,
-    /// While the clock waits for messages: when the last one was noticed, and the number of messages received by then.
+    /// When the last message was noticed, and the number of messages received by then. `None` unless the clock waits for
+    /// messages.
     clogged: Option<(std::time::Instant, u64)>,
     robots: usize,
-    /// Robots that share a connection.
+    /// Number of robots that share a connection.
     together: usize,
     senders: Vec<Sender>,
     heard: mpsc::Receiver<Heard>,
@@ -48,9 +50,9 @@ pub struct Crowd {
 }
 
 impl Crowd {
-    /// Creates robots and begins to connect them to `broker`, `together` robots on each connection. The connections
-    /// begin at the broker's addresses in turn and last until `stop` is wanted. The robots run by `clock`, which waits
-    /// for them where `pace` allows it.
+    /// Creates robots and begins to connect them to `broker`, `together` robots on each connection. Each further connection
+    /// tries the next of the broker's addresses first. The connections last until `stop` is wanted. The robots run by
+    /// `clock`, which waits for them if `pace` allows it.
     pub fn start(
         config: &FleetConfig,
         broker: &BrokerUrl,
@@ -122,8 +124,8 @@ impl Crowd {
         Instant((self.clock.now() - self.began).0.max(0) as u64)
     }
 
-    /// Simulates the robots up to the present. Where the clock may wait for them, at most `BEHIND` steps are simulated,
-    /// the clock is held, and no step is left out.
+    /// Simulates the robots up to the present. If the clock may wait for them, simulates at most `BEHIND` steps, holds the
+    /// clock, and leaves no step out.
     fn advance(&mut self) {
         if !self.pace.may_slow() {
             self.clogged = None;
@@ -140,7 +142,7 @@ impl Crowd {
         self.clock.grant(self.began + Span(until.0 as i64));
     }
 
-    /// Whether the clock waits for messages under way. Counts them as lost if none has arrived for `LOST`.
+    /// Whether the clock waits for messages under way. Counts these messages as lost if none of them arrives for `LOST`.
     fn is_clogged(&mut self) -> bool {
         if !self.pace.is_clogged() {
             self.clogged = None;
@@ -190,14 +192,14 @@ impl Crowd {
     }
 }
 
-/// Steps and messages that simulated robots lost in all because the machine or the network was too slow.
+/// Steps and messages that simulated robots lost in total because the machine or the network was too slow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Losses {
-    /// Steps of 16 ms for which all robots stood.
+    /// Number of simulation steps of 16 ms that were left out. During them, all robots stood.
     pub steps: u64,
-    /// Messages of robots that were dropped before they reached a connection.
+    /// Number of robots' messages that were dropped before they reached a connection.
     pub unsaid: u64,
-    /// Messages in either direction that connections dropped because a queue was full.
+    /// Number of messages, in both directions, that connections dropped because a queue was full.
     pub dropped: u64,
 }
 
@@ -221,16 +223,17 @@ struct LeftOut {
 }
 
 impl LeftOut {
+    /// Shortest time between two checks whether there is something to log.
     const EVERY: Duration = Duration::from_secs(5);
-    /// Smallest slowing of the show clock that is logged, as a share of real time.
+    /// Smallest slowing of the show clock that is logged: time held, as a share of real time.
     const WORTH: f64 = 0.1;
 
     fn new(withheld: Duration) -> Self {
         Self { steps: 0, withheld, said: std::time::Instant::now() }
     }
 
-    /// Logs what was lost since the last line. `steps`: steps left out since the start. `withheld`: how long the clock
-    /// has stood in all.
+    /// Logs what was lost since the last line. `steps`: simulation steps left out since the start. `withheld`: how long the
+    /// clock has been held since the start.
     fn notice(&mut self, steps: u64, withheld: Duration) {
         let since = self.said.elapsed();
         if since < Self::EVERY {

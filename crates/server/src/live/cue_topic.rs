@@ -1,7 +1,7 @@
 //! GO from other programs by MQTT (R54 of docs/protocol.md): a topic of its own, so that a desk needs no right to
 //! command robots.
 
-/// The topic on which GO is published. No robot subscribes to it, and no name of a robot can give this topic.
+/// The topic on which GO is published. No robot subscribes to this topic, and no robot's name can result in it.
 pub const CUE: &str = "T/LightBot/Controller/Cue";
 
 /// Whether a message on [`CUE`] is GO.

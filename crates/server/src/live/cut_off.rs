@@ -22,8 +22,8 @@ pub struct CutOffRun {
 }
 
 impl CutOffRun {
-    /// Finds the run that a killed program left in its data folder; `None` if there is none. Prints an error if its
-    /// journal cannot be read.
+    /// Finds the run that a killed program left in its data folder; `None` if there is none. If its journal cannot be read,
+    /// prints an error and returns `None`.
     pub fn find(data: &Path, on_return: Option<OnReturnArgument>) -> Option<Self> {
         let unfinished = journal::unfinished_run(data).unwrap_or_else(|line| {
             say::error(&line);
@@ -37,9 +37,9 @@ impl CutOffRun {
         Clock::starting_at(self.unfinished.show_clock_at(unix_us()).0)
     }
 
-    /// Returns the show of the run, for screens, with its name in the library. `first`: name and show that would be
-    /// opened otherwise, which are returned if they are the run's. If they are not, the run's show is added to the
-    /// library, because the show there may have changed.
+    /// Returns the run's show, for screens, with its name in the library. `first` is the name and the show that would be
+    /// opened otherwise. If `first` has the run's show, `first` is returned. Otherwise the run's show is added to the
+    /// library, because the show of that name there may have changed.
     pub fn show_on_screen(&self, library: &Library, first: (Option<String>, Show)) -> (Option<String>, Show) {
         let (show, (name, other)) = (self.unfinished.show(), first);
         // Names are not compared, because a show without a name has its name in the library as its name in the
@@ -52,7 +52,7 @@ impl CutOffRun {
         (Some(listed), (**show).clone())
     }
 
-    /// Prints that the run was cut off and what follows. `now`: the present on the run's clock.
+    /// Prints that the run was cut off and what follows. `now` is the present time of the run's show clock.
     pub fn tell(&self, now: Instant) {
         let (run, (last, _)) = (&self.unfinished, self.unfinished.last_written());
         let goes_on = "it goes on from where the robots stand";

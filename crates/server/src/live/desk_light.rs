@@ -22,7 +22,7 @@ const PATCH_MAX: u64 = 4 << 20;
 /// Most reports that are handled before other inputs get a turn.
 const BATCH: usize = 256;
 
-/// The sockets of lighting desks, and the receiver that makes messages to robots of their packets.
+/// The sockets of lighting desks, and the receiver that turns their packets into messages to robots.
 #[derive(Debug)]
 pub struct DeskLight {
     sockets: DeskSockets,
@@ -30,8 +30,8 @@ pub struct DeskLight {
 }
 
 impl DeskLight {
-    /// Binds the sockets and reads the patch table; `None` if no desk is asked for. A patch table without a desk is an
-    /// error.
+    /// Binds the sockets and reads the patch table. `None` if the command line asks for no lighting desk. A patch table
+    /// without a desk is an error.
     pub async fn open(arguments: &DeskArguments, lamp: LampSettings) -> Result<Option<Self>, Failure> {
         let patch = match &arguments.patch {
             Some(file) => patch_table(file)?,
@@ -62,7 +62,7 @@ impl DeskLight {
         }
     }
 
-    /// Handles a report and further ones that wait already, `BATCH` in all at most.
+    /// Handles `first` and further reports that wait already, at most `BATCH` in total.
     fn hear(&mut self, clock: &Clock, first: &[u8], reports: &mut mpsc::Receiver<Vec<u8>>) {
         let now = clock.now();
         let mut take = |payload: &[u8]| {
@@ -111,7 +111,8 @@ fn words(news: DeskNews) -> (Level, String) {
     }
 }
 
-/// The line for people about universes without robots; all are named, except those beyond the bound.
+/// Returns the line for people about universes to which no robot is patched. `has_more`: there are further ones that
+/// `universes` does not list.
 fn unpatched_line(universes: &[u16], has_more: bool) -> String {
     let mut named: Vec<String> = universes.iter().map(u16::to_string).collect();
     named.extend(has_more.then(|| "more".into()));

@@ -16,7 +16,8 @@ impl DeskLights {
         *self.lock() = lights.collect();
     }
 
-    /// Replaces the controller's colours in a snapshot by those of the desk, for robots that have one.
+    /// Replaces the controller's colours in a snapshot by those of the desk. Robots without a colour of the desk keep
+    /// theirs.
     pub fn cover(&self, snapshot: &mut Snapshot) {
         let lights = self.lock();
         if lights.is_empty() {

@@ -7,8 +7,8 @@ use tokio::net::UdpSocket;
 use crate::failure::Failure;
 use crate::say;
 
-/// Binds a socket for the protocol `name` and prints its address; `None` if there is no address. If other machines can
-/// reach it, prints `may`: what their packets can do. The failure is one line with a remedy.
+/// Binds a socket for the protocol `name` and prints its address. `None` if `address` is `None`. If other machines can reach
+/// the socket, prints `may`: what their packets can do. The failure is one line with a remedy.
 pub async fn listen(
     name: &str,
     option: &str,
@@ -27,7 +27,7 @@ pub async fn listen(
     Ok(Some(socket))
 }
 
-/// Receives the next packet into `bytes` and returns its length and sender. Waits for ever without a socket.
+/// Receives the next packet into `bytes` and returns its length and its sender. Without a socket, waits for ever.
 /// Cancel-safe.
 pub async fn receive(socket: Option<&UdpSocket>, bytes: &mut [u8]) -> std::io::Result<(usize, IpAddr)> {
     match socket {

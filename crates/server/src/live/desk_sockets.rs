@@ -18,7 +18,7 @@ const PACKET_MAX: usize = 1_024;
 /// Time over which packets are counted.
 const WINDOW: Duration = Duration::from_millis(10);
 /// Most packets that are read in a `WINDOW`: one for each of the 118 universes of 20,000 robots, and a reserve. Further
-/// packets wait in the system's bounded queue.
+/// packets wait in the operating system's bounded queue.
 const PACKETS: u32 = 200;
 /// What packets of any sender can do, for a note to people.
 const LIGHTS: &str = "drive the lights of robots";
@@ -30,7 +30,7 @@ const AFTER_ERROR: Duration = Duration::from_millis(100);
 pub struct DeskSockets {
     artnet: Option<UdpSocket>,
     sacn: Option<UdpSocket>,
-    /// Universes whose multicast groups were joined or could not be joined. None of them is tried again.
+    /// Universes whose multicast groups this program has joined or failed to join. A failure is not tried again.
     joined: BTreeSet<u16>,
     window_ends: Instant,
     left: u32,

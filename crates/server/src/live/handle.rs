@@ -44,7 +44,7 @@ impl Handle {
         &self.reports
     }
 
-    /// Has the controller carry out an operation. `Err` if it refuses, or if the conductor has ended.
+    /// Makes the controller carry out an operation. `Err` if the controller refuses, or if the conductor has ended.
     pub async fn operate(&self, operation: Operation) -> Result<(), Refusal> {
         let (answer, answered) = oneshot::channel();
         // The answer is missing only if the conductor has ended, which has no broker any more.
@@ -66,8 +66,8 @@ impl Handle {
         let _ = self.orders.send(ConductorOrder::Publish(messages)).await;
     }
 
-    /// Returns a receiver of the payloads of all later reports of robots. Reports are left out while it is full. Only
-    /// the newest receiver gets reports.
+    /// Returns a receiver of the payloads of all later reports of robots. While its queue is full, reports are left out. If
+    /// this is called again, only the newest receiver gets reports.
     pub async fn overhear(&self) -> mpsc::Receiver<Vec<u8>> {
         let (reports, overheard) = mpsc::channel(REPORTS);
         let _ = self.orders.send(ConductorOrder::Overhear(reports)).await;
@@ -79,17 +79,17 @@ impl Handle {
         &self.desk_lights
     }
 
-    /// Has the controller take up a run that was cut off. Call this before [`connect`](Self::connect).
+    /// Makes the controller take up a run that was cut off. Call this before [`connect`](Self::connect).
     pub async fn take_up(&self, run: UnfinishedRun, on_return: OnReturn) {
         let _ = self.orders.send(ConductorOrder::TakeUp(Box::new(run), on_return)).await;
     }
 
-    /// Has the conductor use this broker from now on.
+    /// Makes the conductor use this broker from now on.
     pub async fn connect(&self, broker: BrokerUrl) {
         let _ = self.orders.send(ConductorOrder::Connect(broker)).await;
     }
 
-    /// Has the conductor leave its broker.
+    /// Makes the conductor leave its broker.
     pub async fn disconnect(&self) {
         let _ = self.orders.send(ConductorOrder::Disconnect).await;
     }
@@ -99,7 +99,7 @@ impl Handle {
         self.clock.clone()
     }
 
-    /// Decides whether the show clock may wait for simulated robots.
+    /// Returns the state that decides whether the show clock may wait for simulated robots.
     pub fn pace(&self) -> Arc<Pace> {
         self.pace.clone()
     }

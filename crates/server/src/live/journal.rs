@@ -16,9 +16,9 @@ use crate::disk::{self, Readers};
 
 /// Path of the journal of the present run in the data folder. The file is removed when the run has ended.
 const FILE: &str = "runs/present.lbjournal";
-/// Longest journal that is read, bytes. A journal is begun again long before.
+/// Longest journal that is read, bytes. The controller begins a journal again long before it is that long.
 const BYTES_MAX: u64 = 256 << 20;
-/// Most pieces that wait for the disk. While this many wait, the controller collects its changes.
+/// Most pieces that wait for the disk. While this many wait, further changes stay in the controller.
 const WAITING_MAX: usize = 64;
 /// Pause after a failure of the disk before the journal is written again.
 const TRY_AGAIN: Duration = Duration::from_secs(10);
@@ -53,13 +53,13 @@ pub struct JournalFile {
     pieces: SyncSender<JournalPiece>,
     shared: Arc<Shared>,
     thread: JoinHandle<()>,
-    /// Time of the last failure, until the journal is written again.
+    /// Time of the last failure to write. `None` if writing works, or is being tried again.
     tried: Option<Instant>,
-    /// Whether a failure was reported to people. Only the first one is.
+    /// Whether a failure was reported to people. Only the first failure is reported.
     is_told: bool,
 }
 
-/// What the writing thread shares: the number of pieces that wait for it, and its last failure.
+/// What the writing thread shares: the number of pieces that wait to be written, and its last failure.
 #[derive(Debug, Default)]
 struct Shared {
     waiting: AtomicUsize,
@@ -78,7 +78,7 @@ impl JournalFile {
         Self { pieces, shared, thread, tried: None, is_told: false }
     }
 
-    /// Passes new pieces of the journal to the thread. Returns a line for people at the first failure.
+    /// Passes new pieces of the journal to the thread. Returns a line for people at the first failure, later `None`.
     pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
         let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
         if failure.is_some() || self.tried.is_some_and(|tried| tried.elapsed() > TRY_AGAIN) {
@@ -105,7 +105,7 @@ impl JournalFile {
         }
     }
 
-    /// Has the journal of a run that is not taken up removed.
+    /// Makes the writing thread remove the journal, because its run is not taken up.
     pub fn discard(&mut self) {
         self.shared.waiting.fetch_add(1, Ordering::Relaxed);
         // There is room, because runs are found at the start, when the queue is empty.
@@ -124,7 +124,7 @@ impl JournalFile {
 /// The journal's file, for the writing thread.
 struct Written {
     path: PathBuf,
-    /// `None` while no journal is open: none has begun, it has ended, or writing it failed.
+    /// The open journal. `None` if no journal has begun, if the last one has ended, or if writing it failed.
     file: Option<File>,
 }
 

@@ -89,7 +89,7 @@ impl OscLink {
         }
     }
 
-    /// Returns what a packet asks for. Leaves out a wish that was returned less than `ONE_PRESS` ago.
+    /// Returns what a packet asks for. Leaves out a request that was already returned less than `ONE_PRESS` ago.
     fn wishes(&mut self, packet: &[u8], now: Instant) -> Vec<DeskWish> {
         let mut wishes = wishes_of(packet);
         wishes.retain(|wish| {
@@ -136,7 +136,7 @@ async fn carry_out(wish: DeskWish, handle: &Handle, log: &ScreenLog) {
     }
 }
 
-/// Returns what a packet asks for, each wish once. Other OSC messages, and packets that are not OSC, ask for nothing.
+/// Returns what a packet asks for, each request once. Other OSC messages, and packets that are not OSC, give no requests.
 fn wishes_of(packet: &[u8]) -> Vec<DeskWish> {
     let Ok((rest, packet)) = rosc::decoder::decode_udp(packet) else { return Vec::new() };
     if !rest.is_empty() {

@@ -7,13 +7,13 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Number of messages that may be under way in one direction before the show clock waits. `ROBOTS_A_MESSAGE` adds to
-/// it.
+/// Number of messages that may be under way in one direction before the show clock waits. Simulated robots raise it: see
+/// `ROBOTS_A_MESSAGE`.
 const UNDER_WAY: u64 = 1024;
-/// Number of simulated robots for which one more message than `UNDER_WAY` may be under way.
+/// For each group of this many simulated robots, one message more than `UNDER_WAY` may be under way.
 const ROBOTS_A_MESSAGE: u64 = 8;
 
-/// State that the task of the controller and the task of the simulated robots share.
+/// State that the controller's task and the simulated robots' task share.
 #[derive(Debug, Default)]
 pub struct Pace {
     parties: Mutex<Parties>,
@@ -53,7 +53,7 @@ impl Flow {
         self.heard.fetch_add(messages, Ordering::Relaxed);
     }
 
-    /// Number of messages received, or given up as lost by [`forget`](Self::forget).
+    /// Number of messages that were received, or that [`forget`](Self::forget) counted as lost.
     pub fn heard(&self) -> u64 {
         self.heard.load(Ordering::Relaxed)
     }
@@ -98,13 +98,13 @@ impl Pace {
         self.may_slow.store(together && only_ours, Ordering::Relaxed);
     }
 
-    /// Whether the show clock may wait for simulated robots. They must share the controller's broker, and the
-    /// controller must know no other robots.
+    /// Whether the show clock may wait for simulated robots. Requires that they use the controller's broker, and that the
+    /// controller knows no more robots than are simulated.
     pub fn may_slow(&self) -> bool {
         self.may_slow.load(Ordering::Relaxed)
     }
 
-    /// Whether more messages are under way in one direction than are allowed, so that the show clock should wait.
+    /// Whether more messages are under way in either direction than are allowed. The show clock should then wait.
     pub fn is_clogged(&self) -> bool {
         let bound = UNDER_WAY + self.simulated.load(Ordering::Relaxed) as u64 / ROBOTS_A_MESSAGE;
         self.reports.under_way() > bound || self.commands.under_way() > bound

@@ -37,7 +37,7 @@ impl RecordingTarget {
         matches!(self, Self::Runs(_))
     }
 
-    /// The data folder where the journal of runs is written; `None` if runs are not recorded one by one.
+    /// The data folder in which the journal of runs is written; `None` unless each run has its own log.
     fn data_folder(&self) -> Option<&Path> {
         match self {
             Self::Runs(data) => Some(data),
@@ -51,10 +51,10 @@ impl RecordingTarget {
 pub struct Recorder {
     recording: RecordingTarget,
     writer: Option<LogWriter>,
-    /// Threads of logs that ended, which may still write.
+    /// Threads of logs that have ended. They may still be writing.
     closing: Vec<JoinHandle<()>>,
     journal: Option<JournalFile>,
-    /// Notes on the run under way. They stay if the log ends before the run.
+    /// Notes on the present run. They stay if the log ends before the run does.
     run: Option<RunNotes>,
     reports: ReportsUnderWay,
     /// Most bytes of the log of a run.
@@ -79,8 +79,7 @@ impl Recorder {
         self.reports.clone()
     }
 
-    /// Begins the log of a run if the operation begins a run and runs have logs of their own. Call this before the
-    /// operation.
+    /// Begins the log of a run, if `operation` begins a run and each run has its own log. Call this before the operation.
     pub fn before(&mut self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
         let Some(kind) = RunNotes::kind(operation) else { return };
         if self.recording.is_by_run() && !controller.is_recording() && controller.begin_log(now, notes("run"))
@@ -96,8 +95,8 @@ impl Recorder {
         }
     }
 
-    /// Has the controller take up a run that was cut off, and begins its log. Removes the journal if there is no run
-    /// afterwards.
+    /// Makes the controller take up a run that was cut off, and begins the run's log. If the controller has no run
+    /// afterwards, removes the journal.
     pub fn take_up(
         &mut self,
         controller: &mut RecordedController,
@@ -116,8 +115,8 @@ impl Recorder {
         done
     }
 
-    /// Passes new bytes of log and journal to the threads that write them. Returns a line for people for each that
-    /// failed.
+    /// Passes new bytes of the log and the journal to the threads that write them. Returns one line for people if the log
+    /// failed, and one if the journal failed.
     pub fn keep(&mut self, controller: &mut RecordedController) -> impl Iterator<Item = String> + use<> {
         let line = self.journal.as_mut().and_then(|journal| journal.keep(controller));
         self.keep_log(controller).into_iter().chain(line)
@@ -246,7 +245,7 @@ impl LogWriter {
     }
 }
 
-/// Writes pieces into a file until their sender is dropped. For a run, has the report made meanwhile.
+/// Writes pieces into a file until their sender is dropped. If each run has its own log, the run's report is made meanwhile.
 fn write_log(
     recording: &RecordingTarget,
     inbox: &Receiver<Piece>,

@@ -6,22 +6,25 @@ use std::collections::VecDeque;
 
 use lightbots_base::{Instant, Span};
 
-/// The topic on which our controllers publish their names. No robot subscribes to it, and no name of a robot can give
-/// this topic.
+/// The topic on which our controllers publish their names. No robot subscribes to this topic, and no robot's name can result
+/// in it.
 pub const NAMES: &str = "T/LightBot/Controller/Here";
-/// The topic of commands to all robots, for every controller, original ones included.
+/// The topic of commands to all robots. Every controller uses it, also those of the original system.
 pub const COMMANDS: &str = "T/LightBot/Broadcast";
 /// Time between two publications of a controller's name.
 const EVERY: Span = Span::from_millis(2_000);
-/// Names in a row that may stay without an echo before the broker counts as mute. Counts once the first echo has come.
+/// Number of consecutive names without an echo that are tolerated. After one more, the broker counts as mute. Applies only
+/// once the first echo has come.
 const MUTE: u32 = 4;
-/// Upper bound of that number, which doubles each time the broker counts as mute.
+/// Upper bound of the tolerated number of names, which doubles each time the broker counts as mute.
 const MUTE_MOST: u32 = 32;
-/// Robots for which one more name may stay without an echo: their messages may delay the name or crowd it out.
+/// For each group of this many robots, one more name may stay without an echo. The robots' messages may delay or displace
+/// the name.
 const MUTE_PER: usize = 250;
-/// Time within which the broker must return a command of this controller. Later it counts as a command of another one.
+/// Time within which the broker must return a command of this controller. A later one counts as the command of another
+/// controller.
 const ECHO: Span = Span::from_millis(60_000);
-/// Most commands whose echo is awaited; the oldest are forgotten.
+/// Most commands whose echo is awaited. Beyond it, the oldest are forgotten.
 const ECHOES: usize = 4_096;
 /// Shortest time between two warnings of other controllers.
 const AGAIN: Span = Span::from_millis(60_000);
@@ -30,15 +33,16 @@ const AGAIN: Span = Span::from_millis(60_000);
 #[derive(Debug)]
 pub struct Rivals {
     name: String,
-    /// When this controller publishes its name next.
+    /// Time of the show clock at which this controller publishes its name next.
     speak_at: Instant,
-    /// Names published since the last echo, since the connection began, or since the broker last counted as mute.
+    /// Number of names published without an echo. It restarts with an echo, with a new connection, and when the broker
+    /// counts as mute.
     unanswered: u32,
-    /// Largest `unanswered` of a broker that is not mute. `None` until the first echo, because a broker may forbid the
-    /// topic.
+    /// Largest `unanswered` for which the broker does not count as mute. `None` until the first echo, because a broker may
+    /// forbid the topic.
     mute_after: Option<u32>,
-    /// Commands to all robots that have not come back, with the time of sending, oldest first. Echoes come in order, so
-    /// that the search for one ends at once.
+    /// Commands to all robots that have not come back, with the time of sending, oldest first. Echoes come in this order, so
+    /// that each is usually found at the front.
     unheard: VecDeque<(Instant, Vec<u8>)>,
     told: Option<Instant>,
 }
@@ -71,8 +75,8 @@ impl Rivals {
         Some(&self.name)
     }
 
-    /// Whether the broker has stopped passing on this controller's messages. If true, the count starts anew and its
-    /// bound doubles, to give a new connection a chance. `robots`: number of robots on the broker.
+    /// Whether the broker has stopped passing on this controller's messages. If so, `unanswered` restarts at 0 and its bound
+    /// doubles, to give a new connection a chance. `robots` is the number of robots on the broker.
     pub fn is_mute(&mut self, robots: usize) -> bool {
         let crowd = u32::try_from(robots / MUTE_PER).unwrap_or(u32::MAX);
         let is_patient = |after: &u32| self.unanswered <= after.saturating_add(crowd);
@@ -82,7 +86,7 @@ impl Rivals {
         true
     }
 
-    /// Starts the count anew with a new connection: names published on an earlier one need not come back.
+    /// Restarts the count for a new connection, because names published on an earlier one need not come back.
     pub fn connected(&mut self) {
         self.unanswered = 0;
     }
@@ -96,8 +100,8 @@ impl Rivals {
         self.unheard.push_back((now, payload.to_vec()));
     }
 
-    /// Handles a message on [`NAMES`] or [`COMMANDS`]. Returns a warning if it is from another controller, at most once
-    /// in `AGAIN`.
+    /// Handles a message on [`NAMES`] or [`COMMANDS`]. Returns a warning if another controller sent it. Within `AGAIN` after
+    /// a warning, returns `None`.
     pub fn hear(&mut self, now: Instant, topic: &str, payload: &[u8]) -> Option<String> {
         let own = if topic == NAMES { payload == self.name.as_bytes() } else { self.echoes(payload) };
         if own && topic == NAMES {
@@ -116,7 +120,7 @@ impl Rivals {
         ))
     }
 
-    /// Whether this is the echo of a command of this controller. That command is then no longer awaited.
+    /// Whether `payload` is the echo of a command of this controller. That command is then no longer awaited.
     fn echoes(&mut self, payload: &[u8]) -> bool {
         let at = self.unheard.iter().position(|(_, said)| said == payload);
         at.is_some_and(|at| self.unheard.remove(at).is_some())

@@ -24,7 +24,7 @@ pub struct RunFacts {
     /// Name that the author gave the show; may be empty.
     pub show: String,
     pub began_ms: u64,
-    /// End of the run, milliseconds since 1970; `None` if the run is on, or the program ended before it.
+    /// End of the run, milliseconds since 1970. `None` if the run is still going on, or if the program ended before the run.
     pub ended_ms: Option<u64>,
     pub ok: bool,
     /// How the run ended, in one sentence.
@@ -43,7 +43,7 @@ impl RunFacts {
     }
 }
 
-/// Collects the facts of a run while it is on.
+/// Collects the facts of a run while the run is going on.
 #[derive(Clone, Debug, Default)]
 pub struct RunNotes {
     facts: RunFacts,
@@ -53,9 +53,9 @@ pub struct RunNotes {
     frame: usize,
     /// Indices of the frames that were reached.
     shown: BTreeSet<usize>,
-    /// Whether frames were not played in the order of the show: after a jump, a skipped frame or a loop.
+    /// Whether frames were played in another order than that of the show: after a jump, a skipped frame or a loop.
     is_order_changed: bool,
-    /// Robots that were lost and are not back.
+    /// Robots that were lost and have not come back.
     lost: BTreeMap<RobotId, Loss>,
 }
 

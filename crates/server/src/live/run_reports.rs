@@ -23,8 +23,8 @@ const WAITING_MAX: usize = 256;
 pub struct ReportsUnderWay(Arc<Mutex<BTreeSet<PathBuf>>>);
 
 impl ReportsUnderWay {
-    /// Whether the report of this log is being made. It is ready soon after the run. If it fails, it must be made from
-    /// the whole log.
+    /// Whether the report of this log is being made. The report is ready soon after the run. If making it fails, it must be
+    /// made from the whole log.
     pub fn contains(&self, log: &Path) -> bool {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).contains(log)
     }
@@ -55,7 +55,7 @@ enum Piece {
 /// Makes the report of one run. If the value is dropped without [`end`](Self::end), no report is written.
 pub struct RunReporter {
     pieces: SyncSender<Piece>,
-    /// Whether the run is over, so that people wait for its report.
+    /// Whether the run is over. People then wait for its report, so the thread no longer gives way to others.
     is_over: Arc<AtomicBool>,
     thread: JoinHandle<()>,
 }
@@ -81,14 +81,13 @@ impl RunReporter {
         Self { pieces, is_over, thread }
     }
 
-    /// Passes bytes of the log to the thread. `false`: the thread is too slow, and ends without a report once this
-    /// value is dropped.
+    /// Passes bytes of the log to the thread. Returns `false` if the thread is too slow. The thread then ends without a
+    /// report once this value is dropped.
     pub fn feed(&self, bytes: Vec<u8>) -> bool {
         self.pieces.try_send(Piece::Log(bytes)).is_ok()
     }
 
-    /// Marks the log as complete and waits for the report. A program that ended before would leave the run without a
-    /// report.
+    /// Marks the log as complete and waits for the report. If the program did not wait, the run could stay without a report.
     pub fn end(self) {
         self.is_over.store(true, Ordering::Relaxed);
         // A thread that failed has logged why. A thread that is too slow ends when `pieces` is dropped.
@@ -119,8 +118,8 @@ fn make(inbox: &Receiver<Piece>, file: &Path, is_over: &AtomicBool) -> Result<()
     disk::replace(file, &page, Readers::All).map_err(|error| error.to_string())
 }
 
-/// Niceness of the thread while the show plays: the default of the command `nice`. Beside a busy usual thread it gets
-/// about a tenth of that thread's time.
+/// Niceness of the thread while the show plays: the default of the command `nice`. Beside a busy thread of usual niceness,
+/// it gets about a tenth of that thread's processor time.
 const NICE: i32 = 10;
 
 /// Sets the niceness of this thread on Linux. Does nothing on other systems.

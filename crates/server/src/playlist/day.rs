@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 use super::list::{PlaylistTurn, TurnStart};
 use super::times::{date_of, moment};
 
-/// Longest delay of a show, seconds: an audience still waits then. A turn that is later is skipped and not played
-/// afterwards.
+/// Longest delay of a show, seconds: an audience still waits for that long. A turn that would begin later is skipped and not
+/// played afterwards.
 pub const LATE_S: i64 = 300;
 
 /// Whether the playlist is on, and the latest turn of each entry.
@@ -51,7 +51,7 @@ pub struct TurnRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TurnStage {
-    /// Robots were sent to their starting places; the pause goes on.
+    /// Robots were sent to their starting places during the pause before the turn.
     SentHome,
     Playing,
     Played,
@@ -82,20 +82,21 @@ pub enum PlaylistAct {
     Nothing,
     /// Drive robots to their starting places, because the pause before this turn has begun.
     Home(TurnKey),
-    /// Begin the show, or keep trying until this moment, seconds since 1970.
+    /// Begin the show. If that fails, try again until this moment, seconds since 1970.
     Play(TurnKey, i64),
-    /// Skip the turn, because the last moment for its start, seconds since 1970, is over.
+    /// Skip the turn, because this last moment for its start, seconds since 1970, is over.
     Skip(TurnKey, i64),
 }
 
 /// State of a turn on a day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnPlace<'a> {
-    /// The turn plays or is over.
+    /// The turn is playing or is over.
     Begun(&'a TurnRecord),
-    /// The turn starts at this moment, seconds since 1970.
+    /// The turn starts at `at_s`, seconds since 1970. `is_home_asked`: robots are still to drive to their starting places
+    /// before it.
     Due { at_s: i64, is_home_asked: bool },
-    /// The start is unknown, because the turn before is not over.
+    /// The start is unknown, because the preceding turn is not over.
     Unknown,
     /// The time of the chain was over when the playlist was switched on.
     Past,
@@ -113,14 +114,14 @@ impl DayLog {
         self.turns.insert(key.id, TurnRecord { date: key.date, stage, at_s, line });
     }
 
-    /// The turn that plays, if one does.
+    /// Returns the turn that is playing; `None` if none is.
     pub fn playing(&self) -> Option<TurnKey> {
         let mut playing = self.turns.iter().filter(|(_, record)| record.stage == TurnStage::Playing);
         playing.next().map(|(id, record)| TurnKey { id: *id, date: record.date })
     }
 }
 
-/// Returns what to do at `now_s`, seconds since 1970. `is_free`: robots do nothing, so a show could begin.
+/// Returns what to do at `now_s`, seconds since 1970. `is_free`: robots do nothing at present, so that a show could begin.
 pub fn next_act<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
@@ -154,7 +155,7 @@ pub fn next_act<Z: TimeZone>(
     acts.into_iter().next().map_or(PlaylistAct::Nothing, |(_, act)| act)
 }
 
-/// Returns the turns of a day with their states, without chains that are not played on that day.
+/// Returns the turns of the day `date` with their states. Chains that are not played on that day are left out.
 pub fn places<'a, Z: TimeZone>(
     list: &'a [PlaylistTurn],
     log: &'a DayLog,

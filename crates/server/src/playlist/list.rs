@@ -6,8 +6,8 @@ use lightbots_show::SPEED_MIN_PERCENT;
 
 /// The most entries: a show every quarter of an hour, all day.
 pub const ENTRIES_MAX: usize = 96;
-/// Longest pause, minutes: half a day. An entry that follows the last one of yesterday then still begins before
-/// tomorrow.
+/// Longest pause, minutes: half a day. The playlist looks only at the chains of today and yesterday. With this pause, a show
+/// after yesterday's last one still begins today.
 const PAUSE_MAX_MIN: u32 = 720;
 /// The longest name of a show, bytes: as in the library.
 const NAME_MAX: usize = 200;
@@ -42,7 +42,7 @@ pub enum TurnStart {
         /// Days of the week, Monday first.
         days: [bool; 7],
     },
-    /// After the end of the entry before it and a pause of `pause_s` seconds.
+    /// After the end of the preceding entry and a pause of `pause_s` seconds.
     After {
         pause_s: i64,
         /// Whether robots drive to their starting places at the beginning of the pause.
@@ -114,7 +114,7 @@ fn start(entry: &PlaylistEntry) -> Result<TurnStart, String> {
     }
 }
 
-/// Returns the entry as clients and files have it.
+/// Converts a checked entry to the form that clients and files have.
 pub fn entry(turn: &PlaylistTurn) -> PlaylistEntry {
     let mut entry = PlaylistEntry {
         id: turn.id,

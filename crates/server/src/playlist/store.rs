@@ -61,8 +61,8 @@ struct PlaylistFile {
 }
 
 impl PlaylistStore {
-    /// Reads the playlist of a data folder; it is empty if there are no files. If a file cannot be read, it is kept,
-    /// and nothing is played until it can be read.
+    /// Reads the playlist of a data folder. Without files, the playlist is empty. A file that cannot be read is kept, and
+    /// nothing is played until it can be read.
     pub fn load(folder: &Path) -> Self {
         let store = Self { folder: folder.to_owned(), kept: Arc::default() };
         let mut kept = store.lock();
@@ -120,7 +120,7 @@ impl PlaylistStore {
         Ok(())
     }
 
-    /// Whether the playlist is on, or one of its shows still plays.
+    /// Whether the playlist is on, or one of its shows is still playing.
     pub fn is_on(&self) -> bool {
         let kept = self.refreshed();
         kept.log.on_since_s.is_some() || kept.log.playing().is_some()
@@ -131,7 +131,7 @@ impl PlaylistStore {
         self.lock().log.held.is_some()
     }
 
-    /// Returns what to do at present. `is_free`: robots do nothing.
+    /// Returns what to do at present. `is_free`: robots do nothing at present, so that a show could begin.
     pub fn next_act(&self, is_free: bool) -> PlaylistAct {
         let kept = self.refreshed();
         next_act(&kept.list, &kept.log, (now_s(), &Local), is_free)
@@ -142,7 +142,7 @@ impl PlaylistStore {
         self.lock().list.iter().find(|turn| turn.id == id).cloned()
     }
 
-    /// Returns the turn that plays, if one does.
+    /// Returns the turn that is playing; `None` if none is.
     pub fn playing(&self) -> Option<TurnKey> {
         self.lock().log.playing()
     }
@@ -189,7 +189,7 @@ impl PlaylistStore {
         was_held
     }
 
-    /// Changes the records in memory and on the disk. If the disk fails, they last until the program ends.
+    /// Changes the records in memory and on the disk. If writing fails, the change lasts only until the program ends.
     fn note(&self, change: impl FnOnce(&mut DayLog)) {
         let mut kept = self.lock();
         change(&mut kept.log);
@@ -266,8 +266,8 @@ impl PlaylistStore {
     }
 }
 
-/// Sets the number of entries to 0 that start another show, or at another time, because the records are not about them.
-/// The entry that plays keeps its number.
+/// Sets the number of an entry to 0 if its show or its start has changed. The records under its old number then no longer
+/// apply. The entry that is playing keeps its number.
 fn renew(list: &mut [PlaylistTurn], kept: &Kept) {
     let playing = kept.log.playing().map(|key| key.id);
     for turn in list.iter_mut().filter(|turn| Some(turn.id) != playing) {

@@ -7,11 +7,11 @@ use super::day::{DayLog, LATE_S, TurnPlace, TurnStage, places};
 use super::list::PlaylistTurn;
 use super::times::{clock_text, date_of, day_text};
 
-/// Number of days ahead in which the next start is searched: each weekday once, that of today twice.
+/// Number of days after today in which the next start is searched. Each weekday thus occurs once, and that of today twice.
 const AHEAD: u64 = 7;
 
-/// Returns what became of each entry today. An entry of yesterday's chain that still plays, or is still to come, is
-/// reported as that.
+/// Returns, for each entry, what became of it today. An entry of yesterday's chain that is still playing, or is still to
+/// come, is reported as playing or waiting.
 pub fn today<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
@@ -36,8 +36,8 @@ pub fn today<Z: TimeZone>(
         .collect()
 }
 
-/// Keeps the turns that play at `now_s` or are still to come. A turn without a known start is to come if the turn before
-/// it plays or is to come.
+/// Keeps the turns that are playing at `now_s` or are still to come. A turn without a known start is still to come if the
+/// preceding turn was kept.
 fn going_on<'a>(
     places: Vec<(&'a PlaylistTurn, TurnPlace<'a>)>,
     now_s: i64,
@@ -78,7 +78,8 @@ fn said<Z: TimeZone>(place: TurnPlace<'_>, zone: &Z) -> PlaylistToday {
     }
 }
 
-/// Returns the entry that starts next. If the playlist is off, the result is as if it were switched on at `now_s`.
+/// Returns the entry that starts next. If the playlist is off, returns the one that would start next after switching it on
+/// at `now_s`.
 pub fn next<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-/// Makes a key readable for its owner only. Returns a line for people if other users of the machine could read it.
+/// Makes a key file readable for its owner only. Returns a line for people if other users of the machine could read it
+/// before.
 #[cfg(unix)]
 pub fn keep_private(key: &Path) -> Option<String> {
     use std::fs::{self, Permissions};

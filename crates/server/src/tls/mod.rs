@@ -19,7 +19,7 @@ pub use key_file::keep_private;
 /// First byte of a TLS connection: a handshake record, RFC 8446, section 5.1.
 pub const FIRST_BYTE: u8 = 0x16;
 
-/// Returns the TLS settings of a server with a certificate `cert` (PEM, with its chain) and its key. With `client_ca`,
+/// Returns the TLS settings of a server with the certificate `cert` (PEM, with its chain) and its key. With `client_ca`,
 /// clients must show a certificate of that authority. The error names the file, without a remedy.
 pub fn server_config(cert: &Path, key: &Path, client_ca: Option<&Path>) -> Result<ServerConfig, String> {
     let provider = Arc::new(ring::default_provider());

@@ -4,7 +4,8 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 
 use super::scheme::Scheme;
 
-/// An address outside this network (RFC 5737), to find the own address on the way there. Nothing is sent there.
+/// An address outside this network (RFC 5737). This machine's own address is found as the start of the path to it. Nothing
+/// is sent there.
 const ELSEWHERE: (Ipv4Addr, u16) = (Ipv4Addr::new(192, 0, 2, 1), 9);
 
 /// Returns the URL of the web app for other machines. Its host is the name that the user gave, or this machine's own
@@ -22,8 +23,8 @@ pub fn url(scheme: Scheme, listen: SocketAddr, host_name: Option<&str>) -> Strin
     format!("{}://{authority}", scheme.name())
 }
 
-/// Returns an address at which other machines reach this one. If the server listens on all addresses, that is the one
-/// that leads to other networks, or loopback without a network.
+/// Returns an address at which other machines reach this one. If the server listens on all addresses, this is its address on
+/// the path to other networks, or loopback without a network.
 pub fn reachable(listen: IpAddr) -> IpAddr {
     if !listen.is_unspecified() {
         return listen;

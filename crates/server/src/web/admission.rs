@@ -56,24 +56,25 @@ pub enum SignInError {
     Failed(String),
 }
 
-/// Accounts, sessions and counted sign-in tries of one server.
+/// Accounts, sessions and counted wrong passwords of one server.
 #[derive(Debug)]
 pub struct Admission {
     is_required: bool,
     pub accounts: Accounts,
     pub sessions: Sessions,
     tries: Mutex<SignInTries>,
-    /// Hash of the token with which the first operator is made; `None` if the server began with people or without
-    /// sign-in.
+    /// Hash of the token with which the first operator is made. `None` if people had accounts when the server started, or if
+    /// sign-in is not required.
     first: Option<Secret>,
-    /// A hash that no password has. It is checked for an unknown name, so that this takes as long as for a known one.
+    /// A hash that no password has. A password for an unknown name is checked against it, so that the answer takes as long
+    /// as for a known name.
     unknown_hash: String,
     hashing: HashThread,
 }
 
 impl Admission {
-    /// Returns the admission of a server, and the token for its first operator if there are no people yet.
-    /// `is_required`: whether requests need a sign-in. Without it there is no such token.
+    /// Returns the admission of a server. Also returns the token for its first operator, if sign-in is required
+    /// (`is_required`) and no person has an account yet.
     pub fn new(data: &Path, is_required: bool) -> Result<(Self, Option<String>), String> {
         let accounts = Accounts::of(data);
         let (mut token, mut first, mut unknown_hash) = (None, None, String::new());
@@ -89,7 +90,7 @@ impl Admission {
         Ok((Self { is_required, accounts, sessions, tries, first, unknown_hash, hashing }, token))
     }
 
-    /// Returns the person or program of a ticket by the present accounts. `None` if the session or token is not valid.
+    /// Returns the person or program of a ticket, by the present accounts. `None` if the session or the token is not valid.
     pub fn caller(&self, ticket: &Ticket) -> Option<Caller> {
         match ticket {
             Ticket::Loopback => {
@@ -109,7 +110,7 @@ impl Admission {
         }
     }
 
-    /// Returns the name of a session's person or of a token's maker. `None` if no person is known.
+    /// Returns the name of a session's person, or of the person that made a token. `None` if no person is known.
     pub fn person(&self, ticket: &Ticket) -> Option<String> {
         match ticket {
             Ticket::Loopback => None,
@@ -122,7 +123,7 @@ impl Admission {
         self.accounts.read().inspect_err(|line| tracing::error!("{line}")).ok()
     }
 
-    /// Returns what the headers of a request present; `None` if they hold no token.
+    /// Returns the ticket in the headers of a request. `None` if sign-in is required and the headers hold no token.
     fn ticket(&self, headers: &HeaderMap) -> Option<Ticket> {
         if !self.is_required {
             return Some(Ticket::Loopback);
@@ -157,7 +158,8 @@ impl Admission {
         }
     }
 
-    /// Makes the first operator and signs them in. Returns the token of the session.
+    /// Makes the first operator and signs that person in. `token` must be the one that [`Self::new`] returned. Returns the
+    /// token of the session.
     pub async fn begin_first(
         &self,
         token: &str,
@@ -190,8 +192,8 @@ impl Admission {
         self.sessions.begin(name, &hash, Instant::now()).map_err(failed)
     }
 
-    /// Returns the hash of a new password. `Err`: status and line of the refusal if the password is too weak or hashing
-    /// fails.
+    /// Checks and hashes a new password. `Err`: status and line of the refusal if the password is too short or too long, or
+    /// if hashing fails.
     pub async fn hash(&self, password: &str) -> Result<String, (StatusCode, String)> {
         crate::accounts::check_password(password).map_err(|line| (StatusCode::UNPROCESSABLE_ENTITY, line))?;
         let turn = self.hashing.turn().await;
@@ -206,8 +208,8 @@ impl Admission {
     }
 }
 
-/// Passes on requests that are admitted. A request for a page without sign-in gets the sign-in page. Other requests
-/// without sign-in, or beyond the caller's role, are refused.
+/// Passes on requests that are admitted. A request for a page from a caller that is not signed in gets the sign-in page.
+/// Other requests of that caller, and requests beyond the caller's role, are refused.
 pub async fn guard(State(admission): State<Arc<Admission>>, mut request: Request, next: Next) -> Response {
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
     let ticket = admission.ticket(request.headers());
@@ -243,7 +245,7 @@ pub fn not_allowed(needed: AccountRole, role: AccountRole) -> String {
     format!("This needs the role {needed}; you are signed in as {role}. An operator can change that.")
 }
 
-/// Whether a body is short enough before sign-in. False without a Content-Length header.
+/// Whether a body is short enough to be read before sign-in. False without a Content-Length header.
 fn is_short(headers: &HeaderMap) -> bool {
     let length =
         headers.get(header::CONTENT_LENGTH).and_then(|length| length.to_str().ok()?.parse::<usize>().ok());

@@ -26,7 +26,7 @@ type Answer<T> = Result<T, Refused>;
 /// Largest body that is read, bytes. The longest show file fits.
 pub const BODY_MAX: usize = lightbots_exchange::MAX_BYTES;
 
-/// Runs work that blocks on the disk or the processor on a thread of its own, so that connections go on.
+/// Runs work that blocks on the disk or the processor on a separate thread, so that other requests are served meanwhile.
 async fn beside<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Answer<T> {
     let done = tokio::task::spawn_blocking(work).await;
     done.map_err(|error| {
@@ -85,7 +85,7 @@ pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) ->
     Ok(document(beside(move || library.get(&name)).await?.map_err(library_problem)?))
 }
 
-/// Returns the response with a show's document, whose version is its ETag.
+/// Returns the response with a show's document. Its ETag is the show's version.
 fn document(kept: Kept) -> Response {
     let about = [
         (header::CONTENT_TYPE, "application/json"),
@@ -121,8 +121,8 @@ pub async fn file(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -
     Ok((about, bytes).into_response())
 }
 
-/// `PUT /api/shows/{name}`: saves a show. Screens on which this show is open get the new version. A copy of a read-only
-/// show is not opened on screens, because its author may not want that.
+/// `PUT /api/shows/{name}`: saves a show. If that show is open on screens, they get the new version. A copy that was saved
+/// under another name, because the show is built-in, is not opened.
 pub async fn put(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -145,7 +145,8 @@ pub async fn put(
     Ok(([(header::ETAG, etag)], Json(entry)).into_response())
 }
 
-/// `GET /api/assets/{hash}`: returns an asset. Its media type is hidden, so that no browser runs what a drawing holds.
+/// `GET /api/assets/{hash}`: returns an asset. It is sent without its media type, so that no browser runs scripts in a
+/// drawing.
 pub async fn asset(State(shared): State<Arc<Shared>>, Path(hash): Path<String>) -> Answer<Response> {
     let library = shared.library.clone();
     let content = beside(move || library.asset(&hash)).await?.map_err(library_problem)?;
@@ -171,11 +172,12 @@ pub async fn put_asset(
 /// The query parameters of `delete`.
 #[derive(Debug, serde::Deserialize)]
 pub struct Renamed {
-    /// If the show was renamed: its new name, under which the earlier states are kept.
+    /// If the show was renamed: its new name, under which its earlier states are kept.
     renamed_to: Option<String>,
 }
 
-/// `DELETE /api/shows/{name}?renamed_to=NAME`: deletes a show. With `renamed_to`, that show gets the earlier states.
+/// `DELETE /api/shows/{name}?renamed_to=NAME`: deletes a show. With `renamed_to`, its earlier states are kept under that
+/// name.
 pub async fn delete(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
@@ -228,8 +230,8 @@ pub struct To {
     to: String,
 }
 
-/// `POST /api/convert?to=FORMAT`: returns the show of the body as a file of a format of [`FORMATS`]. Files of the
-/// library that the show names are added. A show for a format with timed paths is planned, as for `POST /api/check`.
+/// `POST /api/convert?to=FORMAT`: returns the show of the body as a file of a format of [`FORMATS`]. Assets that the show
+/// names are added if the library has them. For a format that needs a plan, the show is planned as for `POST /api/check`.
 pub async fn convert(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,

@@ -29,7 +29,8 @@ impl BrokerDesk {
         self.lock().shown(self.embedded.as_ref())
     }
 
-    /// Connects with other settings and keeps them. `Err`: one line that says why they cannot be right.
+    /// Connects to the broker of other settings, and keeps these settings. `Err`: one line that says what is wrong with
+    /// them.
     pub async fn connect(&self, wanted: Settings, handle: &Handle) -> Result<(), String> {
         let wanted = self.completed(wanted);
         let (settings, broker) = if wanted.is_embedded() {
@@ -56,8 +57,8 @@ impl BrokerDesk {
         handle.disconnect().await;
     }
 
-    /// Adds the kept password and key if a form leaves them out for the same user and broker, or the same certificate.
-    /// Forms never get these secrets.
+    /// Adds the kept secrets that a form leaves out, because forms never get them. The password is added for the same user
+    /// and broker, the key for the same certificate.
     fn completed(&self, mut wanted: Settings) -> Settings {
         let kept = self.lock();
         let address = BrokerUrl::parse(&wanted.address).map(|url| url.to_string()).unwrap_or_default();

@@ -14,9 +14,9 @@ use crate::disk::{self, Readers};
 use crate::failure::Failure;
 use crate::tls::{self, OWN_NAMES};
 
-/// Name of the folder in the data folder. `lightbots certs --out` may write there, too: then its certificate is used.
+/// Name of the folder in the data folder. A certificate that `lightbots certs --out` writes there is used.
 const FOLDER: &str = "certs";
-/// Validity of a certificate that the program makes by itself, days. Browsers accept no more of an authority that
+/// Validity of a certificate that the program makes by itself, days. Browsers reject a longer one from an authority that
 /// people installed (Apple's rule of 2019).
 const DAYS: u32 = 825;
 
@@ -84,8 +84,8 @@ fn make(file: &Path, key: &Path, names: &[String]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Checks that a certificate is valid now. It may be of any authority: whether clients trust it is for them to decide.
-/// `Err`: what is wrong with the time.
+/// Checks that a certificate is valid at present. Its authority is not checked, because each client decides whether to trust
+/// it. `Err`: what is wrong with the time.
 fn check_time(certificate: &ParsedCertificate<'_>) -> Result<(), &'static str> {
     use CertificateError::{Expired, ExpiredContext, NotValidYet, NotValidYetContext};
     let algorithms = ring::default_provider().signature_verification_algorithms.all;

@@ -39,7 +39,7 @@ pub struct Connections {
     listener: TcpListener,
     /// Does TLS handshakes; `None` if the web app is served without TLS.
     acceptor: Option<TlsAcceptor>,
-    /// Connections in their TLS handshakes. They have places among `guests`, which bound their number.
+    /// Connections whose TLS handshake is under way. Each has a place in `guests`, which bounds their number.
     handshakes: JoinSet<Option<(Stream, Ends)>>,
     guests: Guests,
     log: ScreenLog,
@@ -48,14 +48,14 @@ pub struct Connections {
 }
 
 impl Connections {
-    /// Accepts connections of the listener. At most half of the open files that the system grants become connections,
-    /// so that the library and the link to the broker have room. Refusals are written to the log.
+    /// Accepts connections of the listener. At most half of the files that the system lets this program open become
+    /// connections, because the library and the link to the broker need files, too. Refusals are written to the log.
     pub fn new(listener: TcpListener, acceptor: Option<TlsAcceptor>, log: ScreenLog) -> Self {
         let guests = Guests::new(MOST.min(open_files::limit() / 2));
         Self { listener, acceptor, handshakes: JoinSet::new(), guests, log, said: None }
     }
 
-    /// Gives a connection a place. `None` if there is no room: the connection is then closed.
+    /// Gives a connection a place. If there is no room, closes the connection and returns `None`.
     fn admit(&mut self, stream: TcpStream) -> Option<Guest> {
         let place = self.guests.admit(Instant::now());
         if place.is_none() {

@@ -21,10 +21,10 @@ pub struct Desk {
     handle: Handle,
     shown: watch::Sender<Arc<Shown>>,
     plan: watch::Sender<Arc<api::Plan>>,
-    /// Cancels the running plan when it is replaced by the next one.
+    /// Cancels the running plan as soon as another value replaces this one.
     planning: Arc<std::sync::Mutex<GiveUp>>,
     last_plan: Arc<show_plan::LastPlan>,
-    /// Revision of the show that the controller has. Locked while the controller gets another revision.
+    /// Revision of the open show that the controller has. Locked while the controller gets another revision.
     given: Arc<Mutex<u32>>,
 }
 
@@ -33,7 +33,7 @@ pub struct Desk {
 pub struct Shown {
     /// Number of the document's state, increased with every change; 0 before a show is opened.
     pub revision: u32,
-    /// Name of the show in the library.
+    /// Name of the show in the library; `None` before a show is opened.
     pub name: Option<String>,
     /// The show.
     pub show: Arc<Show>,
@@ -112,8 +112,7 @@ impl Desk {
         self.plan.subscribe()
     }
 
-    /// Gives the controller a show that was opened during a run, once that run is over. Returns when the conductor
-    /// ends.
+    /// Gives the controller a show that was opened during a run, once the run is over. Returns when the conductor has ended.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         loop {
             match news.recv().await {
@@ -157,12 +156,12 @@ impl Shown {
         *self.drives.get_or_init(|| show_plan::drives_hash(&self.show))
     }
 
-    /// [`Self::drives`] if it was computed already, which is soon after the show was opened.
+    /// Returns [`Self::drives`] if it was computed already, which happens soon after the show was opened; else `None`.
     pub fn known_drives(&self) -> Option<u64> {
         self.drives.get().copied()
     }
 
-    /// Returns the show with a name. If its author gave it none, it gets its name in the library.
+    /// Returns the show. If its author gave it no name, its name becomes that in the library.
     fn named(&self) -> Arc<Show> {
         match &self.name {
             Some(name) if self.show.name.trim().is_empty() => {

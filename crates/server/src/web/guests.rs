@@ -12,8 +12,8 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::oneshot;
 
-/// Time without a byte in either direction after which a connection may be closed to make room. It is longer than a
-/// plan may take, during which its client waits in silence.
+/// Time without a byte in either direction after which a connection may be closed to make room. It is longer than the
+/// default time for a plan (30 s), during which a client waits without sending.
 const SILENT: Duration = Duration::from_secs(40);
 
 /// The open connections, at most `most`.
@@ -32,7 +32,7 @@ struct Line {
     _end: oneshot::Sender<()>,
 }
 
-/// The place of one connection among [`Guests`]. Dropping it frees the place.
+/// The place of one connection among [`Guests`]. Dropping this value frees the place.
 #[derive(Debug)]
 pub struct GuestPlace {
     number: u64,
@@ -52,8 +52,8 @@ impl Guests {
         self.most
     }
 
-    /// Returns a place for a further connection. If all are taken, closes the connection that was silent for longest.
-    /// `None` if no connection was silent for `SILENT`.
+    /// Returns a place for a further connection. If all places are taken, closes the connection that has been silent for
+    /// longest. `None` if no connection has been silent for `SILENT`.
     pub fn admit(&mut self, now: Instant) -> Option<GuestPlace> {
         if lock(&self.lines).len() >= self.most && !self.close_silent(now) {
             return None;
@@ -66,7 +66,7 @@ impl Guests {
         Some(GuestPlace { number, alive, ended, lines: self.lines.clone() })
     }
 
-    /// Ends the connection that was silent for the longest time, if that is at least `SILENT`. Returns whether one was
+    /// Ends the connection that has been silent for longest, if that is at least `SILENT`. Returns whether a connection was
     /// ended.
     pub fn close_silent(&self, now: Instant) -> bool {
         let mut lines = lock(&self.lines);
@@ -99,7 +99,7 @@ impl Guest {
         Self { stream, place }
     }
 
-    /// Waits for the first byte that the client sends and returns it. The byte stays to be read.
+    /// Waits for the first byte that the client sends and returns it. Later reads still get that byte.
     pub async fn first_byte(&self) -> io::Result<u8> {
         let mut first = [0];
         match self.stream.peek(&mut first).await? {

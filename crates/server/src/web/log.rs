@@ -16,8 +16,8 @@ use crate::sentences::sentence;
 
 /// Number of lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
 const KEPT: usize = 300;
-/// Shortest time between two versions of a growing line: five a second look like one change. Shorter times would send
-/// one message per robot of a large fleet.
+/// Shortest time between two versions of a line that counts robots: five versions a second look like one change. A shorter
+/// time could send one message for each robot of a large fleet.
 const GROWS: Duration = Duration::from_millis(200);
 
 /// The last lines, and a channel for later ones. Clones share the log.
@@ -47,7 +47,7 @@ impl ScreenLog {
         self.add(&mut kept, line);
     }
 
-    /// Adds the line of a sum, or replaces its earlier version.
+    /// Adds the line of a sum, which counts equal events. If the line was added before, replaces it.
     fn sum(&self, sum: &mut Sum) {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let known = sum.line.and_then(|id| kept.lines.iter().rposition(|line| line.id == id));

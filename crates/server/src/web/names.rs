@@ -63,8 +63,8 @@ impl Exposure {
         if self.is_open() && !self.plain_http { Scheme::Https } else { Scheme::Http }
     }
 
-    /// Returns the names under which other machines reach the web app, for a certificate: those that the user gave, and
-    /// an address.
+    /// Returns the names under which other machines reach the web app, for a certificate: those that the user gave, and this
+    /// machine's address.
     pub fn hosts(&self) -> Vec<String> {
         let given = self.host_names.iter().filter_map(|text| Authority::read(text, 0));
         let mut hosts: Vec<String> = given.map(|authority| authority.host.to_string()).collect();
@@ -72,7 +72,8 @@ impl Exposure {
         hosts
     }
 
-    /// Returns the names under which requests are answered, once `port` is known. The failure is one line, exit code 2.
+    /// Returns the names under which requests are answered. `port` is the port that the server listens on. The failure is
+    /// one line, exit code 2.
     pub fn names(&self, port: u16) -> Result<Names, Failure> {
         let others = self.host_names.iter().map(|text| {
             Authority::read(text, port).ok_or_else(|| {
@@ -101,16 +102,16 @@ impl Names {
         Authority::read(text, scheme.usual_port())
     }
 
-    /// Reads the value of an `Origin` header. `None` if it is no origin, or for pages of another scheme.
+    /// Reads the value of an `Origin` header. `None` if it is no origin, or if its scheme is not that of this server.
     pub fn origin(&self, text: &str) -> Option<Authority> {
         let (scheme, rest) = text.split_once("://")?;
         let is_ours = scheme.eq_ignore_ascii_case(self.scheme.name());
         is_ours.then(|| Authority::read(rest, self.scheme.usual_port()))?
     }
 
-    /// Whether a request to `authority` is for this server. `local` is the server's end of the connection. A DNS name
-    /// other than localhost counts only if the user gave it, because anyone can point other names at this address (DNS
-    /// rebinding).
+    /// Whether a request to `authority` is for this server. `local` is the address of the server's end of the connection. A
+    /// DNS name other than localhost counts only if the user gave it. The reason is DNS rebinding: anyone can let other
+    /// names point to this address.
     pub fn hold(&self, authority: &Authority, local: IpAddr) -> bool {
         let is_own = match &authority.host {
             Host::Address(ip) => ip.is_loopback() || self.is_open && *ip == local.to_canonical(),
@@ -121,7 +122,8 @@ impl Names {
 }
 
 impl Authority {
-    /// Reads `HOST` or `HOST:PORT`. An IPv6 address is in brackets. `None` for other text.
+    /// Reads `HOST` or `HOST:PORT`. Without a port, it is `usual_port`. An IPv6 address is in brackets. `None` for other
+    /// text.
     fn read(text: &str, usual_port: u16) -> Option<Self> {
         let (host, port) = match text.strip_prefix('[') {
             Some(rest) => {

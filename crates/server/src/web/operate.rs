@@ -118,7 +118,8 @@ async fn act(shared: &Shared, operation: api::Operation) -> Result<(), Refused> 
     shared.handle.operate(wish).await.map_err(|refusal| (refusal.to_string(), None))
 }
 
-/// Lets an interrupted show go on. If the controller refuses, lets the playlist go on that a stop holds.
+/// Resumes an interrupted show. If the controller refuses, releases the playlist, which a stop may have held. `Err` if the
+/// playlist was not held either.
 async fn go_on(shared: &Shared) -> Result<(), String> {
     match shared.handle.operate(Operation::GoOn).await {
         Err(refusal) if !shared.playlist.release() => Err(refusal.to_string()),
@@ -134,14 +135,14 @@ async fn only_listed(shared: &Shared, on: bool) -> Result<Operation, String> {
     Ok(Operation::Admit(shared.book.admitted()))
 }
 
-/// Reads a layer of live light and returns its operation. `Err`: a sentence for people.
+/// Reads a layer of live light and returns the operation that shows it. `Err`: a sentence for people.
 fn live_light(name: String, layer: Option<serde_json::Value>) -> Result<Operation, String> {
     let layer = layer.map(|layer| read_layer(layer.to_string().as_bytes())).transpose();
     let layer = layer.map_err(|fault| format!("This light cannot be shown: {fault}."))?;
     Ok(Operation::LiveLight { name, layer })
 }
 
-/// Plays or previews the open show, unless its plan has errors.
+/// Plays or previews the open show, unless its plan is complete and has errors.
 async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
     let plan = shared.desk.plan();
     let red = plan.issues.iter().find(|issue| issue.severity == api::Severity::Error);

@@ -17,8 +17,8 @@ use super::refused::{Refused, refuse};
 use super::scheme::Scheme;
 use super::state::Shared;
 
-/// Longest time for a request from its first byte to the end of its answer. The longest upload (94 s) and
-/// a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
+/// Longest time for a request from its first byte to the end of its answer. The longest upload (20 s of waiting and 74 s of
+/// transfer) and a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
 const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Passes on requests that are for this server. Refuses requests to other names (DNS rebinding) and requests that pages
@@ -45,8 +45,8 @@ pub async fn guard(
     }
 }
 
-/// Redirects a request for a page without TLS to its address with TLS. Any other request is refused: a program that
-/// sends its token without TLS must not go on.
+/// Redirects a request for a page without TLS to the same address with TLS. Refuses any other request, so that a program
+/// that sends its token without TLS does not go on with it.
 fn elsewhere(names: &Names, local: IpAddr, request: &Request) -> Response {
     let host = only(request.headers(), header::HOST).flatten();
     let own = host.filter(|host| {

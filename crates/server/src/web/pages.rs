@@ -26,8 +26,8 @@ const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>LightBots</titl
     <h1>LightBots is running</h1><p>This build has no browser app in it. Build it, then the program again:</p>\
     <pre style='background:#222;padding:1em'>cargo xtask demo</pre>";
 
-/// Returns a file of the app. Any other address gets the app's page, which handles addresses itself, except below
-/// `assets/`.
+/// Returns a file of the app. Below `assets/`, an unknown address is an error. Any other address gets the app's page, whose
+/// script handles addresses.
 pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
     if !matches!(method, Method::GET | Method::HEAD) {
         return StatusCode::METHOD_NOT_ALLOWED.into_response();

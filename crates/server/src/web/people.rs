@@ -62,7 +62,7 @@ pub async fn remove(
     })
 }
 
-/// Changes the accounts by `change`, unless it refuses. Returns the status of the answer.
+/// Changes the accounts by `change`, unless `change` refuses. Returns the status of the answer.
 fn change_list(
     admission: &Admission,
     change: impl FnOnce(&mut AccountList) -> Result<(), Refused>,

@@ -22,10 +22,11 @@ use crate::fleet_book::FleetBook;
 use crate::live::conductor::{Handle, LinkPhase, LinkState, News};
 use crate::played_shows::{Played, PlayedShows};
 
-/// Time between two pictures: 20 a second, between which screens interpolate. More need bandwidth; fewer make dots lag.
+/// Time between two pictures: 20 a second. Screens interpolate between them. A shorter time needs more bandwidth; a longer
+/// one makes robots on the screen lag.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// The newest picture and fleet table, ready to send. A slow screen skips some. Clones share them.
+/// The newest picture and the newest fleet table, ready to send. A slow screen skips some. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Pictures {
     states: watch::Sender<Picture>,
@@ -56,7 +57,7 @@ struct Painter {
     pace: PaceMeter,
 }
 
-/// Measures the rate of the show clock, as a share of real time, over the last seconds.
+/// Measures the rate of the show clock, as a share of real time.
 #[derive(Debug, Default)]
 struct PaceMeter {
     /// Real time and show clock at the start of the measurement.
@@ -65,12 +66,12 @@ struct PaceMeter {
 }
 
 impl PaceMeter {
-    /// Time over which the rate is measured. Shorter times show jitter; longer ones hide pauses.
+    /// Time over which the rate is measured. A shorter one shows jitter; a longer one hides pauses.
     const OVER: Duration = Duration::from_secs(2);
-    /// Largest deviation of the rate, as a share, that counts as real time. Covers the jitter of timers.
+    /// Largest shortfall of the rate, as a share, that still counts as real time. Covers the jitter of timers.
     const LEAST: f64 = 0.03;
 
-    /// Returns the rate of the show clock as last measured, at most 1 (real time).
+    /// Returns the latest measured rate of the show clock as a share of real time, at most 1; also 1 before a measurement.
     fn look(&mut self, real: std::time::Instant, show: lightbots_base::Instant) -> f64 {
         let (since, shown) = *self.before.get_or_insert((real, show));
         let passed = real - since;
@@ -96,7 +97,7 @@ impl Pictures {
         self.states.subscribe()
     }
 
-    /// Returns a receiver of fleet tables. It begins with the last table if another screen is connected.
+    /// Returns a receiver of fleet tables. If another screen is connected, the receiver gets the last table at once.
     pub fn fleets(&self) -> watch::Receiver<Utf8Bytes> {
         let mut fleets = self.fleets.subscribe();
         if !fleets.borrow().is_empty() {
@@ -172,8 +173,8 @@ impl Pictures {
 }
 
 impl Painter {
-    /// Whether the known robots have never played the open show to its end. False for a show without frames, and until
-    /// its drives are known.
+    /// Whether robots of this kind (real or simulated) have never played the open show to its end. False for a show without
+    /// frames, and until the hash of its drives is computed.
     fn is_first_run(&self, snapshot: &Snapshot) -> bool {
         let shown = self.desk.shown();
         let played = shown.known_drives().map(|drives| Played::of(drives, &snapshot.robots));
@@ -225,8 +226,8 @@ impl Painter {
         }
     }
 
-    /// Returns the planned time to the end of the show, seconds: the rest of the transition or air time, and all later
-    /// ones. `None` for a preview, a preflight, or a loop that waits for GO.
+    /// Returns the planned time to the end of the show, seconds: the rest of the present drive or air time, and all later
+    /// drives and air times. `None` without a run, for a preview, a preflight, or a loop that waits for GO.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
         let is_of_show =
             |run: &&RunView| snapshot.state != ControllerState::Preview && run.preflight.is_none();

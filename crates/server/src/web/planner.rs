@@ -22,7 +22,7 @@ pub enum CutOff {
     Failed,
 }
 
-/// Cancels work on another thread, at the latest when the value is dropped.
+/// Cancels work on another thread when [`GiveUp::now`] is called, or when the value is dropped.
 #[derive(Debug, Default)]
 pub struct GiveUp(Arc<AtomicBool>);
 
@@ -42,7 +42,7 @@ pub struct Planner {
 struct Client {
     /// Number of the client's newest request.
     newest: watch::Sender<u64>,
-    /// Locked by the thread that works on a request of the client.
+    /// Locked while a thread works on a request of the client.
     slot: Arc<tokio::sync::Mutex<()>>,
 }
 
@@ -82,9 +82,9 @@ impl Planner {
         self.budget
     }
 
-    /// Runs `work` for a client on a thread of its own. `work` must check often whether it is cancelled, which its
-    /// argument returns, and then end soon. It is cancelled when the budget is used up, when the client sends a newer
-    /// request, or when this future is dropped. The client's next request begins when `work` has ended.
+    /// Runs `work` for a client on a separate thread. The argument of `work` returns whether the work is cancelled; `work`
+    /// must call it often, and end soon once it is `true`. The work is cancelled when the budget is used up, when the client
+    /// sends a newer request, or when this future is dropped. The client's next request begins when `work` has ended.
     pub async fn work<T: Send + 'static>(
         &self,
         client: IpAddr,
@@ -118,7 +118,7 @@ impl Planner {
         }
     }
 
-    /// Returns the client of an address. Removes clients without work, which bounds the map.
+    /// Returns the client of an address. Removes clients that have no request, which bounds the map.
     fn client(&self, address: IpAddr) -> Arc<Client> {
         // Entries are inserted in one step, so that a panic of another thread leaves no half-made ones.
         let mut clients = self.clients.lock().unwrap_or_else(PoisonError::into_inner);

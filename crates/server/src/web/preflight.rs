@@ -27,7 +27,7 @@ pub fn result(robot: &PreflightRobot) -> api::PreflightResult {
     }
 }
 
-/// Returns the state of the preflight that is under way, or of the last one. `None` if there was none.
+/// Returns the state of the preflight that is under way, or else of the last one. `None` if there was none.
 pub fn state(snapshot: &Snapshot) -> Option<api::PreflightState> {
     if let Some(progress) = snapshot.run.as_ref().and_then(|run| run.preflight) {
         let PreflightProgress { round, rounds, doing } = progress;

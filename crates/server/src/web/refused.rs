@@ -26,8 +26,8 @@ pub fn refuse(status: StatusCode, line: &str) -> Refused {
     Refused(status, line.to_owned())
 }
 
-/// Gives the web framework's refusals under `/api/` the form of all others. They are plain text or empty, for example
-/// for a body that is no JSON or a wrong method.
+/// Gives the web framework's refusals under `/api/` the form of all other refusals. The framework refuses a body that is no
+/// JSON, or a wrong method, with plain text or nothing.
 pub async fn uniform(request: Request, next: Next) -> Response {
     let is_api = request.uri().path().starts_with("/api/");
     let answer = next.run(request).await;

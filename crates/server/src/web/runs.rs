@@ -27,7 +27,7 @@ use crate::live::run_files::{facts_file, recorded_runs, report_file, run_file};
 
 /// Longest page of a report that is read, bytes. A report bounds its samples and robots to less.
 const PAGE_MAX: u64 = 64 << 20;
-/// Longest wait of a request for a report. The report is still made after that, and a later request finds it.
+/// Longest wait of a request for a report. The report is made even if that takes longer, and a later request finds it.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Time between two checks whether a report has been made.
 const POLL: Duration = Duration::from_millis(20);
@@ -40,12 +40,12 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 pub struct Runs {
     data: Arc<Path>,
     handle: Handle,
-    /// Lets one report be made at a time.
+    /// Its one permit lets one report be made at a time.
     turn: Arc<Semaphore>,
 }
 
 impl Runs {
-    /// The runs of this data folder. The newest may be on.
+    /// Returns the runs of this data folder. The newest run may still be going on.
     pub fn of(data: &Path, handle: Handle) -> Self {
         Self { data: data.into(), handle, turn: Arc::new(Semaphore::new(1)) }
     }
@@ -55,7 +55,8 @@ impl Runs {
         Ok(runs.into_iter().map(|(number, _)| entry(&self.data, number)).collect())
     }
 
-    /// Returns the page of a run's report, and makes it if there is none. `is_running`: whether the newest run is on.
+    /// Returns the page of a run's report, and makes it if there is none. `is_running`: whether the newest run is still
+    /// going on.
     async fn report(&self, number: u64, is_running: bool) -> Result<Vec<u8>, Refused> {
         let failed = |line: String| refuse(StatusCode::INTERNAL_SERVER_ERROR, &line);
         let (data, turn) = (self.data.clone(), self.turn.clone());
@@ -99,7 +100,7 @@ fn entry(data: &Path, number: u64) -> RunEntry {
     }
 }
 
-/// Returns facts for a log whose facts are missing: only the time of its last change, as the begin.
+/// Returns facts for a log whose facts are missing. Only the beginning is set, to the time of the log's last change.
 fn of_file(log: &Path) -> RunFacts {
     let modified = std::fs::metadata(log).and_then(|file| file.modified()).ok();
     let since = modified.and_then(|modified| modified.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();

@@ -32,7 +32,7 @@ pub async fn sign_in(
     }
 }
 
-/// `POST /api/first`: makes the first operator and signs them in.
+/// `POST /api/first`: makes the first operator and signs that person in.
 pub async fn first(
     State(admission): State<Arc<Admission>>,
     ConnectInfo(ends): ConnectInfo<Ends>,

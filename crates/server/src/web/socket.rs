@@ -21,8 +21,8 @@ use super::state::Shared;
 
 /// Longest time to send one message. A screen that takes longer is disconnected; its page connects again by itself.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Most pictures that a screen has not acknowledged: one on its way while the screen draws another. With 1 it would
-/// idle for a round trip; with more a slow screen would lag behind.
+/// Most pictures that a screen has not acknowledged: one is on its way while the screen draws another. With 1, a screen
+/// would idle for a round trip; with more, a slow screen would lag behind.
 const AHEAD: usize = 2;
 /// Time between two checks that the session or token of a screen is still valid. It bounds how long a screen sees the
 /// show after its sign-out. Operations are checked one by one.
@@ -43,7 +43,7 @@ pub async fn open(
     )
 }
 
-/// The connection ends: the screen has gone, is too slow, is no longer signed in, or sent what cannot be read.
+/// The connection ends: the screen has gone, is too slow, is no longer signed in, or sent a message that cannot be read.
 struct Gone;
 
 struct Screen {

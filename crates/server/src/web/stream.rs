@@ -25,8 +25,8 @@ pub enum Stream {
 }
 
 impl Stream {
-    /// Opens a connection whose client speaks TLS, or plain HTTP by mistake, which the server answers with the right
-    /// address. `None` if the handshake failed or took too long.
+    /// Opens a connection to a server with TLS. A client that begins without TLS becomes [`Self::Plain`], because the server
+    /// tells it the right address. `None` if the handshake failed or took too long.
     pub async fn open(acceptor: TlsAcceptor, guest: Guest) -> Option<Self> {
         let opening = async {
             if guest.first_byte().await? != tls::FIRST_BYTE {

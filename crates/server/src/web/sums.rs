@@ -10,8 +10,8 @@ use lightbots_show::Severity;
 
 /// Most robot names that a sum keeps, which bounds the message. The line counts all robots.
 const NAMED: usize = 200;
-/// A sum without a new event for this time is closed, and a later event begins a new line. Robots of one fleet are
-/// switched on within seconds of each other.
+/// A sum without a new event for this time is closed. A later event then begins a new line. Robots of one fleet are switched
+/// on within seconds of each other.
 const QUIET: Duration = Duration::from_secs(4);
 /// A sum is closed after this time even if events go on, so that lines stay near the time of their events.
 const LONGEST: Duration = Duration::from_secs(60);
@@ -22,9 +22,9 @@ pub struct Sum {
     /// Number of the sum's line in the log; `None` if the line is not written yet.
     pub line: Option<u32>,
     first: EventKind,
-    /// All robots with such events. The controller bounds their number.
+    /// All robots with events of this sum. The controller bounds their number.
     robots: BTreeSet<RobotId>,
-    /// The first of them, at most [`NAMED`], in the order of their events.
+    /// The first robots of the sum, at most [`NAMED`], in the order of their events.
     named: Vec<RobotId>,
     grown: bool,
     began: Instant,
@@ -58,7 +58,7 @@ impl Sums {
         }
     }
 
-    /// Closes the sums of events of a run, because another event came between.
+    /// Closes all sums that are about a run and not about the presence of robots, because another event came in between.
     pub fn close_run(&mut self) {
         self.0.retain(|sum| is_presence(&sum.first));
     }
@@ -81,12 +81,12 @@ impl Sum {
         self.first.severity()
     }
 
-    /// Number of robots, or 0 for a single one, which the line names.
+    /// Number of robots. A single robot counts as 0, because the line names it.
     pub fn count(&self) -> usize {
         if self.robots.len() > 1 { self.robots.len() } else { 0 }
     }
 
-    /// Names of the robots, at most `NAMED`. Empty for a single one, which the line names.
+    /// Names of the robots, at most `NAMED`. Empty for a single robot, because the line names it.
     pub fn names(&self) -> Vec<String> {
         let named = if self.robots.len() > 1 { self.named.as_slice() } else { &[] };
         named.iter().map(ToString::to_string).collect()
@@ -116,7 +116,7 @@ impl Sum {
     }
 }
 
-/// Returns the robot of an event that many robots may have at once; `None` for other events.
+/// Returns the robot of an event of a kind that many robots may have at once. `None` for other events.
 fn robot_of(kind: &EventKind) -> Option<RobotId> {
     use EventKind::*;
     match kind {

@@ -23,8 +23,8 @@ const SHORT_AT_ONCE: usize = 32 << 20;
 const LONG_AT_ONCE: usize = BODY_MAX;
 /// Bytes per permit of a semaphore, which counts in 32 bits.
 const PERMIT_BYTES: usize = 1 << 10;
-/// Longest time that a request waits for room. It is longer than a short body may take to arrive, so that one slow body
-/// ahead does not lead to a refusal.
+/// Longest time that a request waits until there is room for its body. It is longer than a short body may take to arrive, so
+/// that one slow body before it does not lead to a refusal.
 const TURN_WITHIN: Duration = Duration::from_secs(20);
 /// Longest time for a body to arrive. A long body also gets [`BODY_WITHIN_MORE`] for each [`SHORT`] bytes, because a
 /// poor radio link carries 1 MB/s.
@@ -51,7 +51,7 @@ impl Uploads {
     }
 }
 
-/// Reads the body within the bounds, then passes the request on. The body's bytes count until the answer is made.
+/// Reads the body within the bounds, then passes the request on. The bytes of the body count until the request is answered.
 pub async fn bound(State(uploads): State<Uploads>, request: Request, next: Next) -> Response {
     if request.body().is_end_stream() {
         return next.run(request).await;

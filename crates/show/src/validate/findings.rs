@@ -4,21 +4,21 @@ use std::collections::BTreeSet;
 
 use crate::{Issue, Issues, Show, frame_label};
 
-/// A bounded list of issues: at most `MOST_OF_A_KIND` of a kind in a frame, and `MOST` in total.
+/// A bounded list of issues: at most `MOST` in total, and at most `MOST_OF_A_KIND` of a kind about the pixels of a frame.
 #[derive(Default)]
 pub(super) struct Findings {
     pub issues: Issues,
 }
 
 impl Findings {
-    /// Largest number of issues of one kind in one frame that get a line of their own. One line sums up the others, so
-    /// that people see all kinds on one screen.
+    /// Largest number of issues of one kind about the pixels of a frame that are listed one by one. One more issue sums up
+    /// the others, so that people see issues of all kinds on one screen.
     const MOST_OF_A_KIND: usize = 8;
-    /// Largest number of issues in total. One more issue says that there are more. Bounds the answer for a show that is
-    /// broken everywhere.
+    /// Largest number of issues in total. After them, one issue says that there are more. Bounds the list for a show that
+    /// is broken everywhere.
     const MOST: usize = 1_000;
 
-    /// Adds an issue, if there is room for it.
+    /// Adds an issue unless there are [`Self::MOST`] already.
     pub fn add(&mut self, issue: Issue) {
         if self.issues.len() < Self::MOST {
             self.issues.push(issue);
@@ -37,8 +37,9 @@ impl Findings {
         self.add(Issue::error(code, format!("{}: {message}", label(show, frame))).in_frame(frame));
     }
 
-    /// Adds errors of one kind about pixels of a frame: the first few, then one line with the number and ids of the
-    /// rest.
+    /// Adds errors of the kind `code` about pixels of a frame. `found` has ids of pixels and a message for each error. The
+    /// first [`Self::MOST_OF_A_KIND`] are added as they are. One more error has the number of the others and all their
+    /// pixels.
     pub fn pixels(&mut self, show: &Show, frame: usize, code: &str, found: Vec<(Vec<u32>, String)>) {
         let rest = found.get(Self::MOST_OF_A_KIND..).unwrap_or_default();
         let more = rest.len();

@@ -9,7 +9,7 @@ use super::limits::{MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
 use super::words::{millimetres, place};
 use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
 
-/// Largest number of pairs of close starting places that are searched for. Bounds the list if many starts are at one
+/// The search for pairs of close starting places ends at this number of pairs. Bounds the list if many starts are at one
 /// place.
 const CLOSE_STARTS_MAX: usize = 100;
 
@@ -35,7 +35,8 @@ pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) 
     }
 }
 
-/// The most frequent number of pixels of a frame. Of equally frequent numbers the one that occurs first.
+/// The most frequent number of pixels of a frame. If several numbers are equally frequent, the number of the earliest
+/// frame counts.
 fn usual_count(frames: &[Frame]) -> usize {
     let mut times: BTreeMap<usize, usize> = BTreeMap::new();
     for frame in frames {
@@ -60,7 +61,8 @@ fn counts(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-/// Checks that frames with a fixed identity have the same ids.
+/// Checks that the frames with a fixed identity have the same ids of pixels as the first frame with `usual` pixels.
+/// Frames with another number of pixels are skipped: they have an issue already.
 fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     let ids = |frame: &Frame| frame.pixels.iter().map(|pixel| pixel.id).collect::<Vec<_>>();
     let Some(model) = show.frames.iter().position(|frame| frame.pixels.len() == usual) else { return };
@@ -80,7 +82,8 @@ fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-/// Checks the starting places: `usual` pixels per frame, `needed` robots.
+/// Checks the starting places. `usual` is the number of pixels of most frames, `needed` the number of robots that must
+/// have a place, including robots that pixels name.
 fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
     let stage = &show.stage;
     let radius_m = stage.limits.radius_m;

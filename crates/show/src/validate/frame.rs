@@ -9,10 +9,11 @@ use super::limits::{MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
 use super::words::{millimetres, number, place};
 use crate::{Frame, Show, Stage, close_pairs, excerpt};
 
-/// Longest air time or transition, seconds: one day. A longer time is a mistake. `MAX_FRAMES` of
-/// them in microseconds stay below 2^53, so that their sum is exact.
+/// Longest air time or transition, seconds: one day. A longer time is a mistake. The sum of `MAX_FRAMES` such times in
+/// microseconds stays below 2^53, so that a double holds it exactly.
 const MOST_S: f64 = 86_400.0;
-/// Largest number of close pairs that are searched for in one frame. Bounds the time if many pixels are at one place.
+/// The search for pairs of close pixels in a frame ends at this number of pairs. Bounds the time if many pixels are at
+/// one place.
 const MOST_PAIRS: usize = 1_000;
 
 pub(super) fn check(show: &Show, index: usize, is_stage_sound: bool, findings: &mut Findings) {
@@ -64,7 +65,7 @@ fn duplicate_ids(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     .collect()
 }
 
-/// Pins with an invalid robot name, and robots that are pinned twice.
+/// Finds pixels that name an invalid robot, and robots that two pixels of the frame name.
 fn bad_pins(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     let mut found = Vec::new();
     let mut pinned = BTreeMap::new();

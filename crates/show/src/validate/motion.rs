@@ -9,17 +9,18 @@ use super::limits::{MAX_MOTION_PLACES, MAX_PICTURES_BETWEEN};
 use super::words::number;
 use crate::{PictureMotion, Show};
 
-/// Allowed factors on distances. A formation of 10 m may shrink to 1 m, and one of 1 m grow to 10 m.
+/// Allowed factors on the size of a formation. They leave room to shrink a formation of 10 m to 1 m, and to enlarge it
+/// again.
 const SIZES: RangeInclusive<f64> = 0.05..=20.0;
-/// Largest turn, radians: 16 whole turns.
+/// Largest turn or direction in either sense, radians: 16 whole turns.
 const MOST_TURN: f64 = 101.0;
-/// Largest number of repetitions.
+/// Largest number of circles, or of changes of size.
 const MOST_TIMES: u32 = 50;
 /// Allowed lengths of waves and radii of circles, metres.
 const LENGTHS_M: RangeInclusive<f64> = 0.001..=1_000.0;
-/// Largest coordinate of a place, metres.
+/// Largest magnitude of a coordinate of a place, metres: five times the largest floor.
 const FARTHEST_M: f64 = 1_000.0;
-/// Longest time between the first start and the last, seconds.
+/// Longest time from the start of the first robot to the start of the last one in a staggered drive, seconds.
 const MOST_DELAY_S: f64 = 600.0;
 
 pub(super) fn check(show: &Show, index: usize, findings: &mut Findings) {
@@ -30,7 +31,7 @@ pub(super) fn check(show: &Show, index: usize, findings: &mut Findings) {
     }
 }
 
-/// What is wrong with the numbers of a motion; `None` if nothing is.
+/// What is wrong with the numbers of a motion, for people; `None` if all are valid.
 fn wrong(motion: &PictureMotion) -> Option<String> {
     match motion {
         PictureMotion::Travel { along } | PictureMotion::Follow { along } => wrong_places(along),

@@ -9,9 +9,9 @@ use super::words::number;
 use crate::frame_loop::examined;
 use crate::{BeatGrid, CuePlace, Issue, LayerSpan, Show, excerpt, frame_label};
 
-/// Latest moment on the timeline, seconds: one day, as for air times.
+/// Latest moment on the timeline, seconds: one day, which is also the longest air time.
 const MOST_S: f64 = 86_400.0;
-/// Beats per minute that music has: from one every six seconds to ten a second.
+/// Allowed tempo, beats per minute: from one beat every six seconds to ten a second.
 const BPM: std::ops::RangeInclusive<f64> = 10.0..=600.0;
 
 pub(super) fn check(show: &Show, findings: &mut Findings) {
@@ -42,7 +42,7 @@ fn warn(findings: &mut Findings, code: &str, message: String) {
     findings.add(Issue::warning(code, message));
 }
 
-/// Warns about the parts that this version keeps but does not play.
+/// Warns about parts of the show that this version of the program keeps but does not play.
 fn not_played(show: &Show, findings: &mut Findings) {
     let timed = show.cues.iter().filter(|cue| matches!(cue.at, CuePlace::Seconds(_))).count();
     let whole = show.trajectories.iter().filter(|trajectory| trajectory.frame.is_none()).count();
@@ -58,8 +58,8 @@ fn not_played(show: &Show, findings: &mut Findings) {
     }
 }
 
-/// Returns the ids of frames. Warns about each id that two frames have, because layers and cues could not tell them
-/// apart.
+/// Returns the ids of all frames. Warns about each frame that has the id of an earlier frame, because layers and cues
+/// could not tell the two apart.
 fn frame_ids<'a>(show: &'a Show, findings: &mut Findings) -> BTreeSet<&'a str> {
     let mut ids = BTreeSet::new();
     for (index, frame) in show.frames.iter().enumerate() {
@@ -72,7 +72,7 @@ fn frame_ids<'a>(show: &'a Show, findings: &mut Findings) -> BTreeSet<&'a str> {
     ids
 }
 
-/// References to frames: kind and name of the part that refers, and id of the frame.
+/// All references to frames: what refers, such as "the layer", its name, and the id of the frame.
 fn named_frames(show: &Show) -> impl Iterator<Item = (&'static str, &str, &str)> {
     let layers = show.layers.iter().flat_map(|layer| match &layer.span {
         LayerSpan::Frames { first, last, .. } => {
@@ -89,7 +89,8 @@ fn named_frames(show: &Show) -> impl Iterator<Item = (&'static str, &str, &str)>
     layers.chain(cues).chain(paths)
 }
 
-/// Warns about moments that are not on the timeline, and about stretches that do not end after their start.
+/// Warns about moments that are not on the timeline, about stretches that end before or at their start, and about
+/// trajectories whose times do not increase.
 fn times(show: &Show, findings: &mut Findings) {
     let layers = show.layers.iter().filter_map(|layer| match layer.span {
         LayerSpan::Seconds { from_s, to_s } => Some(("layer", layer.name.as_str(), from_s, to_s)),
@@ -128,7 +129,7 @@ fn times(show: &Show, findings: &mut Findings) {
     }
 }
 
-/// The remedy for a moment that is not on the timeline.
+/// What to do about a moment that is not on the timeline, for messages.
 const REMEDY: &str = "times go up from 0 s and stay below a day";
 
 fn is_moment(at_s: f64) -> bool {

@@ -7,17 +7,17 @@ use super::limits::MAX_OBSTACLES;
 use super::words::number;
 use crate::{Obstacle, Stage};
 
-/// Shortest side of a floor, metres: three robots side by side. A smaller floor has no room for a
-/// transition.
+/// Shortest side of a floor, metres: the width of more than three robots. A smaller floor has no room for a transition.
 const LEAST_SIDE_M: f64 = 0.2;
-/// Longest side of a floor, metres: `MAX_PIXELS` robots 1.4 m apart. The planner's grids grow with
+/// Longest side of a floor, metres: room for `MAX_PIXELS` robots 1.4 m apart. Bounds the planner's grids, which grow with
 /// the area of the floor.
 const MOST_SIDE_M: f64 = 200.0;
 
-/// Largest coordinate and radius of a no-go area, metres: five times the longest floor. Distances stay finite.
+/// Largest magnitude of a no-go area's coordinates, and largest radius, metres: five times the longest floor. Bounds
+/// distances, so that they stay finite.
 const REACH_MAX_M: f64 = 1e3;
 
-/// Adds the issues of the stage. Returns whether there are none, so that pixels can be compared with the floor.
+/// Adds the issues of the stage. Returns whether the stage has none; only then can pixels be compared with it.
 pub(super) fn check(stage: &Stage, findings: &mut Findings) -> bool {
     let before = findings.issues.len();
     for (name, side_m) in [("width", stage.width_m), ("depth", stage.depth_m)] {

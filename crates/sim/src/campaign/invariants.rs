@@ -12,20 +12,21 @@ use crate::floor::FloorObject;
 use crate::mishap::Mishap;
 use crate::robot_set::RobotSet;
 
-/// A robot must rest this long after Stop, or after the last message that it received (R40 and R43 of
-/// docs/protocol.md). A robot without messages stops after 2 s, and brakes within 0.1 s.
+/// A robot must stand still from this time on after Stop, or after the last message that it received (R40 and R43 of
+/// docs/protocol.md). A robot that receives nothing stops after 2 s, and brakes within 0.1 s.
 const RESTS_AFTER: Span = Span::from_millis(2_200);
 /// How long checks go on after all robots were stopped or the run ended.
 const WATCHED: Span = Span::from_millis(3_500);
-/// Other robots must drive around a robot from this long after it dropped out. All robots are held within 0.6 s, and
-/// then planned again.
+/// Time since a broken robot's dropout after which a contact with it is a violation, because other robots must drive
+/// around it. Before, all robots are held (within 0.6 s) and get new plans.
 const KNOWN_AFTER: Span = Span::from_millis(1_000);
-/// Other robots must expect a robot at its new place from this long after it was put down there. It notices within 0.3
-/// s (R47) and reports, and all robots are held within 0.6 s. Messages may be late and lost.
+/// Time since a robot was put down elsewhere, or a foot was put on the floor, after which a contact with it is a
+/// violation. The moved robot notices within 0.3 s (R47) and reports, and all robots are held within 0.6 s. Messages
+/// may be late and lost.
 const EXPECTED_AFTER: Span = Span::from_millis(1_500);
-/// Distance of rims from which robots whose contact was excused have parted, metres.
+/// Gap between the rims of two robots from which an excused contact has ended, metres.
 const APART_M: f64 = 0.01;
-/// Time after which all routes of a run that was lost have ended.
+/// Time since a run was lost after which every route of the run has ended.
 const ROUTE_ENDS: Span = Span::from_millis(30_000);
 /// Largest number of violations that are kept.
 const KEPT: usize = 20;
@@ -56,16 +57,16 @@ struct Watched {
     is_broken: bool,
     /// When it dropped out; `None` while it takes part.
     out: Option<Instant>,
-    /// Whether a plan failed while the robot was out: the controller may then plan through its place.
+    /// Whether a plan failed while the robot was out. The controller may then plan paths through the robot's place.
     is_place_given_up: bool,
-    /// Whether it may drop out. Messages are lost at random, something happened to it alone, or it understands the
-    /// command TARGET but no routes.
+    /// Whether a dropout of the robot is no violation: messages are lost at random, something happened to this robot
+    /// alone, or it understands the command TARGET but no routes.
     may_drop_out: bool,
     /// Whether it reports a false place, or shares its name with another robot.
     is_false: bool,
-    /// When it was put down elsewhere, or began or ceased to report a false place.
+    /// When the robot was last put down elsewhere, or last began or ceased to report a false place.
     moved: Option<Instant>,
-    /// Whether it was seen moving when it must rest.
+    /// Whether the last check found its wheels turning although it had to rest. One such movement is one violation.
     moves: bool,
 }
 
@@ -75,17 +76,19 @@ pub(crate) struct Invariants {
     robots: Vec<Watched>,
     /// When the show must be over at the latest.
     limit: Instant,
-    /// The frame that robots reached last.
+    /// Index of the frame that robots reached last; `None`: none yet. After a jump of the operator: of the frame before
+    /// the chosen frame.
     reached: Option<usize>,
-    /// Frames that may be missing, because no plan was found or they were skipped.
+    /// Indices of frames that robots need not reach, because no plan was found or the frames were skipped.
     given_up: Vec<usize>,
     /// The first and the last frame of the latest loop.
     repeats: Option<(usize, usize)>,
-    /// When a person put a foot on the floor, or left.
+    /// When a person last put a foot on the floor, or left.
     stepped: Option<Instant>,
     /// Whether the journal may be older than the run, because the disk was full or slow.
     is_journal_old: bool,
-    /// When all robots were stopped, or the run ended. After a run was lost, when its routes have ended.
+    /// Since when robots must rest: all were stopped, or the run ended. If the run was lost: when its routes have
+    /// ended.
     stopped: Option<Instant>,
     is_over: bool,
     /// Pairs of robots whose contact was excused, and that have not parted.
@@ -95,7 +98,7 @@ pub(crate) struct Invariants {
 }
 
 impl Invariants {
-    /// Checks for a number of robots, whose show must be over at `limit`. The last `originals` of the robots understand
+    /// Checks for `robots` robots, whose show must be over at `limit`. The last `originals` of the robots understand
     /// TARGET but no routes.
     pub fn new(robots: usize, originals: usize, limit: Instant) -> Self {
         let watched = |robot: usize| Watched {
@@ -135,13 +138,14 @@ impl Invariants {
         self.violations
     }
 
-    /// Whether nothing is left to check: robots have rested after the end of the run, or the limit is past.
+    /// Whether nothing is left to check: the run ended and robots were stopped more than [`WATCHED`] ago, or the limit
+    /// is past.
     pub fn are_over(&self, now: Instant) -> bool {
         self.is_over && self.stopped.is_some_and(|at| now - at > WATCHED) || now > self.limit
     }
 
-    /// Notes that a new controller found no run after a crash. This is a violation unless the disk had failed or the
-    /// run was over. Robots drive to the end of their routes at most.
+    /// Notes that a new controller found no run after a crash. Robots then drive at most to the ends of their routes.
+    /// This is a violation unless the disk made the journal old, or the run was over.
     pub fn run_is_gone(&mut self, now: Instant) {
         if !self.is_over && !self.is_journal_old {
             self.violate(now, "journal", "the run is not found".into());
@@ -222,7 +226,8 @@ impl Invariants {
         }
     }
 
-    /// Checks that a robot had a reason to drop out. Other robots may make it late or blocked.
+    /// Notes that a robot dropped out, and checks that it had a reason. Being late or blocked is always a reason,
+    /// because other robots may cause it.
     fn dropped_out(&mut self, now: Instant, robot: usize, why: Trouble) {
         self.robots[robot].out = Some(now);
         let by_others = matches!(why, Trouble::Late | Trouble::Blocked | Trouble::Missed | Trouble::Unsure);
@@ -235,7 +240,8 @@ impl Invariants {
         }
     }
 
-    /// Checks that frames are reached in order, each once. Only a loop goes back, from its last frame to its first.
+    /// Notes a reached frame, and checks the order: each frame once, none left out. Only a loop goes back, from its
+    /// last frame to its first.
     fn frame_stands(&mut self, now: Instant, frame: usize) {
         let goes_back =
             self.repeats.is_some_and(|(first, last)| self.reached == Some(last) && frame == first);
@@ -266,8 +272,8 @@ impl Invariants {
         }
     }
 
-    /// Checks that no route leads through a robot that dropped out and has no route, if the controller can know its
-    /// place. TARGET-only robots do not report their places on the way.
+    /// Checks that no route leads through a robot that dropped out and has no route. Robots whose place the controller
+    /// cannot know are not checked, such as TARGET-only robots, which do not report their places on the way.
     fn check_routes(&mut self, now: Instant, robots: &RobotSet) {
         let is_out = |robot: &usize| {
             let watched = &self.robots[*robot];
@@ -305,7 +311,7 @@ impl Invariants {
         }
     }
 
-    /// Why a contact is a violation; `None` if it is excused.
+    /// Why the contact of a pair of robots is a violation; `None` if the contact is excused.
     fn contact(&self, now: Instant, pair: (u32, u32)) -> Option<String> {
         let (a, b) = (pair.0 as usize, pair.1 as usize);
         let [one, other] = [&self.robots[a], &self.robots[b]];
@@ -323,8 +329,9 @@ impl Invariants {
         }
     }
 
-    /// Why a contact with the person's foot is a violation. `None` if the foot was put there just before, or the robot
-    /// drives to a target and does not brake (R49). A contact of a broken or unexpected robot is excused as well.
+    /// Why the contact of a robot with the person's foot is a violation; `None` if it is excused. A contact just after
+    /// the foot was put there is excused. So is a contact of a broken or unexpected robot, and of a robot on its way to
+    /// a target, which does not brake (R49).
     fn contact_with_person(&self, now: Instant, robot: usize, robots: &RobotSet) -> Option<String> {
         let is_surprised = self.stepped.is_some_and(|at| now - at < EXPECTED_AFTER);
         let is_excused = is_surprised
@@ -334,8 +341,8 @@ impl Invariants {
         (!is_excused).then(|| format!("robot {robot} touched a person"))
     }
 
-    /// Whether the controller cannot expect a robot where it is: it was moved just now, reports a false place, or
-    /// shares its name.
+    /// Whether the controller cannot know the robot's place: the robot was moved less than [`EXPECTED_AFTER`] ago,
+    /// reports a false place, or shares its name.
     fn is_unexpected(&self, now: Instant, robot: usize) -> bool {
         let watched = &self.robots[robot];
         watched.is_false || watched.moved.is_some_and(|at| now - at < EXPECTED_AFTER)

@@ -1,5 +1,5 @@
-//! The fault campaign: a seed gives a scene and a story of faults, and invariants must hold all the same.
-//! docs/campaign.md describes it.
+//! The fault campaign: a seed chooses a show and a series of faults. The invariants must hold in spite of these faults.
+//! docs/campaign.md describes the campaign.
 
 mod invariants;
 mod route_watch;
@@ -21,16 +21,17 @@ pub use invariants::Violation;
 pub use scene::Scene;
 pub use story::Story;
 
-/// Longest time until a show begins, seconds. Robots find the controller and set their clocks, which takes half a
-/// minute on a slow link.
+/// Longest time from the moment robots are switched on until the show begins, seconds. Robots find the controller and
+/// set their clocks, which takes half a minute on a slow link.
 const BEGINS_WITHIN_S: f64 = 42.0;
-/// Time that a fault may cost beyond its own length, seconds: a silent robot, three plans, and gathering robots after
-/// each.
+/// Time that recovery from a fault may take after the fault has ended, seconds: to notice a silent robot, to plan three
+/// times, and to gather robots after each plan.
 const RECOVERS_WITHIN_S: f64 = 40.0;
-/// Multiple of the show's duration that each fault may also cost (`control/src/run/recovery_bound.rs`).
+/// Each fault may cost this multiple of the show's planned duration in addition (`control/src/run/recovery_bound.rs`).
 const REPLAYS: f64 = 2.0;
 
-/// Number of seeds of which one has the log of its first controller replayed: that costs as much as planning once more.
+/// Only seeds that are multiples of this number have the log of their first controller replayed. A replay costs as much
+/// as planning the show once more.
 const REPLAYED: u64 = 4;
 
 /// One seed of the campaign, played.
@@ -42,14 +43,14 @@ pub struct Campaign {
     pub scene: Scene,
     /// Its faults.
     pub story: Story,
-    /// Violated invariants, and the difference found by a replay.
+    /// Violations of the invariants, and the difference that a replay of the log found, if any.
     pub violations: Vec<Violation>,
     /// How the show went.
     pub report: RehearsalReport,
 }
 
 impl Campaign {
-    /// Plays a seed with a number of robots; `None`: the seed decides.
+    /// Plays the campaign of `seed` with `robots` robots; `None`: the seed decides how many.
     pub fn play(seed: u64, robots: Option<usize>) -> Self {
         let scene = Scene::new(seed, robots);
         let story = Story::new(seed, &scene);
@@ -78,8 +79,8 @@ impl Campaign {
     }
 }
 
-/// Replays a log of the controller. Returns what is different, or why the log cannot be replayed. `None` if nothing is,
-/// or the log is empty.
+/// Replays a log of the controller. Returns the first difference between replay and log, or why the log cannot be
+/// replayed. `None` if there is no difference, or the log is empty.
 fn differences(log: &[u8]) -> Option<Violation> {
     if log.is_empty() {
         return None;
@@ -94,7 +95,8 @@ fn differences(log: &[u8]) -> Option<Violation> {
     Some(Violation { at, invariant: "replay", what })
 }
 
-/// Latest time by which a show with these faults must be over.
+/// Virtual time by which a show with the faults of `story` must be over. `planned_s`: planned duration of the show,
+/// seconds.
 fn limit(planned_s: f64, story: &Story) -> Instant {
     let for_faults_s = story.count() as f64 * (RECOVERS_WITHIN_S + REPLAYS * planned_s);
     Instant::ZERO + Span::from_secs(BEGINS_WITHIN_S + 2.0 * planned_s + for_faults_s) + story.lasts()

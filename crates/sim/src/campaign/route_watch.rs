@@ -1,25 +1,25 @@
-//! Checks that no route leads through a robot that dropped out. Contacts alone do not show this, because neighbours
-//! brake for such a robot as for any obstacle.
+//! Checks that no route leads through a robot that dropped out. Contacts alone do not show this, because other robots
+//! brake for the dropped-out robot as for any obstacle.
 
 use lightbots_base::{Instant, Span, Vec2};
 
 use crate::robot_set::RobotSet;
 
-/// Routes must lead around a robot from this long after it dropped out and stands. All robots are held within 0.6 s and
-/// planned again. A robot that misses these messages stops after 2 s (R43).
+/// Time that a dropped-out robot must have stood still before a route through it is reported. Until then, all robots
+/// are held (within 0.6 s) and planned again, and a robot that misses these messages stops after 2 s (R43).
 const AROUND_AFTER: Span = Span::from_millis(3_000);
-/// A robot that has moved farther than this from where it first stood did not stand still, metres.
+/// A robot that is farther than this from the place where it first stood does not stand still, metres.
 const STILL_M: f64 = 0.005;
-/// Share of the contact distance within which a route leads through a robot. A robot that lost its place stands a few
-/// centimetres from where it is expected.
+/// A route leads through a robot if their distance is below this share of the contact distance. It is below 1, because
+/// a robot that lost its place stands a few centimetres from where it is expected.
 const THROUGH: f64 = 0.5;
 
 /// Robots that dropped out, and routes that lead through them.
 #[derive(Debug, Default)]
 pub(super) struct RouteWatch {
-    /// Robots that dropped out, and where they have stood since.
+    /// Robots that dropped out, and the place where each has stood since it last moved.
     out: Vec<Standing>,
-    /// Pairs that were returned before: a robot with a route, and a robot that is out.
+    /// Pairs that [`Self::look`] has returned before: a robot with a route, and a robot that is out.
     known: Vec<(usize, usize)>,
 }
 
@@ -32,7 +32,7 @@ struct Standing {
 }
 
 impl RouteWatch {
-    /// Notes that a robot that dropped out stands at a place. Returns since when it has stood there.
+    /// Notes that the dropped-out robot `robot` is at the place `at`. Returns since when it has stood there.
     fn stands(&mut self, now: Instant, robot: usize, at: Vec2) -> Instant {
         let place = match self.out.iter().position(|known| known.robot == robot) {
             Some(place) => place,
@@ -48,8 +48,8 @@ impl RouteWatch {
         known.since
     }
 
-    /// Finds routes that lead through robots in `out` at this moment. Returns each pair once: the robot with the route,
-    /// and the robot that is out.
+    /// Finds robots whose route is, at this moment, at the place of a robot in `out`. Returns each pair once in a run:
+    /// the robot with the route, and the robot that is out.
     pub fn look(&mut self, now: Instant, robots: &RobotSet, out: &[usize]) -> Vec<(usize, usize)> {
         let (places, contact_m) = (robots.world.places(), robots.world.contacts().contact_m());
         let mut through = Vec::new();

@@ -7,13 +7,14 @@ use crate::dice::{Dice, Purpose};
 
 /// Smallest and largest number of robots.
 const ROBOTS: (usize, usize) = (10, 100);
-/// Least duration of a show, seconds: frames are drawn until they and their drives last this long.
+/// Least duration of a show, seconds. Frames are added until the sum of air times and estimated drives is this long.
 const SHOW_S: f64 = 20.0;
-/// Mean speed of a robot over a drive, acceleration included, m/s.
+/// Assumed mean speed of a robot over a drive, acceleration included, m/s.
 const MEAN_MPS: f64 = 0.2;
-/// Smallest and largest distance of two places, metres. Plans need 0.06 m, and robots that pass each other more.
+/// Smallest and largest value of a scene's least distance between two places, metres. Plans need 0.06 m between places,
+/// and more where robots pass each other.
 const SPACING_M: (f64, f64) = (0.075, 0.14);
-/// Distance of places from the edge, metres.
+/// Least distance of places from the edge of the floor, metres.
 const MARGIN_M: f64 = 0.08;
 
 /// A show and its robots.
@@ -26,7 +27,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Draws the scene of a seed for a number of robots; `None`: the seed decides.
+    /// Draws the scene of `seed` for `robots` robots; `None`: the seed decides how many.
     pub fn new(seed: u64, robots: Option<usize>) -> Self {
         let mut dice = Dice::new(seed, Purpose::Scene);
         let drawn = ROBOTS.0 + dice.below((ROBOTS.1 - ROBOTS.0 + 1) as u64) as usize;
@@ -54,7 +55,8 @@ impl Scene {
     }
 }
 
-/// Draws the distance of two places, and the side of a square floor with room for all robots, both in metres.
+/// Draws the least distance between two places, and the side of a square floor with room for all robots, both in
+/// metres.
 fn floor(dice: &mut Dice, robots: usize) -> (f64, f64) {
     let spacing_m = dice.between(SPACING_M.0, SPACING_M.1);
     let columns = libm::ceil(libm::sqrt(robots as f64));
@@ -83,7 +85,8 @@ fn places_of_kind(dice: &mut Dice, count: usize, side_m: f64, spacing_m: f64) ->
     }
 }
 
-/// A grid somewhere on the floor.
+/// A square grid of `count` places at a random position. `half_m`: largest coordinate of a place, unless the grid is
+/// wider.
 fn grid(dice: &mut Dice, count: usize, half_m: f64, spacing_m: f64) -> Vec<Vec2> {
     let columns = libm::ceil(libm::sqrt(count as f64)) as usize;
     let extent_m = (columns - 1) as f64 * spacing_m;
@@ -94,7 +97,7 @@ fn grid(dice: &mut Dice, count: usize, half_m: f64, spacing_m: f64) -> Vec<Vec2>
     (0..count).map(place).collect()
 }
 
-/// Random places, no two closer than `spacing_m`; a grid if these do not fit.
+/// Random places, no two closer than `spacing_m`; a grid if no such places are found.
 fn places(dice: &mut Dice, count: usize, side_m: f64, spacing_m: f64) -> Vec<Vec2> {
     let half_m = 0.5 * side_m - MARGIN_M;
     let mut places: Vec<Vec2> = Vec::new();

@@ -13,22 +13,26 @@ use crate::mishap::Mishap;
 const FAULTS: u64 = 5;
 /// Earliest and latest time of a fault, seconds after the first departure.
 const HAPPEN_S: (f64, f64) = (0.0, 20.0);
-/// Durations of short and of long outages, seconds. Most short ones end before the controller asks the operator whether
-/// the run goes on.
+/// Shortest and longest duration of a short outage, seconds. Most of these end before the controller asks the operator
+/// whether the run goes on.
 const SHORT_S: (f64, f64) = (0.1, 6.0);
+/// Shortest and longest duration of a long outage, seconds.
 const LONG_S: (f64, f64) = (6.0, 40.0);
 /// Share of the outages that are short.
 const SHORT: f64 = 0.8;
 /// Time within which clients find a broker that is back.
 const FOUND_AGAIN: Span = Span::from_millis(2_000);
-/// First seed with further faults. Seeds below keep the stories that failed once.
+/// From this seed on, stories have further faults. The stories of smaller seeds stay as they were, so that those which
+/// once failed can be played again.
 const FURTHER_FROM: u64 = 1_000;
-/// First seed with people on the floor, and the share of the stories that have them.
+/// From this seed on, a story may have a person on the floor.
 const PEOPLE_FROM: u64 = 2_000;
+/// Share of the stories from [`PEOPLE_FROM`] on that have a person on the floor.
 const PEOPLE: f64 = 0.5;
-/// First seed with a fault of the controller's clocks in each story, and with outages of the broker that overlap.
+/// From this seed on, each story has a fault of the controller's clocks, and outages of the broker may overlap.
 const CLOCKS_FROM: u64 = 3_000;
-/// Largest change of the time of day, seconds, forwards or back: mostly the first, otherwise the second.
+/// Largest change of the time of day, forwards or back, seconds. The first value is for the share [`SHORT`] of the
+/// changes, the second for the others.
 const SET_S: (f64, f64) = (6.0, 7_200.0);
 /// Smallest and largest error of a falsely reported place, metres.
 const LIE_M: (f64, f64) = (0.05, 0.5);
@@ -85,8 +89,8 @@ impl Fault {
         }
     }
 
-    /// Whether one of the two faults cannot begin before the other has ended. `may_overlap`: outages of the broker may
-    /// overlap, unless it is gone in both.
+    /// Whether the two faults must not overlap in time. `may_overlap`: outages of the broker may overlap, unless the
+    /// broker is gone in both.
     fn excludes(self, other: Self, may_overlap: bool) -> bool {
         let is_of_broker = |fault| matches!(fault, Self::Freeze(_) | Self::Gone(_));
         let is_gone = |fault| matches!(fault, Self::Gone(_));
@@ -99,8 +103,9 @@ impl Fault {
     }
 }
 
-/// Removes faults that cannot happen: a second one of the same robot, or one that begins during a fault that excludes
-/// it. `faults` are in order of time. `may_overlap`: see [`Fault::excludes`].
+/// Removes faults that cannot happen: all but the first fault of a robot, and a fault that begins during an earlier
+/// fault that excludes it, or within [`FOUND_AGAIN`] after. `faults` are in order of time. `may_overlap`: see
+/// [`Fault::excludes`].
 fn without_overlaps(faults: Vec<(Span, Fault)>, may_overlap: bool) -> Vec<(Span, Fault)> {
     let mut kept: Vec<(Span, Fault)> = Vec::new();
     for (at, fault) in faults {
@@ -222,7 +227,7 @@ fn fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
-/// Draws one of the faults that seeds from [`FURTHER_FROM`] on have in addition.
+/// Draws a time and one of the further faults that stories from seed [`FURTHER_FROM`] on have.
 fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
     let robot = dice.below(scene.robots as u64) as usize;
@@ -240,7 +245,7 @@ fn further_fault(dice: &mut Dice, scene: &Scene) -> (Span, Fault) {
     (at, fault)
 }
 
-/// Draws a fault of the clocks of the controller's computer: it sleeps, or its time of day is set during a crash.
+/// Draws a time and a fault of the controller's clocks: its computer sleeps, or its time of day is set during a crash.
 fn clock_fault(dice: &mut Dice) -> (Span, Fault) {
     let at = Span::from_secs(dice.between(HAPPEN_S.0, HAPPEN_S.1));
     let (from_s, to_s) = if dice.chance(SHORT) { SHORT_S } else { LONG_S };

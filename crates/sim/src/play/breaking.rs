@@ -1,4 +1,4 @@
-//! What goes wrong in a rehearsal: robots, broker and controller break down by the conditions.
+//! What goes wrong in a rehearsal: breakdowns of robots, broker and controller, and mishaps, as the conditions say.
 
 use lightbots_base::Span;
 use lightbots_control::{
@@ -12,7 +12,8 @@ use crate::broker_outages::BrokerEvent;
 use crate::controller_crashes::CrashEvent;
 use crate::mishap::Mishap;
 
-/// Difference between the first route numbers of one controller and the next.
+/// Each new controller begins its route numbers this much higher than the controller before, so that no number is used
+/// twice.
 const SEQ_STEP: u32 = 1_000_000;
 
 impl Play {
@@ -54,7 +55,7 @@ impl Play {
         }
     }
 
-    /// Kills the controller, and starts another one that continues from its journal.
+    /// Kills the controller, or starts a new one that continues the run from the journal, where this is due.
     pub(super) fn break_controller(&mut self) {
         let Some(first_departure) = self.record.began_at() else { return };
         while let Some(event) = self.crashes.next_until(self.now - first_departure) {
@@ -87,8 +88,8 @@ impl Play {
         self.drain_controller();
     }
 
-    /// Lets the operator act: repeat operations, give GO, resume a paused show, and press Go on. GO is given to a frame
-    /// after its air time, and in the last round of a loop.
+    /// Lets the operator act: repeat operations, give GO, resume a paused show, and press Go on. The operator gives GO
+    /// to a frame that is ready for it, and in the last round of a loop.
     pub(super) fn press(&mut self) {
         if self.clock.is_asleep(self.now) {
             return;
@@ -154,7 +155,8 @@ impl Play {
         }
     }
 
-    /// Runs the operations that the operator wants. Without a controller or a broker, the operator tries again later.
+    /// Carries out the operations that the operator wants. Without a controller or a broker, the operator tries again
+    /// later.
     fn operate_again(&mut self) {
         while let Some(operation) = self.operator.next_at(self.now) {
             let refusal = match self.is_controller_away() {

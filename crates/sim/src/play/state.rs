@@ -38,17 +38,17 @@ pub(crate) struct Play {
     /// The clocks of the controller's computer.
     pub(super) clock: ControllerClock,
     pub(super) forgeries: Forgeries,
-    /// Name and index of each robot that has the name of another.
+    /// Robots that were restarted with the name of another robot: that name, and the robot's index.
     pub(super) namesakes: Vec<(RobotId, usize)>,
-    /// Number of controllers before the current one.
+    /// Number of controllers that were killed before the present one.
     pub(super) controllers: u32,
     pub(super) operator: Operator,
     pub(super) mishaps: Timetable<Mishap>,
-    /// Frames that the operator has yet to send robots to.
+    /// Indices of the frames that the operator still has to jump to, in this order.
     pub(super) visits: VecDeque<usize>,
-    /// How many rounds of a loop are played before the operator gives GO.
+    /// Number of rounds of a loop after which the operator gives GO.
     pub(super) loop_rounds: u32,
-    /// Checks after each step; only in a campaign.
+    /// Invariants that are checked after each step; `None` except in a campaign.
     pub invariants: Option<Box<Invariants>>,
     pub(super) record: RehearsalRecord,
     pub(super) lights: LightWatch,
@@ -60,7 +60,8 @@ pub(crate) struct Play {
 }
 
 impl Play {
-    /// A rehearsal with robots at `starts`, switched on, some with given names, and a new controller.
+    /// A rehearsal with a new controller, and with robots that were just switched on at `starts`. `names[robot]`: its
+    /// name, if one is given. `planned_s`: planned duration of the show, seconds.
     pub fn new(
         show: Arc<Show>,
         starts: &[Vec2],

@@ -9,7 +9,8 @@ use crate::forgeries::Forgeries;
 use crate::network::{Network, Way};
 use crate::record::RehearsalRecord;
 
-/// Sends a message of a robot to the controller, unless the robot is mute or has no broker. Records each arrival.
+/// Sends a message of a robot to the controller, unless the robot is mute or has no connection to the broker. Records
+/// reports of arrival even if they are not sent.
 pub(super) fn send(
     network: &mut Network,
     record: &mut RehearsalRecord,

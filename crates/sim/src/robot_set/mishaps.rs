@@ -1,4 +1,4 @@
-//! What happens to robots from outside: their power comes back, they are lifted and put down elsewhere.
+//! What happens to robots from outside: their power comes back, or a person lifts them and puts them down elsewhere.
 
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_robot::Config;
@@ -9,23 +9,23 @@ use super::RobotSet;
 use crate::firmware::{Ours, RobotFirmware};
 use crate::original::Original;
 
-/// Gap of rims between a robot that a person puts down and its neighbours, metres.
+/// Least gap between the rim of a robot or foot that is put down and the rims of other robots, metres.
 const PUT_DOWN_GAP_M: f64 = 0.03;
-/// Scale of the spiral of places that are tried, metres: place n lies this times the square root of n from the first.
+/// Scale of the spiral of places that are tried, metres. Place n is this times the square root of n from the first
+/// place.
 const TRIED_EVERY_M: f64 = 0.02;
-/// Number of places that are tried. The last one is 1.3 m away.
+/// Number of places that are tried. The last place is 1.3 m from the first.
 const TRIED: u32 = 4_000;
-/// Angle between places that are tried one after the other, radians: the golden angle, which fills a disc evenly (Vogel,
-/// 1979).
+/// Angle between successive places of the spiral, radians: the golden angle, which fills a disc evenly (Vogel, 1979).
 const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
 impl RobotSet {
-    /// Switches a robot on again after its power failed, with a link.
+    /// Switches a robot on again after its power failed, with its old name and a link.
     pub fn restart(&mut self, now: Instant, robot: usize) {
         self.restart_as(now, robot, self.robots[robot].id);
     }
 
-    /// Switches a robot off and on, with a new name.
+    /// Switches a robot off and on. Its firmware starts without memory, with the name `id` and a link.
     pub fn restart_as(&mut self, now: Instant, robot: usize, id: RobotId) {
         let simulated = &mut self.robots[robot];
         simulated.id = id;
@@ -41,20 +41,22 @@ impl RobotSet {
         self.link(now, robot, true);
     }
 
-    /// Puts a robot down at the free place that is nearest to `to`. The robot stays where it is if none is free.
+    /// Puts a robot down at the free place nearest to `to` among those tried. It stays where it is if none of them is
+    /// free.
     pub fn put_down(&mut self, robot: usize, to: Vec2) {
         if let Some(place) = self.free_place(robot, to) {
             self.world.put(robot, place);
         }
     }
 
-    /// Puts a person's foot on the floor, at the free place that is nearest to `to`. `None`: takes it off.
+    /// Puts a person's foot on the floor, at the free place nearest to `to` among those tried. `None`: takes the foot
+    /// off.
     pub fn put_foot(&mut self, stage: &Stage, to: Option<Vec2>) {
         let place = to.and_then(|to| self.free_place(self.robots.len(), to));
         self.world.put_foot(stage, place);
     }
 
-    /// The place nearest to `to` that is free for a disc; `None` if no place that is tried is free.
+    /// The place nearest to `to`, among those tried, that is free for the disc with this index; `None` if none is free.
     fn free_place(&self, disc: usize, to: Vec2) -> Option<Vec2> {
         let place = |number: u32| {
             let off_m = TRIED_EVERY_M * libm::sqrt(f64::from(number));
@@ -73,7 +75,7 @@ impl RobotSet {
         matches!(self.robots[robot].firmware, RobotFirmware::Ours(_))
     }
 
-    /// Place at this moment on the route that a robot follows, stage metres; `None` without a route.
+    /// Place where the route wants the robot at this moment, stage metres; `None` if the robot follows no route.
     pub fn route_place(&self, robot: usize) -> Option<Vec2> {
         match &self.robots[robot].firmware {
             RobotFirmware::Ours(robot) => robot.route_place(),
@@ -81,7 +83,8 @@ impl RobotSet {
         }
     }
 
-    /// Whether a robot may drive although it receives nothing, because it drives to a target (R44 of docs/protocol.md).
+    /// Whether a robot may drive although it receives nothing: it drives to a target (R44 of docs/protocol.md). Always
+    /// true for an original robot.
     pub fn is_on_target(&self, robot: usize) -> bool {
         match &self.robots[robot].firmware {
             RobotFirmware::Ours(robot) => {

@@ -1,4 +1,4 @@
-//! Arrivals, and the end of a leg.
+//! Arrivals, and the end of a leg: the drive of all robots between two moments at which all stand.
 
 use crate::event::EventKind;
 use crate::leg::LegKind;
@@ -10,10 +10,11 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_show::FrameLoop;
 use lightbots_wire::RobotState;
 
-/// Largest delay of the last arrival after the planned end that counts as in time. The air time then counts from the
-/// planned end.
+/// Largest delay of the last arrival after the planned end of the leg that counts as in time. The air time (how long
+/// robots stay in a frame) then counts from the planned end.
 const IN_TIME: Span = Span::from_millis(250);
-/// Distance from its goal beyond which a robot has missed the goal, metres: more than a robot's diameter of 54 mm.
+/// Distance from its goal beyond which a robot counts as having missed the goal, metres: more than a robot's diameter
+/// of 54 mm.
 pub(crate) const MISSED_M: f64 = 0.06;
 
 impl Driving {
@@ -35,8 +36,8 @@ impl Driving {
         }
     }
 
-    /// Counts the arrival of robots that ended the leg's route before the controller began the drive. They will not
-    /// report it again.
+    /// Counts the arrival of robots that ended the leg's route before this controller noted the beginning of the drive.
+    /// These robots will not report their arrival again.
     pub fn arrive_before_start(&mut self, cx: &mut RunContext) -> Next {
         let Some(leg) = cx.pipeline.leg().filter(|leg| leg.kind == LegKind::Routes) else {
             return Next::Stay;
@@ -68,7 +69,8 @@ impl Driving {
         self.end_leg(cx)
     }
 
-    /// Counts a robot that stands off its goal for good as arrived. Later legs are planned again from where it is.
+    /// Counts a robot as arrived although it stands `off_m` metres off its goal and will not drive there. Later legs
+    /// are planned again from where it is.
     pub fn accept_misaligned(&mut self, cx: &mut RunContext, participant: usize, off_m: f64) -> Next {
         let robot = cx.robot(participant).id;
         cx.io.log.record_limited(cx.now, EventKind::Misaligned { robot, off_m });
@@ -76,7 +78,7 @@ impl Driving {
         self.arrive(cx, participant)
     }
 
-    /// Ends the leg if all have arrived.
+    /// Ends the leg if all robots that drive in it have arrived.
     pub fn end_leg(&mut self, cx: &mut RunContext) -> Next {
         let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
         let (now, clock) = (cx.now, self.clock);
@@ -98,8 +100,8 @@ impl Driving {
     }
 }
 
-/// Notes that robots have reached a frame: events, counts, and whether the run waits for GO. By plan they were to
-/// reach it at `ends`.
+/// Notes that robots have reached a frame: events, counts, and whether the run waits for GO. `ends` is when they were
+/// to reach the frame by plan, holds included.
 fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     let spread = cx.tally.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
     let wait = (cx.now - ends).max(Span::ZERO);
@@ -127,15 +129,16 @@ fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     cx.playback.advance();
 }
 
-/// The loop that begins with a frame that was just reached, if any. If a show is played from a frame within a loop,
-/// the loop begins there.
+/// The loop (frames that repeat until GO) that begins with the frame just reached; `None` if none does. If the run
+/// began at a frame within a loop, the loop begins at that frame.
 fn begins_loop(cx: &RunContext, frame: usize) -> Option<FrameLoop> {
     let repeats = cx.playback.loop_at(frame)?;
     let begins = frame == repeats.first || cx.tally.frames_played == 1;
     (begins && cx.playback.next.pass == 0).then_some(repeats)
 }
 
-/// Whether a place is at the goal, as the original firmware tests it: along x and along y.
+/// Whether a place is at the goal. The differences along x and along y are tested one by one, as the original firmware
+/// does.
 pub(crate) fn is_there(at: Vec2, goal: Vec2, tolerance_m: f64) -> bool {
     (at.x - goal.x).abs() <= tolerance_m + 1e-9 && (at.y - goal.y).abs() <= tolerance_m + 1e-9
 }

@@ -1,39 +1,46 @@
 //! The state of one drive: its time base, its timers, and what is known of each robot on its way.
+//!
+//! A hold is a common stop: all robots slow down together and wait. The watch checks all robots regularly.
 
 use crate::run::path_clock::PathClock;
 use crate::run::run_context::RunContext;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Command;
 
-/// Time between two turns of the watch over robots.
+/// Time between two turns of the watch over driving robots.
 pub(crate) const WATCH_EVERY: Span = Span::from_millis(100);
-/// How long after the planned end robots that have not arrived are asked. An arrival in time is reported by then.
+/// Time after the planned end of the drive at which robots that have not arrived are first asked for a report. An
+/// arrival in time has been reported by then.
 pub(crate) const ASK_AFTER_END: Span = Span::from_millis(300);
 
-/// Least time between two requests for a report to one robot.
+/// Least time between two requests to the same robot for a report.
 pub(crate) const ASKED_EVERY: Span = Span::from_millis(90);
 
-/// What the controller notes of a robot on a drive.
+/// What the controller notes of one robot on a drive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RobotProgress {
     /// Whether the robot has reached the goal of the leg.
     pub arrived: bool,
-    /// Since when all wait for the robot: it is off its path, unsure of its place, obstructed or silent.
+    /// Since when all robots wait for this one, because it is off its path, unsure of its place, obstructed or silent.
+    /// `None` if they do not.
     pub late_since: Option<Instant>,
     /// Whether the robot is late because it is unsure of its place.
     pub is_unsure: bool,
-    /// Since when the robot reports an obstacle in its path.
+    /// Since when the robot reports an obstacle in its path. `None` if its last report names none.
     pub obstructed_since: Option<Instant>,
-    /// When the robot last reported an obstacle before it was late, or just after. The obstacle is then the reason
-    /// why it is late.
+    /// When the robot last began to report an obstacle, if it was not late before, or had become late just before. The
+    /// obstacle is then the reason why it is late.
     pub obstructed_at: Option<Instant>,
-    /// Since when a report of the robot is awaited, because a robot near it is obstructed.
+    /// Since when a report of the robot is awaited, because a robot near it reports an obstacle. `None` if none is
+    /// awaited.
     pub probed_since: Option<Instant>,
     /// When the robot was last asked for a report.
     pub asked_at: Instant,
-    /// Latest moment, until `SLOW` after the planned end, at which the robot was on its route or made progress.
+    /// Latest moment, at most `SLOW` after the planned end of the drive, at which the robot was on its route or made
+    /// progress.
     pub on_route_at: Instant,
-    /// Shortest distance to its goal, metres, and when the robot last came nearer by at least `NEARER_M`.
+    /// Shortest distance from the robot's reported places to its goal, metres, and when that distance last fell by at
+    /// least `NEARER_M`.
     pub nearest: (f64, Instant),
 }
 
@@ -45,13 +52,13 @@ pub(crate) struct Driving {
     pub progress: Vec<RobotProgress>,
     /// Number of robots that have arrived.
     pub arrivals: usize,
-    /// When the last of these robots arrived.
+    /// When the latest of these arrivals was counted.
     pub last_arrival: Instant,
-    /// Number of robots that are late.
+    /// Number of robots for which all wait (`late_since`).
     pub late: usize,
-    /// When START is repeated next, so that robots know that the link works.
+    /// When START is sent again, so that robots know that the link works.
     pub heartbeat_at: Instant,
-    /// When robots are watched next.
+    /// When the next turn of the watch is due.
     pub watch_at: Instant,
     /// When the controller begins to ask robots that have not arrived.
     pub ask_at: Instant,
@@ -100,7 +107,7 @@ impl Driving {
         self.watch_at.min(self.heartbeat_at).min(release_at)
     }
 
-    /// Whether a participant is still on its way.
+    /// Whether a participant has to arrive for the leg to end, and has not arrived yet.
     pub fn is_under_way(&self, cx: &RunContext, participant: usize) -> bool {
         cx.is_awaited(participant) && !self.progress[participant].arrived
     }

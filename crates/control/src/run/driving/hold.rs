@@ -1,4 +1,4 @@
-//! HOLD and RESUME: all robots slow down and pick up together, so that they keep to the proven plan.
+//! HOLD and RESUME: all robots slow down together and pick up speed together, so that they keep to the proven plan.
 
 use crate::event::{EventKind, Trouble};
 use crate::mutant::Mutant;
@@ -13,14 +13,15 @@ use lightbots_wire::{Command, Route};
 /// How many copies of HOLD and RESUME are sent, and the time between them. With one message in ten lost, one robot of
 /// 100,000 misses all copies.
 const COPIES: (u32, Span) = (5, Span::from_millis(30));
-/// Least time before the planned end at which a hold is worth it: robots take [`Route::EASE`] to stop and to pick up.
+/// Least time before the planned end of the drive at which a hold still begins, unless the operator asks for it. Robots
+/// need [`Route::EASE`] to stop and as long to pick up speed.
 const WORTH: Span = Span::from_millis(400);
-/// How long after all should stand the controller checks whether they do: time for a report of each.
+/// Time from when all robots should stand in a hold until the controller checks that they do: each reports within it.
 const CHECK_AFTER: Span = Span::from_millis(400);
 
 impl Driving {
-    /// Lets all robots slow down together. If they are held already, the hold is only prolonged. Does nothing shortly
-    /// before the end of the drive, unless the operator asks.
+    /// Begins a hold: all robots slow down together. A hold that has begun, and for which no RESUME was sent, is only
+    /// prolonged. Does nothing shortly before the end of the drive, unless the operator asks.
     pub fn hold(&mut self, cx: &mut RunContext, by_operator: bool) {
         let (now, clock) = (cx.now, &mut self.clock);
         if let Some(hold) = &mut clock.hold
@@ -48,8 +49,8 @@ impl Driving {
         }
     }
 
-    /// Lets all robots pick up again together, once all stand. RESUME is sent as late as possible. If it were sent
-    /// earlier, the next hold could only begin long after its reason.
+    /// Ends a hold: sends RESUME, so that all robots pick up speed together once all stand. RESUME is not sent earlier
+    /// than needed for that, because after it the next hold can begin only when robots are back at full speed.
     pub fn release(&mut self, cx: &mut RunContext) {
         let (now, lead) = (cx.now, cx.link.resume_lead());
         let Some(hold) = self.clock.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
@@ -71,7 +72,8 @@ impl Driving {
         }
     }
 
-    /// Ends a hold of the operator. Robots pick up again unless one is late.
+    /// Ends the operator's part in a hold. Robots pick up speed again, unless the hold is still needed for a late
+    /// robot.
     pub fn resume(&mut self, cx: &mut RunContext) {
         if let Some(hold) = &mut self.clock.hold {
             hold.by_operator = false;
@@ -81,7 +83,7 @@ impl Driving {
         }
     }
 
-    /// Notes that a participant is late and holds all robots.
+    /// Notes that all robots wait for a participant because of `why`, and begins a hold.
     pub fn mark_late(&mut self, cx: &mut RunContext, participant: usize, why: Trouble) {
         self.late += 1;
         self.progress[participant].late_since = Some(cx.now);

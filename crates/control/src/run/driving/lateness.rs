@@ -1,4 +1,5 @@
-//! Robots off their paths, and robots that are unsure of their place: all wait for both, within bounds.
+//! Robots off their paths, and robots that are unsure of their places. All robots hold (stop together) and wait for
+//! both kinds, within bounds.
 
 use crate::event::Trouble;
 use crate::run::driving::drive::Driving;
@@ -6,29 +7,31 @@ use crate::run::run_context::RunContext;
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Details;
 
-/// Largest distance off its path that a robot may have before all wait for it, metres, if the plan leaves much room.
+/// Largest bound on a robot's distance off its path, metres. The bound is half the clearance of the plan, but at most
+/// this and at least the configured one. Beyond the bound, all wait for the robot.
 pub(crate) const LATE_MAX_M: f64 = 0.03;
-/// Share of the bound for late robots below which a robot is back on its path. The gap between both is hysteresis.
+/// A late robot counts as back on its path when its distance off the path falls below this share of the bound. The gap
+/// prevents quick switching between the two (hysteresis).
 const BACK: f64 = 0.6;
 
 /// Bounds on the standard error of a robot's place (1 sigma).
 struct Uncertainty {
-    /// Error below which no robot waits, metres.
+    /// Below this error, all robots drive on, metres.
     sure_m: f64,
-    /// Error from which on all robots wait, metres. The robot is `lost` at 20 mm (R46).
+    /// From this error on, all robots wait, metres. At 20 mm a robot reports the state `lost` (R46).
     unsure_m: f64,
-    /// For errors between these two: all wait if another robot comes closer than contact, plus this many sigma, plus
-    /// `others_m`.
+    /// For errors between these two: all wait if the plan brings another robot closer than the contact distance plus
+    /// `sigmas` times the error plus `others_m`.
     sigmas: f64,
-    /// Allowance for errors of the other robot, metres.
+    /// Allowance for the error of the other robot's place, metres.
     others_m: f64,
-    /// How far ahead paths are checked.
+    /// How far ahead in time the paths are checked.
     ahead: Span,
-    /// Time between two moments that are checked.
+    /// Time between two checked moments of the paths.
     step: Span,
 }
 
-/// Smaller bounds hold the fleet because of noise. With larger ones robots that get no fixes touch others.
+/// With smaller bounds, noise stops the fleet. With larger ones, robots that get no position fixes touch others.
 const UNCERTAINTY: Uncertainty = Uncertainty {
     sure_m: 0.004,
     unsure_m: 0.010,
@@ -40,12 +43,13 @@ const UNCERTAINTY: Uncertainty = Uncertainty {
 
 const _: () = assert!(UNCERTAINTY.sure_m < UNCERTAINTY.unsure_m && UNCERTAINTY.others_m < UNCERTAINTY.sure_m);
 
-/// How long all wait for robots that are unsure of their place. In a large fleet some robot is unsure at any time.
+/// How long all wait for robots that are unsure of their places. The wait is bounded, because in a large fleet some
+/// robot is unsure at any time.
 struct Patience {
-    /// Time in fleets of up to `robots`; in larger fleets it is shorter in proportion.
+    /// Longest wait, in fleets of up to `robots` robots. In larger fleets the wait is shorter in proportion.
     longest: Span,
     robots: f64,
-    /// Shortest time, for the largest fleets.
+    /// Shortest wait, in the largest fleets.
     shortest: Span,
 }
 
@@ -54,7 +58,7 @@ const PATIENCE: Patience =
     Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
 
 impl Driving {
-    /// Handles how far a driving robot reports to be off its path, and how sure it is of its place.
+    /// Handles a driving robot's report of how far it is off its path and how unsure it is of its place.
     pub fn on_progress(&mut self, cx: &mut RunContext, participant: usize, details: &Details) {
         let room_m = cx.pipeline.leg().map_or(0.0, |leg| leg.room_m);
         let late_m = cx.io.config.late.off_m.max((room_m / 2.0).min(LATE_MAX_M));
@@ -70,7 +74,8 @@ impl Driving {
         }
     }
 
-    /// Whether a robot may touch another before all could stand, if its place is off by as much as its error allows.
+    /// Whether a robot may touch another one within `ahead`, if its place is wrong by as much as its error allows.
+    /// `err_m`: standard error of its place, metres.
     fn is_too_unsure(&self, cx: &RunContext, participant: usize, err_m: f64) -> bool {
         let Uncertainty { sure_m, unsure_m, sigmas, others_m, ahead, step } = UNCERTAINTY;
         let Some(leg) = cx.pipeline.leg() else { return false };
@@ -94,8 +99,9 @@ impl Driving {
         })
     }
 
-    /// Ends a hold after a while although robots are unsure. All hold again for those that still are. The more
-    /// robots, the sooner: in a large fleet some robot is unsure at any time, and waiting would never end.
+    /// Ends a hold that has lasted long, if its only reason is robots that are unsure of their places. Robots that
+    /// still are unsure then cause a new hold. The larger the fleet, the sooner a hold ends, because waiting for all
+    /// would never end.
     pub fn lose_patience(&mut self, cx: &mut RunContext) {
         let share = PATIENCE.robots / (cx.roster.len().max(1) as f64);
         let longest_s = PATIENCE.longest.as_secs();

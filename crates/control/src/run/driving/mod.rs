@@ -1,5 +1,5 @@
-//! The phase in which robots drive. All state of a drive lives and dies here; read [`drive`] first, then the files in
-//! the order of the list.
+//! The phase in which robots drive a leg: the drive of all robots between two moments at which all stand. All state
+//! that belongs to one drive is kept here. Read [`drive`] first, then the files in the order of the list.
 
 mod arrivals;
 mod drive;
@@ -24,30 +24,31 @@ use crate::run::target_commands;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 
-/// How often START of the present drive is repeated, so that robots know that the link works (R43: 1.9 s). The link
-/// may break while copies are on their way. The shorter the interval, the closer together in time do robots then
-/// stop.
+/// How often the START of the present drive is sent again, so that robots know that the link works. Without messages
+/// they stop after 1.9 s (R43). If the link breaks while copies are on their way, robots receive different last copies.
+/// The shorter the interval, the closer together in time they then stop.
 const HEARTBEAT: Heartbeat =
     Heartbeat { a_robot: Span::from_millis(2), least: Span::from_millis(60), most: Span::from_millis(500) };
-/// How long after a drive began routes of the next leg are held back. A robot whose clock or step is a little behind
-/// has not begun the drive yet, and would replace its route by the next one.
+/// For how long after a drive began routes of the next leg are not sent. A robot whose clock is a little behind has not
+/// begun the drive yet. A new route would replace the one that it is about to drive.
 const BEGUN: Span = drive::WATCH_EVERY;
-/// How long after a drive began a report may still describe the time before.
+/// For how long after a drive began a report may still describe the time before the drive.
 const OLD_REPORTS: Span = Span::from_millis(800);
-/// How long before the planned end a robot whose clock is ahead may end its route.
+/// How long before the planned end a robot may end its route, because its clock is ahead.
 const EARLY: Span = Span::from_millis(100);
 
-/// Parameters of the time between two copies of START.
+/// Parameters of the time between two copies of START during a drive.
 struct Heartbeat {
-    /// Time for each robot, because every copy goes to every robot. This makes 500 messages a second, up to the fleet
-    /// that reaches `most`.
+    /// Interval divided by the number of robots, because the broker delivers every copy to every robot. Fleets whose
+    /// interval lies between `least` and `most` get 500 messages a second in all.
     a_robot: Span,
     least: Span,
     most: Span,
 }
 
 impl Heartbeat {
-    /// Time between two copies. `rests`: robots stand in a hold, and stay where they are if the link breaks.
+    /// Time between two copies. `rests`: robots stand in a hold. Then `most` is enough, because they stay where they
+    /// are if the link breaks.
     fn every(&self, robots: usize, rests: bool) -> Span {
         let by_count = self.a_robot * i64::try_from(robots).unwrap_or(i64::MAX);
         if rests { self.most } else { by_count.clamp(self.least, self.most) }
@@ -55,8 +56,8 @@ impl Heartbeat {
 }
 
 impl Driving {
-    /// Begins the drive of the first leg of the queue, which is under way since `began`. Also returns what comes
-    /// next, if all have arrived already. Panics if no leg is queued.
+    /// Begins the drive of the first leg of the queue, which is under way since `began`. The returned [`Next`] ends the
+    /// leg if all robots have arrived already. Panics if no leg is queued.
     pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
         let leg = cx.pipeline.drive_next().expect("a drive begins with a planned leg");
         let clock = PathClock::new(began, leg.duration);
@@ -151,12 +152,12 @@ impl Driving {
         }
     }
 
-    /// Handles the report of a robot that stands although it should drive: it arrived, or it lost its route.
+    /// Handles the report of a robot that stands during a drive: it arrived, it has yet to start, or it lost its route.
     fn on_rest(&mut self, cx: &mut RunContext, participant: usize, details: &Details) -> Next {
         let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
         let has_route = details.route == leg.seq;
         let goal = leg.robots[participant].goal;
-        // It makes no difference whether a robot that only had to rest began too early.
+        // If a robot only had to rest, it makes no difference that it began its route too early.
         let rested = has_route && leg.path(participant).is_some_and(|path| path.as_ref().rests());
         let at = cx.robot(participant).reported.at;
         let there = at.is_some_and(|at| is_there(at, goal, cx.io.config.arrival_tolerance_m));
@@ -173,7 +174,7 @@ impl Driving {
         }
     }
 
-    /// Does what is due: hold and release, copies of START, light, uploads, the watch, and the end of the leg.
+    /// Does what is due: HOLD and RESUME, copies of START, light, uploads of routes, the watch, and the end of the leg.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if cx.playback.paused && self.clock.hold.is_none() {
             self.hold(cx, true);

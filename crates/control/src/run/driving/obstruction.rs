@@ -1,4 +1,5 @@
-//! An obstacle in a robot's path: all hold, robots nearby are asked for a report, and the obstacle is driven around.
+//! An obstacle in a robot's path: all robots hold (stop together), those nearby are asked for a report, and a new plan
+//! leads around the obstacle.
 
 use crate::event::Trouble;
 use crate::robot::KnownRobot;
@@ -15,26 +16,28 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Blocked, Command};
 
-/// Distance to an obstructed robot within which robots are asked for a report, metres: one of them may be dead in its
-/// path.
+/// Robots closer to an obstructed robot than this are asked for a report, metres: one of them may be dead in its path.
 const NEAR_M: f64 = 0.5;
-/// Time within which a robot that was asked has to answer, or it counts as silent; link times come on top.
+/// Time within which a robot that was asked has to answer, or it counts as silent; round trips of the link are added.
 const ANSWER: Span = Span::from_millis(800);
-/// Time without an answer after which all robots are asked, to know whether the link is lost; link times come on top.
+/// If a robot that was asked has not answered within this time, all robots are asked, to find out whether the link is
+/// lost. Round trips of the link are added.
 const DOUBT: Span = Span::from_millis(50);
-/// Time after which an obstacle that still obstructs a robot counts as permanent.
+/// An obstacle that still obstructs a robot after this time counts as permanent.
 const STAYS: Span = Span::from_millis(1_500);
-/// Time that is added so that a late or silent robot drops out first, because that robot may be the obstacle.
+/// Time added to the bound for late robots, while a late or silent robot may be the obstacle. That robot thereby drops
+/// out before a plan leads around it.
 const SUSPECT: Span = Span::from_millis(500);
-/// Largest number of new plans because of obstacles in one robot's path. After that the robot itself drops out.
+/// Largest number of new plans for one robot because of obstacles in its path. At the next obstacle the robot itself
+/// drops out.
 const REPLANS_MAX: u8 = 3;
 /// Most obstacles that are remembered; more would leave no path.
 const FOUND_MAX: usize = 32;
-/// Longest time for which a robot that brakes is late before it reports the obstacle.
+/// Longest time by which a braking robot becomes late before it reports the obstacle for which it brakes.
 const BRAKES: Span = Span::from_millis(150);
 
 impl RobotProgress {
-    /// Whether the robot fell behind its path without an obstacle.
+    /// Whether the robot is late (all wait for it) for another reason than an obstacle in its path.
     fn lags(&self) -> bool {
         let is_unobstructed = |late: Instant| {
             self.obstructed_since.is_none_or(|since| late + BRAKES < since)
@@ -45,7 +48,7 @@ impl RobotProgress {
 }
 
 impl Driving {
-    /// Handles a robot's report of an obstacle in its path, or of none. All hold for a new obstacle.
+    /// Handles a robot's report of an obstacle in its path, or of none. A new obstacle begins a hold of all robots.
     pub fn on_obstruction(&mut self, cx: &mut RunContext, participant: usize, blocked: Option<Blocked>) {
         let progress = &mut self.progress[participant];
         if blocked.is_none() {
@@ -80,7 +83,8 @@ impl Driving {
         }
     }
 
-    /// Watches a robot whose report is awaited, if any is. Returns its dropout if the report is overdue.
+    /// Watches a robot whose report is awaited because a robot near it is obstructed. Returns its dropout if the report
+    /// is overdue, and `None` otherwise.
     pub fn watch_probed(&mut self, cx: &mut RunContext, participant: usize) -> Option<Next> {
         let since = self.progress[participant].probed_since?;
         if cx.robot(participant).contact.heard > since {
@@ -96,9 +100,9 @@ impl Driving {
         None
     }
 
-    /// Watches a robot that is obstructed since `since`. If the obstacle stays and is a late robot, that robot drops
-    /// out. Otherwise all is planned again around the obstacle, or the obstructed robot drops out after too many
-    /// plans.
+    /// Watches a robot that reports an obstacle since `since`. If the obstacle stays and is a late robot, that late
+    /// robot drops out. Otherwise all is planned again around the obstacle. After too many of these plans the
+    /// obstructed robot drops out.
     pub fn watch_obstructed(&mut self, cx: &mut RunContext, participant: usize, since: Instant) -> Next {
         if cx.now - since > STAYS
             && let Some(culprit) = self.late_robot_seen_by(cx, participant)
@@ -127,8 +131,9 @@ impl Driving {
         Next::Regather
     }
 
-    /// The late robot that an obstructed one sees. It was late before it reported an obstacle itself, because a robot
-    /// that stands sees others come near. A robot that waits for its fixes does not count.
+    /// The late robot that the obstructed `participant` sees in its path. A robot that became late only after it
+    /// reported an obstacle does not count: a standing robot also reports others that come near. Robots that are late
+    /// because they are unsure of their places do not count either.
     fn late_robot_seen_by(&self, cx: &RunContext, participant: usize) -> Option<usize> {
         let there = seen_by(cx.robot(participant), cx.playback.contact_m())?;
         let is_there = |one: usize| cx.robot(one).reported.at.is_some_and(|at| at.distance(there) < SAME_M);
@@ -136,8 +141,8 @@ impl Driving {
         cx.roster.active().map(|(one, _)| one).find(|&one| is_late(one) && is_there(one))
     }
 
-    /// Narrows where silent robots may stand, by what other robots have seen since. A sighting that two silent robots
-    /// explain narrows neither.
+    /// Narrows the places where silent robots may stand to those where other robots have seen something. A sighting
+    /// near the possible places of two silent robots narrows neither.
     fn locate_silent(&self, cx: &mut RunContext) {
         let seen = self.sightings(cx, None);
         let robots = cx.io.fleet.robots();
@@ -152,7 +157,7 @@ impl Driving {
         }
     }
 
-    /// Where a participant that fell silent may stand, narrowed by what other robots see.
+    /// Where a participant that fell silent on the drive may stand, narrowed by what other robots see in their paths.
     pub fn whereabouts(&self, cx: &RunContext, participant: usize) -> Whereabouts {
         let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return Whereabouts::default() };
         let stop = StopTimes { began: cx.now, stood: cx.now };
@@ -168,8 +173,9 @@ impl Driving {
         places
     }
 
-    /// What obstructed robots see in their paths, without robots whose places are known. These include robots that take
-    /// no part and report their places, and leave out `silent`, a participant whose place is asked for.
+    /// What obstructed robots see in their paths, except robots whose places are known. The places are known of all
+    /// robots that report, also of those that take no part. The place of `silent`, a participant that fell silent, does
+    /// not count as known.
     fn sightings(&self, cx: &RunContext, silent: Option<usize>) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
         let is_placed = |robot: &&KnownRobot| match robot.participant.map(|participant| participant as usize)
@@ -194,7 +200,8 @@ impl Driving {
     }
 }
 
-/// Whether a participant dropped out and does not report where it is. Robots that share a name report all their places.
+/// Whether a participant dropped out and its place is unknown. Of robots that share a name, all places are known from
+/// their reports.
 fn is_silent(known: &Participant, robot: &KnownRobot) -> bool {
     known.is_unplaced() && !robot.namesakes.are_there()
 }

@@ -1,25 +1,27 @@
-//! Locates silent robots by what other robots see in their paths.
+//! Locates robots that fell silent, by what the proximity sensors of other robots see in their paths (sightings).
 
 use crate::robot::KnownRobot;
 use lightbots_base::{Vec2, wrap};
 
-/// Distance within which the place of a robot and a sighting, or two sightings, may be of one robot, metres.
+/// Two sightings may be of one robot if they are closer to each other than this, metres. The same holds for a sighting
+/// and the place of a robot.
 pub(crate) const SAME_M: f64 = 0.035;
-/// Places of a path that are closer to each other than this are neighbours on it, metres.
+/// Places that follow each other in a list are neighbours on one path if they are closer to each other than this,
+/// metres.
 const NEXT_M: f64 = 0.03;
-/// Number of parts into which the path between two neighbours is cut.
+/// Number of parts into which a path is cut between two neighbouring places.
 const PARTS: u32 = 8;
 
-/// Standard deviations for the place of a robot that others see, metres. Smaller ones make the estimate jump from
-/// sighting to sighting. Larger ones leave the robot where its path says, though it was pushed.
+/// Standard deviations for the place of a robot that others see, metres. With smaller ones the estimate jumps from
+/// sighting to sighting. With larger ones a robot that was pushed is still placed on its path.
 struct Sigma {
-    /// Of a sighting along the line of sight: 1 mm of the sensor, and the error of the robot's own place.
+    /// Of a sighting along the line of sight: 1 mm for the sensor, and the error of the place of the robot that sees.
     range_m: f64,
     /// Of a sighting across the line of sight: sensors are 45 degrees apart, at 55 mm.
     bearing_m: f64,
-    /// Of a dead robot beside its path.
+    /// Of the distance of a dead robot from its path, if only one robot sees it.
     path_m: f64,
-    /// Of a dead robot beside its path, if several robots see it: those that ran into it have pushed it.
+    /// Of the distance of a dead robot from its path, if several robots see it: those that ran into it have pushed it.
     pushed_m: f64,
 }
 
@@ -27,25 +29,27 @@ struct Sigma {
 const SIGMA: Sigma = Sigma { range_m: 0.002, bearing_m: 0.018, path_m: 0.002, pushed_m: 0.008 };
 
 /// Largest distance by which robots push a dead one off its path, metres: 40 mm were measured in a fleet of 200. A
-/// sighting farther off is of something else.
+/// sighting farther from the path is of something else.
 const PUSHED_M: f64 = 0.05;
-/// Largest difference in range at which a robot that reported its place explains a sighting, metres: 4 sigma.
+/// Largest difference, metres, between the range of a sighting and the distance to a robot with a known place. Up to
+/// this difference (4 sigma) the sighting may be of that robot.
 const KNOWN_RANGE_M: f64 = 0.008;
-/// Largest error in bearing at which a robot whose place is known explains a sighting, radians: the angle between two
-/// sensors. Above, what is seen of a silent robot is taken for a known one. Below, a silent robot is located where a
-/// known one stands, and driven through.
+/// Largest error in bearing at which a sighting may be of a robot with a known place, radians: the angle between two
+/// sensors. With a larger value, a silent robot that is seen is taken for a known one. With a smaller value, a silent
+/// robot is located where a known one stands, and plans lead through its real place.
 const KNOWN_BEARING: f64 = 0.8;
-/// Largest error in bearing of a sighting, radians: half the angle between two sensors.
+/// Largest error of a sighting's bearing, radians: half the angle between two sensors.
 const BEARING: f64 = 0.4;
-/// Distance between two places that are tried, metres.
+/// Distance between neighbouring places on the search grid, metres.
 const SEARCH_STEP_M: f64 = 0.001;
-/// Number of steps to each side of the mean of all sightings: farther than a sensor's bearing is off.
+/// Number of grid steps to each side of the mean of a group of sightings. This covers the error of a sensor's bearing.
 const SEARCH_STEPS: i32 = 25;
-/// Least gap that a sighting is taken to have, metres: the planner finds no path out of a contact.
+/// Least gap between two rims that a sighting is taken to have, metres. With less, the two robots would touch in the
+/// plan, and the planner finds no path out of a contact.
 const GAP_MIN_M: f64 = 0.0015;
 
-/// The centre of what a robot sees in its path, if that is a robot; stage metres. `None` if it reports no place or
-/// sees nothing.
+/// The centre of what a robot sees in its path, stage metres, if what it sees is a robot. `contact_m`: distance between
+/// the centres of two robots that touch. `None` if the robot reports no place or sees nothing.
 pub(crate) fn seen_by(robot: &KnownRobot, contact_m: f64) -> Option<Vec2> {
     let (at, blocked) = (robot.reported.at?, robot.reported.blocked?);
     Some(at + Vec2::unit(blocked.towards) * (contact_m + blocked.gap_m.max(GAP_MIN_M)))
@@ -61,26 +65,27 @@ pub(crate) struct Sighting {
 }
 
 impl Sighting {
-    /// The place in the direction of `towards` at the distance of the sighting.
+    /// The place at the range of the sighting, in the direction from the seeing robot to `towards`.
     fn at_range(&self, towards: Vec2) -> Vec2 {
         let direction = (towards - self.from).normalized();
         direction.map_or(self.there, |unit| self.from + unit * self.from.distance(self.there))
     }
 
-    /// Least distance between a place and what was seen, metres, if the bearing of the sighting is off by up to
-    /// `BEARING`.
+    /// Distance between `place` and what was seen, metres, after the bearing of the sighting is turned towards `place`
+    /// by at most `BEARING`.
     fn off_m(&self, place: Vec2) -> f64 {
         let (seen, there) = (self.there - self.from, place - self.from);
         let aside = wrap(there.angle() - seen.angle()).clamp(-BEARING, BEARING);
         (self.from + Vec2::unit(seen.angle() + aside) * seen.length()).distance(place)
     }
 
-    /// Whether a robot on the path through these places, or pushed off that path, explains the sighting.
+    /// Whether the sighting may be of a robot on the path through `places`, or pushed off that path by less than
+    /// `PUSHED_M`.
     pub fn is_near_any(&self, places: &[Vec2]) -> bool {
         samples(places).any(|place| self.off_m(place) < PUSHED_M)
     }
 
-    /// Whether a robot that stands at a place explains the sighting.
+    /// Whether the sighting may be of a robot that stands at `at`, within the errors of range and bearing.
     pub fn is_of(&self, at: Vec2) -> bool {
         let (seen, known) = (self.there - self.from, at - self.from);
         let aside = wrap(seen.angle() - known.angle()).abs();
@@ -88,9 +93,10 @@ impl Sighting {
     }
 }
 
-/// Where a robot that fell silent on its path stands: one place for each group of sightings near the path, of which
-/// `places` are samples. A robot that was run into stands beside its path, and a sensor measures range much better
-/// than bearing. If only one robot sees it far from the estimate, places up to the sighting itself are added.
+/// Where a robot that fell silent on its path stands, by sightings near the path. `places` are samples of the path.
+/// Sightings that are close together form a group, and each group gives one place. The place may lie beside the path,
+/// because other robots may have pushed the robot. If only one robot sees it, and not close to this place, two more
+/// places up to the sighting itself are added.
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     let path: Vec<Vec2> = samples(places).collect();
     let mut left: Vec<Sighting> = sightings.iter().filter(|seen| seen.is_near_any(places)).copied().collect();
@@ -111,8 +117,8 @@ fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     found
 }
 
-/// Replaces the places where a silent robot may stand by those where other robots see something near. If they see
-/// nothing there, the places stay.
+/// Replaces the places where a silent robot may stand by those where other robots see something near these places. If
+/// they see nothing there, `places` stays as it is.
 pub(crate) fn narrow(places: &mut Vec<Vec2>, sightings: &[Sighting]) {
     let seen = located(places, sightings);
     if !seen.is_empty() {
@@ -120,7 +126,8 @@ pub(crate) fn narrow(places: &mut Vec<Vec2>, sightings: &[Sighting]) {
     }
 }
 
-/// The most likely place by a group of sightings and a path: least squares on a grid of [`SEARCH_STEP_M`].
+/// The most likely place of a robot, given a group of sightings and its path: least squares on a grid with steps of
+/// [`SEARCH_STEP_M`].
 fn fused(path: &[Vec2], group: &[Sighting]) -> Vec2 {
     let middle = group.iter().fold(Vec2::ZERO, |sum, seen| sum + seen.there) / group.len() as f64;
     let path_error_m = if group.len() == 1 { SIGMA.path_m } else { SIGMA.pushed_m };
@@ -139,12 +146,12 @@ fn fused(path: &[Vec2], group: &[Sighting]) -> Vec2 {
     tried.min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(middle)
 }
 
-/// Samples of the path through these places: the places, and those between neighbours on the path.
+/// Samples of the path through these places: the places themselves, and more between neighbours on the path.
 fn samples(places: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
     places.iter().copied().chain(between(places))
 }
 
-/// Places between neighbours on a path, at equal parts.
+/// Places that cut the path between each two neighbours into [`PARTS`] equal parts.
 fn between(places: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
     let stretches = places.windows(2).filter(|pair| pair[0].distance(pair[1]) < NEXT_M);
     stretches

@@ -1,5 +1,7 @@
-//! TARGET-only robots on their straight drives: what their reports mean, and which of them need help. These robots
-//! understand the command TARGET but no routes.
+//! TARGET-only robots on their straight drives: what their reports mean, and which of these robots need help.
+//! TARGET-only robots understand the command TARGET but no routes.
+//!
+//! In this file, `place` is the index of a straight drive in the leg's list of drives.
 
 use crate::event::Trouble;
 use crate::run::driving::arrivals::{MISSED_M, is_there};
@@ -11,34 +13,35 @@ use crate::run::target_commands::{ASK, PASSED_ERROR_M, beyond, grant_farther, se
 use lightbots_base::{Span, Vec2};
 use lightbots_wire::Command;
 
-/// Least progress by which a robot counts as moving, metres; less may be noise of its fixes.
+/// Least progress by which a robot counts as moving, metres. Less may be noise of its position fixes.
 const MOVED_M: f64 = 0.005;
-/// Shortest time between requests to a TARGET-only robot for its place while others wait for it.
+/// Shortest time between requests to a TARGET-only robot for its place, while other robots wait for it to pass.
 const ASK_AWAITED: Span = Span::from_millis(90);
-/// Time between these requests for each robot of the run, because the answers share one link. In fleets of fewer than
-/// 90 robots it is [`ASK_AWAITED`]; in fleets of more than 500 it stays [`ASK`], as for robots that nothing waits for.
+/// Time that each robot of the run adds between these requests, because the answers share one link. In fleets of fewer
+/// than 90 robots the time is [`ASK_AWAITED`]. In fleets of more than 500 it is [`ASK`], as for robots for which no
+/// other waits.
 const ASK_PER_ROBOT: Span = Span::from_millis(1);
-/// Distance from its goal beyond which a robot that arrived is sent its target again, metres. It stopped at an
-/// earlier target, or farther before its target than known. The planner leaves room for a little more than this.
+/// A robot that reports its arrival farther from its goal than this is sent its target again, metres. It stopped at an
+/// earlier target, or farther before its target than usual. The planner leaves room for a little more than this.
 const OFF_M: f64 = 0.015;
 /// How often at most a robot is sent its target again because it stands beside its goal.
 const CORRECTIONS: u8 = 2;
 
-/// Bounds for a robot that stands although it may go on.
+/// How long a robot may stand although it may drive on, and what then happens.
 struct Standstill {
-    /// At its goal without a report of arrival: the target is sent again, because the arrival or the target was lost.
+    /// At its goal without a report of arrival: the target is sent again, because the target or the report may be lost.
     told_again_after: Span,
-    /// Beside its goal, though it reported its arrival: the robot counts as arrived.
+    /// Beside its goal after a report of arrival: the robot counts as arrived.
     accepted_after: Span,
     /// At its goal without a report of arrival: the robot counts as arrived.
     believed_after: Span,
     /// Elsewhere: an event names the robot.
     named_after: Span,
-    /// Elsewhere: the robot drops out after this many times the bound for late robots.
+    /// Elsewhere: the robot drops out after this many times `Config::late.wait`, the bound for late robots.
     dropped_after_bounds: i64,
 }
 
-/// Shorter times repeat targets to robots that are only slow; longer ones keep all waiting.
+/// Shorter times repeat targets to robots that are only slow; longer ones keep all robots waiting.
 const STANDSTILL: Standstill = Standstill {
     told_again_after: Span::from_millis(250),
     accepted_after: Span::from_millis(1_000),
@@ -47,13 +50,13 @@ const STANDSTILL: Standstill = Standstill {
     dropped_after_bounds: 2,
 };
 
-/// A TARGET-only robot drops out when it is silent for this many times the bound for other robots. It reports only
-/// when asked: a question and its answer must both be delivered.
+/// A TARGET-only robot drops out after a silence of this many times the bound for other robots. It reports only when
+/// asked, so both a question and its answer must be delivered.
 const SILENCE_BOUNDS: i64 = 4;
 
 impl Driving {
-    /// Handles a report of a TARGET-only robot with its place. `arrived`: the robot reports that it has reached its
-    /// target.
+    /// Handles a report of a TARGET-only robot with its place `at`, stage metres. `arrived`: the robot reports that it
+    /// has reached its target.
     pub fn on_target_report(
         &mut self,
         cx: &mut RunContext,
@@ -84,8 +87,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// Handles the place of a robot that was sent to its goal. Returns whether its straight drive is over, and what
-    /// comes next.
+    /// Handles the reported place `at` of a robot that may drive to the end of the straight drive `place`. Returns
+    /// whether the straight drive is over, and the [`Next`] that its end leads to.
     fn settle_target(&mut self, cx: &mut RunContext, place: usize, at: Vec2, arrived: bool) -> (bool, Next) {
         let Some(DrivenLeg { leg, targets }) = &cx.pipeline.driven else { return (false, Next::Stay) };
         let (drive, state) = (leg.drives[place].clone(), targets.states[place]);
@@ -116,7 +119,7 @@ impl Driving {
         send_target(cx, place);
     }
 
-    /// Sends robots that yield to a straight drive farther, if they may go by now.
+    /// Lets robots that yield to the straight drive `place` go farther, if this is safe by now.
     fn let_follow(&self, cx: &mut RunContext, place: usize) {
         let follower = |cx: &RunContext, number: usize| {
             let driven = cx.pipeline.driven.as_ref()?;
@@ -129,8 +132,8 @@ impl Driving {
         }
     }
 
-    /// Ends a straight drive. The robot begins its next one, or has arrived. `off_m`: how far from its end it stands,
-    /// metres, if that is too far.
+    /// Ends a straight drive. The robot begins its next one; after the last one it counts as arrived. `off_m`: how far
+    /// from the end of the drive it stands, metres, if that is too far.
     fn end_straight_drive(&mut self, cx: &mut RunContext, place: usize, off_m: Option<f64>) -> Next {
         let Some(DrivenLeg { leg, targets }) = &mut cx.pipeline.driven else { return Next::Stay };
         let participant = leg.drives[place].robot;
@@ -148,7 +151,7 @@ impl Driving {
         }
     }
 
-    /// Watches a TARGET-only robot that is on its way or waits for others to pass.
+    /// Watches a TARGET-only robot that is on its way, or waits for others to pass.
     pub fn watch_target_robot(&mut self, cx: &mut RunContext, participant: usize) -> Next {
         let silent = cx.now - cx.robot(participant).contact.heard.max(self.clock.began);
         if silent > cx.io.config.silence * SILENCE_BOUNDS {
@@ -165,14 +168,15 @@ impl Driving {
         Next::Stay
     }
 
-    /// The straight drive on which a participant has made no progress for longer than `bound`, while nothing is held.
+    /// The index of the straight drive on which a participant has made no progress for longer than `bound`. `None` if
+    /// it makes progress or all are held.
     fn standing_drive(&self, cx: &RunContext, participant: usize, bound: Span) -> Option<usize> {
         let DrivenLeg { leg, targets } = cx.pipeline.driven.as_ref()?;
         let place = targets.under_way(participant).filter(|_| !self.clock.is_held())?;
         targets.stands(place, &leg.drives[place], cx.now, bound).then_some(place)
     }
 
-    /// Records an event, once, that names a robot that makes no progress or is silent.
+    /// Records an event that names a robot when it stops making progress or falls silent; once each time.
     fn name_stalled(&self, cx: &mut RunContext, participant: usize, silent: Span) {
         let unheard = silent > cx.io.config.silence + cx.link.round_trip;
         let is_stalled = unheard || self.standing_drive(cx, participant, STANDSTILL.named_after).is_some();
@@ -184,7 +188,8 @@ impl Driving {
         }
     }
 
-    /// Asks a robot where it is, and sends its target again if it makes no progress.
+    /// Asks a robot where it is, and sends its target again if it makes no progress. Does nothing if it was asked a
+    /// short time ago.
     fn ask_target_robot(&mut self, cx: &mut RunContext, participant: usize) {
         let Some(DrivenLeg { targets, .. }) = &cx.pipeline.driven else { return };
         let place = targets.under_way(participant);
@@ -198,7 +203,7 @@ impl Driving {
             let state = &targets.states[*place];
             !self.clock.is_held() && cx.now - state.sent_at.max(state.moved_at) >= ASK
         };
-        // The target itself may have been lost. To repeat it changes nothing else.
+        // The target itself may have been lost. Sending it again changes nothing if it was not.
         if let Some(place) = place.filter(is_due) {
             send_target(cx, place);
         }
@@ -206,7 +211,7 @@ impl Driving {
     }
 }
 
-/// Time between requests to a robot that others wait for, in a run of `robots`.
+/// Time between requests to a robot for which other robots wait, in a run of `robots` robots.
 fn ask_awaited_every(robots: usize) -> Span {
     (ASK_PER_ROBOT * robots as i64).clamp(ASK_AWAITED, ASK)
 }

@@ -1,4 +1,4 @@
-//! The watch over a drive: robots that are silent, late or overdue, and whether robots keep a hold.
+//! The watch over a drive finds robots that are silent, late or overdue, and checks that robots stand in a hold.
 
 use crate::event::Trouble;
 use crate::leg::LegKind;
@@ -11,41 +11,45 @@ use crate::run::silence::LINK_LOSS;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, RobotState, Route};
 
-/// Number of robots that are watched in one turn, to which an eighth of the fleet is added. A silent robot is asked
-/// each turn. With one message in ten lost, asking four times let live robots drop out in one of ten runs of 200.
+/// A turn of the watch covers this many participants plus an eighth of all. A silent robot is asked for a report in
+/// each turn that covers it. With one message in ten lost and only four questions to a silent robot, live robots
+/// dropped out in one of ten runs.
 const SLICE: usize = 512;
 
-/// Bounds on the silence of a driving robot; link times come on top.
+/// Bounds on the silence of a driving robot; round trips of the link are added.
 struct Silence {
-    /// Silence after which the robot is asked for a report: it missed one that is due every 500 ms (R41).
+    /// Silence after which the robot is asked for a report: it missed the report that is due every 500 ms (R41).
     asked_after: Span,
-    /// Silence after which all wait for the robot.
+    /// Silence after which all robots hold and wait for the silent one.
     held_after: Span,
 }
 
-/// An earlier hold would stop the fleet for two lost reports; a later one lets it run into a dead robot.
+/// With an earlier hold, two lost reports stop the fleet; with a later one, the fleet runs into a dead robot.
 const SILENCE: Silence = Silence { asked_after: Span::from_millis(560), held_after: Span::from_millis(800) };
 
 const _: () = assert!(SILENCE.asked_after.0 + ASKED_EVERY.0 < SILENCE.held_after.0);
 
-/// Time after the planned end, or after a robot was last on its route, at which its place decides: it arrived or
-/// drops out.
+/// Time after the planned end of the drive, or after the robot was last on its route if that is later. When it is over,
+/// the robot's place decides whether it counts as arrived or drops out.
 const OVERDUE: Span = Span::from_millis(3_000);
-/// Longest time that the fleet waits after the planned end for a robot that drives on its route. The robot may be in
-/// a world that is slower than the plan: a simulation on a busy machine. Without a bound, a robot that reports
+/// Longest time after the planned end for which the fleet waits for a robot that still drives on its route. The robot
+/// may be in a simulated world that runs slower than the plan, on a busy machine. Without a bound, a robot that reports
 /// nonsense would stop the show for good.
 const SLOW: Span = Span::from_millis(60_000);
-/// A robot is still on its way if it is farther from its goal than off its route by more than this, metres.
+/// A robot is still on its way if its distance to the goal is larger, by more than this, than its distance off the
+/// route; metres.
 const END_M: f64 = 0.01;
-/// Least approach to its goal that counts as progress, metres: more than the error of its fixes.
+/// Least decrease of the distance to its goal that counts as a robot's progress, metres: more than the error of its
+/// position fixes.
 const NEARER_M: f64 = 0.005;
-/// Time after robots should stand in a hold. If some still drive then, all are stopped.
+/// Time that begins when robots should stand in a hold. If some still drive when it is over, all robots are stopped and
+/// planned again.
 const HOLD_BOUND: Span = Span::from_millis(1_200);
-/// Time until a hold that all keep is checked again.
+/// Time until the next check of a hold in which all robots stand.
 const HOLD_CHECK_EVERY: Span = Span::from_millis(1_000);
 
 impl Driving {
-    /// Watches the next slice of participants, and the hold.
+    /// Watches the next slice of participants, and checks the hold.
     pub fn watch(&mut self, cx: &mut RunContext) -> Next {
         if cx.now < self.watch_at {
             return Next::Stay;
@@ -76,8 +80,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// Watches a robot that follows a path. `is_held` and `ends` are those at the beginning of the turn, so that a
-    /// hold that begins in this turn does not count yet.
+    /// Watches a robot that follows a path. `is_held` and `ends` were read when this turn of the watch began. A hold
+    /// that begins during the turn therefore does not count yet.
     fn watch_path_robot(
         &mut self,
         cx: &mut RunContext,
@@ -116,8 +120,8 @@ impl Driving {
         Next::Stay
     }
 
-    /// Watches a driving robot that has been silent for the time `silent`. After a short silence all wait for it. After a
-    /// longer one it drops out, once all stand. `None` if neither happens in this turn.
+    /// Watches a driving robot that has been silent for the time `silent`. After a short silence all hold and wait for
+    /// it. After a longer one, and once all stand, it drops out. `None` if neither happens in this turn.
     fn watch_silent(&mut self, cx: &mut RunContext, participant: usize, silent: Span) -> Option<Next> {
         let bound = cx.io.config.silence + cx.link.round_trip * 2;
         if silent > bound && self.all_stand(cx, silent) {
@@ -131,15 +135,17 @@ impl Driving {
         Some(Next::Stay)
     }
 
-    /// Whether all robots that drove stand, or the robot is silent for long enough that it must stand too. If all
-    /// were stopped earlier, they would not stop together with a robot that does not receive STOP.
+    /// Whether a silent robot may drop out, because all robots stand or it has been silent for long enough to have
+    /// stopped by itself. A dropout stops all robots at once. The silent robot, which may not receive STOP, would
+    /// otherwise drive on among them.
     fn all_stand(&self, cx: &RunContext, silent: Span) -> bool {
         let bound = LINK_LOSS.stands_after() + Route::EASE + cx.link.hold_lead() * 2;
         let stand_at = self.clock.rests_from().unwrap_or(self.clock.ends);
         silent > bound || cx.now >= stand_at
     }
 
-    /// When a robot last reported that it came nearer to its goal. All wait for it as long as it does.
+    /// When a robot last reported a place that is nearer to its goal by at least `NEARER_M`. All wait for a robot while
+    /// it makes progress.
     fn last_progress(&mut self, cx: &RunContext, participant: usize) -> Instant {
         let nearest = &mut self.progress[participant].nearest;
         if let (Some(at), Some(goal)) = (cx.robot(participant).reported.at, cx.goal(participant))
@@ -150,8 +156,8 @@ impl Driving {
         nearest.1
     }
 
-    /// Ends the drive of a robot that should have arrived long ago. It drops out if it may move or is far from its
-    /// goal, and otherwise counts as arrived.
+    /// Ends the drive of a robot that should have arrived long ago. It drops out if it may still move or is far from
+    /// its goal. Otherwise it counts as arrived.
     fn settle_overdue(&mut self, cx: &mut RunContext, participant: usize) -> Next {
         let robot = cx.robot(participant);
         let goal = cx.goal(participant).unwrap_or_default();
@@ -162,8 +168,8 @@ impl Driving {
         self.accept_misaligned(cx, participant, off_m)
     }
 
-    /// Checks whether all robots that were told to hold stand. Those that drive are sent HOLD individually; later all
-    /// are stopped.
+    /// Checks during a hold whether all robots stand. Robots that still drive are sent HOLD individually. If some drive
+    /// after `HOLD_BOUND`, all robots are stopped and planned again.
     fn check_hold(&mut self, cx: &mut RunContext) -> Next {
         let Some(hold) = self.clock.open_hold().copied().filter(|hold| cx.now >= hold.check_at) else {
             return Next::Stay;
@@ -190,8 +196,8 @@ impl Driving {
     }
 }
 
-/// Whether a robot that drives reports to be on its route and not near its end. It is then closer to its planned
-/// place than to its goal.
+/// Whether a robot drives close to its route and is not near the end of the route, by its report. Near the end, its
+/// distance off the route and its distance to the goal are about equal.
 fn is_on_its_way(cx: &RunContext, participant: usize) -> bool {
     let robot = cx.robot(participant);
     let (Some(at), Some(goal), Some(off_m)) = (robot.reported.at, cx.goal(participant), robot.reported.off_m)

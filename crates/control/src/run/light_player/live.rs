@@ -8,12 +8,12 @@ use crate::run::roster::Roster;
 use lightbots_base::{Instant, Span};
 use lightbots_lighting::LiveLayers;
 
-/// Most layers of live light at once.
+/// Largest number of layers of live light at once.
 pub(crate) const LIVE_MAX: usize = 8;
-/// Most characters in the name of a layer of live light.
+/// Largest number of characters in the name of a layer of live light.
 pub(crate) const NAME_MAX: usize = 64;
-/// Least time between two changes of live light that are sent to robots. Quick taps on the pads then do not fill the
-/// link.
+/// Least time between two changes of live light that are sent to robots. Quick taps on the operator's pads then do not
+/// fill the link.
 const CHANGE_EVERY: Span = Span::from_millis(100);
 
 impl LightPlayer {
@@ -22,8 +22,8 @@ impl LightPlayer {
         &self.live
     }
 
-    /// Replaces the live light over the show; robots follow within 0.3 s. `leg` is the leg that is driven or was
-    /// driven last.
+    /// Replaces the live light over the show; robots follow within 0.3 s. `leg` is the drive that robots are on, or
+    /// were on last.
     pub fn set_live(
         &mut self,
         context: &mut Context,
@@ -42,12 +42,11 @@ impl LightPlayer {
             self.colours_at = now;
             self.set_lights(context, roster, leg);
         }
-        // A change that is still to be sent includes this one.
+        // If an earlier change has yet to be sent, one message sends both.
         self.renew_at = self.renew_at.min(now.max(self.renewed_at + CHANGE_EVERY));
     }
 
-    /// Ends live light with the show: robots blend to the light of their frame. Does nothing if there is no live
-    /// light.
+    /// Ends live light with the show: robots blend to the light of their frame. Does nothing without live light.
     pub fn end_live(&mut self, context: &mut Context, roster: &Roster, now: Instant, leg: &Leg) {
         if self.live.is_empty() {
             return;

@@ -1,9 +1,12 @@
 //! Light over time. A stretch is up to 10 s of a robot's colours, sent ahead. Robots that do not understand stretches
-//! get COLORs.
+//! are sent single colours (the command COLOR).
 //!
-//! Runs of shows without layers do not use it until live light is put over them; their lights are in `lights`.
-//! `sending` sends what is due, `placing` says where a leg is on the timeline, and `live` has the layers of live
-//! light.
+//! Shows without layers of light use this only once live light (layers that the operator adds) is put over them; before
+//! that, `lights` changes their colours. `sending` sends what is due, `placing` says where a leg is on the timeline,
+//! and `live` has the layers of live light.
+//!
+//! A leg is the drive of all robots between two moments at which all stand. Robots stop in a hold, and light stands
+//! still with them unless a layer runs freely.
 
 mod live;
 mod placing;
@@ -24,28 +27,28 @@ use lightbots_lighting::{FrameTimes, LiveLayers, ShowLight, numbers};
 use lightbots_wire::Command;
 use std::sync::Arc;
 
-/// Longest duration of a stretch. If it is shorter, more messages are needed. If it is longer, more is sent in vain
-/// when plans change.
+/// Longest duration of a stretch. With a shorter one, more messages are needed. With a longer one, more light is sent
+/// in vain when plans change.
 const STRETCH: Span = Span::from_millis(10_000);
 /// How long lights blend to the new colours where show time jumps: after GO, in a new round, after a new plan.
 const BLEND: Span = Span::from_millis(500);
-/// How long robots take to adopt a change of live light: the message and the blend.
+/// How long it takes robots to show a change of live light: the time of the message and of the blend.
 const CHANGE: Span = Span::from_millis(250);
-/// Largest distance from the music at which freely running layers are left alone, seconds. People notice a difference
-/// of twice that.
+/// Layers that run freely are moved to the music if they are farther from it than this, seconds. People notice twice
+/// this difference.
 const NEAR_MUSIC_S: f64 = 0.03;
-/// Most stretches that are computed at once: each takes 0.3 ms, and reports wait meanwhile.
+/// Largest number of stretches that are computed at once. Each takes 0.3 ms, and reports of robots wait meanwhile.
 pub(crate) const AT_ONCE: usize = 16;
-/// Time until the next `AT_ONCE` stretches are computed.
+/// Pause until the next `AT_ONCE` stretches are computed.
 pub(crate) const AGAIN_AFTER: Span = Span::from_millis(5);
 
 /// The light of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LightPlayer {
     show: ShowLight,
-    /// Show times of the frames of this round.
+    /// Show times of the frames of the present round of the show.
     pub times: ShowTimes,
-    /// `[participant]`: the number of its robot in effects, the same over the whole run.
+    /// `[participant]`: the number by which effects know its robot. It stays the same over the whole run.
     numbers: Arc<[u32]>,
     /// Light of the leg that is driven or was driven last.
     current: Option<LegLight>,
@@ -53,31 +56,33 @@ pub(crate) struct LightPlayer {
     next: Option<LegLight>,
     /// The stretch that is being uploaded, and its deliveries.
     upload: Option<(PlannedStretch, Upload)>,
-    /// End of the newest stretch that stands still in holds, as time since the drive began.
+    /// Up to when robots have light that stands still in holds, as time since the drive began, without holds.
     covered: Span,
-    /// Until when robots have light that runs through holds, show clock. `Instant::FAR`: they have one colour for the
-    /// present hold. `None`: their light stands still in holds.
+    /// Up to which show-clock moment robots have light that goes on during holds. [`Instant::FAR`]: they have one
+    /// colour until the present hold ends. `None`: their light stands still in holds.
     free_until: Option<Instant>,
-    /// The hold that the newest stretch takes into account: when it began, and its end if that was known.
+    /// The hold that the newest stretch takes into account: when it began, and when it ends if that was known. `None`
+    /// without a hold.
     known_hold: Option<(Instant, Option<Instant>)>,
-    /// When stretches that were put off are sent.
+    /// When stretches are sent that were put off because `AT_ONCE` were computed.
     again_at: Instant,
-    /// When COLORs are sent next.
+    /// When colours are next sent to robots that do not understand stretches.
     colours_at: Instant,
-    /// Layers that the operator put over the show.
+    /// Layers of light that the operator put over the show.
     live: LiveLayers,
     /// Whether live light was used in this run. From then on stretches are sent even if the show has no layers.
     was_live: bool,
-    /// When all robots get a new stretch, because live light changed or their leg began without one.
+    /// When all robots get a new stretch, because live light changed or their drive began without one; [`Instant::FAR`]
+    /// if never.
     renew_at: Instant,
-    /// When robots last began to get a stretch because live light changed or their leg began without one.
+    /// When all robots last began to get a new stretch for either of these reasons; [`Instant::ZERO`] if never.
     renewed_at: Instant,
-    /// How long before the end of the newest stretch the next one is sent.
+    /// How long before the end of the newest stretch the next one begins to be sent.
     refill: Span,
 }
 
 impl LightPlayer {
-    /// The light of a run. Previews, the way home and preflights have no layers.
+    /// The light of a run. Previews, the way home and preflights have no layers of light.
     pub fn new(playback: &PlayedShow) -> Self {
         let show = match playback.purpose {
             RunPurpose::Play => ShowLight::new(&playback.show).0,
@@ -86,13 +91,13 @@ impl LightPlayer {
         Self { show, again_at: Instant::FAR, renew_at: Instant::FAR, ..Self::default() }
     }
 
-    /// Whether stretches are sent: the show has layers, or live light was put over it.
+    /// Whether stretches are sent, because the show has layers of light or live light was put over it.
     pub fn is_active(&self) -> bool {
         !self.show.is_empty() || self.was_live
     }
 
     /// The first stretch of the next leg for a participant, which is sent along with its route. `None` if the robot
-    /// does not understand stretches, if none are used, or if there is live light.
+    /// does not understand stretches, if no stretches are used, or during live light.
     pub fn first_stretch(
         &mut self,
         context: &mut Context,
@@ -100,7 +105,7 @@ impl LightPlayer {
         (leg, after): (&Leg, Option<&Leg>),
         (now, participant): (Instant, usize),
     ) -> Option<Command> {
-        // Live light counts by the show clock, and it is not known yet when the drive begins.
+        // Live light runs by the show clock, and it is not known yet when the drive begins.
         let may_be_sent = self.is_active() && self.live.is_empty();
         if !may_be_sent || !roster.robot(context, participant).reported.abilities.light {
             return None;
@@ -111,7 +116,7 @@ impl LightPlayer {
         Some(light.command(&context.config, &self.show, &robot, &light.first, now))
     }
 
-    /// Computes the light of the next leg, unless that is done already.
+    /// Computes the light of the next leg, unless it is known already.
     fn prepare(&mut self, context: &mut Context, playback: &PlayedShow, roster: &Roster, leg: &Leg) {
         if self.next.as_ref().is_some_and(|next| next.seq == leg.seq) {
             return;
@@ -164,7 +169,7 @@ impl LightPlayer {
         self.next = Some(light);
     }
 
-    /// Numbers the robots at the first leg, and later those that joined since.
+    /// Numbers all robots for effects at the first leg, and later those that have joined since.
     fn number_robots(&mut self, leg: &Leg) {
         if self.numbers.is_empty() {
             self.numbers = numbers(leg.robots.iter().map(|step| step.pixel)).into();
@@ -178,8 +183,8 @@ impl LightPlayer {
         }
     }
 
-    /// Makes the light of a leg the current one, because its drive has begun. Also needed while no stretches are
-    /// sent, because live light may be put over the show later.
+    /// Makes the light of a leg the current light, because its drive has begun. Also done while no stretches are sent,
+    /// because live light may be put over the show later.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -203,7 +208,7 @@ impl LightPlayer {
         }
     }
 
-    /// Notes in the fleet that robots with stretches will end with the colours of the leg.
+    /// Notes in the fleet table that robots that understand stretches will end with the colours of the leg.
     fn set_lights(&self, context: &mut Context, roster: &Roster, leg: &Leg) {
         for (participant, step) in leg.robots.iter().enumerate().take(roster.len()) {
             if roster.robot(context, participant).reported.abilities.light {
@@ -217,7 +222,7 @@ impl LightPlayer {
         self.current.as_ref()
     }
 
-    /// Notes how much of the leg has passed at `now`. Needed also while no stretches are sent.
+    /// Notes how much time of the current leg has passed at `now`. Also needed while no stretches are sent.
     pub fn look(&mut self, now: Instant) {
         let Some(current) = &mut self.current else { return };
         if let Some(elapsed) = current.elapsed(now) {
@@ -225,15 +230,15 @@ impl LightPlayer {
         }
     }
 
-    /// Replaces the clock of the current drive.
+    /// Replaces the time base of the current drive, because holds have changed it.
     pub fn see(&mut self, clock: PathClock) {
         if let Some(current) = &mut self.current {
             current.clock = Some(clock);
         }
     }
 
-    /// Moves freely running layers to the music if they are off, and lets robots get a new stretch. `music_s` is
-    /// where the music is on the timeline, seconds.
+    /// If layers that run freely are off the music by more than `NEAR_MUSIC_S`, moves them to it, and all robots get a
+    /// new stretch. `music_s` is where the music is on the timeline, seconds.
     pub fn keep_to_music(&mut self, now: Instant, music_s: f64) {
         let is_free = |current: &&mut LegLight| current.layers.runs_freely && current.elapsed(now).is_some();
         let Some(current) = self.current.as_mut().filter(is_free) else { return };
@@ -245,15 +250,15 @@ impl LightPlayer {
         }
     }
 
-    /// Stops show time until the next drive, because robots stop and all is planned again. Does nothing if the
-    /// present drive was over.
+    /// Stops show time until the next drive, because robots are stopped and all is planned again. Does nothing once the
+    /// drive of the current leg is over.
     pub fn halt(&mut self) {
         if let Some(current) = self.current.as_mut().filter(|current| current.seen < current.times.drive) {
             (current.clock, self.upload) = (None, None);
         }
     }
 
-    /// Takes in a report, which names the stretch that its robot received last.
+    /// Takes in a report, which names (and so acknowledges) the stretch that its robot received last.
     pub fn acknowledge(&mut self, now: Instant, participant: usize, number: u32) {
         let Some((stretch, upload)) = &mut self.upload else { return };
         if stretch.number == number && upload.acknowledge(now, participant) && upload.has_unserved() {
@@ -267,7 +272,7 @@ impl LightPlayer {
         self.renew_at < Instant::FAR || is_under_way
     }
 
-    /// Whether lights still blend to the colours of a new drive or of live light. Also `true` before the drive
+    /// Whether lights still blend to the colours of a new drive or of changed live light. Also `true` before the drive
     /// begins; `false` if no stretches are used.
     pub fn blends(&self, now: Instant) -> bool {
         let Some(current) = self.current.as_ref().filter(|_| self.is_active()) else { return false };
@@ -287,7 +292,8 @@ impl LightPlayer {
         Some(robot.colour(&current.layers, self.show.pictures(), moment))
     }
 
-    /// `[participant]`: the colour that the robot shows before a leg, and whether layers shine on it then.
+    /// `[participant]`: the colour that its robot shows before a leg, and whether layers of light shine on the robot
+    /// then.
     fn before(&self, context: &Context, roster: &Roster, leg: &Leg) -> Vec<(Rgb, bool)> {
         let shown = |participant: usize| {
             let known = self.current.as_ref().map(|current| &current.after);

@@ -1,4 +1,6 @@
-//! Where a leg is in show time, and when its frame is due on the timeline that the music keeps to.
+//! Where a leg is in show time, and when its frame is due by the timeline that the music keeps to.
+//!
+//! A leg is the drive of all robots between two moments at which all stand.
 
 use crate::leg::Leg;
 use crate::run::light_leg::LegLight;
@@ -9,20 +11,20 @@ use lightbots_base::Span;
 /// Where a leg is on the timeline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LegPlace {
-    /// Show time at the beginning of the drive, seconds.
+    /// Show time when the drive begins, seconds.
     pub show_s: f64,
-    /// Show time at which robots are to reach the frame by the timeline, seconds.
+    /// Show time at which robots are to reach the frame by the timeline, seconds. Late robots reach it later.
     pub due_s: f64,
     /// Whether the leg leads to the same frame as the leg before it.
     pub is_same_frame: bool,
-    /// Whether the operator chose the frame, or a loop goes back to it.
+    /// Whether the operator chose the frame of the leg, or a loop of frames goes back to it.
     pub is_chosen: bool,
-    /// Whether the music jumps there too.
+    /// Whether the music jumps to the leg too.
     pub leads_music: bool,
 }
 
-/// Finds where the leg after `current` is. If a drive is planned anew, show time goes on and the frame stays due when
-/// it was before, because robots are then late.
+/// Finds where the leg after `current` is on the timeline. If `current` leads to the same frame, the drive to it is
+/// planned anew and robots are late. Show time then goes on, and the frame stays due when it was before.
 pub(super) fn place(
     times: &mut ShowTimes,
     current: Option<&LegLight>,

@@ -1,4 +1,5 @@
-//! Sends what is due: stretches within a window until they are acknowledged, and COLORs.
+//! Sends light that is due. Stretches (seconds of a robot's colours) are sent until they are acknowledged; other robots
+//! get single colours (the command COLOR).
 
 use super::{AGAIN_AFTER, AT_ONCE, BLEND, LightPlayer, STRETCH};
 use crate::context::Context;
@@ -11,22 +12,22 @@ use lightbots_base::{Instant, Span, TICK};
 use lightbots_lighting::is_seen_apart;
 use lightbots_wire::Command;
 
-/// How long before its beginning a stretch that runs through holds is sent: a round trip.
+/// How long before its beginning a stretch that goes on during holds is sent: time for a round trip.
 const LEAD: Span = Span::from_millis(100);
-/// How long after the beginning of a drive the second stretch is sent. A robot whose clock is a little behind has not
-/// begun the drive yet, and drops a waiting stretch when it does (R56).
+/// For how long after a drive began the second stretch is not sent. A robot whose clock is a little behind has not
+/// begun the drive yet. It drops a waiting stretch when it begins (R56).
 const BEGUN: Span = Span::from_millis(100);
 
-/// Parameters of a change of live light, which reaches robots within 0.3 s.
+/// Parameters of a change of live light, which robots show within 0.3 s.
 struct LiveChange {
-    /// Duration of the blend. A shorter one looks like a fault, a longer one like a slow button.
+    /// Duration of the blend to the new colours. A shorter one looks like a fault, a longer one like a slow button.
     blend: Span,
-    /// How long before its beginning the change is sent.
+    /// How long before the beginning of the blend the change is sent.
     lead: Span,
-    /// Duration of the first stretch, and what each robot adds to it, so that the next stretch reaches all in time.
-    /// Short stretches are computed sooner.
+    /// Duration of the first stretch after a change, and the time that each robot adds to it. The next stretch then
+    /// reaches all robots in time. A short first stretch is computed sooner.
     first: (Span, Span),
-    /// Largest factor on `AT_ONCE` for short stretches: each takes 0.06 ms to compute.
+    /// `AT_ONCE` is multiplied by at most this for short stretches, because each takes only 0.06 ms to compute.
     at_once: usize,
 }
 
@@ -44,19 +45,19 @@ impl LiveChange {
     }
 }
 
-/// Rate of COLORs for robots that do not understand stretches.
+/// Rate at which colours are sent to robots that do not understand stretches.
 struct Colours {
-    /// Least time between two COLORs to one robot.
+    /// Least time between two colours for one robot.
     every: Span,
-    /// Most COLORs a second for the whole fleet.
+    /// Largest number of colours a second for the whole fleet.
     rate: i64,
 }
 
-/// Four COLORs a second to one robot look like steps of a fade; 200 a second in all leave the broker free for routes.
+/// Four colours a second look like the steps of a fade. 200 a second in all leave the broker free for routes.
 const COLOURS: Colours = Colours { every: Span::from_millis(250), rate: 200 };
 
 impl LightPlayer {
-    /// Sends what is due while a leg is driven or robots stand in its frame. `legs`: that leg, and the one after it.
+    /// Sends light that is due while robots drive a leg or stand in its frame. `legs`: this leg, and the one after it.
     pub fn pump(&mut self, context: &mut Context, roster: &Roster, now: Instant, legs: (&Leg, Option<&Leg>)) {
         let Some(elapsed) = self.current.as_ref().and_then(|current| current.elapsed(now)) else { return };
         if let Some(clock) = self.current.as_mut().and_then(|current| current.clock.as_mut()) {
@@ -70,7 +71,7 @@ impl LightPlayer {
         }
     }
 
-    /// Begins to upload the next stretch, if it is time.
+    /// Begins to upload the next stretch, if it is due.
     fn begin_stretch(&mut self, context: &mut Context, now: Instant, elapsed: Span, leg: &Leg) {
         let Some(current) = &self.current else { return };
         let Some(clock) = current.clock else { return };
@@ -83,7 +84,7 @@ impl LightPlayer {
         let Some((from, free_at)) = begins else { return };
         let rests_at = clock.rests_from().unwrap_or(now);
         let (longest, over) = match (renews, free_at) {
-            // Once all robots stand, nothing changes until the hold is over.
+            // Once all robots stand in the hold, the light does not change until the hold is over.
             (true, Some(at)) if !is_free => ((rests_at - at).max(Span::ZERO) + TICK, LIVE.blend),
             (true, _) => (LIVE.first(leg.robots.len()), LIVE.blend),
             (false, _) => (STRETCH, Span::ZERO),
@@ -91,7 +92,7 @@ impl LightPlayer {
         let number = context.number_route();
         let stretch = match current.stretch(number, from, longest, over) {
             Some(stretch) => PlannedStretch { free_at, ..stretch },
-            // Show time of the leg is over: the light stays as it is at the end.
+            // Show time of the leg is over, so the light stays as it is at the end.
             None if renews => PlannedStretch { number, from, ticks: 1, over, free_at },
             None => return,
         };
@@ -108,13 +109,12 @@ impl LightPlayer {
         self.upload = Some((stretch, Upload::new(stretch.number, now, leg.robots.len())));
     }
 
-    /// The show-clock moment at which the next stretch that runs through holds begins. `None` if it is not time for
-    /// one.
+    /// The show-clock moment at which the next stretch that goes on during holds begins. `None` if none is due.
     fn next_free(&self, clock: &PathClock, now: Instant, renews: bool) -> Option<Instant> {
         if renews {
             return Some(now + LIVE.lead);
         }
-        // A new hold needs a new stretch: light that follows show time slows down and picks up with the drive.
+        // A new hold needs a new stretch, because light that follows show time slows down and picks up with the drive.
         let hold = clock.hold.filter(|hold| self.known_hold != Some((hold.at, hold.until)));
         if let Some(hold) = hold {
             return Some(hold.until.unwrap_or(hold.at).max(now + LEAD));
@@ -123,8 +123,8 @@ impl LightPlayer {
         (now + self.refill >= until).then_some(until.max(now + LEAD))
     }
 
-    /// When the next stretch that stands still in holds begins, as time since the drive began. `None` if it is not
-    /// time for one.
+    /// The beginning of the next stretch that stands still in holds, as time since the drive began, without holds.
+    /// `None` if none is due.
     fn next_moment(
         &self,
         current: &LegLight,
@@ -144,7 +144,8 @@ impl LightPlayer {
         (!is_covered && !is_over).then_some(self.covered)
     }
 
-    /// Sends the present stretch to robots that have not acknowledged it.
+    /// Sends the present stretch to robots that have not acknowledged it, at most `AT_ONCE` of them (more if the
+    /// stretch is short). The rest follows after `AGAIN_AFTER`.
     fn pump_stretch(
         &mut self,
         context: &mut Context,
@@ -155,7 +156,7 @@ impl LightPlayer {
         let is_changing = self.is_changing(now);
         let (Some(current), Some((stretch, upload))) = (&self.current, &mut self.upload) else { return };
         let config = context.config.upload;
-        // The operator waits for a change of live light, and a stretch that runs through holds begins soon.
+        // The operator waits for a change of live light, and a stretch that goes on during holds begins soon.
         let is_urgent = is_changing || stretch.free_at.is_some_and(|at| at < now + config.resend_after * 2);
         // Short stretches take less time to compute.
         let shorter = STRETCH.0 / (TICK.0 * i64::from(stretch.ticks)).max(1);
@@ -183,8 +184,8 @@ impl LightPlayer {
         self.again_at = now + AGAIN_AFTER;
     }
 
-    /// Sends COLORs to robots that do not understand stretches. Returns when to do that next; `Instant::FAR` if there
-    /// are none.
+    /// Sends colours to robots that do not understand stretches. Returns when to do that next; [`Instant::FAR`] if all
+    /// robots understand stretches.
     fn send_colours(
         &self,
         context: &mut Context,
@@ -212,7 +213,7 @@ impl LightPlayer {
         if robots == 0 { Instant::FAR } else { now + every }
     }
 
-    /// Sends a robot that was switched off and on what is left of its light.
+    /// Sends a robot that was switched off and on again the rest of its present light.
     pub fn relight(
         &self,
         context: &mut Context,

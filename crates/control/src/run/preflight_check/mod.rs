@@ -1,7 +1,8 @@
-//! The preflight under way: stops robots on their way out, compares reports with the plan, and has robots blink.
+//! The preflight under way: a test of all robots before a show. In each round some robots drive out and back. The way
+//! out of round `n` leads to frame `2n`, and the way back to frame `2n + 1`.
 //!
-//! The drives are those of any run. The checks here only watch them, except that they ask for reports and stop robots
-//! on the way out.
+//! The drives are those of any run. The checks here ask for reports, compare them with the plan, stop robots once on
+//! the way out, and let robots blink at the end.
 
 mod robot_test;
 
@@ -19,46 +20,48 @@ use lightbots_wire::{Blink, Command, Details, RobotState, Route, Topic};
 use robot_test::{RobotTest, untested};
 use std::collections::BTreeMap;
 
-/// Distance to the end of the way out at which robots are to stand after the stop, metres, on fast and slow links. A
+/// All robots are told to stop when one of them would come to rest this close to the end of its way out, metres. A
 /// robot that does not stop drives on by this distance, which its reports show. While they slow down for it, all robots
 /// are still fast.
 const STOP_LEFT_M: f64 = 0.02;
-/// Least such distance, metres, at which a robot that stands at its goal is told from one that stopped before: its place
-/// is off by [`OFF_M`] and by as much again for its noise.
+/// If a stopped robot would rest closer to its goal than this, its stop is not tested, metres. Its place may be off by
+/// [`OFF_M`], and by as much again for noise, so stopping and driving on could not be told apart.
 const TOLD_APART_M: f64 = 2.0 * OFF_M;
-/// How long after it should stand a robot may take to report that it does; two round trips come on top. R40 asks for
-/// that report at once. On a lossy link the robot has to be asked again.
+/// Time from when a robot should stand to its report that it stands; two round trips are added. R40 asks for this
+/// report at once, but on a lossy link the robot has to be asked again.
 const STOPS_WITHIN: Span = Span::from_millis(1_000);
-/// Time after a frame was reached from which reports count. While a robot drives, its estimate follows its wheels.
-/// Only while it stands do its fixes show within seconds where it really is.
+/// Reports count from this time after robots reached a frame. While a robot drives, its estimated place follows its
+/// wheels. Only while it stands do its position fixes show, within seconds, where it really is.
 const SETTLES: Span = Span::from_millis(2_950);
-/// Time after a frame was reached at which all robots are asked to report.
+/// Time after robots reached a frame at which all are asked to report.
 const ASK_AT: Span = Span::from_millis(3_000);
-/// Time between further requests to robots whose answers are missing. Two lost messages in a row lead to no finding.
+/// Time between further requests to robots whose answers are missing. Even two lost messages in a row then lead to no
+/// finding.
 const ASK_EVERY: Span = Span::from_millis(150);
-/// Latest time after a frame was reached at which the answers are checked. They are checked earlier once all are
-/// there.
+/// Latest time after robots reached a frame at which their answers are checked. They are checked earlier once all have
+/// come.
 const JUDGE_AT: Span = Span::from_millis(4_100);
 /// How long robots blink at the end.
 const BLINK: Span = Span::from_millis(4_000);
-/// Time between requests for reports to driving robots. Their headings are compared with the directions in which they
-/// drive.
+/// Time between two requests for reports to driving robots. Their headings are compared with the directions in which
+/// they drive.
 const ASK_DRIVERS_EVERY: Span = Span::from_millis(120);
-/// The time between these requests is at least this for each robot of the run, because the answers share one link.
+/// Least time between these requests, divided by the number of robots in the run, because the answers share one link.
+/// From 300 robots on, it is longer than `ASK_DRIVERS_EVERY`.
 const ASK_DRIVERS_PER_ROBOT: Span = Span(400);
 
 /// The preflight under way.
 #[derive(Clone, Debug)]
 pub(crate) struct PreflightCheck {
-    /// `[round][participant]`: whether the robot drives in that round.
+    /// `[round][participant]`: whether its robot drives in that round.
     drives: Vec<Vec<bool>>,
-    /// `[participant]`: what was found of its robot.
+    /// `[participant]`: what was found about its robot.
     tests: Vec<RobotTest>,
-    /// The stop on the way out that is not checked yet.
+    /// The stop on the way out whose result is still to be checked. `None` if there is none.
     stop: Option<StopTest>,
-    /// Number of rounds in which robots were stopped.
+    /// Number of rounds in which robots have been stopped.
     stopped: usize,
-    /// The frame in which robots stand and that is not checked yet.
+    /// The frame in which robots stand and whose places are still to be checked. `None` if there is none.
     standing: Option<StandingTest>,
     /// Number of frames whose places were checked.
     judged: usize,
@@ -66,15 +69,15 @@ pub(crate) struct PreflightCheck {
     ask_drivers_at: Instant,
 }
 
-/// The check of a stop on the way out.
+/// The check of one stop on the way out.
 #[derive(Clone, Debug)]
 struct StopTest {
-    /// When robots should stand by the protocol.
+    /// When robots should stand, by the protocol.
     stand_at: Instant,
-    /// Participants, and where their robots should stand then, stage metres. `None`: so near the goal that a robot that
-    /// drives on could not be told from one that stops, because the stop began late.
+    /// Participants that drove, and where their robots should stand then, stage metres. `None` if that is too close to
+    /// the goal: a robot that drove on could not be told from one that stopped.
     due: Vec<(usize, Option<Vec2>)>,
-    /// `[participant]`: when the robot first reported after `stand_at` that it stands.
+    /// `[participant]`: when its robot first reported, after `stand_at`, that it stands.
     stood: Vec<Option<Instant>>,
 }
 
@@ -87,8 +90,8 @@ struct StandingTest {
 }
 
 impl PreflightCheck {
-    /// The checks of a preflight that is about to begin. `rounds`: `[round][participant]`, the goal of the robot, or
-    /// `None` if it does not drive in that round. `places`: where each participant stands, stage metres.
+    /// The checks of a preflight that is about to begin. `rounds`: `[round][participant]`, the goal of its robot, or
+    /// `None` if the robot does not drive in that round. `places`: where each participant stands, stage metres.
     pub fn new(rounds: &[Vec<Option<Vec2>>], places: impl Iterator<Item = Vec2>) -> Self {
         Self {
             drives: rounds.iter().map(|goals| goals.iter().map(Option::is_some).collect()).collect(),
@@ -120,7 +123,7 @@ impl PreflightCheck {
         }
     }
 
-    /// When robots are next to be asked for their places in a frame. `Instant::FAR` if no frame is being checked.
+    /// When robots are next asked for their places in a frame. [`Instant::FAR`] if no frame is being checked.
     pub fn due(&self) -> Instant {
         self.standing.map_or(Instant::FAR, |test| test.ask_at)
     }
@@ -134,7 +137,8 @@ impl PreflightCheck {
         }
     }
 
-    /// Takes in a status report of a participant: its pose while it drives, and whether it stands after a stop.
+    /// Takes in a status report of a participant: its place and heading while it drives, and whether it stands after a
+    /// stop.
     pub fn on_report(&mut self, now: Instant, participant: usize, at: Option<Vec2>, details: &Details) {
         let drives = self.drives(self.judged, participant);
         let pose = at.zip(details.heading).filter(|_| drives);
@@ -152,7 +156,7 @@ impl PreflightCheck {
         }
     }
 
-    /// Asks for reports while robots drive, and stops all once on the way out.
+    /// Asks all robots for reports while they drive, and stops all once on the way out.
     pub fn on_driving(&mut self, drive: &Driving, cx: &mut RunContext) -> Next {
         if cx.now >= self.ask_drivers_at {
             let every = ASK_DRIVERS_EVERY.max(ASK_DRIVERS_PER_ROBOT * cx.roster.len() as i64);
@@ -162,7 +166,7 @@ impl PreflightCheck {
         self.stop_on_the_way(drive, cx)
     }
 
-    /// Checks the stop or the frame while all stand. Drops robots that did not stop.
+    /// Checks the stop and the frame while all robots stand. Returns the dropout of robots that did not stop.
     pub fn on_standing(&mut self, cx: &mut RunContext, is_frame_reached: bool) -> Next {
         let failed = self.judge_stop(cx);
         if !failed.is_empty() {
@@ -172,8 +176,8 @@ impl PreflightCheck {
         Next::Stay
     }
 
-    /// Checks the frame with the answers until now, because robots leave before the last ones: on a slow link START
-    /// is sent early.
+    /// Checks the frame with the answers that have come by now, because START was sent and robots are about to leave.
+    /// On a slow link START is sent early.
     pub fn on_starting(&mut self, cx: &RunContext) {
         if let Some((test, leg)) = self.standing.take().zip(cx.pipeline.leg()) {
             self.judge_places(cx, leg, test.since + SETTLES);
@@ -225,9 +229,9 @@ impl PreflightCheck {
         Next::Regather
     }
 
-    /// Checks the places and times of robots that were told to stop. Returns participants that stand elsewhere or
-    /// reported too late; they are to drop out. On a link so slow that HOLD may have come late, a robot that stands
-    /// elsewhere has not been tested, and stays.
+    /// Checks, for each robot that was told to stop, where and when it stood. Returns participants that stand elsewhere
+    /// or reported too late; they are to drop out. On a link so slow that HOLD may have come late, a robot that stands
+    /// elsewhere counts as not tested, and stays.
     fn judge_stop(&mut self, cx: &RunContext) -> Vec<usize> {
         let Some(stop) = self.stop.take() else { return Vec::new() };
         let within = STOPS_WITHIN + cx.link.round_trip * 2;
@@ -252,8 +256,8 @@ impl PreflightCheck {
         failed
     }
 
-    /// Asks robots where they are once they have reached a frame, and checks their answers. In the last frame robots
-    /// blink.
+    /// Asks robots for their places once they have reached a frame, and checks the answers. In the last frame robots
+    /// also blink.
     fn look_at_frame(&mut self, cx: &mut RunContext, is_frame_reached: bool) {
         let now = cx.now;
         let stands = cx.pipeline.leg().map(|leg| leg.frame).filter(|_| is_frame_reached);
@@ -289,7 +293,7 @@ impl PreflightCheck {
         for participant in drivers {
             let (step, test) = (&leg.robots[participant], &mut self.tests[participant]);
             if step.pixel.is_none() {
-                // The planner left its pixel out, because there is no path that it can prove.
+                // The planner left out the pixel of the robot, because it can prove no path to it.
                 test.find(PreflightFinding::NoRoom);
                 continue;
             }
@@ -310,7 +314,7 @@ impl PreflightCheck {
         }
     }
 
-    /// The findings of the preflight. `finished`: the run was not broken off.
+    /// The findings about all robots. `finished`: the preflight was not interrupted.
     pub fn report(&self, roster: &Roster, io: &Context, finished: bool) -> PreflightReport {
         let part: BTreeMap<RobotId, usize> = (0..self.tests.len().min(roster.len()))
             .map(|participant| (roster.robot(io, participant).id, participant))
@@ -324,7 +328,7 @@ impl PreflightCheck {
     }
 }
 
-/// Asks the selected robots to report where they are. Returns whether any was asked.
+/// Asks robots of the run to report their places, if `whom` is true for them. Returns whether any was asked.
 fn ask(cx: &mut RunContext, whom: impl Fn(&KnownRobot) -> bool) -> bool {
     let active = cx.roster.active().map(|(_, known)| known.robot);
     let robots: Vec<usize> = active.filter(|&robot| whom(cx.io.fleet.robot(robot))).collect();
@@ -336,7 +340,7 @@ fn ask(cx: &mut RunContext, whom: impl Fn(&KnownRobot) -> bool) -> bool {
     !robots.is_empty()
 }
 
-/// Makes all robots that can blink do so, also those that dropped out. A person sees which of them respond.
+/// Makes all robots that can do so blink, also those that dropped out. A person sees which of them respond.
 fn blink(cx: &mut RunContext) {
     for participant in 0..cx.roster.len() {
         let robot = cx.robot(participant);

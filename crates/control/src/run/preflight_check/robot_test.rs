@@ -1,4 +1,4 @@
-//! What a preflight finds about one robot.
+//! What a preflight (a test of all robots before a show) finds about one robot.
 
 use crate::event::Trouble;
 use crate::leg::Leg;
@@ -9,16 +9,16 @@ use lightbots_base::{Vec2, difference};
 use lightbots_wire::RobotState;
 use std::f64::consts::FRAC_PI_2;
 
-/// Largest distance from the line between its ends at which a path counts as straight, metres. If a path bends close
-/// to its end, a robot cannot turn as fast as the path (R35), so its heading is not checked.
+/// A path counts as straight if no place of it is farther than this from the line between its ends, metres. If a path
+/// bends close to its end, a robot cannot turn as fast as the path (R35), so its heading is not checked.
 const STRAIGHT_M: f64 = 0.000_5;
-/// Least planned clearance to another robot at which a heading is checked, metres. With less, the robot may give way
-/// by turning (R49).
+/// A heading is checked if the planned clearance to other robots is at least this, metres. With less, the robot may
+/// give way by turning (R49).
 const ROOM_M: f64 = 0.01;
 /// Number of steps in which a path is sampled to find out whether it is straight.
 const MOMENTS: i64 = 40;
 
-/// What was found of a participant.
+/// What was found about one participant.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RobotTest {
     pub findings: Vec<PreflightFinding>,
@@ -28,10 +28,10 @@ pub(super) struct RobotTest {
     pub track: DrivenTrack,
     /// Where the robot stood before the present drive, stage metres.
     stood: Option<Vec2>,
-    /// Sum of the angles between the headings and the directions of the robot's drives, radians, and the number of
-    /// drives.
+    /// Sum of angles, radians counter-clockwise, one for each drive: from the robot's reported headings to the
+    /// direction in which it drove. Also the number of angles in the sum.
     askew: (f64, u32),
-    /// Whether the place after a way back was checked.
+    /// Whether the place that the robot reached on a way back was checked.
     pub is_done: bool,
 }
 
@@ -41,7 +41,7 @@ impl RobotTest {
         Self { stood: Some(stood), ..Self::default() }
     }
 
-    /// Adds a finding, unless there is one of its kind already. After `DidNotStop`, `Failed` is left out too.
+    /// Adds a finding, unless there is one of its kind already. A `Failed` after `DidNotStop` is not added either.
     pub fn find(&mut self, finding: PreflightFinding) {
         let same = |known: &PreflightFinding| {
             std::mem::discriminant(known) == std::mem::discriminant(&finding)
@@ -52,7 +52,8 @@ impl RobotTest {
         }
     }
 
-    /// Compares a reported heading with the planned one, and after the way back with the directions of both drives.
+    /// Compares a reported heading with the planned direction. After the way back, also compares the headings on the
+    /// way with the directions in which the robot really drove.
     pub fn judge_heading(&mut self, leg: &Leg, participant: usize, (at, heading): (Vec2, f64)) {
         let has_room = leg.robots[participant].room_m >= ROOM_M;
         let planned = straight_direction(leg, participant).filter(|_| has_room);
@@ -73,7 +74,7 @@ impl RobotTest {
         }
     }
 
-    /// The result of the robot. `has_room`: it had a drive in a round.
+    /// The result of the robot. `has_room`: the preflight had a drive for it.
     pub fn result(&self, robot: &KnownRobot, has_room: bool) -> PreflightRobot {
         let mut findings = self.findings.clone();
         if findings.is_empty() && !self.is_done {
@@ -84,7 +85,7 @@ impl RobotTest {
     }
 }
 
-/// The result of a robot that could not take part. `None` if it is not admitted.
+/// The result of a robot that is not part of the run, with the reason. `None` if it is not admitted.
 pub(super) fn untested(robot: &KnownRobot) -> Option<PreflightRobot> {
     let why = match robot.reported.state {
         _ if !robot.is_admitted => return None,
@@ -103,7 +104,7 @@ fn row(robot: &KnownRobot, finding: PreflightFinding) -> PreflightRobot {
     PreflightRobot { id: robot.id, findings: vec![finding], off_m: None, off_rad: None, limited }
 }
 
-/// The direction of a participant's path, radians. `None` if it has no path, stays in place, or has a path with
+/// The direction of a participant's path on the stage, radians. `None` if it has no path, stays in place, or its path
 /// bends.
 fn straight_direction(leg: &Leg, participant: usize) -> Option<f64> {
     let path = leg.path(participant).filter(|path| !path.as_ref().rests())?.as_ref();
@@ -112,8 +113,8 @@ fn straight_direction(leg: &Leg, participant: usize) -> Option<f64> {
     between.all(|at| point_to_segment(at, start, end) <= STRAIGHT_M).then(|| (end - start).angle())
 }
 
-/// The angle between a heading and the line of a direction, radians, 0 to a quarter turn: robots also drive
-/// backwards.
+/// The angle between a heading and a line with the given direction, radians, from 0 to a quarter turn. It is never
+/// more, because robots also drive backwards.
 fn off_line(heading: f64, direction: f64) -> f64 {
     let off = difference(heading, direction).abs();
     if off > FRAC_PI_2 { std::f64::consts::PI - off } else { off }

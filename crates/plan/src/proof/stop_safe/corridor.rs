@@ -1,9 +1,10 @@
-//! Corridors around paths: what is not near a corridor is not near the path.
+//! Corridors around paths: a place that is far from a corridor is far from the path in it, which is quick to check.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::{point_to_segment, segment_to_segment};
 
-/// A corridor around some places: all are within `bulge_m` of the line from the first to the last.
+/// A corridor around places of a path: all of them are within `bulge_m` metres of the straight line from the first to
+/// the last.
 pub(super) struct Corridor {
     from: Vec2,
     to: Vec2,
@@ -11,19 +12,19 @@ pub(super) struct Corridor {
 }
 
 impl Corridor {
-    /// The corridor around some places. Panics if there are none.
+    /// Makes the corridor around these places, which are in the order of the path. Panics if there are none.
     pub fn around(places: &[Vec2]) -> Self {
         let (from, to) = (places[0], places[places.len() - 1]);
         let bulge_m = places.iter().map(|&place| point_to_segment(place, from, to)).fold(0.0, f64::max);
         Self { from, to, bulge_m }
     }
 
-    /// Lower bound of the distance of a place from the path through the corridor's places, metres.
+    /// Lower bound of the distance of `place` from the path through the corridor's places, metres; may be negative.
     pub fn distance_m(&self, place: Vec2) -> f64 {
         point_to_segment(place, self.from, self.to) - self.bulge_m
     }
 
-    /// Whether a place of one corridor may be nearer than `reach_m` to a place of the other.
+    /// Whether a place of one corridor's path may be nearer than `reach_m` metres to a place of the other's.
     pub fn is_near(&self, other: &Self, reach_m: f64) -> bool {
         let lines_m = segment_to_segment((self.from, self.to), (other.from, other.to));
         lines_m < reach_m + self.bulge_m + other.bulge_m

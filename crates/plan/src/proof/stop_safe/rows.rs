@@ -7,30 +7,33 @@ use lightbots_base::{Span, Vec2};
 /// Time between two sampled moments.
 pub(crate) const STEP: Span = Span::from_millis(50);
 
-/// The places of all robots at consecutive moments. This window of moments moves back in time.
+/// The places of all robots at consecutive moments, [`STEP`] apart. This window of moments moves back in time, from the
+/// end of the paths to their start.
 pub(super) struct Rows<'a> {
     cursors: Vec<Cursor<'a>>,
-    /// Number of moments.
+    /// Number of moments in the window.
     count: usize,
-    /// `[robot × 2 count + first_row + steps ahead]`, stage metres. Each robot has a ring buffer, in which every place
-    /// is stored twice, `count` apart. The window of a robot is therefore always one slice.
+    /// `[robot × 2 count + first_row + steps after the first moment]`, stage metres. Each robot has a ring buffer, in
+    /// which every place is stored twice, `count` apart. The window of a robot is therefore always one slice.
     places: Vec<Vec2>,
-    /// Index of the first moment in each ring buffer, below `count`.
+    /// Index of the window's first moment in each ring buffer, below `count`.
     first_row: usize,
+    /// First moment of the window, counted from the start of the paths.
     first: Span,
 }
 
-/// How far back a path has been read.
+/// Position up to which a path has been read, backwards from its end.
 struct Cursor<'a> {
     path: &'a Path,
-    /// Index of the current piece.
+    /// Index of the current piece; the number of pieces for a position at the end of the path.
     piece: usize,
-    /// Moment at which the current piece begins.
+    /// Moment at which the current piece begins, counted from the start of the path.
     begin: Span,
 }
 
 impl<'a> Rows<'a> {
-    /// Places at `first`, a moment at which all paths have ended or end within a step, and at `ahead` steps after it.
+    /// Makes a window of the moment `first` and the `ahead` moments after it. All paths must have ended by `first`, or
+    /// end less than a step after it.
     pub fn new(paths: &'a [Path], ahead: usize, first: Span) -> Self {
         let cursor =
             |path: &'a Path| Cursor { path, piece: path.pieces.len(), begin: path.as_ref().duration() };
@@ -46,25 +49,25 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    /// Returns the first moment of the window.
+    /// Returns the first moment of the window, counted from the start of the paths.
     pub fn first(&self) -> Span {
         self.first
     }
 
-    /// `[steps ahead]`: places of a robot from the first moment on, stage metres.
+    /// Places of a robot at all moments of the window, the earliest first, stage metres.
     pub fn of(&self, robot: usize) -> &[Vec2] {
         let first = robot * 2 * self.count + self.first_row;
         &self.places[first..first + self.count]
     }
 
-    /// A box around all places of a robot.
+    /// A box around all places of a robot in the window.
     pub fn bounds(&self, robot: usize) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         self.of(robot).iter().for_each(|&place| bounds.include(place));
         bounds
     }
 
-    /// Moves the window back by `by` steps.
+    /// Moves the window back in time by `by` steps, and reads the places that are new in it.
     pub fn go_back(&mut self, by: usize) {
         self.first -= STEP * by as i64;
         let read = by.min(self.count);
@@ -81,7 +84,8 @@ impl<'a> Rows<'a> {
 }
 
 impl Cursor<'_> {
-    /// Returns the place of the path at a moment, which must not be later than that of the last call.
+    /// Returns the place of the path at a moment, stage metres. The moment must not be later than that of the call
+    /// before.
     fn at(&mut self, moment: Span) -> Vec2 {
         let pieces = &self.path.pieces;
         while moment < self.begin && self.piece > 0 {

@@ -1,13 +1,13 @@
-//! Effect of two delayed robots on each other.
+//! Whether two delayed robots would touch each other if one of them stopped dead.
 
 use crate::margins::COMFORT_M;
 use crate::proof::stop_safe::{Law, STEP, StopAssumptions};
 use lightbots_base::shape::point_to_segment;
 use lightbots_base::{Limits, Span, Vec2};
 
-/// Unit of delays: each delay is a whole multiple of it.
+/// Unit of delays, half a moment: each delay is a whole multiple of it.
 pub(super) const LEVEL: Span = Span(STEP.0 / 2);
-/// Cost of a contact: above any number of moments.
+/// Cost of delays that bring two robots too close: more than any number of moments.
 const CONTACT: u32 = 1 << 20;
 
 pub(super) struct PairLaw<'a> {
@@ -22,13 +22,15 @@ impl<'a> PairLaw<'a> {
         Self { limits, stop: Law::new(limits, assumed), rest: Span::from_secs(assumed.alarm_s) }
     }
 
-    /// Distance in metres beyond which two robots cannot affect each other within a time and until they rest after it.
+    /// Distance of two robots, metres, beyond which neither can affect the other during `within` and the time until the
+    /// fleet rests after it.
     pub fn reach_m(&self, within: Span) -> f64 {
         self.limits.contact_m() + COMFORT_M + 2.0 * self.limits.speed_mps * (within + self.rest).as_secs()
     }
 
-    /// Returns the number of moments in `between`, which is (first, last), at which one robot would touch the other
-    /// after the other stopped dead. [`CONTACT`] if delays bring the two closer than the comfortable clearance and
+    /// Returns the number of moments from `between.0` to `between.1` at which one robot would touch the other after the
+    /// other stopped dead. `tracks`: places of both robots without delays at each moment. `levels`: their delays, in
+    /// units of [`LEVEL`]. Returns [`CONTACT`] if the delays bring them closer than the comfortable clearance and
     /// closer than without delays.
     pub fn cost(&self, tracks: (&[Vec2], &[Vec2]), levels: (u8, u8), between: (usize, usize)) -> u32 {
         let (one, other) = (Delayed::new(tracks.0, levels.0), Delayed::new(tracks.1, levels.1));
@@ -49,7 +51,7 @@ impl<'a> PairLaw<'a> {
         moments.map(|moment| self.touches(&one, &other, moment) + self.touches(&other, &one, moment)).sum()
     }
 
-    /// Returns 1 if `by` would touch `dead` after `dead` stopped dead at a moment, else 0.
+    /// Returns 1 if `by` would touch `dead` after `dead` stopped dead at this moment, else 0.
     fn touches(&self, dead: &Delayed<'_>, by: &Delayed<'_>, moment: usize) -> u32 {
         let place = dead.at(moment);
         let far_m = self.limits.contact_m() + COMFORT_M + self.limits.speed_mps * self.rest.as_secs();
@@ -61,10 +63,10 @@ impl<'a> PairLaw<'a> {
     }
 }
 
-/// Places of a delayed robot.
+/// The places of a delayed robot at each moment.
 struct Delayed<'a> {
     track: &'a [Vec2],
-    /// Delay of the robot, in half moments.
+    /// Delay of the robot, in units of [`LEVEL`].
     level: usize,
 }
 

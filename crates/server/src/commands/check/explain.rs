@@ -22,7 +22,7 @@ pub(super) struct Explained {
 #[derive(Debug, Serialize)]
 struct Row {
     solver: String,
-    /// Outcome in a few words. The fields below repeat its numbers.
+    /// Outcome in a few words. The fields below hold the numbers in it.
     outcome: String,
     duration_s: Option<f64>,
     stop_safe_percent: Option<u8>,

@@ -3,7 +3,7 @@
 use lightbots_plan::ShowPlan;
 use lightbots_show::{Show, frame_label};
 
-/// Returns the id of the pixel that a robot drives to in a transition; `None` if it has none.
+/// Returns the id of the pixel to which a robot drives in a transition; `None` if the robot has no pixel.
 pub fn pixel(made: &ShowPlan, transition: usize, robot: usize) -> Option<u32> {
     made.mapping.get(transition)?.get(robot).copied().flatten()
 }

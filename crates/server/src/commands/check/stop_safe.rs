@@ -8,14 +8,14 @@ use serde::Serialize;
 
 use super::show_places::{began_s, frame_name, pixel};
 
-/// Moments at which a robot may stop dead without a contact.
+/// At how many moments a robot may stop dead without a contact, and the worst moment.
 #[derive(Debug, Serialize)]
 pub(super) struct StopSafe {
-    /// Share of all moments of driving robots, 0 to 1; null: the plan must not be played.
+    /// Share of safe moments among all moments of driving robots, 0 to 1; null: the plan must not be played.
     share: Option<f64>,
     /// The moment with the largest missing clearance; null: the share is 1.
     worst: Option<Worst>,
-    /// `(transition, share)` of transitions with a share below 1.
+    /// Index and share of each transition with a share below 1.
     #[serde(skip)]
     less: Vec<(usize, f64)>,
 }
@@ -24,19 +24,21 @@ pub(super) struct StopSafe {
 #[derive(Debug, Serialize)]
 struct Worst {
     robot: usize,
-    /// Id of the robot's pixel; null: the robot has none.
+    /// Id of the pixel to which the robot drives; null: the robot has none.
     pixel: Option<u32>,
-    /// The robot that would touch it, and that robot's pixel.
+    /// Index of the other robot, which would touch the stopped robot.
     by: usize,
+    /// Id of the pixel to which the other robot drives; null: that robot has none.
     by_pixel: Option<u32>,
     /// The frame that the transition leads to, counted from 0.
     frame: usize,
-    /// Seconds after the start of the transition, and after the start of the show.
+    /// Seconds from the start of the transition to the dead stop.
     moment: f64,
+    /// Seconds from the start of the show to the dead stop.
     show_moment: f64,
-    /// Place of the robot at that moment, stage metres.
+    /// Place of the robot at the dead stop, stage metres.
     place: [f64; 2],
-    /// Missing clearance to the other robot, metres.
+    /// Clearance that is missing to the other robot, metres.
     missing_m: f64,
 }
 

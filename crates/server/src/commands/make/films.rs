@@ -9,7 +9,7 @@ use lightbots_make::{Content, FilmFrame, Material, film, picture_floor};
 use super::wanted::{Wanted, asset, recipe, stage};
 use crate::cli::MakeArguments;
 
-/// Makes the frames of an animation, at moments between which robots have time to move.
+/// Makes the frames of an animation file. Their moments are far enough apart for robots to move from frame to frame.
 pub fn frames(
     path: &Path,
     bytes: &[u8],

@@ -39,7 +39,7 @@ struct Picture {
     closest_m: Option<f64>,
     correlation: Option<f64>,
     symmetry: Option<f64>,
-    /// Number of robots that would be enough, if these are too few.
+    /// Number of robots that would show the source readably, if it is more than the requested number; else `None`.
     enough: Option<usize>,
 }
 

@@ -18,10 +18,10 @@ use crate::progress::Bar;
 /// Largest file of a source, bytes.
 const FILE_MAX: u64 = 64 << 20;
 
-/// Steps of a scrolling text for each character.
+/// Number of frames of a scrolling text for each character of the text.
 const STEPS_PER_CHARACTER: usize = 1;
 
-/// Width of the window of a scrolling text, in cap heights.
+/// Width of the part of a scrolling text that one frame shows, in cap heights of the font.
 const WINDOW: f64 = 3.0;
 
 /// Reads all sources. Returns the frames of all of them, in order, with pixels not placed yet.
@@ -43,7 +43,7 @@ pub fn read(arguments: &MakeArguments, bar: &Bar) -> Result<Vec<Wanted>, Failure
     Ok(wanted)
 }
 
-/// A built-in font's name, and the font file that is used instead, if there is one.
+/// Name of a built-in font, and a font file. If there is a file, the file is used instead of the built-in font.
 struct ChosenFont {
     name: String,
     file: Option<(AssetHash, Asset)>,

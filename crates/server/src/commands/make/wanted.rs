@@ -18,7 +18,7 @@ pub struct Wanted {
     pub material: Material,
     /// File of the source or of its font, as an asset of the show.
     pub asset: Option<(AssetHash, Asset)>,
-    /// Whether the frame before shows an earlier moment of the same animation.
+    /// Whether the preceding frame shows an earlier moment of the same animation.
     pub start: bool,
 }
 

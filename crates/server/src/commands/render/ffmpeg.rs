@@ -22,7 +22,8 @@ pub(super) enum Container {
 }
 
 impl Container {
-    /// Returns the encoders and their settings: quality before size, and the same bytes from the same pictures.
+    /// Returns the encoders and their settings. They favour quality over a small file, and give the same bytes for the same
+    /// pictures.
     fn settings(self) -> &'static [&'static str] {
         match self {
             Self::Mp4 => &[

@@ -206,7 +206,7 @@ impl Work<'_> {
     }
 }
 
-/// Returns the name of the robot that the show requires at each starting place; `None` if any robot will do.
+/// Returns, for each starting place, the name of the robot that the show requires there; `None` if any robot will do.
 fn names(plan: &ShowPlan, starts: &[Vec2]) -> Vec<Option<String>> {
     let mut names = vec![None; starts.len()];
     for (name, &robot) in &plan.names {

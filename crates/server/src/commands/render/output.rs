@@ -20,8 +20,8 @@ pub(super) enum Output {
 }
 
 impl Output {
-    /// Returns the kind of file that the ending of the file's name stands for. Error if there is none, or if the width
-    /// or height of a video is odd.
+    /// Returns the kind of file that the ending of the output file's name stands for. Error if the ending is unknown, or if
+    /// the width or height of a video is odd.
     pub fn of(arguments: &RenderArguments) -> Result<Self, Failure> {
         let ending = arguments.out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let film = |(width, height): (u32, u32), fps: f64| {
@@ -42,8 +42,8 @@ impl Output {
     }
 }
 
-/// Returns a video of this size. An odd width or height is an error, because videos store one colour for two pixels
-/// each way.
+/// Returns a video of this size. An odd width or height is an error, because these videos store one colour for each block of
+/// 2 × 2 pixels.
 fn even(container: Container, size: FilmSize) -> Result<Output, Failure> {
     if size.width % 2 == 1 || size.height % 2 == 1 {
         let line = format!("--size {}x{}: width and height of a video are even", size.width, size.height);

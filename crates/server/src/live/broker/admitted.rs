@@ -24,7 +24,7 @@ impl Admitted {
         self.most
     }
 
-    /// Adds a connection. False if there is no room for it.
+    /// Adds a connection. Returns false if `most` other connections are logged in already.
     pub fn add(&self, peer: SocketAddr) -> bool {
         let mut peers = self.lock();
         peers.contains(&peer) || (peers.len() < self.most && peers.insert(peer))

@@ -31,7 +31,7 @@ pub struct Door {
     pub peers: Arc<Peers>,
     /// Connections that have logged in.
     pub admitted: Arc<Admitted>,
-    /// Connections that were taken over.
+    /// Detects robots that share a name, by the connections that they take from each other.
     pub takeovers: Arc<Takeovers>,
     /// Counts of messages that clients have published.
     pub floods: Arc<Floods>,
@@ -96,7 +96,8 @@ impl Door {
         if has_room { Ok(()) } else { Err(Refused::Rights(full("connections", self.admitted.most()))) }
     }
 
-    /// Notes the login of a robot. Reports two robots of one name that take the connection from each other.
+    /// Notes the login of a robot. If robots of this name keep taking the connection from each other, reports that two
+    /// robots share the name.
     fn watch_takeover(&self, id: &Id, robot: RobotId, is_online: bool) {
         let now = Instant::now();
         if is_online && self.takeovers.taken_over(&id.client_id, now) {
@@ -119,7 +120,7 @@ impl Door {
         self.who(id)?.may_subscribe(filter)
     }
 
-    /// Checks whether a client may publish a message. `Err`: why not, and whether its connection is ended.
+    /// Checks whether a client may publish a message. `Err`: why not, and whether the client is cut off.
     fn message(&self, id: &Id, topic: &str, payload: &[u8]) -> Result<(), (String, bool)> {
         let who = self.who(id).map_err(|why| (why, false))?;
         let now = Instant::now();
@@ -136,7 +137,7 @@ impl Door {
         short_enough(topic).and_then(|()| who.may_publish(topic, payload)).map_err(|why| (why, false))
     }
 
-    /// Reports in one line which client was refused what, and why.
+    /// Reports in one line what the broker refused to which client, and why.
     fn refuse(&self, id: &Id, what: &str, why: &str) {
         let client: String = id.client_id.chars().take(80).collect();
         let user = id.username.as_deref().unwrap_or("(none)");

@@ -13,15 +13,15 @@ pub struct Floods(Mutex<BTreeMap<String, Account>>);
 
 #[derive(Clone, Copy, Debug)]
 struct Account {
-    /// Time at which all counted messages would have been sent at the allowed rate.
+    /// Time at which the client would have sent all counted messages if it kept to the allowed rate.
     paid_until: Instant,
-    /// End of the time in which the client may not connect.
+    /// End of the time in which the client may not connect; `None`: it was never cut off.
     banned_until: Option<Instant>,
 }
 
 impl Floods {
-    /// Counts a message of a client. False if the client has sent too many: it may then not connect for a while, and
-    /// the caller cuts it off.
+    /// Counts a message of a client. Returns false if the client has sent too many. The client may then not connect for
+    /// [`limits::FLOOD_BAN`], and the caller cuts it off.
     pub fn count(&self, client: &str, rate: Rate, now: Instant) -> bool {
         let mut accounts = self.lock();
         if !accounts.contains_key(client) {
@@ -48,7 +48,7 @@ impl Floods {
     }
 }
 
-/// Bounds the memory: with many accounts, removes those of clients without messages to count and without a ban.
+/// Bounds the memory: if there are many accounts, removes those whose `paid_until` and ban are over.
 fn forget_idle(accounts: &mut BTreeMap<String, Account>, now: Instant) {
     if accounts.len() >= 2 * limits::CONNECTIONS {
         accounts.retain(|_, account| {

@@ -23,7 +23,7 @@ use crate::tls;
 
 /// Longest wait for a client's first byte, and then for the end of its TLS handshake. After that the client is dropped.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// A refused client may go on sending for `LINGER`, so that it receives the reason.
+/// Time for which a refused client may go on sending, so that it receives the reason.
 const LINGER: Duration = Duration::from_secs(1);
 /// Most TLS connections at once; further ones wait.
 const CONNECTIONS: usize = 20_000;
@@ -52,7 +52,7 @@ impl TlsOptions {
     }
 }
 
-/// Connections that were handed over. Maps the address that the inner listener sees to the client's own address.
+/// Connections that the gate has handed over. Maps the address that the inner listener sees to the client's own address.
 #[derive(Debug, Default)]
 pub struct Peers {
     /// Port of the inner listener; 0 if there is none.
@@ -71,7 +71,8 @@ impl Peers {
         listener != 0 && *lock(&self.inner) == listener
     }
 
-    /// Returns the client's own address for an address that the inner listener sees.
+    /// Returns the client's own address for the address `from`, which the inner listener sees. `None` if the gate did not
+    /// hand over that connection.
     pub fn of(&self, from: Option<SocketAddr>) -> Option<SocketAddr> {
         lock(&self.clients).get(&from?).copied()
     }
@@ -82,7 +83,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes a client from [`Peers`] when dropped, which is when its connection ends, however it ends.
+/// Removes a client from [`Peers`] when dropped. That happens when its connection ends, however it ends.
 struct Guest {
     peers: Arc<Peers>,
     at: SocketAddr,
@@ -143,8 +144,8 @@ impl Gate {
         }
     }
 
-    /// Does the handshake with a client and connects to the broker behind the gate. `None` if the client sent nothing.
-    /// `Err`: why it is refused.
+    /// Does the TLS handshake with a client and connects to the broker behind the gate. `None` if the client sent nothing in
+    /// time. `Err`: why the client is refused.
     async fn open(&self, stream: TcpStream, client: SocketAddr) -> Result<Option<Opened>, String> {
         let mut first = [0];
         let peeked = tokio::time::timeout(PATIENCE, stream.peek(&mut first)).await;
@@ -179,8 +180,8 @@ impl Gate {
     }
 }
 
-/// Reads what a refused client still sends, for up to `LINGER`. To close with unread bytes would lose the reason on its
-/// way to the client.
+/// Reads what a refused client still sends, for up to `LINGER`. If the socket were closed with unread bytes, the client
+/// might not receive the reason.
 async fn linger(mut stream: TcpStream) {
     let _ = stream.shutdown().await;
     let rest = async {

@@ -13,15 +13,15 @@ use rmqtt::types::{
 /// A client of a group, and whether it is connected.
 type Member = (NodeId, ClientId, SubscriptionOptions, Option<Vec<SubscriptionIdentifier>>, Option<IsOnline>);
 
-/// Chooses the clients of a group in turn, those that are connected before those that are away.
+/// Chooses a client of a group in turn: among the connected ones, or among all if none is connected.
 #[derive(Debug, Default)]
 pub struct Groups {
     turn: AtomicUsize,
 }
 
 impl Groups {
-    /// Returns the index of the client whose turn it is, and whether it is connected. `None` for a group without
-    /// clients.
+    /// Returns the index of the client whose turn it is, and whether it is connected. `are_online` says for each client
+    /// whether it is connected. `None` for a group without clients.
     fn next(&self, are_online: &[bool]) -> Option<(usize, bool)> {
         let turn = self.turn.fetch_add(1, Ordering::Relaxed);
         let online: Vec<usize> = (0..are_online.len()).filter(|index| are_online[*index]).collect();

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::admitted::Admitted;
 use super::notices::Notices;
 
-/// Closes connections to these ports that do not log in in time, until the task is dropped.
+/// Closes connections to these ports whose clients do not log in soon enough, until the task is dropped.
 #[cfg(target_os = "linux")]
 pub async fn close_idle(ports: Vec<u16>, admitted: Arc<Admitted>, notices: Arc<Notices>) {
     let mut watch = linux::Watch::new(ports, admitted);
@@ -20,7 +20,7 @@ pub async fn close_idle(ports: Vec<u16>, admitted: Arc<Admitted>, notices: Arc<N
     }
 }
 
-/// Does nothing: on other systems connections that do not log in are not found, and stay.
+/// Does nothing. Connections that do not log in are found only on Linux. On other systems, they stay open.
 #[cfg(not(target_os = "linux"))]
 pub async fn close_idle(_: Vec<u16>, _: Arc<Admitted>, _: Arc<Notices>) {}
 
@@ -44,10 +44,10 @@ mod linux {
     use super::super::limits;
     use super::Admitted;
 
-    /// Time between two checks of all sockets. A check of ten thousand sockets takes some 10 ms.
+    /// Time between two checks of all sockets. A check of ten thousand sockets takes about 10 ms.
     pub const EVERY: Duration = Duration::from_secs(1);
 
-    /// Inode number of a socket. Unlike its file descriptor, the system does not use it again at once.
+    /// Inode number of a socket. The system may use a file descriptor again at once, but not an inode number.
     type Inode = u64;
 
     /// Watches the sockets of this process for connections that do not log in.
@@ -71,7 +71,7 @@ mod linux {
             Self { ports, admitted, seen: BTreeMap::new() }
         }
 
-        /// Closes connections that have not logged in in time. Returns the addresses of their clients.
+        /// Closes connections whose clients have not logged in soon enough. Returns the addresses of these clients.
         pub fn look(&mut self, now: Instant) -> Vec<SocketAddr> {
             let open = open_sockets();
             self.forget_closed(&open);
@@ -112,7 +112,7 @@ mod linux {
             client.map_or(Socket::Other, |peer| Socket::Pending { peer, since: now })
         }
 
-        /// Returns the connections whose time to log in is over, oldest first.
+        /// Returns the connections whose time to log in is over, the oldest first.
         fn late(&self, now: Instant) -> Vec<(Inode, SocketAddr)> {
             let mut pending: Vec<_> = self
                 .seen
@@ -144,15 +144,15 @@ mod linux {
         files.flatten().filter_map(socket).collect()
     }
 
-    /// Duplicates the descriptor of a socket that belongs to other code. The descriptor may belong to another file by
-    /// now, which callers check.
+    /// Duplicates the file descriptor of a socket that belongs to other code. Meanwhile the number may belong to another
+    /// file, which callers check.
     fn own(file: i32) -> Option<OwnedFd> {
         let process = pidfd_open(getpid(), PidfdFlags::empty()).ok()?;
         pidfd_getfd(&process, file, PidfdGetfdFlags::empty()).ok()
     }
 
-    /// Ends the connection if its client still is `peer`. Its owner then sees that the client has gone. Returns whether
-    /// it was ended.
+    /// Ends a connection if its client still is `peer`. The code that owns the socket then sees that the client has gone.
+    /// Returns whether the connection was ended.
     fn close(file: i32, peer: SocketAddr) -> bool {
         let Some(socket) = own(file) else { return false };
         let is_same =

@@ -7,8 +7,8 @@ use rmqtt::types::{ConnectInfo, FitterType, Id, ListenerConfig};
 
 use super::limits;
 
-/// rmqtt's rules, with a longest keep-alive for clients of MQTT 5. rmqtt's own setting would also refuse clients of
-/// MQTT 3 with a longer keep-alive.
+/// rmqtt's rules, but with a longest keep-alive for clients of MQTT 5. The setting of rmqtt itself would also refuse clients
+/// of MQTT 3 with a longer keep-alive.
 pub struct KeepAlive;
 
 impl FitterManager for KeepAlive {

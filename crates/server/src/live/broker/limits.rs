@@ -10,7 +10,7 @@ use std::time::Duration;
 pub struct Rate {
     /// Messages per second in the long run.
     pub per_second: u32,
-    /// Messages that may come at once, above the rate.
+    /// Messages that a client may send at once, in addition to the long-run rate.
     pub burst: u32,
 }
 
@@ -26,11 +26,11 @@ pub const TOPIC_LEVELS: usize = 16;
 /// Longest topic or filter, in bytes. The protocol's longest has 47.
 pub const TOPIC_BYTES: usize = 512;
 
-/// Longest client id, in bytes. Ours have at most 50.
+/// Longest client id, in bytes. Those of our robots and controllers have at most 50.
 pub const CLIENT_ID_BYTES: usize = 256;
 
-/// Most subscriptions of one client. A connection that simulated robots share has one for each robot, at most 1,000,
-/// and one more.
+/// Most subscriptions of one client. A connection that simulated robots share has one for each robot, at most 1,000, and one
+/// for the messages to all robots.
 pub const SUBSCRIPTIONS: usize = 2_048;
 
 /// Most subscriptions of all clients together: ten thousand robots and their controller have 20,004.
@@ -46,19 +46,19 @@ const OTHER_FILES: usize = PENDING + 100;
 /// Sockets for a client behind the TLS gate: the client's, and both ends of the gate's connection to the broker.
 const TLS_SOCKETS: usize = 3;
 
-/// Returns the most clients that may be logged in if the system grants `open_files`, at most [`CONNECTIONS`]. At least
-/// half of the files are for clients.
+/// Returns how many clients may be logged in if the system grants `open_files` open files: at most [`CONNECTIONS`]. At least
+/// half of the files are left to clients.
 pub fn connections(open_files: usize, has_tls: bool) -> usize {
     let sockets = if has_tls { TLS_SOCKETS } else { 1 };
     let files = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);
     CONNECTIONS.min(files / sockets)
 }
 
-/// Longest report of a robot, in bytes. The longest of ours has 400 (R10 with every field).
+/// Longest report of a robot, in bytes. The longest that our robots send has 400 (R10 with every field).
 pub const REPORT_BYTES: usize = 4_096;
 
-/// Rate limit of one robot. A robot reports at most ten times a second, and acknowledges each part of its routes. That
-/// is 100 parts at once if a robot comes back to a long show.
+/// Rate limit of one robot. A robot reports at most ten times a second, and acknowledges each part of its routes. A robot
+/// that comes back to a long show acknowledges 100 parts at once.
 pub const ROBOT_RATE: Rate = Rate { per_second: 100, burst: 1_000 };
 
 /// Rate limit of a connection that robots share, at most 1,000: each robot answers a frame with some twenty messages.
@@ -67,23 +67,23 @@ pub const SHARED_RATE: Rate = Rate { per_second: 30_000, burst: 60_000 };
 /// How long a client that was cut off for a flood may not connect.
 pub const FLOOD_BAN: Duration = Duration::from_secs(30);
 
-/// Most sessions, those of clients that are away for a while included.
+/// Most sessions, including those of clients that are away for a while.
 pub const SESSIONS: isize = 16_000;
 
 /// Longest time for which the session of a client that is away is kept.
 pub const SESSION_EXPIRY: Duration = Duration::from_secs(15 * 60);
 
-/// Number of connections without a complete CONNECT packet. Beyond it, those older than [`PENDING_GRACE`] are closed
-/// early.
+/// Most connections without a complete CONNECT packet. If there are more, the oldest surplus ones are closed as soon as they
+/// are older than [`PENDING_GRACE`].
 pub const PENDING: usize = 500;
 
-/// How long a connection may stay without a CONNECT packet while there are more than [`PENDING`] of them.
+/// How long the oldest connections may stay without a CONNECT packet while there are more than [`PENDING`] of them.
 pub const PENDING_GRACE: Duration = Duration::from_secs(1);
 
 /// How long a connection may stay without a complete CONNECT packet. A robot on a poor radio link needs two seconds.
 pub const CONNECT_WITHIN: Duration = Duration::from_secs(10);
 
-/// Time after which a client that takes nothing while messages wait loses its connection.
+/// A client that takes no byte for this time, while messages for it wait, loses its connection.
 pub const SEND_WITHIN: Duration = Duration::from_secs(10);
 
 /// Most bytes that wait for one client, [`MESSAGE_OVERHEAD_BYTES`] of each message included. When ten thousand robots
@@ -95,15 +95,15 @@ pub const QUEUE_BYTES: usize = 48 << 20;
 /// [`QUEUE_SHARE_BYTES`].
 pub const QUEUE_BYTES_TOTAL: usize = 128 << 20;
 
-/// Bytes that may wait for a client however much waits for the others: slow readers cannot take a robot's commands from
-/// it.
+/// Bytes that may wait for each client, even if the queues of all clients together are full. Slow readers thus cannot block
+/// the commands for a robot.
 pub const QUEUE_SHARE_BYTES: usize = 32 << 10;
 
 /// Bytes that a waiting message takes in the broker beside payload and topic. Measured 2026-11-23 on x86-64 with 21,760
 /// empty messages that waited for a subscriber that did not read: 1,280 bytes each.
 pub const MESSAGE_OVERHEAD_BYTES: usize = 1_280;
 
-/// Most retained messages. The protocol has none; tools have some.
+/// Most retained messages. The protocol uses none; tools may use some.
 pub const RETAINED: usize = 256;
 
 /// Most bytes of all retained messages. rmqtt copies those that match a subscription.
@@ -122,8 +122,8 @@ pub const TOPIC_ALIASES: u16 = 8;
 /// broker no way to shorten it.
 pub const KEEP_ALIVE_S: u16 = 60;
 
-/// Most bytes of data of the broker's process, where the system can bound them. Above it the process ends and is
-/// started again; the limits above keep it far below.
+/// Most bytes of data of the broker's process, where the system can bound them. Above it, the process ends and is started
+/// again. The limits above keep the process far below it.
 pub const PROCESS_BYTES: u64 = 1 << 30;
 
 #[cfg(test)]

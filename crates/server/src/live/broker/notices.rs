@@ -13,7 +13,7 @@ const CLIENTS: usize = 1000;
 /// Most lines that wait for the screen; further ones are only logged.
 const WAITING: usize = 64;
 
-/// Passes lines about clients to log and screen, not too often for each client.
+/// Passes lines about clients to log and screen, for each client at most one line per `EVERY`.
 #[derive(Debug)]
 pub struct Notices {
     sender: mpsc::Sender<String>,
@@ -23,7 +23,7 @@ pub struct Notices {
 #[derive(Debug)]
 struct Said {
     at: Instant,
-    /// Number of lines that were kept back since then.
+    /// Number of lines about the client that were kept back since `at`.
     more: u64,
 }
 
@@ -34,7 +34,7 @@ impl Notices {
         (Self { sender, said: Mutex::default() }, lines)
     }
 
-    /// Logs a line about a client and sends it, unless the last one was less than `EVERY` ago.
+    /// Logs and sends a line about a client, unless the last line about this client was sent less than `EVERY` ago.
     pub fn say(&self, client: &str, line: &str) {
         let Some(kept_back) = self.due(client, Instant::now()) else { return };
         let more = if kept_back > 0 { format!(" ({kept_back} more like this)") } else { String::new() };
@@ -44,7 +44,7 @@ impl Notices {
         let _ = self.sender.try_send(line);
     }
 
-    /// Returns the number of lines about a client that were kept back; `None` if this line is kept back as well.
+    /// Returns how many earlier lines about a client were kept back. `None` if the present line is kept back as well.
     fn due(&self, client: &str, now: Instant) -> Option<u64> {
         let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(last) = said.get_mut(client) {

@@ -22,16 +22,16 @@ use crate::own_program::own_program;
 
 /// Longest time for the child to listen, or to report why it cannot.
 const START_WITHIN: Duration = Duration::from_secs(20);
-/// The pause before the child is started again, doubled up to [`LONGEST_PAUSE`] while it keeps dying. Together with the
-/// child's start (some 10 ms) the longest pause stays within one second.
+/// Pause before the child is started again. It doubles, up to [`LONGEST_PAUSE`], while the child keeps dying. The child's
+/// start takes about 10 ms more, so that the broker is away for less than one second.
 const FIRST_PAUSE: Duration = Duration::from_millis(50);
+/// Longest pause before the child is started again.
 const LONGEST_PAUSE: Duration = Duration::from_millis(800);
-/// Lifetime of a child after which the next pause is `FIRST_PAUSE` again: a child that lived longer died of something
-/// new.
+/// Lifetime of a child after which the next pause is `FIRST_PAUSE` again, because its death then has a new reason.
 const STABLE: Duration = Duration::from_secs(10);
 /// Most lines that wait to be shown; further ones are dropped.
 const NOTICES: usize = 64;
-/// Arguments of the child process: the command, and the option by which it knows that it is the child.
+/// Arguments that start the child process: the command, and the option that makes it the child.
 const COMMAND: [&str; 2] = ["broker", "--child"];
 
 /// Settings that the parent sends to the child.
@@ -49,7 +49,7 @@ pub enum ChildMessage {
     Notice(String),
 }
 
-/// A broker in a child process, for as long as the value lives.
+/// A broker in a child process. The child ends when this value is dropped.
 #[derive(Debug)]
 pub struct EmbeddedBroker {
     address: SocketAddr,
@@ -105,7 +105,8 @@ impl Drop for EmbeddedBroker {
     }
 }
 
-/// Adds this program to the users if there are any. Returns all users, and the program's name and password.
+/// If there are users, adds one for this program itself, a controller. Returns all users, and the name and password of the
+/// added one.
 fn with_this_program(users: Users) -> (Users, Option<(String, String)>) {
     if users.is_empty() {
         return (users, None);
@@ -114,7 +115,7 @@ fn with_this_program(users: Users) -> (Users, Option<(String, String)>) {
     (users.with(&name, &password, Role::Controller), Some((name, password)))
 }
 
-/// Passes on the child's notices, and starts it again whenever it has died.
+/// Passes on the notices of the child, and starts the child again whenever it has died.
 async fn watch(mut running: Running, options: BrokerOptions, notices: mpsc::Sender<String>) {
     let mut pause = FIRST_PAUSE;
     loop {

@@ -13,7 +13,7 @@ use rmqtt::types::{ClientId, Publish};
 use super::limits;
 use super::notices::Notices;
 
-/// Bytes that wait, by client and in all.
+/// Bytes that wait to be sent, for each client and in total.
 #[derive(Debug)]
 pub struct Queues {
     total: Arc<AtomicUsize>,
@@ -21,7 +21,7 @@ pub struct Queues {
     notices: Arc<Notices>,
 }
 
-/// Bytes charged to a client until the value is dropped.
+/// Bytes that count as waiting for a client until this value is dropped.
 #[derive(Debug)]
 pub struct Charge {
     bytes: usize,
@@ -47,8 +47,8 @@ impl Queues {
         Self { total: Arc::default(), clients: Mutex::default(), notices }
     }
 
-    /// Returns a copy of a message whose payload is charged to its receiver. `None` if the receiver's queue is full,
-    /// which is reported.
+    /// Returns a copy of a message whose payload is charged to its receiver `client`. If the receiver's queue is full,
+    /// reports that and returns `None`.
     pub fn charged(&self, publish: &Publish, client: &ClientId) -> Option<Publish> {
         let Some(charge) = self.charge(client, size(publish) + limits::MESSAGE_OVERHEAD_BYTES) else {
             self.notices.say(client, &full_queue(client));
@@ -63,8 +63,8 @@ impl Queues {
         Some(publish)
     }
 
-    /// Charges a message of `bytes` to a client. `None` if its queue or the total is full, unless its queue stays
-    /// within [`limits::QUEUE_SHARE_BYTES`].
+    /// Charges `bytes`, the length of a message, to a client. `None` if the client's queue or the total is full. A queue
+    /// that stays within [`limits::QUEUE_SHARE_BYTES`] always has room.
     fn charge(&self, client: &ClientId, bytes: usize) -> Option<Charge> {
         let queue = self.queue(client);
         let waiting = queue.load(Ordering::Relaxed) + bytes;

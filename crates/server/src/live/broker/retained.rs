@@ -46,8 +46,8 @@ impl Retained {
 }
 
 impl Kept {
-    /// Stores a message in place of the earlier one with the same topic, which is removed in any case. An empty message
-    /// is not stored. False if there is no room.
+    /// Stores a message. An earlier message with the same topic is removed in any case. A message with an empty payload is
+    /// not stored. Returns false if there is no room.
     fn set(&mut self, topic: &Topic, mut retain: Retain) -> bool {
         if let Some(old) = self.tree.remove(topic) {
             self.count -= 1;
@@ -91,7 +91,7 @@ impl Kept {
         (self.count, self.bytes) = (count, bytes);
     }
 
-    /// Returns the messages that match a filter, each with the time until it expires.
+    /// Returns the retained messages that match a filter. The expiry interval of each is the time that is left.
     fn matching(&self, filter: &Topic) -> Vec<(TopicName, Retain)> {
         let found = self.tree.matches(filter).into_iter().filter(|(_, message)| !message.is_expired());
         found

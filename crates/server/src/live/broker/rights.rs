@@ -34,7 +34,7 @@ pub enum Who {
 }
 
 impl Who {
-    /// Returns the kind of client by role, user and client id. `Err`: how they contradict each other.
+    /// Returns the kind of client for a role, a user and a client id. `Err`: how the three contradict each other.
     pub fn of(role: Role, user: &str, client_id: &str) -> Result<Self, String> {
         let named = client_id.strip_prefix(ROBOT);
         let robot = named.and_then(RobotId::new);

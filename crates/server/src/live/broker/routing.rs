@@ -26,15 +26,15 @@ pub struct BoundedShared {
     inner: DefaultShared,
     context: ServerContext,
     queues: Arc<Queues>,
-    /// Bounds the subscriptions that wait for their retained messages. They get them one after the other.
+    /// Bounds the number of subscriptions that wait for retained messages. `turn` serves them one after the other.
     waiting: Semaphore,
     turn: tokio::sync::Mutex<()>,
-    /// Whether clients log in as users, so that each session belongs to one login.
+    /// Whether clients log in as users. Each session then belongs to the user that began it.
     has_users: bool,
 }
 
 impl BoundedShared {
-    /// Replaces the forwarding of `context` by this one.
+    /// Makes `context` forward messages through a new `BoundedShared`.
     pub async fn install(context: &ServerContext, notices: Arc<Notices>, has_users: bool) {
         let inner = DefaultShared::new(Some(context.clone()));
         let bounded = Self {
@@ -137,8 +137,8 @@ impl Shared for BoundedShared {
         self.inner.subscriptions_count().await
     }
 
-    /// Delivers retained messages to a new subscription, one subscription at a time. rmqtt calls this in a task of its
-    /// own for each subscription, and copies all messages that match.
+    /// Delivers retained messages to a new subscription, one subscription at a time. rmqtt calls this function in a separate
+    /// task for each subscription. Each call copies all messages that match, so that many at once would take much memory.
     async fn retain_load_with(
         &self,
         filter: &TopicFilter,

@@ -16,13 +16,13 @@ use rmqtt::types::{
 
 use super::queues::Queues;
 
-/// Whether the session of a client id belongs to another login than that of `id`.
+/// Whether the session of a client id was begun by another user than that of `id`.
 pub fn is_of_another(session: Option<&Session>, id: &Id) -> bool {
     session.is_some_and(|session| session.id.username != id.username)
 }
 
-/// Whether a session ends with its connection. That is a clean session of MQTT 3 (section 3.1.2.4), or a session of
-/// MQTT 5 without an expiry interval (section 3.1.2.11.2).
+/// Whether a session ends together with its connection. This holds for a clean session of MQTT 3 (section 3.1.2.4), and for
+/// a session of MQTT 5 without an expiry interval (section 3.1.2.11.2).
 async fn ends_with_connection(session: &Session) -> bool {
     let Ok(connect) = session.connect_info().await else { return true };
     if let ConnectInfo::V3(_, connect) = connect.as_ref() {

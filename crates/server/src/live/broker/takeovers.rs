@@ -7,20 +7,20 @@ use std::time::{Duration, Instant};
 
 use super::limits;
 
-/// Number of take-overs that shows that two robots share a name.
+/// Number of take-overs of one client id from which on two robots are assumed to share the name.
 const TAKEOVERS: u32 = 3;
-/// Time within which these take-overs must happen.
+/// Time within which [`TAKEOVERS`] take-overs must happen.
 const WITHIN: Duration = Duration::from_secs(10);
-/// A take-over counts only if the old connection sent a packet within this time before.
+/// A take-over counts only if the old connection sent a packet within this time before the take-over.
 const ALIVE: Duration = Duration::from_secs(1);
 
-/// Connections that were taken over, by client id.
+/// Recent packets and take-overs of connections, by client id.
 #[derive(Debug, Default)]
 pub struct Takeovers(Mutex<BTreeMap<String, Contest>>);
 
 #[derive(Clone, Copy, Debug)]
 struct Contest {
-    /// Time of the client's last packet.
+    /// Time of the client's last login or published message.
     active: Instant,
     /// Time of the first of the counted take-overs.
     since: Instant,
@@ -28,7 +28,7 @@ struct Contest {
 }
 
 impl Takeovers {
-    /// Notes that a client sent a packet.
+    /// Notes that a client logged in or published a message.
     pub fn active(&self, client: &str, now: Instant) {
         let mut contests = self.lock();
         if let Some(contest) = contests.get_mut(client) {
@@ -41,7 +41,8 @@ impl Takeovers {
         contests.insert(client.to_owned(), Contest { active: now, since: now, count: 0 });
     }
 
-    /// Counts a connection that takes over that of the same client id. Returns whether two robots share the client id.
+    /// Counts a new connection that takes over the one of the same client id. Returns whether two robots seem to share the
+    /// client id.
     pub fn taken_over(&self, client: &str, now: Instant) -> bool {
         let mut contests = self.lock();
         let Some(contest) = contests.get_mut(client) else { return false };

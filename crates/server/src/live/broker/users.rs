@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 
-/// Users by name; without any, all clients on this machine may connect.
+/// Users by name. If there are none, all clients on this machine may connect.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Users(BTreeMap<String, User>);
 
@@ -21,8 +21,8 @@ struct User {
 /// The role of a user: which clients the user may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Role {
-    /// A robot or a controller where the client id says so (`LightBot/<name>`, `BotControl/<name>`), else
-    /// [`Role::Fleet`].
+    /// A robot if the client id is `LightBot/<name>`, a controller if it is `BotControl/<name>`. With any other client id,
+    /// the same as [`Role::Fleet`].
     #[default]
     ByClientId,
     /// A controller: may publish and receive everything, commands such as STOP included.
@@ -33,7 +33,7 @@ pub enum Role {
     Cue,
     /// The robot with the user's name, and no other.
     Robot,
-    /// Any robot, which the client id names, one on each connection: for robots that share a password.
+    /// Any robot. The client id names it, and each connection has one robot. For robots that share a password.
     AnyRobot,
 }
 

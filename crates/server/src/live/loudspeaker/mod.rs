@@ -21,9 +21,9 @@ use playhead::{LoudMusic, Playhead};
 
 /// Time between two readings of the show's position.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
-/// Longest time for which a reading of the show's position is used, so that a program that hangs does not play on.
+/// Longest time for which a reading of the show's position is used. If the program hangs, the music thus stops.
 const BELIEVED: Duration = Duration::from_secs(1);
-/// Length after which music is cut, seconds: 400 MB in memory for stereo at 44.1 kHz.
+/// Length in seconds after which music is cut. Stereo music of this length at 44.1 kHz takes 400 MB of memory.
 const LONGEST_S: usize = 1_200;
 
 /// The music that is to be heard, and its position.
@@ -41,7 +41,7 @@ pub struct Loudspeaker {
     /// them.
     _alive: Sender<()>,
     wanted: Arc<Mutex<Wanted>>,
-    /// Added to the show's position, seconds.
+    /// Time in seconds that is added to the show's position to get the music's position.
     offset_s: f64,
 }
 
@@ -137,7 +137,7 @@ impl Wanted {
     }
 }
 
-/// Decodes a file, up to `LONGEST_S`; `None` if its format is unknown, which is logged.
+/// Decodes a music file, up to `LONGEST_S`. `None` if the format is unknown, which is logged.
 fn decoded(file: Arc<[u8]>) -> Option<LoudMusic> {
     let decoder = match Decoder::try_from(Cursor::new(file)) {
         Ok(decoder) => decoder,

@@ -13,14 +13,14 @@ pub(super) struct LoudMusic {
 const NEAR_S: f64 = 0.003;
 /// Error of the position above which sound jumps to the right place, seconds.
 const FAR_S: f64 = 0.03;
-/// Largest change of the playing speed, as a share: the change of pitch is too small to be heard.
+/// Largest change of the playing speed, as a share of the speed. Such a change of pitch is too small to be heard.
 const RATE_MAX: f64 = 0.005;
-/// Time in which an error is corrected where `RATE_MAX` allows it, seconds.
+/// The change of speed is the position's error divided by this time, seconds, up to `RATE_MAX`.
 const GONE_IN_S: f64 = 2.0;
 
 impl LoudMusic {
-    /// Returns the sample of a channel at a position, interpolated between two frames. Beyond both ends of the music it
-    /// is silence.
+    /// Returns the sample of a channel at a position, interpolated between two frames. Before the start and after the end of
+    /// the music, it is silence.
     fn at(&self, position_s: f64, channel: usize) -> f32 {
         let frame = position_s * self.rate_hz;
         if frame < 0.0 {
@@ -41,8 +41,8 @@ pub(super) struct Playhead {
 }
 
 impl Playhead {
-    /// Fills a device's buffer, in which each frame has a sample for every channel. `target_s`: where the music is to
-    /// be when the first sample is heard; `None` for silence.
+    /// Fills a device's buffer, in which each frame has one sample for every channel. `target_s` is the wanted position in
+    /// the music, seconds, for the first sample; `None` for silence.
     pub fn fill(
         &mut self,
         samples: &mut [f32],

@@ -10,7 +10,7 @@ use super::words::{self, Card};
 /// Subject, tone and card of a new incident, and the robots that it is about.
 type FirstCard = (Subject, IncidentTone, Card, Vec<RobotId>);
 
-/// Returns the card of an event that is an incident by itself; `None` for other events.
+/// Returns the card of an event that makes an incident of its own; `None` for other events.
 pub fn card_of(kind: &EventKind) -> Option<FirstCard> {
     of_link(kind).or_else(|| of_robot(kind)).or_else(|| of_run(kind))
 }

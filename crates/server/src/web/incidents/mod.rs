@@ -20,13 +20,12 @@ use cards::card_of;
 use subject::Subject;
 use words::Card;
 
-/// Most incidents that are kept. A screen shows the unread ones. The oldest read one is dropped first, or the oldest of
-/// all if none is read.
+/// Most incidents that are kept. A screen shows the unread ones. If there are too many, the oldest read one is dropped, or
+/// the oldest of all if none was read.
 const KEPT: usize = 40;
 /// Most robot names that an incident keeps.
 const NAMED: usize = 50;
-/// Time within which robots that drop out for one reason make one incident, milliseconds. It counts from the last of
-/// them.
+/// Robots that drop out for the same reason make one incident if each follows the one before within this time, milliseconds.
 const TOGETHER_MS: u64 = 4_000;
 
 #[derive(Debug)]
@@ -73,7 +72,7 @@ impl IncidentBoard {
         });
     }
 
-    /// Removes robots that were listed from incidents about joining, because they do not want to join any more.
+    /// Removes robots from incidents about joining, because they were put on the list of robots that take part.
     pub fn joined(&self, robots: &[RobotId]) {
         self.change(|book| {
             let mut changed = false;
@@ -84,7 +83,7 @@ impl IncidentBoard {
         });
     }
 
-    /// Opens an incident: an entry of the playlist was not played, or not to its end.
+    /// Opens an incident: an entry of the playlist was not played, or not to its end. `why` is a line for people.
     pub fn playlist_failed(&self, entry: u32, title: &str, why: &str) {
         self.change(|book| {
             let card = Card::new(title, why, "The playlist goes on with the next show.");
@@ -93,7 +92,7 @@ impl IncidentBoard {
         });
     }
 
-    /// Ends the incident of a playlist entry, because the entry plays.
+    /// Ends the incident of a playlist entry, because the entry is played after all.
     pub fn playlist_goes_on(&self, entry: u32) {
         self.change(|book| book.end(|subject| *subject == Subject::Playlist(entry)));
     }
@@ -132,7 +131,7 @@ impl Entry {
 }
 
 impl Book {
-    /// Updates the incidents by an event. Returns whether that changed one.
+    /// Updates the incidents by an event. Returns whether an incident has changed.
     fn note(&mut self, kind: &EventKind, now_ms: u64) -> bool {
         use EventKind as E;
         match kind {
@@ -184,8 +183,8 @@ impl Book {
         (incident.title, incident.done, incident.advice) = (card.title, card.done, card.advice);
     }
 
-    /// Removes a robot from the incidents whose subject `of` accepts. An incident that loses its last robot is over.
-    /// Returns whether any is over by this.
+    /// Removes a robot from the incidents whose subject `of` accepts. An incident that loses its last robot is over. Returns
+    /// whether an incident is over because of this call. The card itself keeps the robot's name.
     fn leave(&mut self, robot: RobotId, of: impl Fn(&Subject) -> bool) -> bool {
         let mut changed = false;
         for entry in self.entries.iter_mut().filter(|entry| of(&entry.subject)) {
@@ -199,8 +198,8 @@ impl Book {
         changed
     }
 
-    /// Notes that a robot wants to join. Robots that want to join make one incident until the operator has read it or
-    /// they have joined.
+    /// Notes that a robot wants to join. All robots that want to join share one incident, until the operator has read it or
+    /// all of them have joined.
     fn want_to_join(&mut self, robot: RobotId, now_ms: u64) {
         let holds = |entry: &&mut Entry| {
             entry.subject == Subject::Joining && !entry.incident.over && !entry.incident.read
@@ -224,8 +223,8 @@ impl Book {
         changed
     }
 
-    /// Opens an incident. If one with the same subject is not over, it gets the new state instead, except for dropouts
-    /// and joining.
+    /// Opens an incident. If one with the same subject is not over, that one gets the new card instead and becomes unread.
+    /// Dropouts and joining always open another incident.
     fn open(&mut self, subject: Subject, tone: IncidentTone, card: Card, robots: Vec<RobotId>, now_ms: u64) {
         let Card { title, done, advice } = card;
         let holds = |entry: &&mut Entry| entry.subject == subject && !entry.incident.over;

@@ -16,8 +16,8 @@ impl Card {
     }
 }
 
-/// Returns the card for robots that dropped out for one reason. `names`: the first of the `count` robots. `frame`: the
-/// frame that is to be reached or is shown, counted from 0.
+/// Returns the card for robots that dropped out for the same reason. `names` has the first of the `count` robots. `frame` is
+/// the frame that robots drive to or show, counted from 0; `None` if there is none yet.
 pub fn dropped(why: Trouble, names: &[String], count: usize, frame: Option<usize>) -> Card {
     let place = frame.map_or(String::new(), |frame| format!(" in frame {}", frame + 1));
     let pixels = if count == 1 { "its pixel is left dark" } else { "their pixels are left dark" };
@@ -30,7 +30,7 @@ pub fn dropped(why: Trouble, names: &[String], count: usize, frame: Option<usize
     Card::new(title, done, advice(why))
 }
 
-/// Returns the card for robots that are not listed and want to join. `names`: the first of the `count` robots.
+/// Returns the card for robots that are not listed and want to join. `names` has the first of the `count` robots.
 pub fn joining(names: &[String], count: usize) -> Card {
     let wants = if count == 1 { "is new and wants to join" } else { "are new and want to join" };
     let title = format!("{} {wants}.", subject(names, count));
