@@ -25,7 +25,7 @@ use ts_rs::TS;
 pub enum AccountRole {
     /// Watch shows, and stop all robots.
     Viewer,
-    /// Change shows.
+    /// Change shows, and open a show on every screen.
     Editor,
     /// Run shows.
     Operator,

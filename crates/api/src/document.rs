@@ -231,11 +231,12 @@ pub struct DocumentFrame {
     pub air_time_s: Option<f64>,
     /// Moment at which the air time must begin, seconds from the start of the first frame's air time.
     pub at_s: Option<f64>,
-    /// Wanted duration of the drive to the frame, seconds.
+    /// Wanted duration of the drive to the frame, seconds; if absent, the shortest drive that the planner finds.
     pub transition_s: Option<f64>,
     /// How robots speed up and slow down.
     pub easing: Option<DocumentEasing>,
-    /// How the previous frame's picture moves as one formation to this frame.
+    /// How robots get from the previous frame's picture to this frame: as one formation, one after another, or as a
+    /// morph.
     pub motion: Option<DocumentMotion>,
     /// Overrides the show's `identity`.
     pub identity: Option<DocumentIdentity>,
@@ -255,7 +256,8 @@ pub enum DocumentEasing {
     Gentle,
 }
 
-/// How a picture moves as one formation. The other fields of a motion depend on `kind`.
+/// How robots get from one picture to the next: as one formation, one after another, or as a morph. The other fields of
+/// a motion depend on `kind`.
 #[derive(JsonSchema)]
 pub struct DocumentMotion {
     /// The kind.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// The fleet table, sent after each change.
+/// The fleet table. It is sent at once when a robot is added or removed, and otherwise at most twice a second.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct Fleet {
     /// Number of the table, increased when a robot is added or removed. `State.fleet` names the table of a snapshot.
@@ -19,7 +19,7 @@ pub struct Fleet {
 pub struct FleetRow {
     /// Name of the robot in messages, usually a UUID.
     pub id: String,
-    /// The status of the robot's last report.
+    /// The status of the robot's last report; `idle` for an original robot, whose reports have none.
     pub status: RobotStatus,
     /// How recent the last report is.
     pub presence: Presence,
@@ -29,13 +29,13 @@ pub struct FleetRow {
     pub battery: Option<u8>,
     /// Time until the battery is empty at the measured slope, seconds; null: no slope is known yet.
     pub battery_left_s: Option<f64>,
-    /// Id of the pixel that the robot shows or drives to; null: the robot stands by.
+    /// Id of the pixel that the robot shows or drives to, or showed at the end of its last run; null: none.
     pub pixel: Option<u32>,
     /// Name and version of the firmware; null: not reported. Original robots report none.
     pub firmware: Option<String>,
     /// Abilities beyond the original protocol.
     pub abilities: Abilities,
-    /// Bound on the error of the robot's clock, microseconds; null: not synchronised.
+    /// Error of the robot's show clock, 2 sigma, microseconds; null: not synchronised.
     pub clock_us: Option<u32>,
     /// Name that people gave the robot; null: none.
     pub called: Option<String>,
@@ -52,9 +52,10 @@ pub struct FleetRow {
 pub struct PreflightResult {
     /// What is wrong with the robot; empty: the robot passed.
     pub faults: Vec<PreflightFault>,
-    /// Largest distance between the robot and its planned places, millimetres; null: not measured.
+    /// Largest distance between the robot and the planned end of a drive, measured after each drive of the preflight,
+    /// millimetres; null: not measured.
     pub off_mm: Option<f64>,
-    /// Largest error of the robot's heading, degrees; null: not measured.
+    /// Largest measured error of the robot's heading after a drive of the preflight, degrees; null: not measured.
     pub off_deg: Option<f64>,
     /// Whether Stop, heading and blinking were not tested, because the robot understands only the commands TARGET and
     /// COLOR.
@@ -74,19 +75,19 @@ pub struct PreflightFault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum RobotStatus {
-    /// The robot stands and has no route.
+    /// The robot stands and has no route, or is an original robot, which reports no status.
     Idle,
     /// The robot has a route that has not begun.
     Ready,
     /// The robot drives.
     Driving,
-    /// The robot stands on a route that is held.
+    /// The robot slows down or stands on a route that is held.
     Held,
-    /// The robot does not know its place.
+    /// The robot does not know its place well enough to drive.
     Lost,
-    /// The robot lost its link during a run.
+    /// The robot stands because its link was lost during a drive, or was silent for too long on a route.
     Cut,
-    /// Sensors or motors of the robot give impossible values.
+    /// The robot stands, because its sensors give impossible values, a wheel is stuck, or it is too far from its route.
     Faulty,
 }
 

@@ -39,7 +39,7 @@ pub struct ShowEntry {
     pub frames: usize,
     /// Number of pixels of the largest frame.
     pub pixels: usize,
-    /// Time of the last save, milliseconds since 1970; 0 for a read-only show.
+    /// Time of the last save, milliseconds since 1970; 0 unless `origin` is `saved`.
     pub modified_ms: u64,
     /// Version of the document with its quotes, for `If-Match`.
     pub etag: String,
@@ -48,8 +48,8 @@ pub struct ShowEntry {
     /// Why the show cannot be saved under its name, for people: its file holds fields that this version does not know.
     /// null: the show can be saved, or is read-only because of `origin`.
     pub read_only: Option<String>,
-    /// Origin of the read-only show of which this new entry is a copy. Only in the answer to a save of a read-only show;
-    /// otherwise null.
+    /// Origin of the example or start file of which this new entry is a copy. Only in the answer to a save under the
+    /// name of an example or the start file; otherwise null.
     pub copy_of: Option<ShowOrigin>,
     /// Issues found in the file, such as contents that a show cannot hold. Only in the answer to a save.
     pub issues: Vec<Issue>,
@@ -60,7 +60,7 @@ pub struct ShowEntry {
 pub struct ShowState {
     /// Number for `/api/shows/{name}/states/{number}`; null: the current state.
     pub number: Option<u32>,
-    /// Time of the save, milliseconds since 1970; 0 for a read-only show.
+    /// Time of the save, milliseconds since 1970; 0 for an example or the start file.
     pub saved_ms: u64,
     /// Name that the author gave the show; may be empty.
     pub title: String,

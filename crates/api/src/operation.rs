@@ -51,7 +51,7 @@ pub enum Operation {
     Pause,
     /// Continue after a pause.
     Resume,
-    /// Show the next frame, then pause.
+    /// Leave a pause: show the next frame, then pause again.
     Step,
     /// GO: go on from the frame that waits for GO. If frames repeat until GO, go on at the end of the present round.
     Go,
@@ -76,15 +76,17 @@ pub enum Operation {
         /// Whether the show begins again.
         on: bool,
     },
-    /// Set the speed of drives from the next run on. Refused during a run.
+    /// Set the speed of drives of all later runs but preflights. Refused during a run and while robots are being
+    /// stopped.
     Speed {
         /// Percent of the usual speed.
         percent: u32,
     },
-    /// Drive all robots to their starting places.
+    /// Drive all robots that can take part to their starting places.
     Home,
-    /// Test all robots: each robot drives 50 mm out and back, is stopped on the way, and blinks. `Playback.preflight` has
-    /// the progress, `FleetRow.preflight` the result for each robot.
+    /// Test all robots that can take part: each robot drives 50 mm out and back, is stopped on the way, and blinks.
+    /// Refused during a run, and until `dismiss_failure` after a failed or stopped run. `Playback.preflight` has the
+    /// progress, `FleetRow.preflight` the result for each robot.
     Preflight,
     /// End the run. Robots stop at their places.
     Abort,
@@ -103,12 +105,12 @@ pub enum Operation {
     },
     /// Ask all robots for a report.
     Refresh,
-    /// Make a robot blink.
+    /// Make a robot blink for five seconds. A robot that cannot blink is asked for a report.
     Identify {
         /// Name of the robot.
         robot: String,
     },
-    /// Remove a robot from the fleet until it reports again.
+    /// Remove a robot from the fleet, with its pinned pixels, until it reports again. Refused during a run.
     Forget {
         /// Name of the robot.
         robot: String,
@@ -132,7 +134,8 @@ pub enum Operation {
         /// Whether they are listed.
         listed: bool,
     },
-    /// Bind a pixel to a robot in all frames while this show is open, or free the pixel.
+    /// Bind all pixels with an id to one robot in all frames, or free them. This also holds for shows that are opened
+    /// later.
     Pin {
         /// Id of the pixel.
         pixel: u32,
@@ -174,7 +177,7 @@ pub enum Operation {
     Disconnect,
 }
 
-/// What happens if there are fewer ready robots than pixels.
+/// What happens if there are fewer ready robots than pixels, or the robot of a pinned pixel is not ready.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Missing {

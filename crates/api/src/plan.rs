@@ -21,11 +21,11 @@ pub struct Plan {
     pub lower_bound_s: f64,
     /// Smallest distance between two centres, metres; null with fewer than two robots.
     pub closest_m: Option<f64>,
-    /// Share of all moments, 0 to 1, at which any single robot could stop dead without a contact.
+    /// Share of all moments, 0 to 1, at which any single robot could stop dead without a contact; 1 if not measured.
     pub stop_safe: f64,
     /// Duration of planning, milliseconds; 0 for a plan that the browser made.
     pub plan_ms: f64,
-    /// Issues in the order of frames.
+    /// Issues: first those of reading and checking the show, then those of planning.
     pub issues: Vec<Issue>,
     /// `transitions[k]` leads to frame `k`. Shorter than the list of frames if planning failed.
     pub transitions: Vec<Transition>,
@@ -45,7 +45,7 @@ pub struct PlanningRequest {
 /// A plan by the module in the browser, or why there is none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 pub struct PlanAnswer {
-    /// The plan. Its `stop_safe` is measured only for quality `full`. null: there is no plan.
+    /// The plan. With quality `quick`, `stop_safe` of the plan is not measured and is 1. null: there is no plan.
     pub plan: Option<Plan>,
     /// Why there is no plan; null: there is one.
     pub error: Option<MakeRemark>,
@@ -85,7 +85,8 @@ pub struct Transition {
     pub lower_bound_s: f64,
     /// Smallest distance between two centres, metres; null with fewer than two robots.
     pub closest_m: Option<f64>,
-    /// Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact.
+    /// Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact; 1 if not
+    /// measured.
     pub stop_safe: f64,
     /// `pixels[robot]` is the id of the pixel that the robot shows after the transition; null: the robot stands by. The
     /// list is empty in messages on the WebSocket; answers over HTTP have it.

@@ -57,7 +57,7 @@ pub fn plan_document(plan: &ShowPlan, found: &Issues, plan_ms: f64) -> Plan {
     }
 }
 
-/// Rounds a share of moments, 0 to 1, down to 5 decimals, so that only a share of all moments becomes 1.
+/// Rounds a share, 0 to 1, down to 5 decimals, so that a share below 1 does not become 1.
 fn share(share: f64) -> f64 {
     (share * 1e5 + 1e-6).floor() / 1e5
 }

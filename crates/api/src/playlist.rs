@@ -45,7 +45,7 @@ pub struct PlaylistEntry {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional = nullable)]
     pub pause_min: Option<u32>,
-    /// Whether robots drive to their starting places at the beginning of the pause.
+    /// Whether robots drive to their starting places at the beginning of the pause. Only for an entry with `pause_min`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[ts(as = "Option<bool>", optional)]
     pub home: bool,
@@ -102,7 +102,8 @@ pub struct PlaylistState {
 pub struct PlaylistToday {
     /// What became of the entry.
     pub result: PlaylistResult,
-    /// Local time of day of the server, `HH:MM`, at which the entry starts, began or ended; null: not known yet.
+    /// Local time of day of the server, `HH:MM`, at which the entry starts, began or ended; null: not known yet, or
+    /// `result` is `not_today` or `past`.
     pub time: Option<String>,
     /// Why the entry failed or was skipped, with a remedy: one line; null: neither happened.
     pub line: Option<String>,
@@ -114,9 +115,11 @@ pub struct PlaylistToday {
 pub enum PlaylistResult {
     /// The entry is not played on this day of the week.
     NotToday,
-    /// The entry's time has not come, or the previous entry is not over.
+    /// The entry's time has not come, or the previous entry is not over, or robots drive to their starting places
+    /// before the entry.
     Waiting,
-    /// The entry's time of day had passed before the playlist was switched on.
+    /// The entry's time of day, or that of the entry that it follows, had passed by more than five minutes before the
+    /// playlist was switched on.
     Past,
     /// The entry plays.
     Playing,

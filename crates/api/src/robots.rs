@@ -14,19 +14,22 @@ pub struct Robots {
     /// Measured y, stage metres, rounded to 0.1 mm; NaN: unknown.
     #[ts(type = "Float32Array")]
     pub y: Vec<f32>,
-    /// Planned x now, stage metres; NaN: the robot has no path. A planned place is never drawn as a measured one.
+    /// Planned x now, stage metres; NaN: the robot drives no path now. A planned place is never drawn as a measured
+    /// one.
     #[ts(type = "Float32Array")]
     pub planned_x: Vec<f32>,
-    /// Planned y now, stage metres; NaN: the robot has no path.
+    /// Planned y now, stage metres; NaN: the robot drives no path now.
     #[ts(type = "Float32Array")]
     pub planned_y: Vec<f32>,
-    /// x of the robot's pixel, stage metres; NaN: the robot stands by.
+    /// x of the place where the robot is to stand after its present or last drive, stage metres; NaN: there was no
+    /// drive.
     #[ts(type = "Float32Array")]
     pub goal_x: Vec<f32>,
-    /// y of the robot's pixel, stage metres; NaN: the robot stands by.
+    /// y of the place where the robot is to stand after its present or last drive, stage metres; NaN: there was no
+    /// drive.
     #[ts(type = "Float32Array")]
     pub goal_y: Vec<f32>,
-    /// Colour of the light: R·65536 + G·256 + B.
+    /// Colour that the light should have: R·65536 + G·256 + B.
     #[ts(type = "Uint32Array")]
     pub colour: Vec<u32>,
     /// Index of the robot's `RobotStatus`, from 0.

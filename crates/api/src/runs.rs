@@ -22,7 +22,8 @@ pub struct RunEntry {
     pub began_ms: u64,
     /// When the run ended, milliseconds since 1970; null: the run is still on, or the program ended before the run did.
     pub ended_ms: Option<u64>,
-    /// Whether all frames were shown and no robot was lost for good.
+    /// Whether the run reached its end, all its frames were shown, and no robot was missing at the end. `false` while
+    /// the run is on.
     pub ok: bool,
     /// How the run ended, in one sentence; null: the run is still on, or the program ended before the run did.
     pub outcome: Option<String>,

@@ -5,9 +5,10 @@ use ts_rs::TS;
 
 use crate::{Answer, Fleet, Incidents, Plan, State};
 
-/// A message to a screen. `hello` is followed by `show`, `plan`, `incidents`, `fleet` and the last lines of the log. Each
-/// of these is sent again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A
-/// screen acknowledges each `state` with `took`. While a screen has not acknowledged several, it gets no more.
+/// A message to a screen. `hello` is followed by `show`, `plan`, `incidents`, `fleet` and the last lines of the log.
+/// Each of these is sent again after a change, `fleet` also without a change. `state` comes 20 times a second, each
+/// after the binary message `Robots`. A screen acknowledges each `state` with `took`. While a screen has not
+/// acknowledged several, it gets no more.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case")]
 // A message is made, sent and dropped at once, so that its size does not matter.
@@ -52,7 +53,7 @@ pub struct OpenShow {
     pub revision: u32,
     /// Name of the show in the library; null: no show is open.
     pub name: Option<String>,
-    /// Version of the show in the library, for `If-Match`.
+    /// Version of the show in the library, for `If-Match`; null: no show is open.
     pub etag: Option<String>,
     /// Why the show cannot be saved under its name, for people: its file holds fields that the document lacks. null: the
     /// show can be saved.
@@ -73,7 +74,7 @@ pub struct LogLine {
     pub level: Level,
     /// Text for people, one line.
     pub text: String,
-    /// Number of robots if the line sums up events of several robots, else 0.
+    /// Number of robots if the line sums up events of at least two robots, else 0.
     pub count: usize,
     /// Names of the first of these robots.
     pub robots: Vec<String>,

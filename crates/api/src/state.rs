@@ -41,7 +41,8 @@ pub struct Broker {
     pub connected: bool,
     /// The address in use; null: none.
     pub node: Option<String>,
-    /// Why the broker does not answer: one line for people with cause, place and remedy; null: it answers.
+    /// Why the broker does not answer: one line for people with cause, place and remedy; null unless `phase` is
+    /// `retrying`.
     pub reason: Option<String>,
 }
 
@@ -67,23 +68,26 @@ pub struct Playback {
     pub phase: Phase,
     /// What the run does, for people, such as `driving`; null: there is no run.
     pub doing: Option<String>,
-    /// Index of the frame that robots show or drive to, counted from 0; null: none, or robots drive to their starting
-    /// places.
+    /// Index of the frame that robots show or drive to, counted from 0; null: there is no run, or it is a preflight or
+    /// a drive to the starting places.
     pub frame: Option<usize>,
-    /// Index of the frame after `frame`; null: none, the run ends after `frame`.
+    /// Index of the frame after `frame`, counted from 0; null: `frame` is null, or the run ends after `frame`.
     pub next: Option<usize>,
     /// Whether `GoTo` and `Skip` are possible: a show is played, and robots stand or are held.
     pub may_jump: bool,
     /// Number of frames of the open show.
     pub frames: usize,
-    /// Progress of the transition to `frame`, 0 to 1; 1 during the air time.
+    /// Progress of the drive under way, 0 to 1; 1 during the air time and while the show waits for `go`, 0 without a
+    /// run.
     pub progress: f64,
-    /// Time to the end of the show, seconds; null: unknown.
+    /// Planned time to the end of the show, or of its present pass if it begins again, seconds. null: no show is
+    /// played, or frames repeat until `go`.
     pub left_s: Option<f64>,
-    /// Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
+    /// Why and where the last run failed, a sentence for people; null: no failure since the last run began, or
+    /// dismissed.
     pub failure: Option<String>,
-    /// Index of the frame in which the last run of the show ended early, counted from 0. null: the run reached its end, or
-    /// `dismiss_failure` cleared the index.
+    /// Index of the frame in which the last run of a show ended early, counted from 0. null: the run reached its end,
+    /// another run began, another show was opened, or `dismiss_failure` cleared the index.
     pub stopped_in: Option<usize>,
     /// The preflight that is under way, or the last one since the server's start; null: there was none.
     pub preflight: Option<PreflightState>,
@@ -95,9 +99,10 @@ pub struct Playback {
     pub repeats: Option<Repeats>,
     /// Whether `go_on` can continue a show whose robots were out of reach, because some of its robots report again.
     pub may_go_on: bool,
-    /// Speed of drives, percent of the usual speed.
+    /// Speed of drives of a show, of one frame and to the starting places, percent of the usual speed.
     pub speed_percent: u32,
-    /// Whether the present robots have never played the open show to its end. The screen then offers a slow first run.
+    /// Whether robots of this kind (real or simulated) have never played the open show to its end. The screen then
+    /// offers a slow first run. `false` for a show without frames, and until the server knows the drives of the show.
     pub first_run: bool,
     /// Whether the show begins again after the last frame.
     pub looping: bool,
@@ -105,14 +110,15 @@ pub struct Playback {
     pub late: Vec<String>,
 }
 
-/// A preflight.
+/// The preflight that is under way, or the last one.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub struct PreflightState {
     /// What robots do, for people, such as `driving out`; null: the preflight is over.
     pub doing: Option<String>,
-    /// The round under way, counted from 1. Robots that would be in each other's way are tested in different rounds.
+    /// The round under way, counted from 1; 0: the preflight is over. Robots that would be in each other's way are
+    /// tested in different rounds.
     pub round: usize,
-    /// Number of rounds.
+    /// Number of rounds; 0: the preflight is over.
     pub rounds: usize,
     /// Whether the preflight was carried out to its end.
     pub finished: bool,
@@ -143,16 +149,16 @@ pub enum Phase {
     Idle,
     /// There is no run.
     Ready,
-    /// Robots receive their paths.
+    /// A run is planned, and robots receive their paths.
     Preparing,
     /// The show plays.
     Playing,
-    /// The show is held.
+    /// The operator has paused the run.
     Paused,
-    /// Robots drive to one frame, or show it.
+    /// Robots drive to one frame or show it, drive to their starting places, or are tested in a preflight.
     Preview,
-    /// Robots stop after an abort.
+    /// Robots are being stopped.
     Aborting,
-    /// The show stands still, because its robots are or were out of reach. It goes on after `go_on`.
+    /// The run stands still, because its robots or the broker are or were out of reach. It goes on after `go_on`.
     LinkLost,
 }

@@ -32,8 +32,8 @@ impl LightPictures {
         Self::default()
     }
 
-    /// Decodes a file and keeps its picture under `hash`. Returns a `LightAnswer` as JSON; its error says what is wrong with
-    /// the file.
+    /// Decodes a file and keeps its picture under `hash`. Returns a `LightAnswer` as JSON. Its error says what is wrong
+    /// with the file, or that too many pictures are kept.
     pub fn add(&mut self, hash: &str, file: &[u8]) -> String {
         let decoded = if lightbots_exchange::is_sequence(file) {
             let remark = |message| MakeRemark { code: "bad-sequence".into(), message };
@@ -92,8 +92,9 @@ impl PlannedLight {
         answer::text(&LightAnswer { robots: self.robots, error: self.error.clone() })
     }
 
-    /// Replaces the layers of the show by those of `document`, a show in the format `lightbots`. Nothing else of `document`
-    /// is used, and it may have no pixels. Returns a `LightAnswer` as JSON.
+    /// Replaces the layers of the show by those of `document`, a show in the format `lightbots`. Nothing else of
+    /// `document` is used, and it may have no pixels. If `document` cannot be read, the layers stay as they are.
+    /// Returns a `LightAnswer` as JSON.
     pub fn relight(&mut self, document: &str, pictures: &LightPictures) -> String {
         match shown(document) {
             Ok(other) => {

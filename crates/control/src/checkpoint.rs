@@ -35,8 +35,8 @@ impl Controller {
     }
 }
 
-/// Removes from a robot what a controller at rest cannot hold: a participant number, and places that are not finite
-/// numbers.
+/// Removes from a robot what a controller at rest cannot hold: a participant number, and a reported place or a goal
+/// that is not finite.
 fn check(robot: &mut KnownRobot) {
     let is_finite = |at: &Vec2| at.x.is_finite() && at.y.is_finite();
     robot.participant = None;

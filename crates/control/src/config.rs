@@ -27,7 +27,7 @@ pub struct Config {
     /// Limits for sending routes.
     pub upload: UploadLimits,
     /// Time without reports after which a robot that should report drops out of the run. The controller adds round
-    /// trips of the link.
+    /// trips of the link. On drives by TARGET it allows four times as long.
     pub silence: Span,
     /// Bounds for robots that are behind the planned places on their paths.
     pub late: LateBounds,
@@ -46,7 +46,8 @@ pub struct LateBounds {
     /// Distance from its planned place above which a late robot makes all robots wait, metres. In legs with much
     /// clearance the bound is larger.
     pub off_m: f64,
-    /// How long all robots wait for a late robot. Then the late robot drops out, and the others are planned around it.
+    /// How long all robots wait for a late robot since it last made progress. Then the late robot drops out, and the
+    /// others are planned around it.
     pub wait: Span,
 }
 
@@ -79,7 +80,7 @@ pub struct UploadLimits {
     pub resend_after: Span,
     /// How many times a route is sent without acknowledgement before its robot drops out.
     pub tries: u32,
-    /// Largest number of routes that are sent and not yet acknowledged.
+    /// Largest number of routes, and also of stretches of light, that are sent and not yet acknowledged.
     pub window: usize,
 }
 

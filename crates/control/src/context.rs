@@ -30,7 +30,7 @@ pub(crate) struct Context {
     pub plan_request: Option<PlanRequest>,
     /// Number of the last plan request.
     pub plan_number: u64,
-    /// Number of the next route.
+    /// Number of the next route or stretch of light.
     next_route: u32,
     /// Number of arrivals reported by robots that were sent nowhere, and of robots found standing away from their
     /// planned places.
@@ -56,7 +56,8 @@ impl Context {
         }
     }
 
-    /// Returns the number for the next route, which is never 0. After the largest number, numbers begin again at 1.
+    /// Returns the number for the next route or stretch of light, which is never 0. After the largest number, numbers
+    /// begin again at 1.
     pub fn number_route(&mut self) -> u32 {
         let number = self.next_route;
         self.next_route = number.checked_add(1).unwrap_or(1);
@@ -69,7 +70,7 @@ impl Context {
     }
 
     /// Notes the colour that a robot is told to show from now on. `robot`: index into the fleet. Returns `false` if the
-    /// robot certainly shows this colour already.
+    /// robot was told this colour before, so that no command is needed.
     pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
         let robot = self.fleet.robot_mut(robot);
         let is_other = !robot.shows(color);
@@ -77,7 +78,8 @@ impl Context {
         is_other
     }
 
-    /// Counts a reported arrival of a robot that was sent nowhere, and records an event at a bounded rate.
+    /// Counts a reported arrival of a robot that was sent nowhere or was unknown before, and records an event at a
+    /// bounded rate.
     pub fn report_unexpected(&mut self, now: Instant, report: &Report) {
         self.unexpected += 1;
         self.log.record_limited(now, EventKind::UnexpectedArrival(report.id));

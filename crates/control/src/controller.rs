@@ -20,10 +20,11 @@ use std::sync::Arc;
 
 /// Time between two updates of report ages. Each update covers one slice of the fleet.
 const PATROL: Span = Span::from_millis(250);
-/// Number of slices of the fleet: the age of each robot's last report is updated every 2 s.
+/// Largest number of updates that cover the whole fleet: the age of each robot's last report is updated at least every
+/// 2 s.
 const ROUNDS: usize = 8;
-/// Time between two requests to all robots to report, between runs, if some robots have the original firmware. Without
-/// repeated requests a robot whose first report is lost stays unknown, and others would drive into it.
+/// Least time between two requests to all robots to report, between runs, if some robots have the original firmware.
+/// Without repeated requests a robot whose first report is lost stays unknown, and others would drive into it.
 const ASK_ALL: Span = Span::from_millis(600);
 /// Time added to [`ASK_ALL`] for each robot, because all answers share one link.
 const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
@@ -32,9 +33,9 @@ const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
 const ASK_AFTER: i64 = 2;
 
 /// The controller of one fleet. Its inputs are [`message`](Self::message), [`operate`](Self::operate),
-/// [`connected`](Self::connected), [`disconnected`](Self::disconnected), [`wake`](Self::wake) and
-/// [`planned`](Self::planned). Each input takes `now`, which *is* the show clock and must never go back. After each
-/// input, call [`next_send`](Self::next_send), [`next_event`](Self::next_event) and
+/// [`connected`](Self::connected), [`disconnected`](Self::disconnected), [`wake`](Self::wake),
+/// [`planned`](Self::planned) and [`take_up`](Self::take_up). Each input takes `now`, which *is* the show clock and
+/// must never go back. After each input, call [`next_send`](Self::next_send), [`next_event`](Self::next_event) and
 /// [`next_plan_request`](Self::next_plan_request) until each returns `None`. Call `wake` at the moment that
 /// [`wake_at`](Self::wake_at) returns.
 #[derive(Debug, Serialize, Deserialize)]
@@ -43,7 +44,7 @@ pub struct Controller {
     #[serde(with = "crate::shared_show::optional")]
     pub(crate) show: Option<Arc<Show>>,
     pub(crate) looping: bool,
-    /// Speed of drives of the next run, percent of the usual speed.
+    /// Speed of drives of all later runs except preflights, percent of the usual speed.
     pub(crate) speed_percent: u32,
     #[serde(skip)]
     pub(crate) run: Option<Run>,
@@ -95,8 +96,9 @@ impl Controller {
         }
     }
 
-    /// Handles that the broker is connected, and asks all robots to report. The caller must have subscribed to `UUID`,
-    /// `Arrival`, `Status` and `Time` under `T/LightBot/`.
+    /// Handles that the broker is connected, and asks all robots to report. If a stop of all robots is due, begins it
+    /// first. Does nothing if the broker is connected already. The caller must have subscribed to `UUID`, `Arrival`,
+    /// `Status` and `Time` under `T/LightBot/`.
     pub fn connected(&mut self, now: Instant) {
         if self.context.outbox.linked() {
             return;
@@ -248,8 +250,8 @@ impl Controller {
         }
     }
 
-    /// Removes the run, which is over at `frame` (counted from 0) with this outcome. If the run failed, all robots are
-    /// stopped.
+    /// Removes the run, which is over at `frame` (counted from 0) with this outcome. If the run failed and the broker
+    /// is connected, begins to stop all robots.
     fn end(&mut self, now: Instant, outcome: RunOutcome, frame: usize) {
         let Some(mut run) = self.run.take() else { return };
         if outcome == RunOutcome::Finished {
@@ -337,12 +339,12 @@ impl Controller {
         Some(due.unwrap_or(Instant::FAR).min(self.patrol_at).max(self.woken + Span::from_millis(1)))
     }
 
-    /// Whether a run is under way, or robots are being stopped after a run.
+    /// Whether a run is under way, or robots are being stopped.
     pub fn has_run(&self) -> bool {
         self.run.is_some() || self.stopping.is_some()
     }
 
-    /// Whether the run waits for GO, and the air time of the frame that has the cue is over.
+    /// Whether the run waits for GO and is not paused, and the air time of the frame that has the cue is over.
     pub fn is_at_cue(&self, now: Instant) -> bool {
         self.run.as_ref().is_some_and(|run| run.is_at_cue(now))
     }

@@ -56,7 +56,7 @@ pub enum EventKind {
         /// Number of its frames.
         frames: usize,
     },
-    /// The preparation of a run began.
+    /// The preparation of a run of the open show, or of a preview, began.
     RunBegun {
         /// First frame, counted from 0.
         from: usize,
@@ -68,7 +68,7 @@ pub enum EventKind {
         /// Number of frames that the plan leads to.
         frames: usize,
     },
-    /// Planning the drive to a frame failed.
+    /// Planning the drive to a frame failed, or the planned drive would take too long.
     PlanFailed {
         /// Counted from 0.
         frame: usize,
@@ -99,12 +99,13 @@ pub enum EventKind {
         frame: usize,
         /// Time from the first to the last arrival of a robot at its place in this frame.
         spread: Span,
-        /// Time by which the frame was reached after the planned end of the drive; 0 if it was reached earlier.
+        /// Time by which the frame was reached after the planned end of the drive, holds included; 0 if it was reached
+        /// earlier.
         wait: Span,
     },
-    /// Robots began to drive to their starting places.
+    /// The preparation of the drive to the starting places began.
     GoingHome {
-        /// Number of robots that drive.
+        /// Number of robots that take part.
         robots: usize,
     },
     /// The drive to the starting places was planned.
@@ -206,7 +207,7 @@ pub enum EventKind {
     UnexpectedArrival(RobotId),
     /// Too many events came at once; this number of them was not recorded.
     Suppressed(u64),
-    /// Every robot was told to stop.
+    /// Every robot was told to stop, because the operator requested StopAll.
     StoppedAll,
     /// A run is over.
     RunEnded {
@@ -217,14 +218,15 @@ pub enum EventKind {
         /// Number of dropouts; a robot that dropped out twice counts twice.
         dropouts: usize,
     },
-    /// Robots have reached the first frame of a loop. The frames of the loop repeat until the operator gives GO.
+    /// Robots have reached the first frame of a loop, or a frame within it at which the run began. The frames of the
+    /// loop repeat until the operator gives GO.
     LoopBegun {
         /// First frame of the loop, counted from 0.
         first: usize,
         /// Last frame of the loop, counted from 0.
         last: usize,
     },
-    /// The operator gave GO for a loop: the show goes on after its last frame.
+    /// The operator gave GO in a loop: the show goes on after the last frame of the loop.
     LeavesLoop {
         /// Last frame of the loop, counted from 0.
         last: usize,
@@ -246,21 +248,21 @@ pub enum EventKind {
 /// What is wrong with a robot in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trouble {
-    /// It is behind its path.
+    /// It is too far from its planned place on its path, or made no progress for too long.
     Late,
     /// It is silent.
     Silent,
-    /// It did not acknowledge its route or its START.
+    /// It did not acknowledge its route or its START, or it still drives after STOP.
     Deaf,
     /// It does not know where it is.
     Lost,
-    /// It reports that its place is too uncertain to pass other robots.
+    /// Its place is too uncertain to pass other robots, by the error that it reports.
     Unsure,
     /// It reports a fault.
     Faulty,
     /// It stands, because it lost its link on a drive or was restarted.
     Cut,
-    /// It did not reach its goal in time.
+    /// It did not reach its goal in time, or does not stand where it should by plan.
     Missed,
     /// An obstacle is in its path.
     Blocked,

@@ -15,11 +15,11 @@ pub enum Mutant {
     ForgetDeadRobot,
     /// A run that is taken up from a journal skips the next frame.
     WrongFrameAfterRestart,
-    /// Each STOP is sent once instead of several times.
+    /// When all robots are stopped outside of a run, STOP is sent once instead of several times.
     StopOnce,
     /// Silent robots drop out even if many fall silent at once, although then the link is lost.
     LinkLossIsDeath,
-    /// The controller waits for ever for robots that do not answer.
+    /// The controller waits for ever for robots that do not become ready after a stop of all robots.
     WaitForEver,
     /// Plans do not drive around robots that do not know their place.
     ForgetLostRobot,

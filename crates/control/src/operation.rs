@@ -32,9 +32,10 @@ pub enum Operation {
     Pause,
     /// Go on after a pause.
     Resume,
-    /// Go on after a pause, and pause again when the next frame is reached.
+    /// Go on after a pause, and pause again when the next frame is reached. Robots that stand leave at once, also from
+    /// a frame that waits for GO.
     Step,
-    /// End the run. Robots on a drive come to rest together, then all wheels stop.
+    /// End the run. Robots on a drive come to rest together, then all wheels stop. A second Abort stops them at once.
     Abort,
     /// Stop every robot, also robots that take no part in the run. Robots on a drive first come to rest together; a
     /// second StopAll stops them at once. Refused only without a broker.
@@ -45,7 +46,8 @@ pub enum Operation {
     Refresh,
     /// Make a robot flash for five seconds. A robot that does not support BLINK is asked to report.
     Identify(RobotId),
-    /// Remove a robot from the fleet, with its pixel bindings, until it reports again. Refused during a run.
+    /// Remove a robot from the fleet, with its pixel bindings, until it reports again. Refused during a run. While
+    /// robots are being stopped, ends that stopping.
     Forget(RobotId),
     /// Set whether the show starts again after its last frame.
     Loop(bool),
@@ -61,7 +63,8 @@ pub enum Operation {
     /// GO: leave at once the frame that has a cue, even before its air time is over. In a loop of frames: go on after
     /// the last frame of the loop.
     Go,
-    /// Set the speed of drives of the next run, percent of the usual speed. Refused during a run.
+    /// Set the speed of drives of all later runs except preflights, percent of the usual speed. Refused during a run
+    /// and while robots are being stopped.
     Speed(u32),
     /// Drive all robots that can take part to the starting places of the open show. The run ends there.
     Home,
@@ -69,12 +72,13 @@ pub enum Operation {
     /// run goes on with it.
     Admit(Option<BTreeSet<RobotId>>),
     /// Drive to this frame (counted from 0) instead of the next one, and play on from it. Ends a pause or a wait for
-    /// GO. Refused while robots drive and are not held.
+    /// GO. Refused while robots drive and are neither held nor paused, and while the run is interrupted.
     GoTo(usize),
     /// Leave out the frame that comes next. Robots stay where they are until the usual time, and then drive to the
-    /// frame after the one that is left out.
+    /// frame after the one that is left out. Refused like [`GoTo`](Self::GoTo).
     Skip,
-    /// Put a layer of live light over the light of the show that plays. It replaces the live layer of the same name.
+    /// Put a layer of live light over the light of the show that plays. The new layer replaces the live layer of the
+    /// same name.
     LiveLight {
         /// Name of the layer.
         name: String,
@@ -82,7 +86,8 @@ pub enum Operation {
         layer: Option<Layer>,
     },
     /// Test all robots that can take part: each drives 50 mm out and back, is stopped on its way, and blinks. Refused
-    /// during a run. Also refused until the operator dismisses the message about a failed or stopped run.
+    /// during a run and while robots are being stopped. Also refused until the operator dismisses the message about a
+    /// failed or stopped run.
     Preflight,
 }
 
@@ -104,13 +109,13 @@ pub enum ControllerState {
     Idle,
     /// There is a broker and no run.
     Ready,
-    /// A run is being planned, and its routes are sent to robots.
+    /// A run has not begun its first drive: robots report where they stand, and routes are planned and sent.
     Preparing,
     /// A show plays.
     Playing,
     /// A run is paused until the operator resumes it.
     Paused,
-    /// Robots drive to one frame (preview), to their starting places, or in a preflight.
+    /// A preview, the drive to the starting places, or a preflight is under way.
     Preview,
     /// Robots are being stopped.
     Aborting,
@@ -139,7 +144,7 @@ pub enum Refusal {
     },
     /// The operation is not possible while the controller is in this state.
     Busy(ControllerState),
-    /// There is no run to pause, resume or abort.
+    /// There is no run, which the operation needs.
     NoRun,
     /// The run is not paused.
     NotPaused,
@@ -147,7 +152,7 @@ pub enum Refusal {
     NoRobot,
     /// The speed is outside of the allowed range.
     NoSuchSpeed,
-    /// No frame waits for GO.
+    /// No frame waits for GO, and no loop of frames that GO can end is under way.
     NoCue,
     /// The run is paused.
     Paused,
@@ -171,7 +176,7 @@ pub enum Refusal {
     },
     /// There are not enough robots for all pixels. With [`MissingPolicy::LeaveOut`] one robot is enough.
     TooFewRobots {
-        /// Number of pixels of the largest frame.
+        /// Number of pixels of the largest frame that is to be played.
         pixels: usize,
         /// Number of robots that can take part.
         robots: usize,

@@ -20,7 +20,8 @@ use std::sync::Arc;
 
 /// Least clearance between a pixel and a disc whose place is inferred, metres; otherwise the pixel stays dark.
 const INFERRED_MARGIN_M: f64 = unsure_places::OFF_M + REST_CLEARANCE_M;
-/// Largest number of attempts to plan a frame, each with fewer pixels than the last. Then planning of the frame fails.
+/// Largest number of attempts to plan a frame, each with fewer pixels than the attempt before. If all fail, planning of
+/// the frame fails.
 const LENIENT_TRIES: usize = 8;
 
 impl PlanRequest {

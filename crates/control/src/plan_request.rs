@@ -38,8 +38,8 @@ pub(crate) struct PlanProblem {
     pub mapping: Mapping,
     /// Whether pixels that make a frame infeasible may be left out. Otherwise planning of the frame fails.
     pub lenient: bool,
-    /// Whether the plan begins where robots were stopped on their paths, perhaps closer to each other than any plan has
-    /// them.
+    /// Whether all plans were dropped before, so that robots wait for this plan. The plan begins where robots stand,
+    /// perhaps stopped on their paths and closer to each other than any plan has them.
     pub stopped: bool,
 }
 
@@ -68,7 +68,7 @@ pub struct PlanResult {
     /// cancels at the same check.
     pub(crate) cancelled_at: Option<u64>,
     pub(crate) legs: Vec<Leg>,
-    /// Whether the plan begins where robots were stopped on their paths.
+    /// Whether all plans were dropped before this one, and robots wait for it.
     pub(crate) stopped: bool,
     /// Number of planned frames.
     pub(crate) frames: usize,
@@ -122,9 +122,9 @@ impl PlanRequest {
         }
     }
 
-    /// Returns the longest time that planning may take while stopped robots wait for it; `None` if no robots wait. The
-    /// caller measures the time, because this crate reads no clock. After it, the caller cancels planning by
-    /// [`run_unless`](Self::run_unless).
+    /// Returns the longest time that planning may take while robots wait for it, because all plans were dropped before.
+    /// `None` if they were not. The caller measures the time, because this crate reads no clock. After it, the caller
+    /// cancels planning by [`run_unless`](Self::run_unless).
     pub fn budget(&self) -> Option<Span> {
         let more = self.problem.robots.len().saturating_sub(FEW);
         self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)

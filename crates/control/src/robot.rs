@@ -70,12 +70,13 @@ pub(crate) struct OriginalRobot {
     pub short_m: f64,
 }
 
-/// The colour that a robot was told to show.
+/// The colour that a robot was told to show last.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct ToldLight {
     /// The colour.
     pub color: Rgb,
-    /// Whether it is certain that the robot shows `color`.
+    /// Whether the robot was told to show `color`, or is dark after it was switched on. `false` for a robot of a run
+    /// that was taken up, until it is told a colour.
     pub is_sure: bool,
 }
 
@@ -132,7 +133,7 @@ impl KnownRobot {
         !self.reported.abilities.route
     }
 
-    /// Whether it is certain that the robot shows the colour `color`.
+    /// Whether the robot was told to show `color` last, so that no command for it is needed.
     pub fn shows(&self, color: Rgb) -> bool {
         self.light.is_sure && self.light.color == color
     }

@@ -20,7 +20,7 @@ pub struct Snapshot {
     pub show: Option<String>,
     /// Whether the show is to start again after its last frame.
     pub looping: bool,
-    /// Speed of drives of the next run, percent of the usual speed.
+    /// Speed of drives of all later runs except preflights, percent of the usual speed.
     pub speed_percent: u32,
     /// The run; `None` if there is none.
     pub run: Option<RunView>,
@@ -44,8 +44,8 @@ pub struct ShowPosition {
     /// Position on the timeline, seconds since the air time of the first frame began; negative during the drive to that
     /// frame.
     pub show_s: f64,
-    /// Whether the position moves on with the show clock. The position stands during a pause and while the run waits for GO.
-    /// Without music it also stands during holds and while robots are late.
+    /// Whether the position moves on with the show clock. The position stands during a pause or an interruption, and while
+    /// the run waits for GO after the air time. Without music it also stands during holds and while robots are late.
     pub runs: bool,
 }
 
@@ -56,8 +56,8 @@ pub struct RunView {
     pub frame: usize,
     /// The frame that follows `frame`, counted from 0; `None` if the run ends with `frame`.
     pub next: Option<usize>,
-    /// Whether the operator can now send robots to another frame or skip the next one. `true` if a show is played, and
-    /// robots stand or are held.
+    /// Whether the operator can now send robots to another frame or skip the next one. `true` if a show is played and is not
+    /// interrupted, and robots stand, are held or paused.
     pub may_jump: bool,
     /// Whether this run is the drive to the starting places. If so, `frame` has no meaning.
     pub home: bool,
@@ -83,9 +83,9 @@ pub struct RunView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegProgress {
     /// Share of the drive's or air time's duration that is over, 0 to 1. If robots drive by TARGET: share of the length of
-    /// their paths that they have driven.
+    /// their paths that they have driven. 0 in all other phases, and while a run that stands is paused.
     pub share: f64,
-    /// Planned duration of the drive, seconds.
+    /// Planned duration of the drive that is under way or ended last, seconds; 0 before the first drive.
     pub drive_s: f64,
 }
 
@@ -96,8 +96,8 @@ pub struct RunWait {
     pub cue: Option<String>,
     /// Whether the run is interrupted and the operator can let it go on now, without the robots that do not report.
     pub may_go_on: bool,
-    /// Robots for which the other robots wait; at most 20. Such a robot makes no progress, is silent, or is not ready to
-    /// leave.
+    /// Robots for which the other robots wait; at most 20. Such a robot is late on a drive, or, after all were stopped, has
+    /// not reported or set its clock precisely.
     pub robots: Vec<RobotId>,
 }
 
@@ -136,15 +136,15 @@ pub struct RobotView {
     pub contact: LastContact,
     /// Planned place of the robot on its path at this moment, stage metres; `None` while it drives no path.
     pub planned: Option<Vec2>,
-    /// Where the robot is to stand after the drive that is under way or ended last, stage metres. Outside a run: the place
-    /// after the last drive of the robot's last run. `None` if there was none.
+    /// Where the robot is to stand after the drive that is under way or ended last, stage metres. If the robot takes no part
+    /// in a run now: its goal when the last of its runs ended. `None` if it had none then.
     pub goal: Option<Vec2>,
     /// Id of the pixel that the robot shows in the run, or showed at the end of its last run. `None` if it showed none.
     pub pixel: Option<u32>,
     /// Colour that the robot should show.
     pub light: Rgb,
-    /// Time from the robot's last report until its battery is empty, if the charge falls on as measured. `None` if no fall
-    /// has been measured yet.
+    /// Time from the robot's last report until its battery is empty, if the charge falls on as measured. `None` before three
+    /// falls of 1 % were measured, or if the charge does not fall.
     pub battery_left: Option<Span>,
     /// Whether the robot takes part in the run that is under way.
     pub takes_part: bool,
@@ -163,7 +163,7 @@ pub struct Reported {
     pub battery: Option<u8>,
     /// State of the robot; `None` for the original firmware, which does not report its state.
     pub state: Option<RobotState>,
-    /// Distance between the robot and its planned place, metres; `None` if no route is under way.
+    /// Distance between the robot and its planned place, metres; `None` if it reports none, because no route is under way.
     pub off_m: Option<f64>,
     /// Obstacle in sight, for which the robot stands or brakes; `None` if there is none.
     pub blocked: Option<Blocked>,
@@ -176,7 +176,7 @@ pub struct Reported {
     pub firmware: Firmware,
     /// Commands that it supports besides those of the original firmware.
     pub abilities: Abilities,
-    /// Whether it is simulated. Every other robot is real.
+    /// Whether it reports that it is simulated. Without such a report, it counts as real.
     pub simulated: bool,
 }
 
@@ -213,9 +213,9 @@ pub struct Counters {
     pub junk: u64,
     /// Messages sent.
     pub sent: u64,
-    /// Routes sent more than once.
+    /// How many times routes were sent again, because robots did not acknowledge them.
     pub resent: u64,
-    /// Messages not sent because the queue was full or there was no broker.
+    /// Messages that were not sent, because the queue was full or the broker was not connected.
     pub unsent: u64,
     /// Reports of unknown robots that were dropped, because the fleet already has the largest number of robots.
     pub overflow: u64,

@@ -74,7 +74,7 @@ impl Run {
         self.playback.waits_for_go.then(|| self.playback.cue(frame).unwrap_or_default())
     }
 
-    /// Whether the run waits for GO, and the air time of the frame that has the cue is over.
+    /// Whether the run waits for GO and is not paused, and the air time of the frame that has the cue is over.
     pub fn is_at_cue(&self, now: Instant) -> bool {
         let RunPhase::Standing(standing) = &self.phase else { return false };
         self.playback.waits_for_go && !self.playback.paused && now >= standing.air.until
@@ -208,8 +208,8 @@ impl Controller {
         (!repeats.leaves).then_some(repeats.round)
     }
 
-    /// Returns the colours that the show's layers of light give at `now` to robots that support LIGHT. Empty if no show
-    /// with layers is played, and while robots blend from one light to another.
+    /// Returns the colours that layers of light give at `now` to robots that support LIGHT. Empty if the show has no
+    /// layers and no live light was used, and while robots blend from one light to another.
     pub fn layered_lights(&self, now: Instant) -> Vec<(RobotId, Rgb)> {
         let Some(Run { pipeline, roster, phase, .. }) = &self.run else { return Vec::new() };
         let plays = matches!(phase, RunPhase::Driving(_) | RunPhase::Standing(_) | RunPhase::Starting(_));

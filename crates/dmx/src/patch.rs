@@ -15,8 +15,8 @@ const CHANNEL_MAX: u16 = (CHANNELS - 2) as u16;
 const UNIVERSE_MAX: u16 = 63_999;
 /// Largest number of robots in a table: the size of the largest fleet.
 const ROBOTS_MAX: usize = 20_000;
-/// Largest number of universes in a table. A universe takes up to 2 KB of memory for values. The largest fleet fills 118 if
-/// there are no gaps between robots' channels.
+/// Largest number of universes in the lines of single robots. A universe takes up to 2 KB of memory for values. The
+/// largest fleet fills 118 if there are no gaps between robots' channels.
 const UNIVERSES_MAX: usize = 512;
 /// The word with which a line begins that is for all robots without a line of their own.
 const OTHERS: &str = "others";

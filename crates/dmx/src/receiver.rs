@@ -64,7 +64,7 @@ pub enum DeskNews {
 pub struct PacketCounts {
     /// Number of packets with the newest values of their source, or with the end of their source's stream.
     pub newest: u64,
-    /// Number of packets that came after a later packet of their source, and were ignored.
+    /// Number of packets that came after a later packet of their source, or twice, and were ignored.
     pub old: u64,
     /// Number of packets for universes without robots. Packets that came before the first robot are not counted.
     pub unpatched: u64,

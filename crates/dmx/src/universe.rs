@@ -22,7 +22,7 @@ const OLD_NUMBERS: i8 = 20;
 pub(crate) enum Taken {
     /// The packet has the newest values of its source, or ended the stream of its source.
     Newest,
-    /// The packet was ignored, because a later packet of its source had come before.
+    /// The packet was ignored, because a later packet of its source, or the same one, had come before.
     Old,
     /// The packet was ignored, because the universe has too many sources.
     Crowded,

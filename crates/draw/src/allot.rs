@@ -41,7 +41,7 @@ fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
 
 /// Allots `count` robots to parts, in proportion to their demands, and returns the number of robots for each part. One
 /// robot after the other goes to the part with the greatest demand per robot. A part without robots comes before parts
-/// with robots, if it has a demand.
+/// with robots, if it has a demand. If no part has a demand, each part gets only its `least`.
 pub(crate) fn allot(shares: &[Share], count: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = shares.iter().map(|share| share.least).collect();
     let given: usize = counts.iter().sum();

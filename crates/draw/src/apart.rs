@@ -91,8 +91,8 @@ fn push_once<'r, 'b: 'r>(
     close
 }
 
-/// Two places that are too close move apart by the distance that is missing. Returns the share of it that each of them
-/// moves.
+/// Two places that are too close move apart by the distance that is missing. Returns the shares of this distance that
+/// the first and the second place move; both are 0 if both places are fixed.
 fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
     match (a, b) {
         (Freedom::Fixed, Freedom::Fixed) => (0.0, 0.0),

@@ -9,7 +9,7 @@ use crate::geometry::{contains, edges};
 /// Finds the colours of one part of a drawing.
 pub(crate) struct Paint<'a> {
     part: &'a DrawingPart,
-    /// The colour of the whole part; `None` if the part has several colours.
+    /// The colour of the whole part; `None` if the part has several colours, a gradient or a picture, or is empty.
     single: Option<Rgb>,
 }
 

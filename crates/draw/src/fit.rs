@@ -169,7 +169,7 @@ impl Placement {
         self.center + Vec2::new(point.x * cos - point.y * sin, point.x * sin + point.y * cos)
     }
 
-    /// Returns the drawing in stage metres.
+    /// Returns the drawing in stage metres. Of a picture, only the two corners are mapped: its cells are not turned.
     pub fn apply(&self, drawing: &Drawing) -> Drawing {
         Drawing { parts: drawing.parts.iter().map(|part| self.part(part)).collect() }
     }

@@ -73,8 +73,8 @@ pub(crate) struct LayoutTask<'a> {
     pub kept: &'a [Vec2],
     /// Number of all places, including the kept places.
     pub count: usize,
-    /// Places to begin with, the kept places first, such as the places of the previous picture. Used only if their
-    /// number is the number of places wanted.
+    /// Places to begin with, the kept places first, such as the places of the previous picture. Used only for filling
+    /// areas, and only if their number is the number of places wanted.
     pub start: &'a [Vec2],
     pub quality: Quality,
     pub seed: u64,
@@ -185,8 +185,10 @@ impl LayoutTask<'_> {
         push_apart(&mut layout.places, &layout.holds, distance, &room);
     }
 
-    /// Returns the places in `fixed` and `count` relaxed places in the areas. If the areas are symmetric, so are the
-    /// places, unless their energy is then more than [`SYMMETRY_WORTH`] times that of asymmetric places.
+    /// Returns the places in `fixed` and `count` relaxed places in the areas. If `start` has the right number of
+    /// places, relaxation begins with them, and symmetry is not sought. Otherwise, if the areas are symmetric and no
+    /// place is kept, the places are symmetric, unless their energy is then more than [`SYMMETRY_WORTH`] times that of
+    /// asymmetric places.
     fn relaxed(&self, fixed: &[Vec2], count: usize, spacing: f64) -> (Vec<Vec2>, Option<Pairing>) {
         if count == 0 || self.ground.samples.is_empty() {
             return (fixed.to_vec(), None);
@@ -285,8 +287,7 @@ pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     }
 }
 
-/// Drops places that may slide and are closer than `distance` to another place. Such places occur on both sides of a
-/// sharp tip.
+/// Of two places closer than `distance`, drops one that may slide. Places are this close on both sides of a sharp tip.
 fn sparse(places: Vec<LinePlace>, distance: f64) -> Vec<LinePlace> {
     let at: Vec<Vec2> = places.iter().map(|(at, _)| *at).collect();
     let mut stays = vec![true; places.len()];

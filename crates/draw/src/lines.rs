@@ -64,8 +64,8 @@ impl Polyline {
         if self.closed { direct.min(self.length() - direct) } else { direct }
     }
 
-    /// Returns the place at the length `arc` from the line's start. Beyond an end of an open line, it is the end. On a
-    /// closed line, lengths go round.
+    /// Returns the place at the length `arc` from the line's start. If `arc` lies beyond an end of an open line,
+    /// returns that end. On a closed line, lengths go round.
     pub fn at(&self, arc: f64) -> Vec2 {
         let arc = if self.closed { arc.rem_euclid(self.length()) } else { arc.clamp(0.0, self.length()) };
         let next = self.arcs.partition_point(|end| *end < arc).clamp(1, self.points.len() - 1);

@@ -69,7 +69,8 @@ pub fn read(bytes: &[u8]) -> Result<LightList, DrawError> {
     Ok(LightList { places })
 }
 
-/// Whether a text looks like a list: its first line has two numbers, or columns named x and y.
+/// Whether a text looks like a list: its first line names columns x and y, or has two numbers, followed by a colour or
+/// nothing.
 pub(crate) fn looks_like(text: &str) -> bool {
     rows(text).next().is_some_and(|(_, first)| {
         let separator = separator(first);

@@ -37,7 +37,7 @@ struct Edge {
 pub(crate) type LinePlace = (Vec2, Freedom);
 
 /// Returns `count` places along lines, at pins first and then evenly between them. `height`: larger side of the
-/// drawing. The places are symmetric if the lines are symmetric about `mirror`.
+/// drawing. If the lines are symmetric about `mirror`, so are the places, as far as `count` allows.
 pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<Mirror>) -> Vec<LinePlace> {
     if count == 0 || track.lines.is_empty() {
         return Vec::new();

@@ -21,7 +21,7 @@ pub struct Placed {
     pub lights: Vec<PlacedLight>,
     /// Larger side of the picture, metres.
     pub size_m: f64,
-    /// Distance between the closest two lights, metres.
+    /// Distance between the closest two lights, metres; infinite for a single light.
     pub closest_m: f64,
     /// How well the lights show the drawing.
     pub readability: Readability,

@@ -28,8 +28,8 @@ pub const DOUBTFUL: f64 = 0.85;
 /// How well lights show a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readability {
-    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1, of the part with the
-    /// lowest value.
+    /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1, in the part in which it
+    /// is lowest.
     pub correlation: f64,
     /// Share of the lights that have a mirror image among the lights, in the part with the lowest share. It is 1 for
     /// parts without mirror symmetry.

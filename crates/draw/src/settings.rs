@@ -32,8 +32,8 @@ pub struct PlaceSettings {
     pub view: Option<(Vec2, Vec2)>,
     /// Lights that stay where they are. They are included in `robots` and come first in the result.
     pub kept: Vec<PlacedLight>,
-    /// Places with which the relaxation begins, such as those of the previous picture. Empty: it begins with new
-    /// places.
+    /// Places with which the relaxation begins, such as those of the previous picture. Used only for filling a part,
+    /// and only if their number is the part's number of places. Otherwise the relaxation begins with new places.
     pub start: Vec<Vec2>,
     /// How much work goes into the places.
     pub quality: Quality,

@@ -73,13 +73,14 @@ impl Exam {
         self.session.next_event()
     }
 
-    /// Aborts the exam and commands the robot to stand. Publish the remaining messages afterwards.
+    /// Aborts the exam and commands the robot to stand; all robots on the broker if none is chosen yet. Publish the
+    /// remaining messages afterwards.
     pub fn give_up(&mut self) {
         self.script = None;
         self.session.make_stand();
     }
 
-    /// How the exam ended; `None` while it runs, and after [`give_up`](Self::give_up).
+    /// How the exam ended; `None` while it runs, and if [`give_up`](Self::give_up) aborted it.
     pub fn ending(&self) -> Option<&Ending> {
         self.ending.as_ref()
     }

@@ -37,9 +37,11 @@ pub struct Finding {
     pub title: &'static str,
     /// Whether the robot keeps the rule.
     pub verdict: RuleVerdict,
-    /// The attempts in order; for a broken rule only the first failed attempt. May be empty.
+    /// The first successful attempts in order, at most six; for a broken rule only the first failed attempt. May be
+    /// empty.
     pub tried: Vec<RuleTest>,
-    /// Why there is this verdict without attempts: what was missing. Otherwise empty.
+    /// Why the rule was not tried or cannot be tested, or which ability the robot lacks. Empty if the robot keeps or
+    /// breaks the rule.
     pub why: String,
 }
 

@@ -9,8 +9,8 @@ use crate::sight::Question;
 pub struct Options {
     /// Name of the robot to examine; `None`: the only robot on the broker.
     pub robot: Option<RobotId>,
-    /// Width and depth of the floor, metres, with the origin in its middle. The robot is not sent off the floor, and
-    /// reporting a place off the floor is an error.
+    /// Width and depth of the floor, metres, with the origin in its middle. The robot is sent in the direction with the
+    /// most free floor. If it first reports a place more than 0.1 m off the floor, it breaks R9 and the exam ends.
     pub floor: (f64, f64),
     /// Whether a person answers questions about the light.
     pub looks: bool,

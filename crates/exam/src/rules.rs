@@ -30,7 +30,7 @@ pub struct Rule {
     pub number: u8,
     /// Subject in a few words.
     pub title: &'static str,
-    /// Robots that the rule concerns, and how it shows.
+    /// Robots that the rule concerns, and how a test can see whether they keep it.
     pub scope: Scope,
 }
 

@@ -145,6 +145,7 @@ impl Session {
     }
 
     /// Commands the robot to stand: a robot with routes by `STOP`, an original robot by a target at its last position.
+    /// Before a robot is chosen, stops all robots.
     pub fn make_stand(&self) {
         let place = self.last_place();
         let stay = place.map_or_else(String::new, |at| format!("|TARGET {:.6} {:.6}|", at.x, at.y));

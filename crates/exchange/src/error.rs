@@ -10,7 +10,8 @@ use lightbots_show::{Issue, frame_label};
 pub struct ReadError {
     /// The kind of error for programs: lower case words with hyphens, such as `not-json`.
     pub code: &'static str,
-    /// Line and column, counted from 1, the column in characters. `None` if the error concerns the whole file.
+    /// Line and column in the file, or in the part of it that `what` names, such as a table. Both are counted from 1,
+    /// the column in characters. `None` if the error concerns the whole file or part.
     pub place: Option<(usize, usize)>,
     /// Index of the frame, counted from 0, and the frame's name, which may be empty. `None` if the error concerns no
     /// single frame.

@@ -19,8 +19,8 @@ pub struct Format {
     pub endings: &'static [&'static str],
     /// Media type of the bytes, for HTTP.
     pub media_type: &'static str,
-    /// Parts of a show that files of the format keep. Besides these parts, every format keeps frames with their names, air
-    /// times and pixels.
+    /// Parts of a show that files of the format keep. Besides these parts, a format that needs no plan keeps frames
+    /// with their names, air times and pixels. Formats that need a plan keep paths or colours of robots over time.
     pub carries: &'static [Part],
     /// Whether a written file contains the bytes of the music, provided that the show has them.
     pub holds_music: bool,
@@ -41,7 +41,8 @@ pub struct Loaded {
     pub show: Show,
     /// The plan, if the file has one. It has not been proven free of contact, because a file may hold any plan.
     pub plan: Option<ShowPlan>,
-    /// Whether the file has a stage. If not, the floor is 3 m by 3 m and may be replaced.
+    /// Whether the file has a stage, or the reader made one around the paths in the file. If not, the floor is 3 m by 3
+    /// m and may be replaced.
     pub has_stage: bool,
     /// Why the file holds more than the show does, such as fields of a newer version: words that follow "because". The
     /// file must then not be replaced by the show, or these contents are lost. `None`: everything was read.

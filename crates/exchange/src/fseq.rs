@@ -57,7 +57,8 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
 }
 
 /// Adds the colours of an FSEQ file to a show, as a layer over all others. The file and the music begin with the air
-/// time of the first frame. The file's first three channels are red, green and blue of robot 0.
+/// time of the first frame. The file's first three channels are red, green and blue of robot 0. A show without music
+/// gets the music that the file names. Returns a warning if the show has more robots than the file has colours for.
 ///
 /// # Errors
 /// If the bytes are no FSEQ file, or one that this program does not read.

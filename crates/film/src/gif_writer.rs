@@ -18,8 +18,8 @@ const DARK: u8 = 24;
 /// One of this number of dark pixels goes into the palette. Most of a floor is dark; if all dark pixels counted, lights
 /// would get few colours.
 const DARK_SHARE: usize = 24;
-/// Sampling factor of the NeuQuant algorithm: it learns from one of this number of samples. 1 gives the best palette, 10 is
-/// ten times as fast.
+/// Sampling factor of the NeuQuant algorithm: it learns from one of this number of samples. 1 gives the best palette; a
+/// factor of 10 is ten times as fast.
 const LEARNING: i32 = 3;
 /// Number of upper bits of each channel that decide which colour of the palette a pixel gets.
 const BITS: u32 = 6;
@@ -132,10 +132,7 @@ impl<W: Write> GifWriter<W> {
         Ok(Self { encoder, palette, size, shown, waiting: None, fps, pictures: 0 })
     }
 
-    /// Adds a picture: red, green and blue of each pixel, row by row from the top left.
-    ///
-    /// # Errors
-    /// If the previous picture cannot be written, which is done now.
+    /// If the previous frame cannot be written, which is done now unless the new picture only prolongs that frame.
     pub fn add(&mut self, picture: &[u8]) -> Result<(), GifError> {
         let next: Vec<u8> = picture.chunks_exact(3).map(|pixel| self.palette.index(pixel)).collect();
         let moment = |pictures: u64| (pictures as f64 * 100.0 / self.fps).round() as u64;

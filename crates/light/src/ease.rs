@@ -39,7 +39,7 @@ pub enum Wrap {
     /// Clamped: phases below 0 become 0, phases above 1 become 1.
     #[default]
     Once,
-    /// The part after the decimal point: runs from 0 to 1 in each cycle, then jumps back to 0.
+    /// The phase minus the next lower whole number: runs from 0 to 1 in each cycle, then jumps back to 0.
     Loop,
     /// From 0 to 1 while the phase rises by 1, then back to 0 over the next 1: never jumps.
     Mirror,

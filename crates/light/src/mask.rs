@@ -74,7 +74,8 @@ fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
 
-/// Distance from `place` to the edge of an area, metres; negative if the place is outside. 0 for shapes that are no area.
+/// Distance from `place` to the edge of an area, metres. Negative if the place is outside; only the sign is then exact.
+/// 0 for shapes that are no area.
 fn depth_m(area: &MaskShape, place: Vec2) -> f64 {
     match area {
         MaskShape::Rectangle { centre, half, angle } => {

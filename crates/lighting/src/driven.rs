@@ -35,7 +35,8 @@ pub struct DrivenLight<'a> {
     pub frame: u32,
     /// Id of the pixel that the robot shows in the frame; `None`: the robot has no pixel there.
     pub pixel: Option<u32>,
-    /// The robot's colours without layers in the previous frame, in the frame, and in the next frame.
+    /// The robot's colours without layers in the previous frame, in the frame, and in the next frame. Without a next
+    /// frame, the third colour is that of the frame.
     pub colours: [Rgb; 3],
     /// Whether layers shine on the robot in the previous frame, and in the frame. They shine only on robots with a pixel.
     pub shines: [bool; 2],

@@ -90,8 +90,8 @@ impl<'a> PlannedShow<'a> {
         self.times.last().map_or(0.0, |times| times.end_s) + self.first_drive_s()
     }
 
-    /// Returns the frame at `at_s`, seconds from the start of the first drive, and the moment for its light. `None` if there
-    /// are no frames. Moments after the end of the show become its end.
+    /// Returns the frame at `at_s`, seconds from the start of the first drive, and the moment for its light. `None` if
+    /// there are no frames. Moments from the end of the show on become the moment just before its end.
     fn moment(&self, at_s: f64) -> Option<(usize, LightMoment)> {
         let show_s = at_s - self.first_drive_s();
         let last = self.times.len().checked_sub(1)?;
@@ -105,7 +105,7 @@ impl<'a> PlannedShow<'a> {
         Some((frame, LightMoment { elapsed, show_s, lead_s: 0.0, clock_s: 0.0 }))
     }
 
-    /// Returns an object that computes the robots at moments.
+    /// Returns an object that computes place and colour of each robot at given moments.
     pub fn scenes(&'a self) -> PlannedScenes<'a> {
         PlannedScenes { planned: self, begun: None }
     }

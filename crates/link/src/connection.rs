@@ -219,8 +219,9 @@ impl ConnectionTask {
         self.events.send(LinkEvent::Connected).await.is_ok()
     }
 
-    /// Reports a failure if its reason is new, chooses the next address, and waits until the next attempt is due. Returns
-    /// `false` if the link was closed meanwhile.
+    /// Handles a failure: drops queued messages, chooses the next address, and waits until the next attempt is due.
+    /// Reports the failure if its reason is new or the link was connected. Returns `false` if the link was closed
+    /// meanwhile.
     async fn failed(&mut self, reason: String) -> bool {
         let was_connected = self.status.connected.swap(false, Ordering::AcqRel);
         self.accepted = false;

@@ -12,7 +12,7 @@ pub struct BrokerUrl {
     pub addresses: Vec<BrokerAddress>,
     /// User name; `None`: no login.
     pub user: Option<String>,
-    /// Password; only with a user.
+    /// Password; without a user it is not sent.
     pub password: Option<String>,
     /// Certificates for TLS; `None`: the certificate authorities of the system are trusted.
     pub trust: Option<TlsTrust>,

@@ -14,12 +14,14 @@ use crate::recipe::{Content, Recipe};
 /// are closer already. With a smaller value, planning takes longer (measured).
 const SPACING_M: f64 = 0.0764;
 
-/// Fits every frame of a show to `robots` robots. Frames that already have `robots` pixels are kept. Frames with exactly
-/// one source are made anew from it. Other frames, and frames whose source cannot be drawn, keep their lights as far as
-/// possible. Returns notes about changes that people may not expect.
+/// Fits every frame of a show to `robots` robots. Frames that already have `robots` pixels are kept. Frames with
+/// exactly one source are made anew from it. Other frames, and frames whose source cannot be drawn, keep their lights
+/// as far as possible. Starts for another number of robots are dropped. Returns notes about changes that people may not
+/// expect.
 ///
 /// # Errors
-/// If `robots` robots find no room in a frame, or a frame has no pixels. The message names the frame.
+/// If `robots` robots find no room in a frame, or a frame has neither pixels nor a source that can be drawn. The message
+/// names the frame.
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
@@ -57,7 +59,8 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
 /// come from one animation, which is then read only once.
 type Film = Option<((AssetHash, PictureSettings), Animation)>;
 
-/// Makes the frame anew from its source, and returns it with notes. `None` if it does not have exactly one source.
+/// Makes the frame anew from its source, and returns it with notes. `None` if the frame does not have exactly one
+/// source.
 fn made_anew(
     show: &Show,
     frame: &Frame,

@@ -25,7 +25,8 @@ pub struct MadeFrame {
     pub frame: Frame,
     /// Longer side of the picture, metres.
     pub size_m: f64,
-    /// Distance between the two closest lights, metres; infinite with fewer than two lights.
+    /// Distance between the two closest lights, metres. For lists, grids and random places, moved pixels are not
+    /// considered. Without meaning for fewer than two lights.
     pub closest_m: f64,
     /// How well the lights show the source. `None` if the source is itself an arrangement of lights, such as a grid.
     pub readability: Option<Readability>,
@@ -37,8 +38,9 @@ pub struct MadeFrame {
 /// frame are kept, and so are pixels that were moved by hand. A robot that is pinned to another pixel is pinned to the
 /// nearest new pixel, of the same part if possible.
 ///
-/// `asset` has the bytes of the source's file. `start` has places from which the search for places begins, such as those
-/// of the previous picture. It is used only if it has one place for each robot.
+/// `asset` has the bytes of the source's file. `start` has places from which the search for places begins, such as
+/// those of the previous picture. It is used only if no pixel was moved by hand, for parts filled with lights, and if
+/// its number of places fits.
 ///
 /// # Errors
 /// If the frame does not have exactly one source, the source cannot be read or drawn, or not all robots find room.
@@ -165,9 +167,10 @@ fn listed(
     Ok(Lights { lights, closest_m, notes: vec![Note::new("list-fitted", what)], ..as_they_are })
 }
 
-/// Places an exact arrangement of lights on the floor. With `in_metres`, its places are stage metres. They are kept if the
-/// settings state no size, place or turn, and all lights are on the floor and at least [`LEAST_M`] apart. Otherwise, the
-/// arrangement is scaled to the size or the spacing of the settings, turned and moved.
+/// Places an exact arrangement of lights on the floor. With `in_metres`, its places are stage metres. They are kept if
+/// the settings state no size, place or turn, and all lights are on the floor and at least [`LEAST_M`] apart.
+/// Otherwise, the arrangement is turned, moved and scaled to the size in the settings, or to a larger size if lights
+/// would be too close.
 fn arranged(
     list: &LightList,
     recipe: &Recipe,

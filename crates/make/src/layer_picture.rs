@@ -16,8 +16,8 @@ const FILM_SIDE_MAX: usize = 128;
 /// taken at equal intervals.
 const FILM_PICTURES_MAX: usize = 60;
 
-/// Reads the picture or film in a PNG, JPEG, WebP or GIF file and reduces its size. Transparent pixels become dark. In the
-/// result, all pictures of a film last equally long; a picture that lasts longer in the file is repeated.
+/// Reads the picture or film in a PNG, JPEG, WebP or GIF file and reduces its size. Transparent pixels become dark. In
+/// the result, all pictures of a film last equally long; pictures of the file may therefore be repeated or left out.
 ///
 /// # Errors
 /// If the file has no pixels or is damaged, or its pictures are too large.

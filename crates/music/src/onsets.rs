@@ -108,8 +108,8 @@ fn rises(sound: &Sound<'_>) -> [Vec<f32>; 3] {
     rises
 }
 
-/// Converts the rises of a band to onsets, 0 to 1. The mean around each rise is subtracted, and negative results become 0.
-/// Each result is divided by [`PEAK_SHARE`] times the largest result nearby.
+/// Converts the rises of a band to onsets, 0 to 1. The mean around each rise is subtracted, and negative results become
+/// 0. Each result is divided by [`PEAK_SHARE`] times the largest result nearby (see [`PEAK_LEAST`]), and is at most 1.
 fn level(rises: &[f32]) -> Vec<f32> {
     let above: Vec<f32> = rises.iter().zip(mean(rises)).map(|(rise, mean)| (rise - mean).max(0.0)).collect();
     let largest = above.iter().copied().fold(0.0, f32::max);

@@ -22,8 +22,8 @@ pub struct Claims<R> {
 pub struct Bindings {
     /// Names of robots; each value is the index of the robot.
     pub by_name: BTreeMap<String, usize>,
-    /// Whether `by_name` is complete. If it is not, a pixel may ask for a name that it lacks. Any robot without a name
-    /// may then get that pixel.
+    /// Whether `by_name` has the names of all robots. If `false`, any robot without a name may get a pixel that asks
+    /// for a name that `by_name` lacks.
     pub names_known: bool,
     /// By pixel id: the robot that shows this pixel in all frames; `None` if that robot is not in the list.
     pub pins: BTreeMap<u32, Option<usize>>,
@@ -40,16 +40,18 @@ pub struct BoundFrame<'a> {
     pub pinned: Vec<Option<usize>>,
     /// Ids of the pixels that stay dark.
     pub dark: Vec<u32>,
-    /// Problems of the binding, each with the id of its pixel.
+    /// Problems of the binding, each with the id of its pixel. Pixels that `stays_dark` excludes, and pixels for which
+    /// too few robots are left, have no entry.
     pub issues: Vec<(u32, BindingIssue)>,
 }
 
 /// Why a pixel stays dark or changes its robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BindingIssue {
-    /// The pixel asks for a robot that already has another pixel of this frame, and stays dark.
+    /// The pixel names, or is pinned to, a robot that already has another pixel of this frame. The pixel stays dark.
     BoundTwice,
-    /// The pixel asks for a robot that is not in the list, and stays dark.
+    /// The pixel names, or is pinned to, a robot that is not in the list, or no robot without a name is left for it.
+    /// The pixel stays dark.
     Unknown,
     /// Identity is fixed, but the robot that showed this pixel last has another pixel in this frame. The pixel gets
     /// another robot if enough are left.
@@ -89,8 +91,9 @@ impl<R: Copy + PartialEq> Claims<R> {
 
 impl Bindings {
     /// Binds a frame's pixels to robots, which stand at `places[robot]`, stage metres. A pixel is bound to the robot
-    /// that it names or is pinned to. With fixed identity, other pixels are bound to the robots that showed them last.
-    /// A pixel stays dark if `stays_dark` returns `true`, if its robot is missing or taken, or if no robot is left.
+    /// that it names or is pinned to. With fixed identity, other pixels are bound to the robots that showed them last,
+    /// if these are free. Pixels without a bound robot stay open. A pixel stays dark if `stays_dark` returns `true`, if
+    /// its robot is missing or taken, or if no robot is left.
     pub fn bind<'a>(
         &self,
         frame: &'a [Pixel],
@@ -124,7 +127,8 @@ impl Bindings {
     }
 
     /// Records which robot shows each pixel of `bound`: `goal_of[robot]` is an index into `bound.pixels`, `None` if the
-    /// robot shows none.
+    /// robot shows none. If not all names are known, a name that no robot has becomes the name of the robot that shows
+    /// its pixel.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
             let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
@@ -205,7 +209,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Returns the robot that showed the pixel with index `role` last; `None` if that robot is not here.
+    /// Returns the robot that showed the pixel with index `role` last; `None` if no robot did, or that robot is not in
+    /// the list.
     fn owner(&self, role: usize) -> Option<usize> {
         self.bindings.claims.of.get(&self.roles[role].pixel.id).map(|&(robot, _)| robot)
     }
@@ -268,7 +273,7 @@ impl<'a> Binder<'a, '_> {
     }
 
     /// Binds open pixels to the robots that showed them last. A robot that has shown several of these pixels keeps the
-    /// one that it showed last.
+    /// one that it showed last. Pixels whose robot is taken stay open, and are reported as [`BindingIssue::Lost`].
     fn keep_owners(&mut self) {
         let told = |role: usize| {
             let pixel = self.roles[role].pixel;
@@ -288,8 +293,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// If there are more open pixels than free robots, leaves the surplus pixels dark: those at the end of the frame
-    /// first.
+    /// If there are more open pixels than free robots, leaves the surplus pixels dark, without an issue: first pixels
+    /// that name no robot, from the end of the frame.
     fn drop_surplus(&mut self) {
         let open = self.roles.iter().filter(|role| role.is_open()).count();
         let free = self.taken.iter().filter(|&&taken| !taken).count();

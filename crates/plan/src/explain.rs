@@ -28,14 +28,15 @@ pub struct ExplainedRow {
 /// Outcome of a row of the schedule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowOutcome {
-    /// Skipped, because the condition of its group does not hold; the text says why.
+    /// Skipped, because the condition of its group does not hold; the text names that condition. Groups that are
+    /// skipped because the planner is cancelled, or a robot has no shortest path, have the same text.
     Skipped(&'static str),
-    /// The solver did not run, because it has no paths to start from: a search found no path, or no graph could be
-    /// built.
+    /// The row has no paths to prove or to deform: its search found none, or its graph could not be built.
     NoGuess,
     /// The paths of the row are rejected, because robots touch or their motion is illegal.
     Rejected {
-        /// Number of contacts that are left; 0 if it is only known that the proof rejects the paths.
+        /// For straight lines, the number of contacts and faults that are left; for other rows, of pairs of robots that
+        /// still touch. 0 if it is only known that the paths are rejected.
         contacts: usize,
     },
     /// A plan that the proof accepts.

@@ -30,7 +30,8 @@ pub(crate) struct Instance<'a> {
 
 impl Instance<'_> {
     /// The instance of a problem with the assignment `goal_of[robot]`. `None` if the assignment does not fit the
-    /// problem or a place is not finite. `None` also if a limit or the floor's size is not positive.
+    /// problem or a place is not finite. `None` also if the speed, the acceleration or the radius of the robots is not
+    /// positive, or the floor is not wider and deeper than a robot.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;

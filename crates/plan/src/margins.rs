@@ -2,8 +2,8 @@
 //! largest. All are metres between two rims, or between a rim and a wall or the floor's edge.
 
 /// Least gap between rims, and between a rim and a wall, that the proof demands. A robot that starts or ends closer
-/// need only keep that smaller gap. The value covers a path error of 2 mm and the rounding of messages. With a smaller
-/// gap, robots touch in rehearsals; with a larger one, robots no longer pass narrow gaps.
+/// need only keep that smaller gap. The value covers a usual path error, 2 mm, and the rounding of messages. With a
+/// smaller gap, robots touch in rehearsals; with a larger one, robots no longer pass narrow gaps.
 pub(crate) const MARGIN_M: f64 = 0.003;
 /// Gap that the roadmap keeps from walls. It exceeds [`MARGIN_M`] by the rounding error of the roadmap's distances.
 pub(crate) const ROADMAP_M: f64 = 0.003_01;
@@ -16,10 +16,11 @@ pub(crate) const REGION_M: f64 = MARGIN_M + 0.000_1;
 /// Gap that deformed splines keep between robots. The deformation approximates splines by straight stretches; the 0.1
 /// mm above [`MARGIN_M`] covers that error.
 pub(crate) const SPLINE_M: f64 = 0.003_1;
-/// Gap between rims and the floor's edge, because robots are up to 3 mm off their paths. It is smaller where starts,
-/// goals or walls force robots closer to the edge.
+/// Gap between rims and the floor's edge. The value covers a path error of 3 mm. The gap is smaller where starts, goals
+/// or walls force robots closer to the edge.
 pub(crate) const EDGE_M: f64 = 0.003_5;
-/// Gap that solvers aim at if it costs little time. Robots are up to 5 mm off their paths, but mostly less than 2 mm.
+/// Gap that solvers aim at if it costs little time. The value covers a path error of 5 mm, although most path errors
+/// are below 2 mm.
 pub(crate) const COMFORT_M: f64 = 0.008;
 /// Gap between robots at which [`Scale`](crate::solve) first aims if robots do not have the Elisa-3's size. It exceeds
 /// [`COMFORT_M`] to leave room for the deformation.

@@ -32,12 +32,12 @@ pub struct TransitionProblem {
     /// Limits of the robots.
     pub limits: Limits,
     /// Asked duration of the drive. If it is `None`, or shorter than the robots can drive, robots drive as fast as
-    /// their limits allow.
+    /// their limits allow. A prescribed motion for which it is too short is infeasible instead.
     pub duration: Option<Span>,
     /// Shape of the speed over time: two ramps with a cruise between them (`Swift`), or no cruise (`Gentle`).
     pub easing: Easing,
-    /// The drive that the show prescribes; `None` if it prescribes none. A motion of a picture and trajectories apply
-    /// only if robots and pixels are where they begin and end. Otherwise the planner plans an ordinary drive.
+    /// The drive that the show prescribes; `None` if it prescribes none. Prescribed paths apply only if robots stand
+    /// where the paths begin and pixels are where the paths end. Otherwise the planner plans an ordinary drive.
     pub prescribed: Option<Prescribed>,
 }
 
@@ -105,12 +105,13 @@ impl TransitionProblem {
 pub struct Transition {
     /// `goal_of[robot]`: index of the robot's goal; `None` if the robot is spare.
     pub goal_of: Vec<Option<usize>>,
-    /// `paths[robot]`: its timed path. All paths last exactly `duration`. Planned paths begin with a rest in which
-    /// robots turn.
+    /// `paths[robot]`: its timed path. All paths last exactly `duration`. All but trajectories that the show contains
+    /// begin with a rest in which robots turn.
     pub paths: Vec<Path>,
-    /// Duration of all paths.
+    /// Duration of all paths, including the rest at the begin.
     pub duration: Span,
-    /// Duration of the same drive at full speed: the least within the limits of the robots.
+    /// Duration of the same drive at full speed: the least within the limits of the robots, without the delays that
+    /// raise stop-safety. 0 for trajectories that the show contains.
     pub least: Span,
     /// Lower bound on the duration, seconds: the bottleneck distance divided by the speed limit. The bottleneck
     /// distance is the longest straight line from a start to its goal, with the assignment that makes this line

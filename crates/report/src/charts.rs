@@ -9,7 +9,8 @@ use crate::model::FrameFigures;
 const WIDTH: f64 = 460.0;
 /// Height of the highest bar of the histogram, units of the SVG.
 const HEIGHT: f64 = 130.0;
-/// Number of bars into which the histogram divides the range of errors.
+/// Number of bars that the histogram aims at. The width of a bar is rounded up to 1, 2 or 5 times a power of ten, so
+/// there are mostly fewer.
 const BINS: usize = 14;
 /// Height of a row in the chart of arrivals, which has one row per frame, units of the SVG.
 const ROW: f64 = 24.0;

@@ -47,7 +47,7 @@ impl FrameNotes {
         self.is_planned_anew = true;
     }
 
-    /// Notes an arrival that a robot reports.
+    /// Notes an arrival that a robot reports. Arrivals after all robots have reached the frame are ignored.
     pub fn arrive(&mut self, id: RobotId, now: Instant) {
         if !self.stands {
             self.arrivals.insert(id, now);

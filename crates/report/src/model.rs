@@ -13,7 +13,7 @@ pub enum RunKind {
     Rehearsal,
     /// A run of simulated robots.
     Simulated,
-    /// A run with at least one real robot.
+    /// A run with at least one robot that does not report that it is simulated.
     #[default]
     Real,
 }
@@ -21,7 +21,7 @@ pub enum RunKind {
 /// What was planned and what happened. Times are seconds after the first departure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct ShowReport {
-    /// Whether all frames were shown, no robot was lost for good, and no contact is known.
+    /// Whether the run finished, all frames were shown, no robot was lost for good, and no contact is known.
     pub ok: bool,
     /// The report in one sentence.
     pub verdict: String,
@@ -29,7 +29,7 @@ pub struct ShowReport {
     pub show: String,
     /// Whether it was a rehearsal, or a run with or without real robots.
     pub kind: RunKind,
-    /// When the run began, milliseconds since 1970; `None` for rehearsals.
+    /// When the run began, milliseconds since 1970; `None` for rehearsals, and if the recording does not say it.
     pub began_unix_ms: Option<u64>,
     /// Notes of the recording: names and values, such as seed and faults.
     pub notes: Vec<(String, String)>,
@@ -37,7 +37,7 @@ pub struct ShowReport {
     pub robots: usize,
     /// Number of frames that were to be shown.
     pub frames: usize,
-    /// Number of frames that were shown.
+    /// Number of frames that were shown. If frames were skipped, chosen or repeated, each frame counts once.
     pub frames_played: usize,
     /// Sum of the planned durations of drives and of the air times, over the frames that were shown, seconds.
     pub planned_s: f64,
@@ -45,8 +45,8 @@ pub struct ShowReport {
     pub duration_s: f64,
     /// Number of contacts of two rims; `None`: only rehearsals know it.
     pub contacts: Option<u64>,
-    /// Smallest gap between two rims, metres. In a rehearsal the true gap, else the smallest that a robot reported; `None`:
-    /// not known.
+    /// Smallest gap between two rims, metres. In a rehearsal the true gap, else the smallest that a robot reported;
+    /// `None`: none came near another, or none reported a gap.
     pub closest_m: Option<f64>,
     /// The smallest gaps that robots reported, smallest first: at most one per robot, and at most ten.
     pub approaches: Vec<ClosestApproach>,
@@ -59,7 +59,8 @@ pub struct ShowReport {
     pub errors_m: Vec<f64>,
     /// Times between the first and the last arrival in a frame, seconds.
     pub arrival_spread_s: ThreeFigures,
-    /// Distances of driving robots from where their routes have them at the moment, as robots reported them, metres.
+    /// Distances of robots that drive or are held on a route from where the route has them at that moment, as robots
+    /// reported them, metres.
     pub tracking_error_m: ThreeFigures,
     /// Numbers of messages.
     pub messages: MessageFigures,
@@ -69,7 +70,7 @@ pub struct ShowReport {
     pub incidents: Vec<ReportedEvent>,
     /// Number of incidents that are not listed, because there were too many.
     pub incidents_left_out: usize,
-    /// The frames that were shown, in order.
+    /// The frames that were shown, in order of time; at most the first 2,000.
     pub per_frame: Vec<FrameFigures>,
     /// The robots, by name.
     pub per_robot: Vec<RobotFigures>,
@@ -176,7 +177,7 @@ pub struct FrameFigures {
 pub struct RobotFigures {
     /// Name of the robot.
     pub name: String,
-    /// How often the robot arrived at a pixel.
+    /// In how many of the frames that were reached the robot reported its arrival.
     pub arrivals: usize,
     /// Longest time from the first arrival of any robot in a frame to this robot's arrival, seconds.
     pub latest_s: f64,
@@ -186,7 +187,8 @@ pub struct RobotFigures {
     pub off_m: f64,
     /// How often the robot's safety layer began to slow it.
     pub brakes: u64,
-    /// Smallest gap between its rim and another robot's that the robot reported, metres; `None`: it reported none.
+    /// Smallest gap between its rim and another robot's that the robot reported on a route or on arrival, metres;
+    /// `None`: it reported none.
     pub near_m: Option<f64>,
     /// Number of messages from the robot.
     pub messages: u64,

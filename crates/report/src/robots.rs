@@ -20,7 +20,7 @@ pub(crate) struct RobotNotes {
     pub latest_s: f64,
     pub errors_m: Vec<f64>,
     off_m: f64,
-    /// The robot's last report of its count of brakes.
+    /// The count of brakes that the robot reported last; `None` before its first report.
     counted: Option<u32>,
     brakes: u64,
     /// Smallest gap to another robot that the robot reported on a route or on arrival, metres. The second value is when it

@@ -30,7 +30,8 @@ impl Truth {
         self.places.entry(robot).or_default().add(at.as_secs(), place);
     }
 
-    /// Fills in the figures of a report that a recording alone does not give.
+    /// Fills in the figures of a report that a recording alone does not give. The true number of brakes and the true
+    /// closest gap replace the reported ones.
     pub(crate) fn tell(&self, report: &mut ShowReport) {
         report.contacts = Some(self.contacts);
         report.brakes.all = self.brakes;

@@ -284,7 +284,7 @@ impl ClockFilter {
         }
     }
 
-    /// Makes the next question due at once, because the link came up.
+    /// Makes the next question due at once, because the link came up. The count of unanswered questions begins again.
     pub(crate) fn hurry(&mut self, clock: &mut ShowClock, now: Instant) {
         clock.next_question = clock.next_question.min(now);
         self.unanswered = 0;

@@ -41,7 +41,7 @@ pub struct Config {
     pub policy: SafetyPolicy,
 }
 
-/// How many proximity sensors a robot can have.
+/// Number of proximity sensors of a robot that has any.
 pub const SENSORS: usize = 8;
 
 /// Parameters of a robot's proximity sensors. Each sensor sits on the robot's rim. It reads the distance to the nearest
@@ -79,32 +79,36 @@ impl ProximitySensors {
 /// Parameters of the safety layer's decisions; docs/reflex.md says what breaks above and below each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SafetyPolicy {
-    /// Safety margin on the distance to a neighbour, as a multiple of the standard deviation of the neighbour's place
-    /// at the nearest approach.
+    /// Part of the safety margin that grows with uncertainty: multiple of the standard deviation of the neighbour's
+    /// place at the nearest approach. `spare_m` is added to it.
     pub sigmas: f32,
-    /// Least gap between the rims once the robot has stopped for a neighbour, metres.
+    /// Constant part of the safety margin on the gap between the rims at the nearest approach, metres. It is added to
+    /// the part by `sigmas`.
     pub spare_m: f32,
-    /// Bound of the safety margin for a neighbour that moves by plan, as a share of the planned clearance. One standard
-    /// deviation of the neighbour's place is then subtracted.
+    /// Upper bound of the safety margin for a neighbour with a known planned clearance, as a share of that clearance.
+    /// One standard deviation of the neighbour's place is subtracted from the bound. For a neighbour that stands by
+    /// plan there is no such bound.
     pub planned_share: f32,
-    /// For a planned neighbour that is already too near: how much nearer it may come before the robot brakes for it,
-    /// metres.
+    /// For a neighbour with a known planned clearance that is already too near: how much nearer it may come before the
+    /// robot brakes for it, metres.
     pub tolerance_m: f32,
     /// A robot counts as blocked after this number of steps in which less than half the wanted speed was allowed. A
     /// step without a speed limit lowers the count by one.
     pub steps_to_block: u8,
     /// Number of steps in a row in which the blocking obstacle must be missing before the robot is free again.
     pub steps_to_free: u8,
-    /// The blocking obstacle counts as missing once the gap to it has grown by more than this, metres. A blocked robot
-    /// also backs away until the gap is this large.
+    /// Two bounds on a gap, metres. The blocking obstacle counts as missing once the gap to it exceeds, by more than
+    /// this, the gap at which the robot stopped or last backed away. A blocked robot backs away only while the gap
+    /// itself is at most this.
     pub clear_m: f32,
     /// Speed at which a blocked robot backs away, m/s.
     pub retreat_mps: f32,
-    /// Least gap to a neighbour behind the robot at which a blocked robot backs away, metres.
+    /// Gap below which a neighbour behind the robot ends the backing away of a blocked robot, metres.
     pub followed_m: f32,
-    /// Largest distance by which the robot backs away, or leaves its route to give way to a neighbour, metres.
+    /// Largest distance by which the robot backs away, or leaves its route to give way to one neighbour, metres.
     pub evade_most_m: f32,
-    /// Distance by which the robot gives way to a neighbour that is too near, as a share of the missing clearance.
+    /// Distance by which the robot gives way to a neighbour that is too near, as a share of the missing clearance. At
+    /// gaps of a few millimetres, the robot gives way farther.
     pub give_way_share: f32,
 }
 
@@ -142,13 +146,13 @@ pub struct NeighbourModel {
     pub unplanned_accel_mps2: f32,
     /// Assumed velocity of an unplanned neighbour before it is measured (mean 0), 1 sigma in each axis, m/s.
     pub unknown_sigma_mps: f32,
-    /// Error of odometry, 1 sigma: the share of the distance that the robot's own wheels measure.
+    /// Error of the robot's own odometry, 1 sigma, as a share of the measured distance and of the measured rotation.
     pub odometry_share: f32,
     /// A planned neighbour counts as stopped above this natural logarithm of the likelihood ratio of "stopped" to
     /// "drives by plan".
     pub stop_log_ratio: f32,
-    /// A neighbour counts as having left its plan if the readings deviate from the plan by more than this, in standard
-    /// deviations.
+    /// A neighbour counts as having left its plan if the offset of the readings from the plan, smoothed over steps,
+    /// exceeds this multiple of the standard deviation of planned places.
     pub stray_sigmas: f32,
     /// Error of the place of a neighbour that was found to have stopped, 1 sigma across the line of sight, metres.
     pub stop_sigma_m: f32,
@@ -160,15 +164,15 @@ pub struct NeighbourModel {
     pub standing_sigma_rad: f32,
     /// Error of the velocity of a standing object, 1 sigma in each axis, m/s. The velocity itself is taken as 0.
     pub standing_sigma_mps: f32,
-    /// Readings count as those of a standing object above this natural logarithm of the likelihood ratio of "standing
-    /// object" to "moving neighbours".
+    /// Readings begin to count as those of a standing object above this natural logarithm of the likelihood ratio of
+    /// "standing object" to "moving neighbours". They count so until the logarithm is 0 or less.
     pub standing_log_ratio: f32,
     /// Share of a standing object's log-likelihood that is kept from step to step; older readings thus count less.
     pub standing_remembered: f32,
     /// Probability that a sensor does not see a standing object in its cone.
     pub unseen_share: f32,
-    /// Prior for each tried place of an edge's end, when an object comes into sight: natural logarithm of its
-    /// likelihood over that of an endless edge.
+    /// Prior for each tried place and direction of an edge's end, when an object comes into sight: natural logarithm of
+    /// its likelihood over that of an endless edge.
     pub end_log_prior: f32,
     /// Prior for each tried place of a standing robot, when an object comes into sight: natural logarithm of its
     /// likelihood over that of an endless edge.
@@ -176,7 +180,8 @@ pub struct NeighbourModel {
     /// Prior for an end of an edge that may lie where the sensors stop seeing the edge: natural logarithm of its
     /// likelihood over that of an endless edge.
     pub new_end_log_prior: f32,
-    /// Hypotheses about a standing object are merged if their places differ by less than this, metres.
+    /// Hypotheses of the same kind about a standing object are merged if their distances from the robot differ by less
+    /// than this, metres. Their ends or centres must then differ by less than twice this, and their directions little.
     pub alike_m: f32,
 }
 

@@ -18,9 +18,10 @@ const LOST_AFTER: Span = Span::from_millis(3000);
 pub(crate) struct PoseQuality {
     /// Whether the pose is too uncertain to drive.
     pub lost: bool,
-    /// Whether the last fix is older than [`LOST_AFTER`]. Then even a robot that rests on a held route is lost.
+    /// Whether the last fix is older than [`LOST_AFTER`], or no fix ever came. Then even a robot that rests on a held
+    /// route is lost.
     pub lost_for_good: bool,
-    /// Whether fixes are overdue.
+    /// Whether fixes are overdue, or no fix ever came.
     pub blind: bool,
 }
 

@@ -57,8 +57,8 @@ pub(crate) struct Filter {
     gate: OutlierGate,
     place_noise: NoiseEstimate,
     heading_noise: NoiseEstimate,
-    /// Innovations of the fix before the present one: place in metres and heading in radians, zero for an outlier.
-    /// `None` after a gap without fixes.
+    /// Innovations of the fix before the present one: place in metres and heading in radians, zero for an outlier or a
+    /// jump. `None` before the first fix and after a gap without fixes.
     off: Option<(Vec2, f64)>,
     gains: [Gain; 3],
     covariance: PoseCovariance,

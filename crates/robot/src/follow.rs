@@ -53,7 +53,7 @@ const _: () = assert!(CREEPING_MPS < RESTING_MPS && RESTING_MPS < STEERING_MPS);
 /// The tracking controller of a robot, with its memory.
 #[derive(Debug)]
 pub(crate) struct Follow {
-    /// Unit vector of the direction of travel, in the stage.
+    /// Unit vector of the direction of travel, in the stage; zero until a direction is chosen.
     travel: Vec2,
     /// How the robot drives: 1 forwards, −1 backwards, 0 not chosen yet.
     sense: f64,
@@ -90,8 +90,8 @@ impl Follow {
         self.rest(motion, stray || ahead.is_some(), body)
     }
 
-    /// Returns the setpoint that turns the robot on the spot towards `ahead`, the first direction of a route that has not
-    /// begun.
+    /// Returns the setpoint that turns the robot on the spot until its front or its back points along `ahead`, the
+    /// first direction of a route that has not begun.
     pub(crate) fn prepare(&mut self, ahead: Vec2, body: BodyPose) -> Setpoint {
         self.travel = ahead;
         self.choose_sense(body.facing);

@@ -43,8 +43,9 @@ impl KeptRoute {
         show.is_some_and(|show| show - at > TOO_LATE)
     }
 
-    /// Sets that the route begins at the moment `at`, show clock. A further START counts only if its moment is later: a
-    /// START with an earlier moment is an old message that was overtaken. Returns whether the moment changed.
+    /// Sets that the route begins at the moment `at`, show clock, and allows the robot to turn towards it. A further
+    /// START counts only if its moment is later: a START with an earlier moment is an old message that was overtaken.
+    /// Returns whether the moment changed.
     pub(crate) fn start(&mut self, at: Instant) -> bool {
         self.is_turned_to = true;
         let is_news = self.starts.is_none_or(|known| known < at);

@@ -52,8 +52,9 @@ impl LookAhead {
     }
 }
 
-/// Path time at which a route drives off after `time`, and its direction then; `None` if it does not drive off within
-/// [`HORIZON`].
+/// Path time at which a route drives off after `time`, and its direction then. If the route stays slow, the moment at
+/// which it becomes much faster than at first. `None` if neither comes within [`HORIZON`], counted from the end of a
+/// rest at the beginning.
 fn drives_off(route: &Route, (index, begin): (usize, Span), time: Span) -> Option<(Span, Vec2)> {
     let mut start = from(route, index);
     let (mut begin, mut now, mut horizon) = (begin, time.max(begin), time + HORIZON);

@@ -4,10 +4,10 @@
 use lightbots_base::{Instant, Span, Vec2, wrap};
 use lightbots_wire::RobotState;
 
-/// Time between two periodic status reports while the robot drives. With a smaller value, 1,000 robots flood the broker.
-/// With a larger value, the screen lags.
+/// Time between two periodic status reports while the robot drives or is held. With a smaller value, 1,000 robots flood
+/// the broker. With a larger value, the screen lags.
 const BUSY: Span = Span::from_millis(500);
-/// Time between two periodic status reports while the robot stands.
+/// Time between two periodic status reports while the robot neither drives nor is held.
 const CALM: Span = Span::from_millis(2000);
 /// A robot reports at once if it is farther than this from its route, metres. A robot that stands reports at once if it is
 /// this far from its last reported place. With a smaller value, ordinary tracking errors are reported.

@@ -34,7 +34,8 @@ use sensors::Sensors;
 use track::Track;
 use tracks::Tracks;
 
-/// A robot counts as driving above this speed, m/s. A robot that wants to drive no faster never counts as blocked.
+/// A robot or a planned neighbour counts as driving above this speed, m/s. Steps in which the robot wants to drive no
+/// faster do not count towards being blocked.
 const DRIVES_MPS: f32 = 0.02;
 /// The safety layer counts as braking if the allowed speed is less than the wanted speed by more than this, m/s.
 const SLOWS_MPS: f32 = 0.001;
@@ -44,9 +45,9 @@ const SLOWS_MPS: f32 = 0.001;
 pub(crate) enum Safety {
     /// The robot may drive at the speed that it wants.
     Free,
-    /// The robot must drive slower than it wants because of the obstacle `block`. `steps`: number of steps in which
-    /// less than half the wanted speed was allowed, minus the steps without a limit. `alarm`: whether the robot has
-    /// braked hard for an obstacle that the plan does not know.
+    /// The robot must drive slower than it wants because of the obstacle `block`, or had to in a recent step. `steps`:
+    /// number of steps in which less than half the wanted speed was allowed, minus the steps without a limit. `alarm`:
+    /// whether the robot has braked hard for an obstacle that the plan should have named.
     Braking { block: Block, steps: u8, alarm: bool },
     /// The robot stands because of the obstacle `block`. `gone`: number of steps in a row in which the obstacle was
     /// missing.
@@ -101,7 +102,8 @@ impl Reflex {
 
     /// Updates the estimates by the readings of a step of `dt` seconds, in which the robot drove `way_m` metres
     /// forwards and turned `turn_rad` counter-clockwise. `planned`: the neighbours that the plan expects in sight.
-    /// `error_m`: error of the robot's own place, metres, 1 sigma. A reading that is NaN counts as nothing seen.
+    /// `error_m`: error of the robot's own place, metres, 1 sigma. A reading that is NaN counts as nothing seen. A step
+    /// of 0 seconds changes nothing.
     pub(crate) fn look(
         &mut self,
         gaps_m: Option<&[f32; SENSORS]>,
@@ -166,7 +168,7 @@ impl Reflex {
     }
 
     /// The next state of a robot that may drive only at `mps` m/s, which is less than it wants. `named`: whether the
-    /// route names all neighbours.
+    /// route names all neighbours, or gives no clearance to others.
     fn slowed(&self, before: Safety, wish: &Wish, mps: f32, cause: Cause, named: bool) -> Safety {
         let (steps, alarm) =
             if let Safety::Braking { steps, alarm, .. } = before { (steps, alarm) } else { (0, false) };
@@ -265,7 +267,8 @@ impl Reflex {
         })
     }
 
-    /// Forgets all neighbours, because a route begins. From the next step on the plan names the neighbours in sight.
+    /// Forgets all neighbours and sets the state to free, because a route begins. Also resets the least gap for
+    /// reports. From the next step on the plan names the neighbours in sight.
     pub(crate) fn begin_route(&mut self) {
         self.tracks.clear();
         self.safety = Safety::Free;

@@ -158,7 +158,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Returns the time since the last step, limited to 0 to [`LONGEST_STEP`], and stores the moment of this step.
+    /// Returns the time since the last step, limited to 0 to [`LONGEST_STEP`], and stores the moment of this step. Lag
+    /// that was caught up without a route does not count. In the first step, the robot notes that it was switched on.
     fn take_time(&mut self, now: Instant, world: Instant) -> Span {
         let hot = &mut self.hot;
         if hot.last_step.is_none() {
@@ -174,7 +175,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         took.clamp(Span::ZERO, LONGEST_STEP)
     }
 
-    /// Begins the kept route if its start time has come.
+    /// Begins the kept route if its start time has come, and ends the drive to a target. Abandons the route at once if
+    /// the robot stands more than [`AWAY_M`] from the route's start; beyond [`GIVE_UP_M`], `supervise` does so.
     #[inline]
     fn begin_due(&mut self, route_time: Option<Instant>) {
         let Some(time) = route_time.filter(|_| self.hot.routes.keeps_one()) else { return };

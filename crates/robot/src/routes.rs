@@ -77,8 +77,8 @@ pub(crate) struct Routes {
     kept: Option<KeptRoute>,
     /// Number of the route that was finished last; 0 if there is none.
     finished: u32,
-    /// Whether the link was out since the latest START or STOP. Until the next START or STOP, a received route may be
-    /// an old message, and the robot does not turn towards it.
+    /// Whether the link was out since the latest accepted START, or the latest STOP or TARGET. Until the next one, a
+    /// received route may be an old message, and the robot does not turn towards it.
     was_out: bool,
 }
 
@@ -100,9 +100,9 @@ impl Routes {
         storage.put(slot, route);
     }
 
-    /// Handles a START: sets that the kept route with the number `seq` begins at the moment `at`, show clock. A further
-    /// START counts only if its moment is later: a START with an earlier moment is an old message that was overtaken.
-    /// Returns whether the moment changed.
+    /// Handles a START: sets that the kept route with the number `seq` begins at the moment `at`, show clock. A START
+    /// that comes too late is ignored. A further START counts only if its moment is later: a START with an earlier
+    /// moment is an old message that was overtaken. Returns whether the moment changed.
     pub(crate) fn start(&mut self, seq: u32, at: Instant, show: Option<Instant>) -> bool {
         let Some(kept) = self.kept.as_mut().filter(|kept| kept.seq == seq && !kept.is_late(at, show)) else {
             return false;
@@ -132,7 +132,7 @@ impl Routes {
     }
 
     /// Begins the kept route if its start time has come at `show`, and returns whether it began. A start time that is
-    /// past by more than [`TOO_LATE`] is discarded: it was missed because the show clock was unknown.
+    /// past by more than [`TOO_LATE`] is discarded, for example if the show clock was unknown at that time.
     #[inline]
     pub(crate) fn begin_due(&mut self, show: Instant, storage: &RouteStorage) -> bool {
         self.kept.is_some() && self.begin_kept(show, storage)
@@ -235,8 +235,8 @@ impl Routes {
         }
     }
 
-    /// Notes that the link was out. This matters only for a robot that has or had a route: only then can a message
-    /// about routes be old.
+    /// Notes that the link was out, and stops turning towards the kept route until its START comes. This matters only
+    /// for a robot that has or had a route: only then can a message about routes be old.
     pub(crate) fn note_outage(&mut self) {
         self.was_out |= self.named() != 0;
         self.await_start();
@@ -265,7 +265,7 @@ impl Routes {
         self.running = None;
     }
 
-    /// Discards all routes.
+    /// Discards all routes, and also the number of the finished route and the note of an outage.
     pub(crate) fn clear(&mut self) {
         self.running = None;
         self.kept = None;

@@ -14,7 +14,7 @@ const STEPS: u8 = 6;
 #[derive(Debug, Default)]
 pub(crate) struct StallDetector {
     commanded_radps: [f64; 2],
-    /// Number of steps in a row in which the left and the right wheel did not turn.
+    /// Number of steps in a row in which the left and the right wheel did not turn although they were commanded to.
     steps: [u8; 2],
     /// Whether a wheel has turned since power-on, which shows that the encoders work.
     turned: bool,

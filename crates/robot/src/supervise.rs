@@ -21,7 +21,7 @@ const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
 /// What the robot is driving, as far as it matters to the supervision of the link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Drives {
-    /// Nothing: the robot stands and will not drive without a message.
+    /// Nothing: the robot stands or rolls out, and will not drive on without a message.
     Not,
     /// To a target. Its controller may be an original one, which sends no messages during the drive.
     Target,
@@ -58,15 +58,15 @@ impl Supervisor {
         }
     }
 
-    /// Notes that a message arrived at `now`, own clock. This ends a silence and a cut-off.
+    /// Notes that a message arrived at `now`, own clock. This ends a silence and a cut-off, and the link counts as up.
     pub(crate) fn receive(&mut self, now: Instant) {
         self.heard = now;
         self.down_since = None;
         self.cut = false;
     }
 
-    /// Notes that the link went up or down at `now`, own clock. A link that goes up does not end a silence: only a
-    /// message does.
+    /// Notes that the link went up or down at `now`, own clock. A link that goes up ends a cut-off but not a silence:
+    /// only a message ends a silence.
     pub(crate) fn link(&mut self, now: Instant, up: bool) {
         if up {
             self.untold |= self.cut;
@@ -146,7 +146,8 @@ impl Supervisor {
         core::mem::take(&mut self.untold)
     }
 
-    /// Whether the robot is cut off: it stopped because the link was lost during a drive.
+    /// Whether the robot is cut off: it stopped during a drive because the link was down, or on a route because of a
+    /// silence. It is no longer cut off once a message comes or the link goes up.
     pub(crate) fn is_cut(&self) -> bool {
         self.cut
     }

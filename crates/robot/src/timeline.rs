@@ -56,7 +56,7 @@ impl Timeline {
     }
 
     /// Notes a hold (`hold`) or a resume for the moment `at`, show clock. Holds and resumes may arrive in any order.
-    /// Duplicates are dropped, and so are moments before the start of the route.
+    /// Duplicates are dropped, and so are moments before the start of the route or before `base`.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         let folded = at < self.base.at || at == self.base.at && hold == self.base.progress.held;
         if folded || self.events.iter().any(|event| event.at == at && event.hold == hold) {

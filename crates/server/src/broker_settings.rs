@@ -19,10 +19,10 @@ const PEM_MAX: u64 = 1 << 20;
 /// Longest file of settings, bytes: seven texts, each twice as long when escaped.
 const FILE_MAX: u64 = 14 * LONGEST as u64;
 
-/// Address, login and certificates as they were entered.
+/// Settings of a broker, as they were entered on the screen or on the command line.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Addresses without login, or [`EMBEDDED`].
+    /// Addresses, or [`EMBEDDED`]. [`Settings::broker`] moves a login in them to `user` and `password`.
     pub address: String,
     /// User name.
     pub user: Option<String>,
@@ -34,7 +34,8 @@ pub struct Settings {
     pub client_cert: Option<String>,
     /// Key of the client certificate: PEM text, or the path of a file.
     pub client_key: Option<String>,
-    /// Whether to connect to this broker at the next start.
+    /// Whether later starts connect to this broker. `false` after a person disconnected from it: later starts then use the
+    /// embedded broker.
     #[serde(default)]
     pub connect: bool,
 }
@@ -129,7 +130,7 @@ impl Settings {
     }
 }
 
-/// Returns the external broker that the command line of `run` names. `None` if `run` is to use its embedded broker.
+/// Returns the external broker that the command line of `run` names. `None` if it names none, or says [`EMBEDDED`].
 pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Option<BrokerUrl>, Failure> {
     let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
     if embedded == addresses.len() {

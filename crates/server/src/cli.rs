@@ -86,7 +86,7 @@ pub enum Command {
     Passwd(PasswdArguments),
     /// Save the data folder (shows, earlier saves, runs, accounts, certificates) in one file, also while it is in use
     Backup(BackupArguments),
-    /// Make a data folder of a backup
+    /// Make a data folder from a backup
     Restore(RestoreArguments),
     /// Decode a picture of a layer; this program starts it by itself
     #[command(hide = true)]
@@ -96,7 +96,7 @@ pub enum Command {
 /// `run`
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// The show to open; without it, an example
+    /// The show to open; without it, the show that was open last, else an example
     pub show: Option<PathBuf>,
     #[command(flatten)]
     pub reading: ShowArguments,

@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use crate::disk;
 use crate::failure::Failure;
 
-/// Name of the file whose lock shows that a program uses the folder. The operating system holds the lock. The file is
-/// never removed, because another program may open it at that moment.
+/// Name of the file whose lock shows that a program uses the folder. The operating system holds the lock. The program that
+/// ends does not remove the file, because another program may open it at that moment.
 const LOCK: &str = ".lock";
 /// Longest text that is read from a lock file, bytes.
 const LONGEST: u64 = 200;
 
-/// A data folder that only this program uses while the value exists. The lock ends with the process, however the
-/// process ends.
+/// A data folder that only this program uses while the value exists. A file system without locks cannot prevent a second
+/// program. The lock ends with the process, however the process ends.
 #[derive(Debug)]
 pub struct DataFolder {
     path: PathBuf,
@@ -31,8 +31,8 @@ impl DataFolder {
         data.map_or_else(|| PathBuf::from("lightbots-data"), |data| data.join("lightbots"))
     }
 
-    /// Makes the folder, if it is missing, and locks it. The error says what to do: which process uses the folder, or
-    /// that the disk cannot be written.
+    /// Makes the folder, if it is missing, and locks it. The error says which program uses the folder, or why shows cannot
+    /// be kept there, and what to do.
     pub fn take(path: &Path) -> Result<Self, Failure> {
         let lock = open(path).map_err(|error| {
             let path = path.display();

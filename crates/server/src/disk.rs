@@ -20,7 +20,7 @@ const DRAFT: &str = ".saving";
 pub enum Readers {
     /// Every user that the system's file mode mask admits.
     All,
-    /// The user that runs this program.
+    /// The user that runs this program. On systems other than Unix, the same as `All`.
     Owner,
 }
 
@@ -41,8 +41,8 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a file, all or nothing, and makes its folder if that is missing. After a crash, the old or the new file
-/// exists. After an error, the old file exists, and no draft.
+/// Writes a file, all or nothing, and makes its folder if that is missing. After a crash, the old or the new file exists.
+/// After an error, there is no draft, and the old file exists, unless only the last synchronisation failed.
 pub fn replace(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<()> {
     replace_with(path, readers, |file| file.write_all(bytes))
 }

@@ -12,7 +12,8 @@ pub struct Failure {
     pub code: i32,
 }
 
-/// How a command ends: `Ok(true)` fine, `Ok(false)` with problems that were printed.
+/// How a command ends: `Ok(true)` fine, `Ok(false)` with problems that were printed, `Err` with a line that is not printed
+/// yet.
 pub type Outcome = Result<bool, Failure>;
 
 impl Failure {

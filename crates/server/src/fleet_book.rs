@@ -43,8 +43,8 @@ struct About {
 }
 
 impl FleetBook {
-    /// Reads the file in the data folder. The result is empty if the file is missing or invalid; an invalid file is
-    /// renamed and kept.
+    /// Reads the file in the data folder. The result is empty if the file is missing, cannot be read or is invalid. An
+    /// invalid file is renamed and kept.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
         let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
@@ -57,7 +57,8 @@ impl FleetBook {
         Self { path, kept: Arc::new(Mutex::new(kept)) }
     }
 
-    /// Gives a robot a display name; an empty text removes it. The error is a line for people.
+    /// Gives a robot a display name; an empty text removes it. The error is a line for people, for example if another robot
+    /// has the name.
     pub fn call(&self, robot: RobotId, called: &str) -> Result<(), String> {
         let called: String = called.split_whitespace().collect::<Vec<_>>().join(" ");
         if called.chars().count() > CALLED_MAX || called.chars().any(char::is_control) {
@@ -77,7 +78,7 @@ impl FleetBook {
         })
     }
 
-    /// Puts robots on the list of those that may take part, or takes them off it.
+    /// Puts robots on the list of the robots that may take part, or takes them off that list.
     pub fn list(&self, robots: &[RobotId], listed: bool) -> Result<(), String> {
         self.change(|kept| {
             for robot in robots {

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::failure::Failure;
 
-/// A file that is written during a rehearsal or replay. Its old content stays until the first write, so that unusable
-/// input does not destroy it.
+/// A file that is written during a rehearsal or replay. Its old content stays until the first call of `append` or `finish`,
+/// so that unusable input does not destroy it.
 #[derive(Debug)]
 pub struct GrowingFile<'a> {
     path: &'a Path,

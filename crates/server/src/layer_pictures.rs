@@ -1,5 +1,5 @@
-//! Pictures that layers project on the floor, decoded in a child process, so that the program that plays a show reads
-//! no untrusted file.
+//! Pictures that layers project on the floor. They are decoded in a child process, so that the program that plays a show
+//! decodes no untrusted picture. Only pictures of light sequences are read in this process.
 //!
 //! The parent writes the file to the stdin of `lightbots picture`. The child answers on stdout with a line of JSON,
 //! [`Head`], and the codes of the small picture.
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::commands::guard;
 
-/// Largest file of a picture, bytes; as for sources of frames.
+/// Largest file of a picture, bytes; the same as for the sources of frames.
 pub const FILE_MAX: u64 = 64 << 20;
 /// Longest line of [`Head`], bytes.
 const HEAD_MAX: u64 = 4096;
@@ -46,7 +46,7 @@ pub struct LayerPictures(Arc<Mutex<VecDeque<(AssetHash, Decoded)>>>);
 
 impl LayerPictures {
     /// Decodes the pictures of a show's layers and stores them in the show. `content` returns the bytes of an asset, or
-    /// `None` if they are missing. Returns an issue for each layer whose picture cannot be decoded.
+    /// `None` if they are missing. Returns a warning for each file that cannot be shown.
     pub fn attach(
         &self,
         show: &mut Show,

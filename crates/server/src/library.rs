@@ -104,8 +104,8 @@ impl Library {
         }
     }
 
-    /// Removes drafts that a crash left, states of shows that were deleted long ago, and assets that no show names any more.
-    /// To be called only while no other program uses the folder.
+    /// Removes drafts that a crash left, states of shows that were deleted long ago, and old assets that neither a show nor
+    /// a state names. To be called only while no other program uses the folder.
     pub fn tidy_up(&self) {
         disk::remove_drafts(self.files.folder());
         self.assets.remove_drafts();
@@ -124,7 +124,7 @@ impl Library {
         self.given.add(Given::new(tidy_name(name), origin, show, unread), &self.files.names())
     }
 
-    /// Saves the name of the open show for the next start. A failure is only logged.
+    /// Saves the name of the open show for later starts. A failure is only logged.
     pub fn remember(&self, name: &str) {
         let folder = self.files.folder();
         let kept = disk::replace(&folder.join(OPEN), name.as_bytes(), Readers::All);
@@ -154,8 +154,8 @@ impl Library {
         self.kept(name, bytes, unread)
     }
 
-    /// Reads the show in a file's bytes. `unread` says why the original file of a built-in show holds more than `bytes`;
-    /// `None`: it does not, or the show is not built-in.
+    /// Reads the show in a file's bytes, and copies the files of an archive to the assets. `unread` says why the original
+    /// file of a built-in show holds more than `bytes`; `None`: it does not, or the show is not built-in.
     fn kept(&self, name: &str, bytes: Vec<u8>, unread: Option<String>) -> Result<Kept, LibraryError> {
         let loaded = read(&bytes, None)
             .map_err(|error| LibraryError::NoShow(format!("\"{name}\" cannot be read: {error}")))?;
@@ -175,7 +175,7 @@ impl Library {
         Ok(Kept { etag, bytes, show, read_only, issues: Issues::new() })
     }
 
-    /// Returns the saved states of a show, the newest first: the present one, and earlier ones.
+    /// Returns the saved states of a show, the newest first: the present one, and earlier ones that can be read.
     pub fn states(&self, name: &str) -> Result<Vec<ShowState>, LibraryError> {
         let name = checked(name)?;
         let now = self.entry(name)?;
@@ -222,13 +222,14 @@ impl Library {
         self.assets.attach(show);
     }
 
-    /// Decodes the pictures of a show's layers and stores them in the show. Returns issues for layers that stay dark.
+    /// Decodes the pictures of a show's layers and stores them in the show. Returns a warning for each file that cannot be
+    /// shown; layers with that file stay dark.
     pub fn attach_pictures(&self, show: &mut Show) -> Issues {
         self.pictures.attach(show, |hash, asset| self.assets.of(hash, asset))
     }
 
-    /// Decodes the pictures of the show's layers and adds them to the show, because robots play it with them. Adds the
-    /// issues of pictures that cannot be decoded.
+    /// Decodes the pictures of the show's layers and adds them to the show, because robots play it with them. Sets `issues`
+    /// to the warnings about files that cannot be shown.
     pub fn with_pictures(&self, mut kept: Kept) -> Kept {
         kept.issues = self.attach_pictures(&mut kept.show);
         kept
@@ -265,7 +266,8 @@ impl Library {
         }
     }
 
-    /// Deletes old assets that no show of the folder names any more.
+    /// Deletes old assets that no show of the folder and no earlier state names. Deletes nothing if one of these files
+    /// cannot be read.
     fn sweep(&self) {
         // Shows are many and large, so they are read only if there is something to delete.
         if !self.assets.has_old() {

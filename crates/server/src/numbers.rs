@@ -63,7 +63,7 @@ pub fn color(text: &str) -> Result<Rgb, String> {
     Rgb::from_hex(text).ok_or_else(|| "write a colour like #ffa500".into())
 }
 
-/// Reads the address to listen at: an IP address or a name of this machine, and a port, such as `127.0.0.1:8420`.
+/// Reads an address to listen at or to send to: an IP address or a name of a machine, and a port, such as `127.0.0.1:8420`.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
     let wrong =
         || "an address is HOST:PORT, such as 127.0.0.1:8420, or 0.0.0.0:8420 for every network".to_owned();

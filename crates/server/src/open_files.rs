@@ -22,8 +22,8 @@ pub fn is_limit(error: &std::io::Error) -> bool {
     error.raw_os_error().is_some_and(|code| codes.contains(&code))
 }
 
-/// Limits the memory of the broker's process, on Linux only. A broker that uses too much memory then ends and is
-/// started again, and the rest of the machine keeps its memory.
+/// Limits the memory of the broker's process, on Linux only. A broker that uses too much memory then ends, and the rest of
+/// the machine keeps its memory. The command `run` starts its broker again.
 pub fn limit_memory() {
     #[cfg(target_os = "linux")]
     {

@@ -44,15 +44,16 @@ struct Entry {
 /// A show and the kind of robots that play it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Played {
-    /// Hash of all that robots' drives depend on. A show that differs only in its name or colours has the same hash.
+    /// Hash of all that robots' drives depend on, and of the names of frames. A show that differs only in the show's name or
+    /// in colours has the same hash.
     drives: u64,
-    /// Whether real robots take part.
+    /// Whether real robots report on the broker.
     real: bool,
 }
 
 impl Played {
-    /// Returns a show by `drives`, its `show_plan::drives_hash`, with the kind of robots that are there. A show that only
-    /// simulated robots have played counts as not played if real robots take part.
+    /// Returns a show by `drives`, its `show_plan::drives_hash`, with the kind of robots that report on the broker. A show
+    /// that only simulated robots have played counts as not played if a real robot reports.
     pub fn of(drives: u64, robots: &[RobotView]) -> Self {
         Self { drives, real: has_real(robots) }
     }
@@ -63,8 +64,8 @@ fn has_real(robots: &[RobotView]) -> bool {
 }
 
 impl PlayedShows {
-    /// Reads the file in the data folder. If it cannot be read, the list is empty, so that all shows are offered at half
-    /// speed again.
+    /// Reads the file in the data folder. If the file is missing or cannot be read, the list is empty, so that all shows are
+    /// offered at half speed.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
         let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
@@ -138,7 +139,8 @@ struct PresentRun {
 }
 
 impl PresentRun {
-    /// Returns the show if this event ends the run and all frames were played. Otherwise returns `None`.
+    /// Returns the show if this event ends the run, the outcome is `Finished`, and at least as many frames were played as
+    /// the show has. Otherwise returns `None`.
     fn ends(&mut self, event: &Event) -> Option<(String, Played)> {
         let EventKind::RunEnded { outcome, frames_played, .. } = &event.kind else { return None };
         let (name, played, frames) = self.show.take()?;

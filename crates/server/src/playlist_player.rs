@@ -141,8 +141,8 @@ impl Player {
         }
     }
 
-    /// Ends the turn that is playing, if its run is over although no event said so. Events are lost if too many come at
-    /// once.
+    /// Ends the turn that is playing as failed, if its run is over although no event said so. Events are lost if too many
+    /// come at once.
     fn watch(&mut self, snapshot: &Snapshot) {
         self.looks_without_run = if snapshot.run.is_some() { 0 } else { self.looks_without_run + 1 };
         if self.looks_without_run < LOOKS_WITHOUT_RUN {
@@ -183,7 +183,7 @@ impl Player {
         self.end_at(key, end, at_s);
     }
 
-    /// Begins a turn, or records why it cannot begin yet.
+    /// Begins a turn, or records why it cannot begin yet. Ends the turn as failed if waiting would not help.
     async fn begin(&mut self, key: TurnKey, snapshot: &Snapshot, news: &mut broadcast::Receiver<News>) {
         let Some(turn) = self.shared.playlist.turn(key.id) else { return };
         if self.attempt.as_ref().is_none_or(|attempt| attempt.key != key) {

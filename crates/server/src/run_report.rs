@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::numbers::rounded_spread;
 use crate::{commands, say};
 
-/// Most issues of a run that are kept.
+/// Number of issues from which on events of the run add no further issues. Warnings are added in any case.
 const ISSUES_MAX: usize = 500;
 
 /// Report of a run, made from the run's events.
@@ -91,12 +91,12 @@ impl RunReport {
         }
     }
 
-    /// Adds issues that were found before the run, in front of the others.
+    /// Adds issues that are not events of the run, such as those of reading the show, in front of the others.
     pub fn add_issues(&mut self, issues: &Issues) {
         self.issues.splice(0..0, issues.iter().cloned());
     }
 
-    /// Adds a warning about the broker.
+    /// Adds a warning of the conductor as an issue with the code `broker`, whatever the warning is about.
     pub fn warn(&mut self, line: String) {
         self.issues.push(Issue::warning("broker", line));
     }
@@ -111,7 +111,7 @@ impl RunReport {
         self.outcome.is_some()
     }
 
-    /// Whether the whole show was played, and all robots that were lost came back.
+    /// Whether the whole show was played, and at least as many robots came back as dropped out.
     pub fn ok(&self) -> bool {
         self.outcome == Some(RunOutcome::Finished)
             && self.frames_played >= self.frames

@@ -17,7 +17,7 @@ pub const FLOOR_IGNORED: &str = "floor-ignored";
 /// A show as commands use it: read, adapted to the command line, and validated.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// The show, with the floor and the identity the user asked for.
+    /// The show, with the identity of the command line. Its floor is that of the file, or else that of the command line.
     pub show: Show,
     /// Why the file holds more than the show; `None`: the show holds everything.
     pub unread: Option<String>,
@@ -25,8 +25,8 @@ pub struct Opened {
     pub issues: Issues,
 }
 
-/// Reads the show of a file, with the floor and identity of the command line. The error is one line with the file's
-/// name.
+/// Reads the show of a file, with the identity of the command line. The floor of the command line is used only if the file
+/// has none. The error is one line with the file's name.
 pub fn open(path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     let bytes = bytes(path)?;
     interpret(&bytes, path, arguments)
@@ -70,7 +70,7 @@ pub fn write(path: &Path, bytes: Vec<u8>) -> Result<(), Failure> {
     std::fs::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
-/// Reads the show in the bytes of the file at `path`, with the floor and identity of the command line.
+/// Reads the show in the bytes of the file at `path` as [`open`] does.
 pub fn interpret(bytes: &[u8], path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     Ok(prepare(loaded(bytes, path)?, arguments))
 }

@@ -40,7 +40,8 @@ fn document(show: &Show, found: &Issues, plan: &ShowPlan, began: Instant) -> api
     plan_document(plan, &found, plan_ms)
 }
 
-/// The latest plan. A show in which only light, colours or names were changed is not planned again.
+/// The latest plan. A show in which only light, colours, music or the show's name were changed is not planned again. A new
+/// name of a frame leads to a new plan.
 #[derive(Debug, Default)]
 pub struct LastPlan(Mutex<Option<(Show, Arc<ShowPlan>)>>);
 
@@ -82,8 +83,8 @@ impl io::Write for Hashed {
     }
 }
 
-/// Returns a hash of everything that robots' drives depend on. It takes long for a large show, so it must not run in a task
-/// that others wait for.
+/// Returns a hash of everything that robots' drives depend on, and of the names of frames. It takes long for a large show,
+/// so it must not run in a task that others wait for.
 pub fn drives_hash(show: &Show) -> u64 {
     let mut hashed = Hashed(StateHash::new());
     // Neither serialising a show nor hashing it fails.
@@ -91,7 +92,8 @@ pub fn drives_hash(show: &Show) -> u64 {
     hashed.0.finish()
 }
 
-/// Returns a copy of the show that keeps only what robots' drives depend on. Fields that are not named here are kept too.
+/// Returns a copy of the show without the parts that robots' drives surely do not depend on. All other fields are kept, also
+/// the names of frames.
 fn driven(show: &Show) -> Show {
     let mut driven = Show {
         name: String::new(),

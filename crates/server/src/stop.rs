@@ -13,7 +13,8 @@ const COMPUTING: u8 = 1;
 /// Phase in which a command waits by [`Stop::wait`]: the first signal requests a stop.
 const RUNNING: u8 = 2;
 
-/// Whether the user wants the program to stop. After the first signal, a second one ends the program at once.
+/// Whether the program, or the part of it that has this value, is to stop. After the first signal, a second one ends the
+/// program at once.
 #[derive(Clone, Debug)]
 pub struct Stop {
     wanted: watch::Receiver<bool>,
@@ -41,7 +42,7 @@ impl Stop {
         self.phase.store(RUNNING, Ordering::Release);
     }
 
-    /// Waits until the user wants the program to stop.
+    /// Waits until a stop is requested: by a signal, or for a [`Stop::child`] or [`Stop::apart`] by its [`End`].
     pub async fn wait(&self) {
         let mut wanted = self.wanted.clone();
         // The sender lives as long as the program.
@@ -70,7 +71,7 @@ impl Stop {
         (Self { wanted, phase: self.phase.clone() }, End(sender))
     }
 
-    /// Whether the user wants to stop.
+    /// Whether a stop has been requested.
     pub fn is_wanted(&self) -> bool {
         *self.wanted.borrow()
     }
@@ -137,7 +138,8 @@ impl Signals {
     }
 }
 
-/// Whether this process was started with HUP ignored. Only Linux reports that without unsafe code.
+/// Whether this process was started with HUP ignored. Only Linux reports that without unsafe code; on other systems, the
+/// result is `false`.
 #[cfg(unix)]
 fn ignores_hang_up() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

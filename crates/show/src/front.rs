@@ -8,8 +8,8 @@ use crate::{Obstacle, Show, Stage, robots_needed};
 /// which all rows are on the floor is taken. The original system uses 0.1 m. 0.06 m leaves 6 mm between rims, twice
 /// `PROVABLE_GAP_M`.
 const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
-/// Distance from the front edge of the floor to the first row, metres. The original system has y = 1.3 m on a floor of
-/// 3 m.
+/// Distance from the front edge of the floor to the first row, metres, but at most a quarter of the floor's depth. The
+/// original system has y = 1.3 m on a floor of 3 m.
 const FIRST_ROW_M: f64 = 0.2;
 /// Least distance from a side edge to the nearest robot of a row, metres. The original system has x = -1.45 m on a floor
 /// of 3 m.
@@ -31,14 +31,14 @@ const FULL_ROWS_MAX: usize = 10_000;
 /// shows.
 const COMPARISONS_MAX: usize = 200_000_000;
 
-/// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Robots of
-/// a row are 0.1 m apart, and so are rows; the first row is 0.2 m from the edge. A row runs from left to right and is
-/// centred. On the original system's floor of 3 m by 3 m the first thirty places have y = 1.3 m and begin at
-/// x = −1.45 m. Places on no-go areas are left out.
+/// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Robots
+/// of a row are 0.1 m apart, and so are rows; the first row is 0.2 m from the edge, or a quarter of the floor's depth
+/// if that is less. A row runs from left to right and is centred. On the original system's floor of 3 m by 3 m the
+/// first thirty places have y = 1.3 m and begin at x = −1.45 m. Places on no-go areas are left out.
 ///
-/// These distances are for an Elisa-3, and grow with the radius of the robot. If the floor is too small, robots and rows
-/// are closer together, down to 60 mm for an Elisa-3. If that is not enough, the last rows are beyond the far edge, which
-/// [`validate`](crate::validate()) reports. The list always has `count` places.
+/// These distances are for an Elisa-3 and smaller robots; for larger robots they grow with the radius. If the floor is
+/// too small, robots and rows are closer together, down to 60 mm for an Elisa-3. If that is not enough, the last rows
+/// are beyond the far edge, which [`validate`](crate::validate()) reports. The list always has `count` places.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
     let [wide_m, medium_m, narrow_m] = STEPS_M;

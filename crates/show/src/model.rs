@@ -15,7 +15,7 @@ pub struct Show {
     pub name: String,
     /// Floor and robots.
     pub stage: Stage,
-    /// Whether pixels are bound to robots. A frame's own [`Frame::identity`] overrides it.
+    /// Whether a pixel id is shown by the same robot in all frames. A frame's own [`Frame::identity`] overrides it.
     pub identity: Identity,
     /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge, where y is largest.
     pub starts: Option<Vec<Vec2>>,
@@ -76,7 +76,7 @@ pub enum Obstacle {
 /// Whether pixels are bound to robots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Identity {
-    /// Any robot may show any pixel.
+    /// Any robot may show any pixel that names no robot.
     #[default]
     Any,
     /// Pixels with equal ids in different frames are shown by one robot.
@@ -99,7 +99,8 @@ pub struct Frame {
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
-    /// How robots drive from the previous frame's picture to this one; `None`: the shortest drive that the planner finds.
+    /// How robots drive from the previous frame's picture to this one; `None`: on the trajectories that the show has to
+    /// this frame, or else the shortest drive that the planner finds.
     pub motion: Option<PictureMotion>,
     /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
@@ -128,7 +129,7 @@ pub struct Pixel {
     pub at: Vec2,
     /// Colour.
     pub color: Rgb,
-    /// Name of the only robot that may show the pixel; `None`: any robot may.
+    /// Name of the only robot that may show the pixel; `None`: any robot that [`Identity`] allows.
     pub robot: Option<String>,
     /// The part of a source that the pixel belongs to; `None`: the pixel was drawn by hand.
     pub part: Option<SourcePart>,

@@ -3,14 +3,15 @@
 use lightbots_base::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// How robots drive from the previous frame's picture to a frame, instead of the planner's shortest drive. Places are in
-/// stage metres. Angles are in radians, counter-clockwise; directions count from the x axis.
+/// How robots drive from the previous frame's picture to a frame: another drive than the planner's shortest, or that
+/// drive with staggered starts. Places are in stage metres. Angles are in radians, counter-clockwise; directions count
+/// from the x axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum PictureMotion {
     /// The formation travels without turning, and each robot keeps its place in the formation.
     Travel {
         /// Displacements of the formation from where it starts, metres, in order. The formation moves along a smooth
-        /// curve from `(0, 0)` through all of them.
+        /// curve from `(0, 0)` through all of them; a single displacement gives a straight line.
         along: Vec<Vec2>,
     },
     /// The formation turns about a point, and may grow or shrink meanwhile.

@@ -1,6 +1,6 @@
 //! Settings of sources and layers. A later version of the program may give a meaning to further values.
 
-/// A value of a setting: any JSON value. Reading and writing a file does not change it.
+/// A value of a setting: any JSON value with finite numbers. Reading and writing a file does not change it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Setting {
     /// No value.

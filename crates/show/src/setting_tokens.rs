@@ -7,7 +7,8 @@ use crate::setting::{NamedSettings, Setting};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Deepest nesting of values that is read. Settings of a valid document nest at most 8 deep.
+/// Deepest nesting of values that is read, with the outermost object counted. Settings of a valid document nest at most
+/// 8 deep.
 const DEEPEST: u32 = 16;
 
 /// A simple value, or the start of a list or object. `List(n)` is followed by n values, `Object(n)` by n pairs of a text

@@ -25,8 +25,8 @@ pub struct FrameSource {
     pub series: Option<String>,
     /// Moment of the animation that the frame shows, seconds from the start of the animation; `None`: no animation.
     pub moment_s: Option<f64>,
-    /// Settings, such as the text and its font. Serde skips them, because untrusted input could nest settings without a
-    /// bound.
+    /// Settings, such as the text and its font. Serde skips `settings`, because untrusted input could nest them without
+    /// a bound.
     #[serde(skip)]
     pub settings: NamedSettings,
 }

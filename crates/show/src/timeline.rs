@@ -85,8 +85,8 @@ pub struct Cue {
     pub name: String,
     /// Where the show waits.
     pub at: CuePlace,
-    /// Id of the first frame of a loop, which is the cue's frame or an earlier one. The show repeats the frames from
-    /// that frame to the cue's frame until GO, instead of waiting. `None`: the show waits.
+    /// Id of the first frame of a loop: the cue's own frame or an earlier one. The show repeats all frames from there
+    /// to the cue's frame until GO, instead of waiting. `None`: the show waits.
     pub loop_from: Option<String>,
 }
 

@@ -10,8 +10,8 @@ const FREE_STEPS: u64 = 10;
 /// A robot is off its route if it is farther than this from where its route wants it at the moment, metres. Planned
 /// gaps between robots are about this wide.
 const OFF_ROUTE_M: f64 = 0.01;
-/// Distance beyond the range of the proximity sensors at which a robot still counts as ahead, metres. Both robots move
-/// by at most 9 mm between the reading and the classification.
+/// Distance beyond the range of the proximity sensors at which a robot still counts as ahead, metres. Together, the two
+/// robots move by about 9 mm at most between the reading and the classification.
 const BEYOND_SIGHT_M: f64 = 0.01;
 
 /// Numbers of braking episodes in a rehearsal.

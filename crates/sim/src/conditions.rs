@@ -16,7 +16,8 @@ pub struct Conditions {
     pub fixes: FixConditions,
     /// The network between the controller and each robot.
     pub link: LinkConditions,
-    /// Number of original robots, which understand only `TARGET` and `COLOR`. They are the last in starting order.
+    /// Number of original robots, which understand only `TARGET`, `COLOR` and `UUID`. They are the last in starting
+    /// order.
     pub originals: usize,
     /// Robots whose power fails: they stand and send nothing.
     pub killed: Vec<Breakdown>,
@@ -31,7 +32,7 @@ pub struct Conditions {
     pub turned_markers: Vec<(usize, f64)>,
     /// Robots whose link breaks, each with the duration of the break.
     pub cut: Vec<(Breakdown, Span)>,
-    /// Robots that get no position fixes for a while, each with the duration of this.
+    /// Robots that get no position fixes for a while, each with the duration of that while.
     pub blind: Vec<(Breakdown, Span)>,
     /// Times during which the broker passes nothing on. Connections stay, and messages wait.
     pub frozen: Vec<Outage>,
@@ -42,13 +43,13 @@ pub struct Conditions {
     /// Mishaps, each with its time after the first departure.
     pub mishaps: Vec<(Span, Mishap)>,
     /// Indices of the frames that the operator jumps to, in this order. Each time robots have reached a frame, the
-    /// operator jumps to the next one.
+    /// operator jumps to the next index in this list.
     pub visits: Vec<usize>,
     /// Time from the moment at which a frame is ready for GO until the operator gives GO.
     pub go_after: Span,
     /// Largest allowed difference between a robot's light and the colour that the show's layers give it.
     pub light_tolerance: Tolerance,
-    /// Number of rounds of a loop after which the operator gives GO, so that the show leaves the loop.
+    /// Number of rounds of each loop. In the last of them the operator gives GO, so that the show then leaves the loop.
     pub loop_rounds: u32,
 }
 
@@ -65,8 +66,8 @@ pub struct FixConditions {
     pub every: u32,
     /// Age of a fix when the robot gets it; at most 1 s.
     pub delay: Span,
-    /// Duration of a drop-out of fixes; zero: no drop-outs. With a fix in every step, a drop-out begins about every 20
-    /// s for each robot.
+    /// Duration of a drop-out of fixes; zero: no drop-outs. For each robot, the next drop-out begins 20 s after the end
+    /// of the last one on average.
     pub dropout: Span,
     /// Probability that a fix is an outlier, off by up to 1 m along each axis.
     pub outliers: f64,
@@ -79,8 +80,8 @@ pub struct LinkConditions {
     pub delay_min: Span,
     /// Largest delay of a message without jitter.
     pub delay_max: Span,
-    /// Largest additional delay, which one message in ten gets. Later messages of the same link wait behind the delayed
-    /// message.
+    /// One message in ten gets an additional, random delay below this; zero: no message does. Later messages of the
+    /// same link wait behind the delayed message.
     pub jitter: Span,
     /// Probability that a message is lost.
     pub loss: f64,
@@ -96,7 +97,7 @@ pub struct LinkConditions {
 pub struct Breakdown {
     /// Index of the robot in starting order; `None`: random.
     pub robot: Option<usize>,
-    /// Time after the first departure; `None`: random, while the show plays.
+    /// Time after the first departure. `None`: random, from a tenth to eight tenths of the planned duration.
     pub at: Option<Span>,
 }
 
@@ -122,7 +123,8 @@ impl Conditions {
         self.mishaps.iter().any(|(_, mishap)| matches!(mishap, Mishap::Person(_)))
     }
 
-    /// Ideal conditions: no noise, slip, delay or loss, and clocks without drift.
+    /// Ideal conditions: no noise of position fixes, no slip, delay or loss, and clocks without drift. Proximity
+    /// sensors keep their noise.
     pub fn ideal() -> Self {
         let fixes = FixConditions { place_sigma_m: 0.0, heading_sigma_rad: 0.0, ..FixConditions::default() };
         let link =

@@ -19,7 +19,7 @@ const ROUNDS: usize = 4;
 pub(crate) struct ContactState {
     /// Unit vector of its front.
     pub forward: Vec2,
-    /// Whether its wheels stand.
+    /// Whether the body neither drove nor turned in the last step.
     pub stands: bool,
     /// Distance by which the robot can still be pushed along the direction of its wheels during this contact, metres.
     pub slack_m: f64,

@@ -39,7 +39,7 @@ struct Stops {
     places: Vec<Vec2>,
     /// Since when robots are watched; `None`: they are not watched.
     since: Option<Instant>,
-    /// When a robot moved last.
+    /// When a robot last moved, or when watching began if no robot has moved since.
     moved: Instant,
     /// Longest time from the start of watching to the last movement; `None`: nothing was measured yet.
     longest: Option<Span>,
@@ -71,14 +71,14 @@ impl ControllerCrashes {
         Some(event)
     }
 
-    /// Reads from the journal the run that a new controller continues. `None` if the run was over, or the journal
-    /// cannot be read.
+    /// Reads from the journal the run that a new controller continues. `None` if there was no run, the run was over, or
+    /// the journal cannot be read.
     pub fn unfinished_run(&self) -> Option<UnfinishedRun> {
         UnfinishedRun::read(self.disk.file()).ok().flatten()
     }
 
-    /// Begins to watch robots at a crash or a restart, until all stand still. `places`: the robots' places now, stage
-    /// metres.
+    /// Begins to watch robots at a crash or a restart, and discards an unfinished measurement. A restart at least
+    /// [`STOPPED`] after watching began ends the measurement instead. `places`: the robots' places now, stage metres.
     pub fn watch(&mut self, event: CrashEvent, now: Instant, places: &[Vec2]) {
         self.stops.watch(event, now, places);
     }
@@ -91,8 +91,8 @@ impl ControllerCrashes {
         }
     }
 
-    /// Longest time from a crash, or from a restart while robots still drove, until all robots stood still. `None`:
-    /// none measured.
+    /// Longest time from a crash, or from a restart less than [`STOPPED`] after it, until all robots stood still.
+    /// `None`: nothing was measured.
     pub fn longest_stop(&self) -> Option<Span> {
         self.stops.longest
     }

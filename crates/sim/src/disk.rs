@@ -1,5 +1,5 @@
-//! The disk that holds the journal. It may be full or slow, and a crash may leave only half of the last piece on it. A
-//! failure has the same effects as in the journal's thread of the server (`server/src/live/journal.rs`).
+//! The disk that holds the journal. It may be full or slow, and a crash may leave only half of a piece on it. A failure
+//! has the same effects as in the journal's thread of the server (`server/src/live/journal.rs`).
 
 use std::collections::VecDeque;
 
@@ -69,7 +69,7 @@ impl Disk {
     }
 
     /// Applies a crash of the program that writes. If the piece being written is appended, its first half is on the
-    /// disk. If it replaces the file, the old file stays. All later pieces are lost.
+    /// disk. If it replaces the file, the old file stays. All later pieces are lost. The disk is then ready again.
     pub fn crash(&mut self, now: Instant) {
         self.settle(now);
         if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins) {

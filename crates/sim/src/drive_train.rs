@@ -9,7 +9,7 @@ use crate::track::{WHEEL_RADIUS_M, turn_radps};
 const SPEED_CHANGE_MPS: f64 = GRIP_MPS2 * 0.016;
 /// Largest change of the speed in the third and in the fourth step of a braking that grip limits, m/s: the body hops.
 const HOP_CHANGE_MPS: [f64; 2] = [0.129, 0.076];
-/// Largest change of the turning rate in a step, rad/s.
+/// Change of the turning rate in a step if the wanted change is larger than [`TURN_SNAP`] times this, rad/s.
 const TURN_CHANGE_RADPS: f64 = 3.12;
 /// A change of the turning rate up to this multiple of [`TURN_CHANGE_RADPS`] is still made in one step.
 const TURN_SNAP: f64 = 1.2;
@@ -18,7 +18,8 @@ const TURN_SNAP: f64 = 1.2;
 const TIPPING_MPS: f64 = 0.0205;
 /// Speed lost in the stumble, as a multiple of the speed gained beyond [`TIPPING_MPS`] in the two steps before.
 const STUMBLE: f64 = 1.053;
-/// In the step after the stumble, the speed exceeds the commanded speed by this share of the speed lost in the stumble.
+/// In the step after the stumble, the speed exceeds the speed without stumbling by this share of the speed lost in the
+/// stumble.
 const REBOUND: f64 = 0.199;
 
 /// The state of one robot's drive train.
@@ -37,7 +38,7 @@ pub(crate) struct DriveTrain {
     jolt_mps: f64,
     /// Number of steps since the body tipped over its wheels; 0 if it is not tipped.
     tipped: u8,
-    /// Number of successive steps, up to this one, in which grip limited the braking.
+    /// Number of successive steps, up to this one, in which grip limited the braking; 0 again after the fourth.
     sliding: u8,
 }
 

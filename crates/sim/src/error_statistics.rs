@@ -13,7 +13,7 @@ const BIN_M: f64 = 0.0001;
 /// Number of bins of a histogram. Larger errors count in the last bin; the largest error is stored separately.
 const BINS: usize = 1_000;
 
-/// The errors sampled until now. Only robots that are on a route are sampled.
+/// The errors sampled until now. Places are sampled only of robots that are on a route.
 #[derive(Debug, Default)]
 pub(crate) struct ErrorStatistics {
     estimate: Tally,

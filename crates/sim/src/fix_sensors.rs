@@ -6,7 +6,8 @@ use crate::conditions::FixConditions;
 use crate::dice::{Dice, Purpose, normal3_of};
 use crate::world::{STEP, STEP_S};
 
-/// Mean time from the end of a robot's drop-out until its next drop-out begins, seconds, if every step has a fix.
+/// Mean time from the end of a robot's drop-out until its next drop-out begins, seconds, however rarely there are
+/// fixes.
 const DROPOUT_EVERY_S: f64 = 20.0;
 /// Largest error of an outlier along each axis, metres.
 const OUTLIER_M: f64 = 1.0;

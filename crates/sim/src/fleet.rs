@@ -29,7 +29,8 @@ pub struct FleetConfig {
     pub starts: Vec<Vec2>,
     /// Seed of names, clocks, slip and noise. A robot's name does not depend on the number of robots.
     pub seed: u64,
-    /// Slip, sensors and clocks. Its links and breakdowns have no effect, because the network is real.
+    /// Slip, worn wheels, sensors, clocks and original robots. The other conditions have no effect: links, because the
+    /// network is real, and breakdowns, outages and mishaps.
     pub conditions: Conditions,
 }
 
@@ -44,9 +45,9 @@ pub struct FleetMessage {
     pub payload: Vec<u8>,
 }
 
-/// Simulated robots in real time. Its inputs are [`link`](Self::link), [`receive`](Self::receive) and
-/// [`advance`](Self::advance). Each takes the time since the fleet was made. Call [`next_message`](Self::next_message)
-/// after each of them until it returns `None`.
+/// Simulated robots in real time. Its timed inputs are [`link`](Self::link), [`receive`](Self::receive), their
+/// variants, and [`advance`](Self::advance). Each takes the time since the fleet was made. Call
+/// [`next_message`](Self::next_message) after each of them until it returns `None`.
 pub struct Fleet {
     robots: RobotSet,
     by_id: BTreeMap<RobotId, usize>,
@@ -131,13 +132,13 @@ impl Fleet {
     }
 
     /// Delivers a published message: to the robot named in its topic, or to all robots if the topic is the broadcast's.
-    /// Returns whether any robot received it.
+    /// Returns whether the topic addresses any robot, even if that robot has no power.
     pub fn receive(&mut self, now: Instant, topic: &str, payload: &[u8]) -> bool {
         self.receive_on(now, 0..self.robots.len(), topic, payload)
     }
 
     /// Delivers a message from a connection that the robots with indices `sharing` share. A broadcast reaches only
-    /// these robots. Returns whether any robot received it.
+    /// these robots. Returns whether the message addresses any robot, even if that robot has no power.
     pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {

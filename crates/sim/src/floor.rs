@@ -7,7 +7,8 @@ use lightbots_show::{Obstacle, Stage};
 /// The floor's edge and the no-go areas, as obstacles for discs that all have one radius.
 #[derive(Clone, Debug)]
 pub(crate) struct Floor {
-    /// Largest absolute coordinates of a robot's centre: half the floor minus the robot's radius, metres.
+    /// Largest absolute coordinates of a robot's centre, metres: half the floor minus the robot's radius, or more if a
+    /// start is farther out.
     half: Vec2,
     radius_m: f64,
     obstacles: Vec<Obstacle>,

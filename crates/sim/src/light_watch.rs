@@ -15,10 +15,10 @@ pub(crate) const EVERY: u64 = 10;
 /// Results of comparing robots' lights with the colours of layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct LightCounts {
-    /// Number of comparisons: one for each robot about every sixth of a second.
+    /// Number of comparisons: about every sixth of a second, one for each robot that the layers give a colour.
     pub compared: u64,
-    /// Number of comparisons in which the light differed from all colours that the layers have within 25 ms before or
-    /// after.
+    /// Number of comparisons in which a channel of the light was too far outside the range of that channel in the
+    /// layers' colours, sampled from 25 ms before to 25 ms after.
     pub wrong: u64,
 }
 

@@ -47,7 +47,8 @@ pub(crate) struct NetworkMessage {
 pub struct MessageCounts {
     /// Number of messages sent.
     pub sent: u64,
-    /// Number of messages lost on the way.
+    /// Number of these messages that the network lost: at random, because too many were under way, or because the
+    /// broker died. Messages that a robot's broken link or an absent controller swallows do not count.
     pub lost: u64,
 }
 

@@ -11,7 +11,8 @@ use lightbots_control::Operation;
 pub(crate) struct Operator {
     /// When the operator will press Go on; `None`: the operator does not intend to.
     presses_at: Option<Instant>,
-    /// Since when the run has been interrupted with some robots reporting and others missing; `None`: it is not.
+    /// Since when the run has been interrupted with some robots reporting and others missing; `None`: the run is not in
+    /// this state.
     waits_since: Option<Instant>,
     /// Time from the moment at which a frame is ready for GO until the operator gives GO.
     go_after: Span,

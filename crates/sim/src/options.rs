@@ -21,7 +21,8 @@ pub struct RehearsalOptions {
 pub enum Progress<'a> {
     /// Planning begins: of the show, or anew after a fault.
     Planning,
-    /// The show plays. Also sent when planning ends, so that callers can measure the time of planning.
+    /// Sent about once a second of virtual time, also before the first departure. Also sent when planning ends, so that
+    /// callers can measure the time of planning.
     Playing {
         /// Virtual time since robots were switched on, seconds.
         at_s: f64,
@@ -43,11 +44,11 @@ pub enum Progress<'a> {
     },
     /// True places of robots, about ten times a second of the show.
     Stepped {
-        /// Time on the show clock.
+        /// Virtual time since robots were switched on.
         at: Instant,
         /// Name and index of each robot.
         names: &'a [(RobotId, usize)],
-        /// `[robot]`: its place, stage metres.
+        /// `[robot]`: its place, stage metres. If a person comes onto the floor, the last entry is the foot.
         places: &'a [Vec2],
     },
     /// Bytes to append to the log of the controller's inputs, which [`lightbots_control::replay`] reads.

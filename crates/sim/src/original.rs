@@ -57,7 +57,8 @@ impl Original {
         }
     }
 
-    /// Brings its link up or breaks it. When the link breaks, the robot's program ends.
+    /// Brings its link up, after which the robot reports its UUID once, or breaks it. When the link breaks, the robot's
+    /// program ends for good.
     pub fn link(&mut self, up: bool) {
         self.ended |= !up;
         self.introduces = usize::from(up && !self.ended);

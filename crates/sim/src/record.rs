@@ -23,7 +23,7 @@ const OF_A_KIND_MAX: usize = 20;
 /// The record until now.
 pub(crate) struct RehearsalRecord {
     began: Option<Instant>,
-    /// When the current transition started.
+    /// When the first drive to the current frame began, or the first drive after the last new plan.
     started: Instant,
     /// Whether a drive has begun since the last call of `take_departure`.
     departed: bool,
@@ -228,7 +228,7 @@ impl RehearsalRecord {
         }
     }
 
-    /// Makes the report. Figures of plan, lights, network, seed and hash are left for the caller to fill in.
+    /// Makes the report. The caller fills in the figures of plan, lights, stops after crashes, network, seed and hash.
     pub fn report(mut self, now: Instant, breakdowns: &Breakdowns, robots: &RobotSet) -> RehearsalReport {
         let finished = self.outcome == Some(RunOutcome::Finished);
         if self.outcome.is_none() {

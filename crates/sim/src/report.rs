@@ -11,16 +11,16 @@ use crate::statistics::Spread;
 /// The report of a rehearsal. The names of its fields are the keys of its JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RehearsalReport {
-    /// Whether the show finished, all frames were played without a contact, and no more robots dropped out than had a
-    /// breakdown.
+    /// Whether the show finished, reached as many frames as it has, had no contact, and lost no more robots to dropouts
+    /// than had a breakdown.
     pub ok: bool,
     /// Number of robots.
     pub robots: usize,
-    /// Number of frames that robots reached.
+    /// Number of frames that robots reached. A frame that was reached several times, as in a loop, counts each time.
     pub frames_played: usize,
     /// Number of frames of the show.
     pub frames: usize,
-    /// Time from the first departure to the end of the last air time, seconds.
+    /// Time from the first departure to the end of the run, or until the rehearsal was given up, seconds.
     pub duration_s: f64,
     /// Planned duration of the show, seconds.
     pub planned_s: f64,
@@ -56,8 +56,8 @@ pub struct RehearsalReport {
     pub clock_spread_s: Spread,
     /// Comparisons of lights with the layers of the show; 0 without layers.
     pub lights: LightCounts,
-    /// Longest time from a crash of the controller, or from its restart while robots still drove, until all robots
-    /// stood still, seconds. `None` if it was not killed.
+    /// Longest time from a crash of the controller, or from a restart less than 2.2 s later, until all robots stood
+    /// still, seconds. `None` if nothing was measured, for example because the controller was not killed.
     pub stop_after_crash_s: Option<f64>,
     /// Numbers of messages sent and lost. A broadcast counts once for each receiver.
     pub messages: MessageCounts,
@@ -97,7 +97,7 @@ pub struct FrameRecord {
     pub name: String,
     /// Time at which robots had reached the frame, seconds after the first departure.
     pub at_s: f64,
-    /// Duration of the drive to the frame, seconds.
+    /// Time since the drive to the frame began, or since the first drive after the last new plan, seconds.
     pub drive_s: f64,
     /// Time between the first and the last robot's arrival at the frame, seconds.
     pub arrival_spread_s: f64,

@@ -18,8 +18,8 @@ pub const STEP: Span = Span::from_millis(16);
 /// [`STEP`] in seconds.
 pub(crate) const STEP_S: f64 = 0.016;
 
-/// The bodies of robots on a floor. Each kind of state has its own array, indexed by robot: contacts read only places,
-/// and the firmware reads only axles.
+/// The bodies of robots on a floor. Each kind of state has its own array, indexed by robot, so that the search for
+/// contacts reads only places.
 #[derive(Clone, Debug)]
 pub struct World {
     places: Vec<Vec2>,

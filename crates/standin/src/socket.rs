@@ -94,7 +94,7 @@ impl StepReply {
     }
 }
 
-/// Writes the name with which a connection begins. Names longer than 255 bytes are cut off.
+/// Writes the name with which a connection begins. Only the first 255 bytes of the name are written.
 pub fn write_name(name: &str, out: &mut impl Write) -> io::Result<()> {
     let bytes = &name.as_bytes()[..name.len().min(255)];
     out.write_all(&[bytes.len() as u8])?;

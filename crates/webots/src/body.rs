@@ -91,15 +91,15 @@ impl<'a> WebotsBody<'a> {
         ([x, y], north[0].atan2(north[1]))
     }
 
-    /// Gaps to near obstacles in eight directions, metres, counter-clockwise from the front; `None`: no proximity
-    /// sensors.
+    /// Gaps to near obstacles in eight directions, metres, counter-clockwise from the front; `None`: too few proximity
+    /// sensors, or they stay off.
     pub fn gaps_m(&self) -> Option<[f32; 8]> {
         self.proximity.as_ref().map(|proximity| proximity.gaps_m(self.library))
     }
 
-    /// Sets the rates of both wheels, rad/s. Webots' motors keep their last command when this process ends. Therefore
-    /// the wheels are not told to turn on without end, but to a position a little ahead of the last reading of
-    /// [`wheel_turns_rad`](Self::wheel_turns_rad).
+    /// Sets the rates of both wheels, rad/s; does nothing before their first reading. Webots' motors keep their last
+    /// command when this process ends. Therefore the wheels are not told to turn on without end, but to a position a
+    /// little ahead of the last reading of [`wheel_turns_rad`](Self::wheel_turns_rad).
     pub fn set_wheels(&mut self, radps: [f64; 2]) {
         for side in [0, 1] {
             let (motor, read_rad) = (self.motors[side], self.last_read_rad[side]);

@@ -18,8 +18,8 @@ const SENSOR_M: f64 = 0.024;
 /// Radius of the Elisa-3's visible shape at the height of its sensors, metres: a white ring in its PROTO. In Webots,
 /// infra-red sensors see visible shapes instead of bounding objects (reference manual, `DistanceSensor`).
 const SHAPE_M: f64 = 0.021;
-/// Factor from measured to true distance for that ring: 0.2 + 0.8 · 1 · (1 − 0.5 · 0.4) (equation in Webots' reference
-/// manual, `DistanceSensor`).
+/// Factor from measured to true distance for the white ring of [`SHAPE_M`]: 0.2 + 0.8 · 1 · (1 − 0.5 · 0.4) (equation
+/// in Webots' reference manual, `DistanceSensor`).
 const REFLECTION: f64 = 0.84;
 
 /// Type of a distance sensor.

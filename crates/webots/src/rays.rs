@@ -1,9 +1,9 @@
 //! Converts distances along rays to the gaps that the sensors of the robot core would measure.
 //!
 //! A ray measures the distance along its line only. A sensor of the robot core measures the nearest point within a
-//! cone. Each obstacle is assumed to be a robot. If two neighbouring rays meet an obstacle, it is the disc that has
-//! both points on its rim. If a single ray meets an obstacle, it is a disc straight ahead of that ray, `BESIDE_M`
-//! nearer than measured.
+//! cone. Each obstacle is assumed to be a robot. If two neighbouring rays meet something, the robot is the disc whose
+//! rim contains both points that they meet. If a single ray meets something, the robot is a disc straight ahead of that
+//! ray, `BESIDE_M` nearer than measured.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 

@@ -10,11 +10,13 @@ use std::time::Duration;
 
 use lightbots_base::{Instant, Span};
 
-/// Share of the lag (own clock minus world clock) that a driving robot makes up in a step. With a larger share, a late
-/// reading of the clock on a busy machine moves the robot. With a smaller share, the lag grows. A simulation at 0.967
-/// of real time (docs/webots.md) lags by 0.034 of a step divided by this share, which is 11 ms or 3 mm.
+/// Share of the lag (own clock minus world clock) that a driving robot makes up in a step, and any robot in the step
+/// after a pause. With a larger share, a late reading of the clock on a busy machine moves the robot. With a smaller
+/// share, the lag grows. A simulation at 0.967 of real time (docs/webots.md) lags by 0.034 of a step divided by this
+/// share, which is 11 ms or 3 mm.
 const DRIVING_SHARE: f64 = 0.05;
-/// Like `DRIVING_SHARE`, for a robot without a route. It is larger, because a robot at rest is not moved by it.
+/// Like `DRIVING_SHARE`, for a robot without a route. The share is larger, because making up the lag does not move a
+/// robot at rest.
 const RESTING_SHARE: f64 = 0.3;
 /// Largest rate of the world clock for a driving robot, world seconds per simulated second. Accelerations grow with the
 /// square of this rate, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
@@ -36,8 +38,9 @@ pub(crate) struct Tick {
     pub now: Instant,
     /// Own clock minus world clock; negative if the world clock is ahead.
     pub lag: Span,
-    /// Rate of the world clock, world seconds per simulated second. The driver multiplies wheel rates by it. Speeds per
-    /// world time are then those that the robot core commands.
+    /// Rate of the world clock, world seconds per simulated second, but at most `DRIVING_RATE`; 1 if no simulated time
+    /// has passed. The driver multiplies wheel rates by it. Speeds per world time are then those that the robot core
+    /// commands.
     pub rate: f64,
 }
 

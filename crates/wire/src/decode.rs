@@ -20,7 +20,7 @@ const LONGEST_BLINK: Span = Span::from_millis(60_000);
 pub enum Unknown {
     /// The first word is not a known command.
     Word,
-    /// The command is known; fields are missing, out of range or not numbers.
+    /// The command is known, but its fields are missing, out of range or otherwise invalid.
     Fields,
     /// The payload is not UTF-8; all of it is dropped.
     NotText,

@@ -25,8 +25,8 @@ const COORDINATE_MAX_M: f64 = 1000.0;
 /// counts as unknown.
 pub(crate) const DOUBLE_MAX: f64 = 1e6;
 
-/// Reads a number, which may have a decimal point or comma and an exponent, or be `NaN` or `Infinity`. `None` for all
-/// other texts and for texts longer than `MAX_NUMBER`.
+/// Reads a number as Rust reads an `f64`, such as `-1.5E3`, `NaN` or `Infinity`; a comma may stand for the decimal
+/// point. `None` for all other texts and for texts longer than `MAX_NUMBER`.
 pub fn number(text: &str) -> Option<f64> {
     let bytes = text.as_bytes();
     if bytes.len() > MAX_NUMBER {
@@ -135,8 +135,8 @@ pub(crate) fn write_digits(out: &mut TextBuffer<'_>, mut value: u64, width: usiz
     out.bytes(&digits[first..])
 }
 
-/// Writes a number as C and Java print it with `%f` in an English locale: with six decimals. Values beyond ±10¹² are
-/// written as ±10¹².
+/// Writes a number as C and Java print it with `%f` in an English locale: with six decimals. Finite values beyond ±10¹²
+/// are written as ±10¹², others as `NaN`, `Infinity` or `-Infinity`.
 pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() {
         return write_not_finite(out, value);

@@ -25,7 +25,8 @@ pub struct Details {
     /// Number of the kept route. Without one, that of the route under way, or else of the route finished last; 0 if
     /// there is none.
     pub route: u32,
-    /// When that route begins or began, show clock; `None` if this is not known.
+    /// When the kept route begins, or else when the route under way began, show clock; `None` if there is neither, or
+    /// its moment is not known.
     pub starts: Option<Instant>,
     /// Number of the stretch of light that the robot received last; 0 if there is none (R55).
     pub light: u32,
@@ -40,22 +41,23 @@ pub struct Details {
     pub clock_us: Option<u32>,
     /// Name and version of its firmware.
     pub firmware: Firmware,
-    /// Commands that it supports.
+    /// Commands that the robot supports beyond TARGET, COLOR and UUID.
     pub abilities: Abilities,
     /// Number of unknown or invalid commands that the robot has ignored since power-on (R7).
     pub unknown: u32,
-    /// Obstacle for which the robot stands or brakes (R49). `None` if there is none.
+    /// Obstacle for which the robot stands, or for which it brakes hard although the obstacle is not in its plan (R49).
+    /// `None` if there is none.
     pub blocked: Option<Blocked>,
     /// Whether it reports itself as simulated (R52).
     pub simulated: bool,
     /// Number of times since power-on that the robot's safety layer began to slow it (R53).
     pub brakes: u32,
-    /// Least gap to the rim of another robot that the sensors measured on the latest route, metres (R53). `None` if
-    /// they saw no robot.
+    /// Least gap to the rim of another robot that the robot estimated from its sensors since its latest route began,
+    /// metres (R53). `None` if the sensors saw no robot since.
     pub near_m: Option<f64>,
 }
 
-/// An obstacle that is not in the robot's plan (R49).
+/// An obstacle that blocks a robot, or an unplanned one for which a robot brakes hard (R49).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Blocked {
@@ -82,11 +84,11 @@ pub enum RobotState {
     Driving,
     /// Has a route under way that is held: it slows down or stands until RESUME.
     Held,
-    /// Stands because its position is not known.
+    /// Does not drive, or stops, because its position is not known well enough.
     Lost,
-    /// Stands because its link was lost during a drive.
+    /// Stands because its link was lost during a drive, or was silent for too long on a route.
     Cut,
-    /// Stands because of implausible sensors or motors.
+    /// Stands because its sensors give impossible values, a wheel is stuck, or it is too far from its route.
     Faulty,
 }
 

@@ -14,7 +14,7 @@ const MAX_REPORT: usize = 1024;
 
 impl Report {
     /// Reads a report: a name and two numbers, then fields `key=value`. `None` if the name or a number is missing or
-    /// invalid. Invalid fields are skipped.
+    /// invalid. A field with an invalid value counts as not sent. Unknown fields are skipped.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         let id = RobotId::new(fields.next()?)?;

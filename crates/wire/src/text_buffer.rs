@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 /// Size of the buffer, bytes; most messages fit as a whole. With a smaller buffer the sink is called more often, and a
-/// larger one needs more stack. A report with all fields and long values needs 260 bytes (2026-11-24).
+/// larger one needs more stack. The longest report of a robot (343 bytes) is written in several parts.
 const BUFFER_BYTES: usize = 320;
 
 /// Collects the many short parts of a message and writes them together, because each call of the sink is a dynamic one.

@@ -33,8 +33,8 @@ impl RecordedController {
         Self { controller, recording: None }
     }
 
-    /// Begins a new log and drops the one before. `notes`: names and values for people. Returns `false` without a new
-    /// log during a run, while robots are being stopped, and if outputs wait to be taken.
+    /// Drops the present log and begins a new one. `notes`: names and values for people. During a run, while robots are
+    /// being stopped, and if outputs wait to be taken, no new log begins, and the result is `false`.
     pub fn begin_log(&mut self, now: Instant, notes: Vec<(String, String)>) -> bool {
         let checkpoint = self.controller.checkpoint();
         self.recording = checkpoint.map(|checkpoint| Recording::begin(now, notes, checkpoint));

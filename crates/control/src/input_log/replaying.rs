@@ -42,8 +42,8 @@ pub enum LogError {
 pub enum LogEnd {
     /// At the record `End`, which the writer appends to a whole log.
     Complete,
-    /// Without the record `End`: the writer was killed, or bytes were cut off or changed. Holds the number of bytes of the
-    /// log that were read.
+    /// Without the record `End`: the writer was killed, or bytes were cut off or changed. Holds the number of bytes up to
+    /// the end of the last whole block that was read.
     Cut(u64),
     /// Unknown, because the replay stopped at a difference and read no further.
     NotReached,
@@ -73,7 +73,7 @@ pub struct ReplayReport {
     pub inputs: u64,
     /// Number of replayed messages.
     pub messages: u64,
-    /// Number of plans that were made again.
+    /// Number of plan results that were replayed. Their plans were made again, except those that were no longer wanted.
     pub plans: u64,
     /// Number of messages, events and plan requests of the replay that were compared with the log.
     pub outputs: u64,

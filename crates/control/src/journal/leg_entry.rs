@@ -10,7 +10,8 @@ use std::sync::Arc;
 /// Longest duration of a piece or of a leg: a day. Longer values from a damaged file could overflow sums of times.
 const PIECE_MAX: Span = Span::from_millis(86_400_000);
 
-/// A leg as a journal holds it. Clearances and neighbours are left out, because only robots need them.
+/// A leg as a journal holds it. Clearances, neighbours, the order of straight drives and the places around are left
+/// out, because a robot's whereabouts do not depend on them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LegEntry {
     pub frame: u32,

@@ -90,7 +90,8 @@ impl UnfinishedRun {
         self.state.progress.frames_played as usize
     }
 
-    /// Returns when the last entry was written: on the show clock, and as time of day in microseconds since 1970.
+    /// Returns when the last change was made (show clock), and when its entry was written (time of day, microseconds
+    /// since 1970).
     pub fn last_written(&self) -> (Instant, u64) {
         (self.at, self.wall_us)
     }

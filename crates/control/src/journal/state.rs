@@ -28,9 +28,9 @@ pub(crate) struct Entry {
 pub(crate) enum Change {
     /// The whole state.
     State(Box<JournalState>),
-    /// A participant joined, dropped out or came back.
+    /// A participant joined, dropped out or came back, or its place is recorded anew.
     Participant { number: u32, entry: ParticipantEntry },
-    /// The leg that robots are about to drive.
+    /// The leg that robots drive or are about to drive.
     Leg(LegEntry),
     /// All pixels that the operator bound, with their robots.
     Pins(Vec<(u32, RobotId)>),

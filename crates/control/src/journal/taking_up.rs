@@ -23,7 +23,8 @@ const FOR_EVER: Span = Span::from_millis(86_400_000_000);
 /// What a new controller does with a run that was cut off. A preflight never goes on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OnReturn {
-    /// The run goes on by itself if at most `WaitBounds::goes_on_within` has passed. Otherwise the operator is asked.
+    /// The run goes on by itself if its robots report within `WaitBounds::goes_on_within` of the journal's last entry.
+    /// Otherwise the operator is asked.
     #[default]
     GoOrAsk,
     /// The run goes on by itself.
@@ -35,10 +36,10 @@ pub enum OnReturn {
 }
 
 impl Controller {
-    /// Takes up a run whose former controller is gone. The run is interrupted until its robots report, and is then planned
-    /// from where robots stand. If `on_return` lets it not go on, all robots are told to stop instead. Refused during
-    /// another run. Call this before [`connected`](Self::connected), with `now` from
-    /// [`show_clock_at`](UnfinishedRun::show_clock_at).
+    /// Takes up a run whose former controller is gone, and opens its show. The run is interrupted until its robots report,
+    /// and is then planned from where robots stand. If `on_return` lets it not go on, all robots are told to stop instead.
+    /// Refused during another run and while robots are being stopped. Call this before [`connected`](Self::connected), with
+    /// `now` from [`show_clock_at`](UnfinishedRun::show_clock_at).
     pub fn take_up(
         &mut self,
         now: Instant,

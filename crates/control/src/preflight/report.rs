@@ -6,7 +6,8 @@ use lightbots_base::RobotId;
 
 /// Largest distance from its planned place at which a robot passes, metres.
 pub(crate) const OFF_M: f64 = 0.005;
-/// Largest angle from its planned heading at which a robot passes, radians: three degrees.
+/// Largest angle at which a robot passes, radians: three degrees. It bounds the angle from the planned heading, and the
+/// one from reported headings to the direction of the drive.
 pub(crate) const OFF_RAD: f64 = 3.0 * core::f64::consts::PI / 180.0;
 
 /// The result of a preflight.
@@ -27,7 +28,8 @@ pub struct PreflightRobot {
     pub findings: Vec<PreflightFinding>,
     /// Largest measured distance from a planned place, metres; `None` if none was measured.
     pub off_m: Option<f64>,
-    /// Largest measured angle from a planned heading, radians; `None` if none was measured.
+    /// Largest measured angle, radians: from a planned heading, or from the reported headings to the direction of the
+    /// drive. `None` if none was measured.
     pub off_rad: Option<f64>,
     /// Whether the robot has the original firmware (TARGET and COLOR only). If so, its heading, STOP and blinking were
     /// not tested.
@@ -52,15 +54,15 @@ pub enum PreflightFinding {
         /// Radians.
         off_rad: f64,
     },
-    /// The robot did not stop when it was told to, or stopped at a wrong place.
+    /// The robot did not stop when it was told to, stopped at a wrong place, or did not report in time that it stands.
     DidNotStop,
     /// It could not be tested whether the robot stops on its way: the link is too slow, or the stop came too late.
     StopNotTested,
     /// The robot dropped out of the preflight, or could not take part.
     Failed(Trouble),
-    /// There is no free floor around the robot for its test drive.
+    /// There is no free floor around the robot for its test drive, or no path to its goal was found.
     NoRoom,
-    /// The preflight ended before the robot was tested.
+    /// The preflight ended before the robot was tested, or the robot came during the preflight.
     Unfinished,
 }
 

@@ -20,8 +20,8 @@ const STEP: Span = Span::from_millis(50);
 /// How often all is planned again because of one robot. After that its reports are ignored, because a robot that is
 /// somewhere else each time must not hold up the show.
 const REPLANS_MAX: u8 = 3;
-/// Least time between two comparisons of paths with the reports of one robot. It takes milliseconds to compare 10,000
-/// paths, and a robot that stands reports only every 2 s (R41).
+/// Least time between two comparisons of paths with the reports of one robot; before a START paths are compared in any
+/// case. It takes milliseconds to compare 10,000 paths, and a robot that stands reports only every 2 s (R41).
 const LOOK_EVERY: Span = Span::from_millis(500);
 
 /// The places where robots that dropped out stand, by their reports, stage metres. Plans drive around them.
@@ -40,8 +40,9 @@ pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
 }
 
 /// Whether a leg leads through a participant that dropped out and reports its place. With `driven`, the leg is the one
-/// that robots drive, from this path time on. With `None` it is the first leg of the queue. `false` without a
-/// comparison, if the last one is less than `LOOK_EVERY` ago.
+/// that robots drive, from this path time on. With `None` it is the first leg of the queue. If the leg leads through
+/// the participant, counts a replan for it. `false` without a comparison if the last one is less than `LOOK_EVERY` ago.
+/// Also `false` if the plan of the leg drives around the place, or after `REPLANS_MAX` replans.
 pub(crate) fn obstructs(cx: &mut RunContext, participant: usize, driven: Option<Span>) -> bool {
     let leg = if driven.is_some() { cx.pipeline.leg() } else { cx.pipeline.queue.front() };
     let from = driven.unwrap_or(Span::ZERO);
@@ -63,8 +64,8 @@ fn plan_around(cx: &mut RunContext, participant: usize) {
     cx.roster.participants[participant].bystander.replans += 1;
 }
 
-/// Where a participant that dropped out stands by its own report, stage metres. `None` if it may be moving, if it
-/// reports no place, or if another robot shares its name.
+/// Where a participant that dropped out stands by its own report, stage metres. `None` if it may be moving or reports
+/// no place, if another robot shares its name, or if it takes part.
 fn place(cx: &RunContext, participant: usize) -> Option<Vec2> {
     let (known, robot) = (cx.participant(participant), cx.robot(participant));
     let says_where = known.is_excluded() && known.last_seen.possible.is_empty();

@@ -7,7 +7,8 @@ use crate::run::readiness::is_ready;
 use crate::run::run_context::RunContext;
 
 /// Makes a robot a candidate for the next frame, if it may take part. Called when a robot that takes no part or dropped
-/// out has reported. `is_stopping`: all robots are being stopped.
+/// out has reported. A robot that was never in the run is wanted only while pixels stay dark. May send the route of a
+/// driving test. `is_stopping`: all robots are being stopped.
 pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
     let is_welcome = match participant {
@@ -32,7 +33,8 @@ fn is_expected(cx: &RunContext, robot: usize) -> bool {
     known.is_admitted && !(cx.io.config.admitted.is_none() && cx.roster.is_stranger(known))
 }
 
-/// Lets candidates that are ready take part; called while all robots stand. Returns whether any joined.
+/// Lets candidates that are ready take part; called while all robots stand. Candidates that are not ready are removed,
+/// and those that may come back only in a later frame are kept. Returns whether any joined.
 pub(crate) fn admit(cx: &mut RunContext) -> bool {
     if cx.roster.candidates.is_empty() || cx.playback.is_ended() {
         return false;

@@ -36,7 +36,8 @@ struct Bounds {
     answer: Span,
     /// Time to stop, for a TARGET-only robot that does not receive the command to halt and drives on to its target.
     stop: Span,
-    /// Time to set its clock, for which a robot needs ten answers to time questions.
+    /// Time to set its clock, for which a robot needs four to sixteen answers to time questions (R29 of
+    /// docs/protocol.md).
     clock: Span,
 }
 
@@ -58,7 +59,8 @@ pub(crate) struct Gathering {
     ask_at: Instant,
     /// When STOP is sent, if a HOLD comes first, so that robots slow down on their paths. `None` once STOP was sent.
     stop_at: Option<Instant>,
-    /// Whether nothing was driven yet in this run. Too few robots are then a reason to end it.
+    /// Whether nothing was driven yet in this run. Too few robots for the first frame then end it, unless pixels may be
+    /// left out.
     is_first: bool,
     /// The drive, or the stay in a frame, that was interrupted.
     pub left: Position,
@@ -77,7 +79,8 @@ impl Gathering {
         }
     }
 
-    /// Stops all robots. `left` is the drive that is interrupted, or the stay in a frame.
+    /// Stops all robots. On a drive of routes they first slow down together in a HOLD. `left` is the drive that is
+    /// interrupted, or the stay in a frame.
     pub fn begin(cx: &mut RunContext, mut left: Position) -> Self {
         cx.io.outbox.stop_repeating();
         let held_from = left.drive.and_then(|clock| hold_before_stop(cx, &clock));
@@ -129,7 +132,7 @@ impl Gathering {
     }
 
     /// Does what is due: sends STOP, asks robots for missing reports, drops robots that take too long, or ends the
-    /// phase.
+    /// phase. Ends the run if recovery from dropouts has exceeded its bound.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         if let Some(stop_at) = self.stop_at {
             if cx.now >= stop_at {
@@ -178,7 +181,8 @@ impl Gathering {
         if reports { bound.max(cx.link.patience(self.since)) } else { bound }
     }
 
-    /// Ends the phase, because all robots stand at known places. The run fails if too few robots are left.
+    /// Ends the phase, because all robots stand at known places. The run fails if no robot is left, or if it has too
+    /// few robots for its first frame and may not leave pixels out.
     fn end(&self, cx: &RunContext) -> Next {
         let active = cx.roster.active().count();
         let frame = cx.playback.show.frames.get(cx.playback.next.frame);

@@ -30,7 +30,7 @@ const SLOWS_AFTER: Span = Span::from_millis(1_850);
 /// Least time between two broadcasts of HOLD or STOP for robots that report again. Robots answer each STOP with a
 /// report.
 const HALT_AGAIN: Span = Span::from_millis(300);
-/// How long the run waits for one more robot while robots report again. Clients look for a broker every 2 s.
+/// After one more robot has reported, the run waits this long for others. Clients look for a broker every 2 s.
 const ONE_MORE: Span = Span::from_millis(3_000);
 
 /// The state of a run that stands still.
@@ -38,13 +38,15 @@ const ONE_MORE: Span = Span::from_millis(3_000);
 pub(crate) struct Interrupted {
     /// When the run was interrupted. Only later reports count.
     pub since: Instant,
-    /// About when the link broke: when the last report of a robot that is now silent was received.
+    /// About when the link broke: when the last report of a robot that is now out of reach was received. For a run from
+    /// a journal: the moment of the last entry.
     broke: Instant,
     /// The drive, or the stay in a frame, that was interrupted.
     pub left: Position,
     /// The run goes on without the operator if enough robots report again by this moment.
     by_itself_until: Instant,
-    /// When enough robots had reported again for the run to go on. `None` until then.
+    /// When enough robots had reported again for the run to go on, or when the operator let it go on before that.
+    /// `None` until then.
     back_at: Option<Instant>,
     /// Number of robots that have reported since the interruption, and when that number last grew.
     reported: (usize, Instant),
@@ -93,7 +95,7 @@ impl Interrupted {
         self.reported.0 > 0
     }
 
-    /// Does what is due: counts robots that report again, asks for reports, and goes on or ends the run.
+    /// Does what is due: counts robots that report again, stops them, asks for reports, and goes on or ends the run.
     pub fn on_tick(&mut self, cx: &mut RunContext) -> Next {
         let robots = cx.roster.active().count();
         let missing = self.missing(cx).len();
@@ -119,7 +121,8 @@ impl Interrupted {
         if self.back_at.is_none() || self.asks_operator() { Next::Stay } else { Next::GoOn }
     }
 
-    /// Continues the run because the operator agrees. Returns the dropout of all robots that have not reported.
+    /// Continues the run because the operator agrees. Returns the dropout of all robots that have not reported, or
+    /// [`Next::Stay`] if all have.
     pub fn go_on(&mut self, cx: &RunContext) -> Next {
         self.is_agreed = true;
         self.back_at.get_or_insert(cx.now);
@@ -132,7 +135,7 @@ impl Interrupted {
 
     /// Stops robots that report again and may still drive. Called again when more robots report, because these may have
     /// missed earlier commands. On routes, HOLD stops robots when those out of reach slow down by themselves. All then
-    /// stay where the plan keeps them apart.
+    /// stay where the plan keeps them apart. If it is too late for that, or no drive was interrupted, STOP is sent.
     fn halt(&mut self, cx: &mut RunContext) {
         let is_first = self.halted.replace(cx.now).is_none();
         let slows_at = self.broke + SLOWS_AFTER;

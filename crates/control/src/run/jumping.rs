@@ -9,7 +9,8 @@ use crate::run::phase::RunPhase;
 use lightbots_base::Instant;
 
 impl Run {
-    /// Whether the operator may choose the next frame: robots stand, are held on their drive, or the run is paused.
+    /// Whether the operator may choose the next frame: robots stand or are being stopped, are held on their drive, or
+    /// the run is paused. `false` while the run is interrupted, and once it is over.
     pub fn may_jump(&self) -> bool {
         match &self.phase {
             RunPhase::Standing(_) | RunPhase::Gathering(_) => true,

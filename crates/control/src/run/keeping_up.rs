@@ -9,8 +9,8 @@ use lightbots_base::{Instant, Span};
 
 /// Least air time (stay of robots in a frame) of a late frame, unless the show gives it less.
 const STANDS: Span = Span::from_millis(500);
-/// If the show is behind the music by more than this, the next frame is left out, seconds. Up to this delay, shorter
-/// air times alone catch up.
+/// If the show is behind the music by more than this when robots reach a frame, the next frame is left out if allowed;
+/// seconds. Up to this delay, shorter air times alone catch up.
 const LATE_MAX_S: f64 = 2.0;
 
 impl Run {
@@ -25,7 +25,8 @@ impl Run {
     }
 
     /// Notes where the music is at `now`. Once the first frame was reached, the music goes on with the show clock,
-    /// whether robots drive or are held. It stands while the run is paused or interrupted.
+    /// whether robots drive or are held. The music stands while the run is paused or interrupted, and in a frame that
+    /// waits for GO once the air time is over. It jumps to a frame that the operator chose or that repeats.
     pub fn follow_music(&mut self, now: Instant) {
         let show = self.show_position(now).filter(|_| self.playback.show.music.is_some());
         let (Some(show), Some(music)) = (show, self.music_position(now)) else {
@@ -51,8 +52,8 @@ impl Run {
         }
     }
 
-    /// If robots have just reached a frame, shortens its air time so that the show catches up with the music. Leaves
-    /// out the next frame if that is not enough.
+    /// If robots have just reached a frame, adapts its air time to the music: shorter if the show is late, longer if it
+    /// is early. If the show is late by more than `LATE_MAX_S`, also leaves out the next frame, if that is allowed.
     pub fn keep_up_with_music(&mut self, io: &mut Context, now: Instant) {
         if std::mem::replace(&mut self.playback.music.stood, self.tally.frames_played)
             == self.tally.frames_played

@@ -44,7 +44,8 @@ pub(crate) struct LegTimes {
     pub air: Span,
     /// Whether the frame has a cue. Show time then goes on until the operator gives GO.
     pub waits_for_go: bool,
-    /// How long show time had stood still in the run until the drive began, seconds.
+    /// How long show time had stood still in the run until the drive began, seconds. Corrected so that layers that run
+    /// freely keep to the music.
     pub lead_s: f64,
 }
 
@@ -185,7 +186,7 @@ impl LegLight {
     }
 
     /// The stretch that begins at `from`, time since the drive began without holds, and takes `longest` at most. `None`
-    /// if show time of the leg is over by then.
+    /// if show time of the leg is over by then, unless layers run freely: these go on.
     pub fn stretch(&self, number: u32, from: Span, longest: Span, over: Span) -> Option<PlannedStretch> {
         let left = self.end().map_or(longest, |end| (end - from).min(longest));
         // Layers that run freely go on after show time is over.

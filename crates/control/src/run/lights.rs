@@ -56,7 +56,7 @@ impl Default for Lights {
 impl Lights {
     /// Sends robots their changes of light for a drive from `began` to `ends`. If a robot has a route in the `next`
     /// leg, its change is sent along with that route, which is acknowledged. Otherwise the change is sent at once and
-    /// repeated.
+    /// repeated. Robots that cannot fade are sent their new colour in the middle of the fade.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -178,8 +178,8 @@ fn set_colors(context: &mut Context, roster: &Roster, leg: &Leg) {
     }
 }
 
-/// Sends TARGET-only robots (they understand the command TARGET but no routes) the colours of their pixels, all at once
-/// as they leave.
+/// At the beginning of a leg that is driven by TARGETs, sends new colours to the robots that drive. If the leg reaches
+/// its frame, also sends them to all other robots that show a pixel.
 pub(crate) fn color_target_robots(context: &mut Context, roster: &Roster, leg: &Leg) {
     for (participant, step) in leg.robots.iter().enumerate() {
         let known = &roster.participants[participant];

@@ -31,9 +31,9 @@ const LEAD_PER_ROBOT: Span = Span(20);
 /// Largest value to which missing confirmations raise the round-trip estimate, because START does not wait for slower
 /// links.
 const ROUND_TRIP_MAX: Span = Span::from_millis(1_500);
-/// Largest round trip that enters the estimate; a longer one counts as this one. Without it, a broker or a computer
-/// that slept for half a minute would delay each START by a minute. With a smaller value, shows in simulated worlds
-/// that pause for 2.5 s lose robots.
+/// Largest round trip that enters the estimate; a longer round trip counts as `MEASURED_MAX`. Without the bound, a
+/// broker or a computer that slept for half a minute would delay each START by a minute. With a smaller value, shows in
+/// simulated worlds that pause for 2.5 s lose robots.
 const MEASURED_MAX: Span = Span::from_millis(3_000);
 /// Largest time added to the lead of a START because messages are lost: nine times `ASK_AGAIN`, for nine questions.
 const LOSS_MARGIN_MAX: Span = Span::from_millis(450);
@@ -51,14 +51,14 @@ pub(crate) struct LinkEstimate {
     measured: Span,
     /// Time added to the lead of a START, because confirmations of earlier ones were lost.
     pub loss_margin: Span,
-    /// When robots last reported again after an interruption of the run. `None` if the run was not interrupted.
+    /// When the run last went on after an interruption. `None` if the run was not interrupted.
     pub reconnected: Option<Instant>,
     /// When all robots were last asked for a report because some were silent.
     pub all_asked: Option<Instant>,
 }
 
 impl LinkEstimate {
-    /// How long before its moment a START is sent (its lead): time for all robots to receive and confirm it, and to
+    /// Least time from sending a START to its moment (its lead): time for all robots to receive and confirm it, and to
     /// postpone it.
     pub fn start_lead(&self, config: &Config, participants: usize) -> Span {
         let slow = self.round_trip * 2 + REPEAT;
@@ -77,7 +77,7 @@ impl LinkEstimate {
         self.measured > self.hold_lead()
     }
 
-    /// How long before its moment RESUME is sent, so that all receive it in time.
+    /// Least time from sending RESUME to its moment, so that all robots receive it in time.
     pub fn resume_lead(&self) -> Span {
         self.round_trip.max(HOLD_LEAD)
     }
@@ -100,7 +100,8 @@ impl LinkEstimate {
         self.measured = self.measured.max(round_trip);
     }
 
-    /// Raises the round-trip estimate by half, because many robots did not confirm a START in time.
+    /// Raises the round-trip estimate by half, to at most `ROUND_TRIP_MAX`, because many robots did not confirm a START
+    /// in time.
     pub fn widen(&mut self) {
         self.round_trip = self.round_trip.max((self.round_trip * 3 / 2).min(ROUND_TRIP_MAX));
     }

@@ -39,7 +39,7 @@ const REPORTS: ReportInterval = ReportInterval {
 };
 
 /// Number of copies of the question that is sent to all robots, and the time between them. With one message in ten
-/// lost, two robots of 100 still fail to answer.
+/// lost, fewer than one robot of 100 fails to answer all copies.
 const COPIES: (u32, Span) = (3, Span::from_millis(150));
 /// A robot counts as silent if it sends no report within this time after the question; a round trip is added. The
 /// question delays no dropout, because this time is shorter than the time from the hold for a silent robot to its
@@ -49,7 +49,7 @@ const ANSWER: Span = Span::from_millis(600);
 /// What the silence of robots means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// The silent robots are lost, because enough other robots answer.
+    /// The silent robots are lost, because enough other robots answer, or too few take part to tell.
     RobotsLost,
     /// It is not known yet: the other robots have not had enough time to answer.
     Unknown,
@@ -66,9 +66,10 @@ pub(crate) fn is_by_silence(cx: &RunContext, &(participant, why): &Dropout) -> b
     why == Trouble::Silent || is_reported && silent()
 }
 
-/// Decides what it means that these participants are silent. First all robots are asked for a report, and the verdict
-/// is `Unknown` until they have had time to answer. With `is_starting` they are not asked: robots within reach have
-/// lately confirmed a START, whose moment must not pass during the wait.
+/// Decides what it means that these participants are silent. In runs with fewer active robots than a lost link needs,
+/// the silent ones are lost. Otherwise all robots are first asked for a report, and the verdict is `Unknown` until they
+/// have had time to answer. With `is_starting` they are not asked: robots within reach have lately confirmed a START,
+/// whose moment must not pass during the wait.
 pub(crate) fn judge(cx: &mut RunContext, silent: &[Dropout], is_starting: bool) -> Verdict {
     if cx.roster.active().count() < MANY.least || Mutant::LinkLossIsDeath.is_planted() {
         return Verdict::RobotsLost;

@@ -41,7 +41,8 @@ pub(crate) struct Run {
     pub link: LinkEstimate,
     /// The present phase.
     pub phase: RunPhase,
-    /// Counts of frames, dropouts and arrivals, and bounds on what recovery from dropouts may cost.
+    /// Counts of frames and dropouts, times of arrivals, and what recovery from dropouts and waits for clocks have
+    /// cost.
     pub tally: Tally,
     /// The checks of a preflight. `None` if the run is no preflight.
     pub preflight: Option<PreflightCheck>,
@@ -167,8 +168,9 @@ impl Run {
         if was_gathering { self.next_at_tick(io, now) } else { Next::Stay }
     }
 
-    /// Returns those of `dropped` that drop out now. Silent robots drop out only if the link is known to work: they are
-    /// left out while that is unknown. `Err` holds the run's next change instead, if no robot drops out now.
+    /// Returns those of `dropped` that drop out now. Silent robots do not drop out while it is unknown whether the link
+    /// is lost, unless the run is interrupted already. `Err`: no robot drops out now, and the run makes this change
+    /// instead.
     fn without_lost_link(
         &mut self,
         io: &mut Context,
@@ -273,8 +275,8 @@ impl Run {
         self.gather_what_moves(io, now);
     }
 
-    /// Stops all robots and asks where they are. In phase Standing neither is needed, unless TARGET-only robots take
-    /// part: robots stand and report of their own accord. Then only notes that robots may stand off their goals.
+    /// Stops all robots and asks where they are. In phase Standing without TARGET-only robots, robots stand already and
+    /// report of their own accord. It then only notes that they may stand off their goals.
     pub fn gather_what_moves(&mut self, io: &mut Context, now: Instant) {
         // TARGET-only robots (they understand the command TARGET but no routes) report only when asked: their last
         // reports may be old.
@@ -370,8 +372,8 @@ impl Run {
         }
     }
 
-    /// Index, from 0, of the frame that robots drive to, are about to start for, or stand in. For a run that is over:
-    /// the frame at which it ended.
+    /// Index, from 0, of the frame in which robots stand, or else of the frame that they drive to or are to drive to
+    /// next. For a run that is over: the frame at which it ended.
     pub fn frame(&self) -> usize {
         let reached = self.pipeline.leg().map(|leg| leg.frame);
         match &self.phase {

@@ -4,7 +4,8 @@ use crate::event::Trouble;
 use lightbots_base::Instant;
 use serde::{Deserialize, Serialize};
 
-/// A robot that dropped out more often than this does not come back in the run, because each dropout costs a new plan.
+/// A robot whose `Membership::dropouts` is more than this does not come back in the run, because each dropout costs a
+/// new plan.
 const DROPOUTS_MAX: u8 = 3;
 
 /// Whether a robot that dropped out has to show that it drives, and the state of that test.
@@ -23,17 +24,17 @@ pub(crate) enum Probation {
 /// Whether a robot takes part, and whether it may come back after a dropout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Membership {
-    /// Whether the robot dropped out. It then stands somewhere on the floor.
+    /// Whether the robot dropped out, and takes no part until it comes back.
     pub excluded: bool,
     /// How often the robot dropped out. A dropout because the robot did not drive as told counts twice.
     pub dropouts: u8,
-    /// The robot may come back once the run has played this many frames.
+    /// The robot may come back once the run has played this many frames; 0: at once.
     pub eligible_from_frame: usize,
 }
 
 impl Membership {
-    /// Excludes the robot after `frames_played` frames. If it did not drive as told, it may come back only once, and
-    /// only after the next frame.
+    /// Excludes the robot after `frames_played` frames. If it did not drive as told, this counts as two dropouts, and
+    /// it may come back only after the next frame.
     pub fn exclude(&mut self, why: Trouble, frames_played: usize) {
         let fails = fails_to_drive(why);
         self.excluded = true;
@@ -41,7 +42,7 @@ impl Membership {
         self.eligible_from_frame = if fails { frames_played + 1 } else { 0 };
     }
 
-    /// Whether the robot may take part again, because it dropped out at most `DROPOUTS_MAX` times.
+    /// Whether the robot may take part again, because `dropouts` is at most `DROPOUTS_MAX`.
     pub fn may_return(&self) -> bool {
         self.dropouts <= DROPOUTS_MAX
     }

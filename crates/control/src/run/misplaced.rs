@@ -12,7 +12,8 @@ use lightbots_wire::RobotState;
 const SLACK_M: f64 = 0.005;
 
 /// What to do instead of a START because a robot does not stand where its route begins, by its last report. `None` if
-/// all robots do. All is planned again also if the robot moved on after it caused the last plan.
+/// all robots do that report that they stand. All is planned again even if the same robot caused a new plan just
+/// before.
 pub(crate) fn prevents_start(cx: &mut RunContext) -> Option<Next> {
     let stands = |&one: &usize| is_at_rest(cx, one) && off(cx, one, 0.0).is_some();
     let misplaced = cx.roster.active().map(|(participant, _)| participant).find(stands)?;
@@ -28,8 +29,9 @@ fn is_at_rest(cx: &RunContext, participant: usize) -> bool {
     matches!(cx.robot(participant).reported.state, Some(RobotState::Idle | RobotState::Ready))
 }
 
-/// Compares the reported place of a standing robot with the plan. If the robot stands elsewhere, all is planned again.
-/// If that happens too often, the robot drops out. `noise_m`: error of the reported place, metres.
+/// Compares the reported place of a standing robot with the plan. If the robot stands elsewhere, an event is recorded
+/// and all is planned again. If that happens too often, the robot drops out. Shortly after the last time, nothing
+/// happens. `noise_m`: error of the reported place, metres.
 pub(crate) fn check(cx: &mut RunContext, participant: usize, noise_m: f64) -> Next {
     let Some(off_m) = off(cx, participant, noise_m) else { return Next::Stay };
     match cx.roster.participants[participant].misplaced.count(cx.now) {

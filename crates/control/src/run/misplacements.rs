@@ -18,8 +18,8 @@ pub(crate) struct Misplacements {
 }
 
 impl Misplacements {
-    /// Counts that the robot stands elsewhere. Returns whether all may be planned again for it; `false` if it did so
-    /// too often. `None` if the last count is less than `SETTLES` ago, so that this one does not count.
+    /// Counts that the robot stands elsewhere. Returns whether all may be planned again for it; `false` if the robot
+    /// stood elsewhere too often. `None` if the last count is less than `SETTLES` ago, so that this one does not count.
     pub fn count(&mut self, now: Instant) -> Option<bool> {
         let since = self.last.map(|last| now - last);
         if since.is_some_and(|since| since < SETTLES) {

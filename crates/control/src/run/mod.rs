@@ -86,8 +86,8 @@ use tally::Tally;
 use target_progress::TargetProgress;
 
 impl Run {
-    /// Creates a run with all robots of the fleet that can take part. If any of them may be driving, the run begins by
-    /// stopping all of them and asking where they are.
+    /// Creates a run with all robots of the fleet that can take part, and records an event. If any of them does not
+    /// report that it is idle, the run begins by stopping all robots and asking where they are.
     pub fn begin(context: &mut Context, now: Instant, playback: PlayedShow) -> Self {
         context.mapping.shown.clear();
         let roster = Roster::of_fleet(context, now);
@@ -144,8 +144,8 @@ impl Run {
         }
     }
 
-    /// Releases the robots at the end of the run. Notes for each robot in the fleet its pixel, its goal and whether it
-    /// may still keep a route.
+    /// Releases the robots at the end of the run. Notes in the fleet table for each participant whether it may still
+    /// keep a route, and its pixel and goal. Robots that dropped out get neither pixel nor goal.
     pub fn leave(&mut self, context: &mut Context) {
         for (participant, known) in self.roster.participants.iter().enumerate() {
             let step = self.pipeline.leg().and_then(|leg| leg.robots.get(participant));
@@ -200,7 +200,8 @@ impl Run {
         }
     }
 
-    /// Takes in the result of a plan request, and continues the phase with the new plan.
+    /// Takes in the result of a plan request, and continues the phase with the new plan. Ignores a result that is not
+    /// awaited.
     pub fn on_plan(&mut self, io: &mut Context, now: Instant, result: PlanResult) {
         let is_standing = matches!(self.phase, RunPhase::Standing(_));
         let (_, mut cx) = self.split(io, now);
@@ -219,8 +220,8 @@ impl Run {
         }
     }
 
-    /// Resumes a paused run for the operator. With `step`, robots leave at once, even if they wait for GO, and the run
-    /// pauses again in the next frame. Without `step`, a wait for GO goes on.
+    /// Resumes a paused run for the operator. With `step`, robots that stand leave at once, even if they wait for GO,
+    /// and the run pauses again in the next frame. Without `step`, a wait for GO goes on.
     pub fn resume(&mut self, io: &mut Context, now: Instant, step: bool) {
         (self.playback.paused, self.playback.stepping) = (false, step);
         self.playback.waits_for_go &= !step;
@@ -232,8 +233,9 @@ impl Run {
         }
     }
 
-    /// Handles the operator's GO, which ends the wait at a cue. Robots that stand leave at once, unless the run is
-    /// paused: air time (how long the show keeps them in a frame) that is left is dropped.
+    /// Handles the operator's GO, which ends the wait at a cue. The caller refuses GO while the run is paused. Robots
+    /// that stand leave at once: the rest of the air time (how long the show keeps robots in a frame) is dropped. The
+    /// music goes on from the position of the show.
     pub fn go(&mut self, now: Instant) {
         self.playback.waits_for_go = false;
         self.playback.music.seen = None;
@@ -268,9 +270,9 @@ impl Run {
         self.apply(io, now, Next::Over(RunOutcome::Aborted));
     }
 
-    /// If all robots are to be stopped now: the moment at which a HOLD lets them slow down on their paths, before STOP
-    /// is sent. `None` if STOP is sent at once: robots stand, have not started, drive by TARGET, or end their drive
-    /// before a HOLD could act.
+    /// The moment at which robots begin to slow down together on their paths before STOP, if all are to be stopped now.
+    /// `None` if STOP is to be sent at once: robots stand, have not started, are out of reach, drive by TARGET, or
+    /// arrive before that moment.
     pub fn holds_before_stop(&mut self, io: &mut Context, now: Instant) -> Option<Instant> {
         let (phase, cx) = self.split(io, now);
         match phase {

@@ -14,8 +14,8 @@ pub(crate) struct MusicTime {
     pub runs: bool,
     /// Whether the operator has moved the show to another frame, to which the music has yet to jump.
     pub is_led: bool,
-    /// Number of frames that robots had reached when the show was last compared with the music. It makes each frame
-    /// catch up once.
+    /// Number of frames that robots had reached when the show was last compared with the music. By this number the air
+    /// time of each frame is adapted to the music only once.
     pub stood: usize,
 }
 

@@ -28,8 +28,8 @@ pub(crate) enum Next {
     Stay,
     /// Robots stand from now on: all have arrived, or all have stopped and reported their places.
     Stand(AirTime),
-    /// START is to be sent for the first leg of the queue. It names the moment at which robots begin, which is not
-    /// before this one.
+    /// START is to be sent for the first leg of the queue. START names the moment at which robots begin. That moment is
+    /// not before the one that this variant holds.
     Start(Instant),
     /// Robots drive the first leg of the queue. They began it at this moment.
     Drive(Instant),

@@ -36,8 +36,8 @@ pub(crate) struct Discs {
     pub inferred: Vec<Vec2>,
 }
 
-/// The discs of everything on the floor that takes no part in the next plan. A disc that overlaps the start of a robot
-/// that takes part is out of date, and left out.
+/// The discs of everything on the floor that takes no part in the next plan. Inferred discs are first moved out of
+/// robots that take part. A disc that still overlaps the start of one of these robots is out of date, and left out.
 pub(crate) fn standing_discs(cx: &RunContext) -> Discs {
     let contact_m = cx.playback.contact_m();
     let near_m = contact_m * SAME_PLACE;

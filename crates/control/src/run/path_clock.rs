@@ -47,7 +47,8 @@ impl PathClock {
         self.hold.as_ref().filter(|hold| hold.until.is_none())
     }
 
-    /// Whether progress is held and no RESUME was sent yet.
+    /// Whether HOLD was sent and no RESUME for it yet. Robots may still be on their way to rest, or not have begun to
+    /// slow down.
     pub fn is_held(&self) -> bool {
         self.open_hold().is_some()
     }

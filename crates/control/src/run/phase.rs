@@ -21,7 +21,8 @@ use crate::run::starting::Starting;
 pub(crate) enum RunPhase {
     /// Robots stop and are asked where they stand.
     Gathering(Gathering),
-    /// All robots stand, in a frame or before the first one. The next leg is planned and sent to robots meanwhile.
+    /// All robots stand: in a frame, before the first one, or where a drive was broken off. The next leg is planned and
+    /// sent to robots meanwhile.
     Standing(Standing),
     /// The START of the next leg was sent, and its moment is still to come.
     Starting(Starting),
@@ -35,8 +36,9 @@ pub(crate) enum RunPhase {
 }
 
 impl RunPhase {
-    /// The drive, or the stay in a frame, that would be interrupted if all robots stopped now. In phase Starting it is
-    /// the drive of the first leg in the queue, because robots may have begun that leg.
+    /// The drive, or the stay in a frame, that would be interrupted if all robots stopped now. In phases Gathering and
+    /// Interrupted: what was interrupted before. In phase Starting: the drive of the first leg in the queue, because
+    /// robots may have begun that leg.
     pub fn left(&self, pipeline: &Pipeline) -> Position {
         match self {
             Self::Gathering(gathering) => gathering.left,

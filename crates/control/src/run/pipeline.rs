@@ -46,7 +46,8 @@ pub(crate) struct Planning {
     pub pending: Option<(u64, Instant)>,
     /// Places where robots that dropped out stood when that request was made, stage metres.
     pub around: Arc<[Vec2]>,
-    /// Whether robots wait for the next plan. It then contains one frame only, because that is planned sooner.
+    /// Whether robots wait for the next plan, because all plans were dropped. The next plan then contains one frame
+    /// only, because that is planned sooner.
     pub is_urgent: bool,
     /// Whether some robots stand too far from where the queued legs begin, so that all has to be planned again.
     pub is_outdated: bool,

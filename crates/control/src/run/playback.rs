@@ -16,9 +16,9 @@ const AIR_TIME_MAX_S: f64 = 86_400.0;
 /// What a run is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum RunPurpose {
-    /// All frames from the first one on.
+    /// All frames of the open show, from a chosen one on.
     Play,
-    /// One frame, without air time.
+    /// One frame of the open show, without air time.
     Preview,
     /// The starting places, played as a show of one frame.
     Home,
@@ -33,8 +33,8 @@ impl RunPurpose {
     }
 }
 
-/// A jump: the operator chose which frame is next. Holds what to restore if no path leads to the chosen frame. Kept
-/// until robots begin to drive there.
+/// A jump: the operator chose or skipped the next frame, or it was left out for the music. Holds what to restore if no
+/// path leads to the chosen frame. Kept until robots begin to drive there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Jump {
     /// The frame that would have been next.
@@ -68,7 +68,7 @@ pub(crate) struct PlayedShow {
     /// Whether robots stay in the frame that they reached last until the operator gives GO, because that frame has a
     /// cue.
     pub waits_for_go: bool,
-    /// The operator's choice of the next frame, until robots begin to drive there.
+    /// The jump that determined the next frame, until robots begin to drive there. `None` if there was none.
     pub jump: Option<Jump>,
     /// The loops of the show: ranges of frames that repeat until GO. Empty unless the purpose is [`RunPurpose::Play`].
     pub loops: Vec<FrameLoop>,
@@ -134,8 +134,8 @@ impl PlayedShow {
         }
     }
 
-    /// Makes `next` the frame that is reached next, as the operator chose. `None`: no further frame is reached. With
-    /// `leaves`, robots leave for it at once: a pause and a wait for GO end.
+    /// Makes `next` the frame that is reached next, because the operator chose it or a frame is left out. `None`: no
+    /// further frame is reached. With `leaves`, robots leave for it at once: a pause and a wait for GO end.
     pub fn choose(&mut self, next: Option<FrameCursor>, leaves: bool) {
         let begun = Jump {
             instead_of: self.next,

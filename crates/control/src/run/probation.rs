@@ -39,8 +39,8 @@ const TEST: Test = Test {
 const _: () = assert!(TEST.turned < TEST.turn && TEST.turn < std::f64::consts::FRAC_PI_2);
 
 /// Whether the driving test allows an excluded robot that reports to take part again. A robot that needs no test
-/// passes, and so does one that reports no heading. Sends the route of the next try if one is due. `is_stopping`: all
-/// robots are being stopped, so no try can begin.
+/// passes. So does one that reports no heading or no place, unless it has failed the test before. Sends the route of
+/// the next try if one is due. `is_stopping`: all robots are being stopped, so no try can begin.
 pub(crate) fn passes(cx: &mut RunContext, participant: usize, is_stopping: bool) -> bool {
     let robot = cx.robot(participant);
     let probation = cx.participant(participant).probation;

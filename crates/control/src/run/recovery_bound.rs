@@ -66,7 +66,8 @@ impl RecoveryBound {
         }
     }
 
-    /// Notes at each call whether the run is paused. The time of a pause does not count as lost.
+    /// Notes at each call whether the run waits for the operator, by a pause or for GO. This time does not count as
+    /// lost.
     pub fn pause(&mut self, now: Instant, paused: bool) {
         match self.paused {
             None if paused => self.paused = Some(now),

@@ -192,8 +192,8 @@ fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
     planning.from.clear();
 }
 
-/// Checks whether recovery from dropouts has cost too much time, or would with this plan. If so, returns that all is
-/// planned again with fewer obstacles, or that the run ends. `None` if not.
+/// Checks whether recovery from dropouts has cost too much time, or would with this plan. If it has or would, records
+/// an event, and returns that all is planned again with fewer obstacles, or that the run ends. `None` otherwise.
 fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> {
     let takes = result.legs.iter().fold(Span::ZERO, |sum, leg| sum + leg.duration);
     let why = cx.tally.recovery.exceeded(cx.now + takes)?;
@@ -204,8 +204,8 @@ fn refuse_if_too_late(cx: &mut RunContext, result: &PlanResult) -> Option<Next> 
     Some(if is_hopeless { Next::failed(why) } else { Next::Regather })
 }
 
-/// Sets whether the show starts again after its last frame. If so, plans the next round; otherwise drops plans for it.
-/// `is_starting`: START was sent for the first leg of the queue.
+/// Sets whether the show starts again after its last frame. With `looping`, the next round is planned; otherwise plans
+/// for the next round are dropped. `is_starting`: START was sent for the first leg of the queue.
 pub(crate) fn set_looping(cx: &mut RunContext, looping: bool, is_starting: bool) {
     let (playback, pipeline) = (&mut *cx.playback, &mut *cx.pipeline);
     let planning = &mut pipeline.planning;

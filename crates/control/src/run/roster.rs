@@ -54,8 +54,8 @@ pub(crate) struct Roster {
     pub candidates: Vec<usize>,
     /// When the run began.
     pub begun: Instant,
-    /// How often a participant joined, dropped out, came back, or was found again by its report. The journal writes the
-    /// participants after each of these changes.
+    /// How often a participant joined, dropped out, came back, or was found again by its report. After each of these
+    /// changes the journal records the participants that are new or whose membership changed.
     pub changes: u64,
 }
 

@@ -81,14 +81,15 @@ impl RunContext<'_> {
         self.pipeline.pump(self.io, (self.playback, self.roster), self.link, self.now)
     }
 
-    /// Sends the route of the next leg again to a participant that lost the route.
+    /// Makes the route of the next leg due again for a participant that acknowledged the route and lost it. Then does
+    /// as [`pump`](Self::pump).
     pub fn upload_again(&mut self, participant: usize) -> Next {
         self.pipeline.upload_again(self.now, participant);
         self.pump()
     }
 
-    /// Requests that all robots stop and are planned again, because a participant lost its route or began to drive
-    /// alone. Records an event that names this participant.
+    /// Requests that all robots stop and are planned again, because a participant was cut off, lost its route, or began
+    /// to drive alone. Records an event that names this participant.
     pub fn replan_with(&mut self, participant: usize) -> Next {
         self.report_waiting(participant, Trouble::Cut);
         Next::Regather

@@ -1,4 +1,4 @@
-//! Where a run is on the timeline of its show. The music follows this position.
+//! Where a run is on the timeline of its show. Music begins at this position, and later keeps its own (`keeping_up`).
 
 use crate::run::{Run, RunPhase, RunPurpose};
 use crate::snapshot::ShowPosition;

@@ -61,10 +61,11 @@ const SAME_PLACE_M: f64 = 0.002;
 /// receives no messages either.
 ///
 /// If its last report came after all began to stop, the path from the reported place on counts too. A frozen broker may
-/// have held the report back, or the clock of a restarted controller is wrong. Stopped robots may also have blocked
-/// this one.
+/// have held the report back, or the clock of a restarted controller is wrong. Stopped robots may also have blocked the
+/// silent one.
 ///
-/// Empty if the robot has reported since the drive began that it stands: it is where it reported.
+/// Empty if the robot has reported since the drive began that it stands: it is where it reported. A robot without a
+/// path may stand on the part of its straight drive that it was allowed to drive.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
     clock: &PathClock,

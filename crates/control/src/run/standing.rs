@@ -22,7 +22,7 @@ const EARLY: Span = Span::from_millis(20);
 /// Longest time between two checks of the phase.
 const CHECK_EVERY: Span = Span::from_millis(1_000);
 
-/// The state while all robots stand, in a frame or before the first.
+/// The state while all robots stand: in a frame, before the first one, or where a drive was broken off.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Standing {
     /// When robots may leave the frame.
@@ -49,12 +49,13 @@ impl Standing {
         pipeline.due().min(start).min(now + CHECK_EVERY)
     }
 
-    /// Ends the air time at `now`, because the operator gave GO or steps to the next frame.
+    /// Ends the air time at `now`, because the operator gave GO, steps to the next frame, or chose another frame.
     pub fn leave_now(&mut self, now: Instant) {
         (self.air.left, self.air.until) = (None, now);
     }
 
-    /// Handles a status report of a participant, which should stand where the plan has it.
+    /// Handles a status report of a participant. An unfit robot drops out, and a restarted one is sent its route again.
+    /// If a robot stands elsewhere than planned, all is planned again.
     pub fn on_report(
         &mut self,
         cx: &mut RunContext,
@@ -102,8 +103,9 @@ impl Standing {
         self.leave(cx)
     }
 
-    /// Returns the change to the next drive, if the air time is over and the next leg is ready. Returns the end of the
-    /// run if nothing more is planned.
+    /// Returns the change to the next drive if the next leg is ready and the air time is over. For routes it is
+    /// returned earlier, because START is sent ahead of its moment. If nothing more is planned, returns what [`end`]
+    /// decides.
     fn leave(&self, cx: &mut RunContext) -> Next {
         if cx.playback.waits_for_go {
             return Next::Stay;

@@ -185,8 +185,8 @@ impl Starting {
     }
 
     /// Participants that have not confirmed the present moment of START. A route without movement also counts as
-    /// confirmed once its robot reports that it runs: the robot's clock was ahead of a moment that was postponed later.
-    /// No later START changes that (R33).
+    /// confirmed once its robot has begun it. By a clock that is ahead, the robot may have begun before the START was
+    /// postponed, and no later START changes that (R33).
     fn unconfirmed(&self, cx: &RunContext) -> Vec<usize> {
         let Some(leg) = cx.pipeline.queue.front() else { return Vec::new() };
         let owes = |&participant: &usize| {

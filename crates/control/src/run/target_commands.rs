@@ -10,12 +10,13 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::unsynchronised::StraightDrive;
 use lightbots_wire::Command;
 
-/// Least distance by which a robot is sent farther, metres. For less than its tolerance of 20 mm it would not move.
+/// Least distance by which a robot is sent farther, unless it may go to the end of its drive; metres. For less than its
+/// tolerance of 20 mm it would not move.
 const STEP_M: f64 = 0.025;
 /// Largest error of a robot's progress on its straight drive, as computed from its report, metres.
 pub(crate) const PASSED_ERROR_M: f64 = 0.01;
-/// Time between requests to a TARGET-only robot for its place. A robot without progress is sent its target again at the
-/// same interval.
+/// Time between requests to a TARGET-only robot for its place, while no other robot waits for it. A robot without
+/// progress is sent its target again at the same interval.
 pub(crate) const ASK: Span = Span::from_millis(500);
 
 /// How a TARGET-only robot is brought to rest: it gets a target a little ahead of its place, so that it does not turn
@@ -30,8 +31,8 @@ struct Stopping {
 /// A lower speed or a shorter reaction would send a robot back to a place that it has passed.
 const STOPPING: Stopping = Stopping { speed_mps: 0.3, reaction: Span::from_millis(150) };
 
-/// Sends a robot farther on its straight drive `place`, if it may go farther by now. Does nothing during a hold, or if
-/// `place` is not the drive that the robot is on or begins next.
+/// Sends a robot farther on its straight drive `place`, if it may go farther by now. Does nothing during a hold, if
+/// `place` is `None`, or if it is not the drive that the robot is on or begins next.
 pub(crate) fn grant_farther(cx: &mut RunContext, is_held: bool, place: Option<usize>) {
     let Pipeline { driven: Some(DrivenLeg { leg, targets }), .. } = &mut *cx.pipeline else { return };
     let Some(place) = place else { return };

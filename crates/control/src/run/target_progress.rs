@@ -18,7 +18,8 @@ pub(crate) struct TargetProgress {
     pub states: Vec<DriveState>,
     /// `[straight drive]`: indices of the straight drives that yield to it.
     pub followers: Vec<Vec<usize>>,
-    /// `[participant]`: index of the straight drive that its robot is on or begins next. `None` after the last one.
+    /// `[participant]`: index of the straight drive that its robot is on or begins next. `None` after the last one, or
+    /// if the robot has none.
     pub present: Vec<Option<usize>>,
     /// Whether the leg is from a journal, which does not say how far robots are on their straight drives.
     pub is_of_journal: bool,
@@ -33,13 +34,13 @@ pub(crate) struct DriveState {
     pub granted: f64,
     /// When a target was last sent to the robot.
     pub sent_at: Instant,
-    /// When the robot was last allowed to go farther, or last made progress.
+    /// When the robot was last allowed to go farther, made progress, or was sent on after a hold.
     pub moved_at: Instant,
     /// How often the target was sent again because the robot stood beside its goal.
     pub corrections: u8,
     /// Whether the robot has completed the drive.
     pub done: bool,
-    /// Whether an event has reported that the robot makes no progress or is silent.
+    /// Whether the robot makes no progress or is silent at present, which an event has reported.
     pub is_stalled: bool,
 }
 
@@ -89,7 +90,7 @@ impl TargetProgress {
         !rests && now - state.moved_at > bound
     }
 
-    /// Whether an event has reported that a participant makes no progress on its present straight drive or is silent.
+    /// Whether a participant makes no progress on its present straight drive or is silent, which an event has reported.
     pub fn is_stalled(&self, participant: usize) -> bool {
         let present = self.present.get(participant).copied().flatten();
         present.is_some_and(|place| self.states[place].is_stalled)

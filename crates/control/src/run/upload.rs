@@ -23,7 +23,7 @@ pub(crate) struct Upload {
     /// The next participant for which no message was sent yet (an unserved one). Messages are sent in the order of
     /// participants.
     unserved: usize,
-    /// Messages that were sent and may not be acknowledged: when each is to be sent again, and its participant. In
+    /// Messages that were sent and may not be acknowledged yet: when each is to be sent again, and its participant. In
     /// order of time.
     sent: VecDeque<(Instant, usize)>,
     /// Number of messages that were sent and not yet acknowledged.
@@ -151,7 +151,8 @@ impl Upload {
         true
     }
 
-    /// Makes the message to a participant due at once, because the robot lost what it had acknowledged.
+    /// Makes the message to a participant due at once, because the robot lost what it had acknowledged. Does nothing if
+    /// the participant has not acknowledged.
     pub fn reopen(&mut self, now: Instant, participant: usize) {
         let Some(delivery) = self.deliveries.get_mut(participant) else { return };
         if std::mem::take(&mut delivery.acknowledged) {

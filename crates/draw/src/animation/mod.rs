@@ -42,7 +42,7 @@ const GRID: usize = 24;
 
 impl Animation {
     /// Returns how much the frames with indices `a` and `b` differ, from 0 for equal frames to 1 for opposite frames.
-    /// The value is half of 1 minus the correlation of their brightness.
+    /// The value is half of 1 minus the correlation of their densities of lights.
     pub fn change(&self, a: usize, b: usize) -> f64 {
         let shade = |n: usize| self.frames.get(n).map_or(&[][..], |frame| frame.shade.as_slice());
         (1.0 - correlation(shade(a), shade(b))) / 2.0
@@ -92,8 +92,8 @@ pub fn read(bytes: &[u8], settings: &PictureSettings) -> Result<Animation, DrawE
     drawn(stills, settings)
 }
 
-/// Makes an animation of the pictures in `files`. Each picture is shown for `lasts_s` seconds, and all are scaled to
-/// the size of the first.
+/// Makes an animation of the first 300 pictures in `files`, without those that show nothing; notes say what is left
+/// out. Each picture is shown for `lasts_s` seconds, and all are scaled to the reduced size of the first.
 pub fn of_pictures(
     files: &[&[u8]],
     lasts_s: f64,

@@ -33,8 +33,9 @@ struct Step {
     slowness: f64,
 }
 
-/// Chooses key frames: of all sequences in which robots have enough time for each move, the sequence that shows most
-/// change.
+/// Chooses key frames. First it finds the least slowdown at which robots can get from the first to the last picture.
+/// Then, of all sequences in which they have enough time for each move at this slowdown, it takes the one that shows
+/// most change.
 ///
 /// `times_s`: time at which each picture begins, ascending, seconds. `change` returns how much two pictures differ, 0
 /// to 1. `cost_s` returns how long robots take from one picture to another, seconds. Both are called once for each pair

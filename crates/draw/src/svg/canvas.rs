@@ -16,7 +16,7 @@ const BACKGROUND: f64 = 0.98;
 /// whole.
 const WORK_MAX: usize = 3_000_000;
 
-/// A visible area of one colour.
+/// A visible area with one ink: a colour or a gradient.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// The visible part.
@@ -39,7 +39,8 @@ pub struct Line {
 /// What is visible on a page after painting.
 #[derive(Debug)]
 pub struct Canvas {
-    /// Visible areas. They overlap only if [`Self::is_overworked`] is true.
+    /// Visible areas. They overlap only if [`Self::is_overworked`] is true, or if their lines cross too often to be
+    /// cut.
     pub surfaces: Vec<Surface>,
     /// Visible parts of lines.
     pub lines: Vec<Line>,
@@ -183,6 +184,7 @@ impl Canvas {
     }
 
     /// Paints a line. `outline`: the area that the stroke covers; areas of other colours lose what is inside it.
+    /// `None`: no area is cut.
     pub fn stroke(&mut self, line: FlatLine, outline: Option<&Region>, ink: Ink, opacity: f64) {
         if opacity < FAINT {
             self.faint += 1;

@@ -65,8 +65,8 @@ pub fn polylines(path: &Path, transform: Transform, tolerance: f64) -> Vec<FlatL
     lines
 }
 
-/// Adds a line to `lines`, without points that nearly coincide with the point before. A line whose two ends nearly
-/// coincide becomes closed.
+/// Adds a line to `lines`, without points that nearly coincide with the point before. A line of more than three points
+/// whose two ends nearly coincide becomes closed. A line with fewer than two points left is dropped.
 fn finish(lines: &mut Vec<FlatLine>, mut points: Vec<Spot>, closed: bool, tolerance: f64) {
     let near = |a: &Spot, b: &Spot| distance(*a, *b) < tolerance * 0.1;
     points.dedup_by(|b, a| near(a, b));
@@ -86,7 +86,8 @@ fn curve(points: &mut Vec<Spot>, control: [Spot; 4], tolerance: f64) {
 }
 
 /// Returns the number of chords for a cubic curve: enough to stay within `tolerance` of the curve and to turn by less
-/// than [`TURN_MAX`] each time.
+/// than [`TURN_MAX`] each time, but at most [`CHORDS_MAX`]. The turn of a curve smaller than `tolerance` does not
+/// matter.
 fn chords([a, b, c, d]: [Spot; 4], tolerance: f64) -> usize {
     let bend = |p: Spot, q: Spot, r: Spot| libm::hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1]);
     // The distance of a curve from its chord is at most an eighth of its largest second derivative.

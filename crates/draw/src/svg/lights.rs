@@ -13,8 +13,9 @@ const DARK_BELOW: u8 = 40;
 /// A colour counts as white paper if its darkest channel is at least this, 0 to 255.
 const PAPER_FROM: u8 = 225;
 
-/// Removes the background, and areas and lines that look like it. Makes dark areas and lines white. Returns notes about
-/// both.
+/// Removes the background and brightens gradients. If areas or lines are dark, they are removed with a dark background.
+/// Otherwise they become white, and areas and lines as white as paper are removed. Returns notes about the background,
+/// white and black.
 pub fn light(canvas: &mut Canvas) -> Vec<Note> {
     lift_gradients(canvas);
     let background = remove_background(canvas);

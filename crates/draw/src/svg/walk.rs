@@ -204,7 +204,7 @@ impl Walk {
         Ok(())
     }
 
-    /// Returns the area that a stroke covers.
+    /// Returns the area that a stroke covers, with the gaps between its dashes.
     fn outline(
         &mut self,
         path: &Path,

@@ -26,7 +26,8 @@ pub(super) struct Parts {
 /// Combining mark that stands for the bar of ł on an l. Unicode does not decompose ł.
 const BAR: char = '\u{337}';
 
-/// Splits a character into its letter and its accent. `None` if it has no accent. An i loses its dot.
+/// Splits a character into its letter and its accent. `None` if it has no accent. A second accent is ignored, and an i
+/// with an accent above becomes ı.
 pub(super) fn parts(character: char) -> Option<Parts> {
     match character {
         'ł' => return Some(Parts { letter: 'l', accent: BAR }),

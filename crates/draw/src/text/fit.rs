@@ -41,7 +41,7 @@ pub(super) fn is_common(area: &LetterArea) -> bool {
 }
 
 /// Returns the spine of a letter without accents, from the single-line font that fits its area best. `None` if no font
-/// fits.
+/// fits well enough ([`quality`]), or if the letter is too large or has too many points.
 pub(super) fn base(character: char, area: &LetterArea) -> Option<Vec<StrokeLine>> {
     if !is_common(area) {
         return None;

@@ -19,8 +19,8 @@ const CALLS: u32 = 4;
 /// Time that a robot has to find its position after power-on: ten times the limit of R14.
 const FIRST_FIX: Span = Span::from_millis(5_000);
 
-/// Chooses the robot. Returns the names of all robots that were found. Fails if there is no robot, or if there are
-/// several and none was requested.
+/// Chooses the robot. Returns the names of all robots that were found. Fails if there is no robot, if the requested
+/// robot is missing, or if there are several and none was requested.
 pub(super) async fn choose(session: &Session) -> Result<BTreeSet<String>, Ending> {
     let mut found = Err(Ending::NoRobot);
     for _ in 0..CALLS {

@@ -14,7 +14,8 @@ const GREEN: Rgb = Rgb::new(0, 255, 0);
 const BLUE: Rgb = Rgb::new(0, 0, 255);
 /// Slots that the robot is given one after the other: first the largest possible slot, then slot 100, which it keeps.
 const SLOTS: [u16; 2] = [65_535, 100];
-/// Number of the first message of live light; later messages have higher numbers.
+/// Base of the numbers of live-light messages. Each test adds a small number to it; messages that must count as old get
+/// a smaller sum than messages before them.
 const NUMBER: u32 = 1_000;
 /// Time between two equal messages. A controller repeats messages in the same way (R63).
 const AGAIN: Span = Span::from_millis(500);

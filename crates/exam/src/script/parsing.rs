@@ -34,7 +34,8 @@ pub(super) async fn answers(pilot: &Pilot, rule: u8, sent: &str, wanted: bool) -
     pilot.ask().await.map(|_| ())
 }
 
-/// Tests that the robot counts invalid commands in `unknown=`, and that they have no other effect.
+/// Tests that invalid commands do not move the robot. For a robot with routes, also tests that it counts them in
+/// `unknown=`.
 async fn counts_unknown(pilot: &Pilot) -> Step {
     let sent = "|TARGET 1||TARGET left right||COLOR 16777216||COLOR red|";
     let before = pilot.ask().await?;

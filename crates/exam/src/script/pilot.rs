@@ -43,7 +43,7 @@ pub(super) struct Pilot {
     /// Place to which the robot is sent from `home`, stage metres.
     pub away: Vec2,
     placed: Cell<bool>,
-    /// Shortest time until now from a command to its answer.
+    /// Shortest time until now from a command to its answer; at most 0.5 s, the value at first.
     round_trip: Cell<Span>,
     /// Number of the rule that is broken if the robot falls silent now.
     pub rule_if_silent: Cell<u8>,

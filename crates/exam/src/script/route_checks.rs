@@ -14,6 +14,7 @@ const BESIDE_M: f64 = 0.02;
 const LATE: Span = Span::from_millis(50);
 
 /// Records the robot's distance from the path (R35) and its delay along it (R27), from the reports since `mark`.
+/// Without such reports, records instead that R41 is broken.
 pub(super) fn judge_fit(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
     let fit =
         pilot.session.since(mark, |received| timed_route.fit(received, pilot.session.shift(), pilot.delay()));

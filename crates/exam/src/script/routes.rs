@@ -48,7 +48,8 @@ fn status(received: &Received) -> Option<Received> {
     (received.topic == Topic::Status).then(|| received.clone())
 }
 
-/// Sends a route. Returns whether the robot reports that it keeps the route.
+/// Sends a route. Returns whether the robot reports that it keeps the route, and records this for R32, or for R31 if
+/// that is broken already.
 pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
     let sent = text(route);
     let wanted = u64::from(route.seq);
@@ -289,7 +290,7 @@ async fn chained(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that several requests for a status in one payload get one report.
+/// Tests that six requests for a status in one payload get at least one report, and at most three. R42 demands one.
 async fn one_report(pilot: &Pilot) -> Step {
     let mark = pilot.send("|STATUS||STATUS||STATUS||STATUS||STATUS||STATUS|");
     pilot.session.pause(ONCE).await;

@@ -62,7 +62,8 @@ async fn held(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that a hold before the start of a route has no effect on it (R39), and that `STOP` on the route has (R40).
+/// Tests that a hold before the start of a route has no effect on the route (R39). Then tests `STOP` on a route, at
+/// once and at a moment, and on the way to a target (R40).
 async fn stopped(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     let route = straight(next_seq(pilot), pilot.home, pilot.away, SPEED_MPS);

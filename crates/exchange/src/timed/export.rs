@@ -40,7 +40,8 @@ pub(crate) struct ExportedRobot {
     pub colours: Vec<Rgb>,
 }
 
-/// Converts a planned show. Fails if there is no plan, or if the plan has errors.
+/// Converts a planned show. Fails if the show has no frames, or if there is no plan, or one with errors or for another
+/// number of frames.
 pub(crate) fn exported(show: &Show, plan: Option<&ShowPlan>) -> Result<ExportedShow, Issue> {
     let plan = plan.ok_or_else(|| {
         Issue::error("no-plan", "a file with timed paths needs the plan of the show; plan it first")

@@ -23,8 +23,8 @@ use crate::format::Loaded;
 const PIXELS_MAX: usize = 1_000_000;
 /// Least distance from the places of robots to the edge of the floor that is made for them, metres.
 const MARGIN_M: f64 = 0.5;
-/// Shortest air time of a frame, seconds. Up to a quarter turn's time of the remaining time in which robots stand
-/// belongs to the next drive: robots turn in it.
+/// Time in which robots stand that always counts as the frame's air time, seconds. Of the rest of that stand, up to the
+/// time of a quarter turn belongs to the next drive, because robots turn in it.
 const AIR_LEAST_S: f64 = 0.05;
 /// Largest number of pieces of a path that a robot can store (docs/protocol.md, R31).
 const PIECES_OF_DRIVE_MAX: usize = 128;
@@ -62,8 +62,8 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
 }
 
 /// How long all robots must be dark so that no frame is needed before the first picture, seconds from the start of the
-/// file. That is until the first picture. If the music begins with that picture, lights may fade in earlier: a further
-/// frame would move the music, which matters more than an exact fade.
+/// file. This is the time until the first picture. If the music begins with that picture, lights may fade in earlier: a
+/// further frame would move the music, which matters more than an exact fade.
 fn dark_s(file: &TimedShow, first: &FrameTimes) -> f64 {
     let is_in_step = file.music.as_ref().is_some_and(|music| music.late_s(first.air_s) == 0.0);
     let fade_s = fade_of(Span::from_secs(first.air_s - first.drive_s)).as_secs();

@@ -13,7 +13,8 @@ pub(super) struct Stand {
 }
 
 /// The stretches of at least [`SEEN_S`] in which all robots stand, in order. The last one begins when the last robot
-/// stops, ends at `end_s`, and may be shorter. The first one begins at 0 only if no robot moves right away.
+/// stops, ends at `end_s`, and may be shorter. The first one begins at 0 only if no robot moves within the first
+/// [`SEEN_S`].
 pub(super) fn stands(show: &TimedShow, end_s: f64) -> Vec<Stand> {
     let mut moves: Vec<(f64, f64)> = show.robots.iter().flat_map(|robot| robot.path.moves()).collect();
     moves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));

@@ -19,8 +19,8 @@ const FIRE_FUEL: f64 = 0.25;
 const FIRE_OCTAVES: u32 = 2;
 
 /// The mean of four sine waves, 0 to 1. They run along the effect's direction, across it, diagonally, and inwards or
-/// outwards around its place. The seed decides their phases. All repeat after one turn; `turns`: cycles since the effect
-/// began.
+/// outwards around the effect's place. The seed decides their phases. All waves repeat after one cycle; `turns`: cycles
+/// since the effect began.
 pub(super) fn plasma(look: &Look, turns: f64, place: Vec2) -> f64 {
     let from_place = place - look.place;
     let along = Vec2::unit(look.angle);

@@ -135,8 +135,8 @@ impl<'a> Matcher<'a> {
     }
 
     /// Extends the matching to all rows, with edges within reach. If that is impossible, returns a greater squared
-    /// reach, square metres, that every matching of all rows needs. `before[row]` is a matching of all rows with longer
-    /// edges.
+    /// reach, square metres, that every matching of all rows needs. `before[row]` is a matching of all rows that may
+    /// have longer edges. A cancelled search returns `Ok` too early.
     fn complete(&mut self, before: &[u32], reach_squared: f64) -> Result<(), f64> {
         let mut open: Vec<u32> = (0..self.rows.len() as u32).collect();
         open.retain(|&row| self.column_of[row as usize] == NONE);
@@ -159,8 +159,8 @@ impl<'a> Matcher<'a> {
         Ok(())
     }
 
-    /// Searches breadth first from the rows `open` at once, and flips one augmenting path for every row that still has
-    /// one. Returns the number of flipped paths. Columns seen are left out of further searches until
+    /// Searches breadth first from all rows of `open` at once, and flips one augmenting path for each row for which the
+    /// search finds one. Returns the number of flipped paths. Columns seen are left out of further searches until
     /// [`Self::forget_seen`].
     fn phase(&mut self, open: &[u32], reach_squared: f64) -> usize {
         let mut found = 0;

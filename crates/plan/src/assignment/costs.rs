@@ -9,7 +9,8 @@ use super::search::{Edges, Search};
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Number of edges that each row has at the start.
+/// Number of cheapest edges that each row has at the start. One more edge for each row makes sure that a matching of
+/// all rows exists.
 const FIRST: usize = 12;
 /// Most edges that are added to a row in one round of pricing.
 const ADDED: usize = 6;
@@ -29,8 +30,8 @@ pub(super) struct Costs<'a> {
 }
 
 impl<'a> Costs<'a> {
-    /// Costs that are the squared distances of `rows` and `columns`, with initial column duals. With fewer rows than
-    /// columns, these must all be 0.
+    /// Costs that are the squared distances of `rows` and `columns`, with `duals` as initial column duals. With fewer
+    /// rows than columns, all duals must be 0.
     pub fn plain(rows: &[Vec2], columns: &[Vec2], duals: Vec<f64>, cancel: Cancel<'a>) -> Self {
         Self { cancel, rows: rows.to_vec(), tree: KdTree::new(columns), duals }
     }

@@ -178,7 +178,7 @@ impl<'a> Minimiser<'a> {
     }
 
     /// Returns `start_of[goal]` with the least sum of squared lengths among assignments without a line longer than `(1
-    /// + slack)` × the bottleneck distance. `slack` must not shrink from call to call. `None` if the search was
+    /// + slack)` × the reach of the choice. `slack` must not shrink from call to call. `None` if the search was
     /// cancelled.
     pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;

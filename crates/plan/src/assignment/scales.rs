@@ -13,7 +13,8 @@ use super::space;
 use crate::cancel::Cancel;
 use lightbots_base::Vec2;
 
-/// Problems with at most this many rows start with duals of 0. Larger ones start with duals of a coarser problem.
+/// Problems with at most this many rows start with duals of 0. Larger ones start with duals of a coarser problem, if
+/// they have as many rows as columns.
 const SMALL: usize = 60;
 
 /// Most places in a cluster, up to one more by uneven division. With more, the finer problem begins with duals that are

@@ -6,9 +6,9 @@ use crate::cancel::Cancel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A partial assignment that is optimal for its matched rows. A row without a column is open. No edge has a reduced
-/// cost (cost − row dual − column dual) below zero. Matched edges have a reduced cost of zero, and columns never used
-/// have a dual of zero.
+/// A partial assignment that is optimal for its matched rows. A row without a column is open. No listed edge has a
+/// reduced cost (cost − row dual − column dual) below zero. Matched edges have a reduced cost of zero, and columns
+/// never used have a dual of zero.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
     /// `edges[row]`: the listed edges of that row.
@@ -149,8 +149,8 @@ impl Search {
         losers
     }
 
-    /// Unmatches rows after their edges changed. If there are more columns than rows, unmatches all rows and resets all
-    /// column duals to 0.
+    /// Unmatches rows after their edges changed. If there are more columns than rows, unmatches all rows, resets all
+    /// column duals to 0, and forgets the bounds on edges that are not listed.
     pub fn reopen(&mut self, rows: &[u32]) {
         if self.edges.len() < self.column_duals.len() {
             // An unmatched column must have a dual of 0, which holds only for columns never used. Therefore the search
@@ -221,8 +221,8 @@ impl Search {
         left
     }
 
-    /// Makes one bid of an open row. Returns the row that lost its column, if any. Takes nothing if the row's two
-    /// cheapest columns are equally cheap and the first is not free.
+    /// Makes one bid of an open row. Returns the row that lost its column, if any. Takes nothing if the cheapest column
+    /// is not free, and the second cheapest is equally cheap or missing.
     fn take_cheapest(&mut self, row: u32) -> Option<u32> {
         let (mut first, mut second, mut column) = (f64::INFINITY, f64::INFINITY, NONE);
         for &(candidate, cost) in &self.edges[row as usize].list {

@@ -5,8 +5,8 @@ use super::kdtree::{KdTree, Remaining};
 use super::partner::NONE;
 use lightbots_base::Vec2;
 
-/// Most columns within reach of a row, on average, for which they are listed once. With more, the k-d tree is searched
-/// for each row instead.
+/// Most columns within reach of a row, on average, with which the columns near each row are listed in advance. With
+/// more, the k-d tree is searched whenever columns are needed.
 const LISTED_MOST: usize = 64;
 
 /// Yields columns near rows. Each column is yielded once, until it is put back.

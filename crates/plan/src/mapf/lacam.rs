@@ -20,15 +20,15 @@ struct SearchNode {
     from: usize,
     /// Indices of robots, the most urgent first.
     ranks: Vec<usize>,
-    /// `[robot]`: its urgency. It begins with a share from 0 to 1, by the cost of the robot's path. It rises by 1 in
-    /// each step away from the goal, and falls to that share − 1 at the goal.
+    /// `[robot]`: its urgency. It begins with a share from 0 to 1, by the cost of the robot's path. It rises by 1 with
+    /// each step that does not end at the robot's goal, and falls to that share − 1 with a step that does.
     urgency: Vec<f64>,
     /// Lists of constraints that were not tried yet, the shortest lists first.
     constraints: VecDeque<Vec<Constraint>>,
 }
 
 /// Finds `[step][robot]`: nodes from `starts` until all robots with a goal are at their goals at the same time. `None`
-/// if there is no solution, or the search exceeds its bounds or is cancelled.
+/// if there is no solution, or if the search exceeds its bounds or is cancelled.
 pub(crate) fn search(
     pibt: &mut Pibt<'_, impl ConflictRule>,
     starts: &[u32],

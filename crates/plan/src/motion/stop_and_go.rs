@@ -14,8 +14,8 @@ const EASE: f64 = 1.002;
 
 /// Turns by at least this angle need the whole [`SETTLING_S`], radians; smaller turns need proportionally less.
 const SETTLING_RAD: f64 = 0.2;
-/// Additional time of a turn, seconds, because a robot's controller slows down near its new direction. A robot that
-/// leaves without it is 7 mm off its line.
+/// Additional time of a turn, seconds, because a robot's controller slows down near its new direction. Without this
+/// time, a robot would be 7 mm off its line.
 const SETTLING_S: f64 = 0.18;
 
 /// The paths through `waypoints[step][robot]`, stage metres, which last `wished` or longer; `None` if a path has more

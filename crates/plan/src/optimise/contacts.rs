@@ -31,7 +31,7 @@ pub(crate) struct Contact {
     pub wanted: f64,
     /// Distance from which the pair needs no displacement, metres; at most `wanted`.
     pub least: f64,
-    /// The pair is surely clear while [`displacement_m`] of its robots is less than this, metres.
+    /// The pair counts as clear, and is not checked, while [`displacement_m`] of its robots is less than this, metres.
     pub clear_until: f64,
     /// Whether the pair was too close at the last check.
     pub is_close: bool,
@@ -101,7 +101,7 @@ impl ContactDetector {
     }
 
     /// Returns all contacts in order of spans: pairs that are too close or may soon be. `known` is the result of the
-    /// last detection; contacts of robots that hardly moved since are taken from it.
+    /// last detection; contacts of robots that have hardly moved since then are taken from `known`.
     pub fn detect(
         &self,
         instance: &Instance,
@@ -246,7 +246,7 @@ impl ContactDetector {
     }
 
     /// Finds the moment at which a moving point is closest to the origin; `apart` are the control points of its span.
-    /// If it stays farther away than `near`, only the distance of the result is meaningful.
+    /// If the point stays farther than `near` metres from the origin, only the distance of the result is meaningful.
     fn closest_to_origin(&self, apart: &[Vec2; 4], near: f64) -> Approach {
         let mut before = blend(apart, &self.bases[0]);
         let mut best = (before.length_squared(), 0.0, before);
@@ -281,7 +281,8 @@ impl ContactDetector {
     }
 }
 
-/// Sum of the displacements of a contact's robots on its span since the start of the deformation, metres.
+/// Sum of the displacements of a contact's robots on its span, metres, since the deformation began or last retimed the
+/// splines.
 pub(crate) fn displacement_m(displacement: &Displacement, contact: &Contact) -> f64 {
     let other = match contact.b {
         Other::Robot(b) => displacement.of(b, contact.span),

@@ -1,5 +1,5 @@
-//! How far control points have moved during a deformation. With it, a pair of robots that was clear by more than both
-//! have moved since is not checked again until the next detection.
+//! How far control points have moved during a deformation. A pair of robots is checked again only once both together
+//! have moved as far as the pair was clear.
 
 use lightbots_base::Vec2;
 
@@ -36,13 +36,13 @@ impl Displacement {
         since(at).max(since(at + 1)).max(since(at + 2).max(since(at + 3)))
     }
 
-    /// Largest displacement of all control points since their last mark, metres.
+    /// Largest displacement of all control points since their last mark, metres; infinite if a point was never marked.
     pub fn since_mark(&self) -> f64 {
         let since = self.moved_m.iter().zip(&self.marked_m).map(|(now, then)| now - then);
         since.fold(0.0, f64::max)
     }
 
-    /// Largest displacement of a span's four control points since the start, metres. If only a point with less
+    /// Largest displacement of a span's four control points since this record began, metres. If only a point with less
     /// displacement moves, this value does not grow, although places on the span move. The next detection finds
     /// contacts that follow.
     pub fn of(&self, robot: usize, span: usize) -> f64 {
@@ -71,8 +71,8 @@ impl Displacement {
         }
     }
 
-    /// Sets the displacement of the outer control points to that of the inner points that they follow. They move at
-    /// most as far.
+    /// Sets the displacement of the outer control points to that of the inner points that they follow. The outer points
+    /// move at most as far.
     fn tie_ends(&mut self, robot: usize) {
         let own = &mut self.moved_m[robot * self.width..(robot + 1) * self.width];
         let last = own.len() - 3;

@@ -14,7 +14,7 @@ use crate::spline::retime::{moments, smoothed, time_scaled};
 use crate::spline::set::{MOST_SPANS, SplineSet};
 use crate::spline::turn_rate::DirtySpans;
 
-/// Contacts count as few if there are at most robots / `A_FEW` + 1. Only then are they perturbed.
+/// Contacts count as few if there are at most robots / `A_FEW` + 1. Only then are robots in contact perturbed.
 const A_FEW: usize = 30;
 /// Length of a perturbation, metres: about a robot's diameter.
 const PERTURBATION_M: f64 = 0.06;
@@ -22,15 +22,15 @@ const PERTURBATION_M: f64 = 0.06;
 const PERTURBATION_TURN: f64 = 2.4;
 /// Weights of a perturbation at the eight control points around its contact.
 const PERTURBATION: [f64; 8] = [0.25, 0.6, 0.9, 1.0, 1.0, 0.9, 0.6, 0.25];
-/// Least number of sweeps between two detections of contacts.
+/// Least number of sweeps from one regular detection of contacts to the next, unless splines are retimed between.
 const DETECTION_EVERY: usize = 6;
-/// Largest displacement of a control point without a new detection, metres: pairs are ignored beyond twice as much.
+/// Displacement of a control point since its last mark that makes a detection due, metres: half of `SKIN_M`.
 const DETECTION_MOVED_M: f64 = 0.006;
 /// Number of passes that smooth the congestion over time before spans are lengthened.
 const SMOOTHING: usize = 3;
 /// Largest factor on a span's duration in one call of `give_time`.
 const MOST_TIME_SCALED: f64 = 1.5;
-/// Longest duration of a span, seconds; longer ones are divided. Two contacts in one span cannot be resolved.
+/// Duration of a span, seconds, above which retiming uses more spans: two contacts in one span cannot be resolved.
 const LONGEST_SPAN_S: f64 = 0.36;
 /// Distance by which displacements aim beyond the wanted one, metres, because they converge towards their aim.
 const BEYOND_M: f64 = 0.0002;
@@ -53,7 +53,7 @@ const POLLED: usize = 1024;
 pub(crate) struct Effort {
     /// Most sweeps.
     pub sweeps: usize,
-    /// Largest duration, as a multiple of that of the first guess.
+    /// Largest duration while more than a few contacts are left, as a multiple of that of the first guess.
     pub stretch: f64,
     /// Whether time is added sooner, and more of it if there are many contacts.
     pub hurry: bool,
@@ -78,13 +78,13 @@ pub(crate) fn relax(
 pub(crate) struct Relaxation<'a> {
     state: State<'a>,
     effort: Effort,
-    /// Largest duration, seconds.
+    /// Largest duration while more than a few contacts are left, seconds.
     longest_s: f64,
     stagnation: Stagnation,
     sweep: usize,
     perturbations: usize,
     is_over: bool,
-    /// Number of contacts in the last sweep.
+    /// Number of contacts in the last sweep; `usize::MAX` before the first.
     resolved: usize,
     /// The fastest splines without contacts, and their duration, seconds.
     best: Option<(f64, SplineSet)>,
@@ -125,7 +125,7 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Returns the number of contacts in the last sweep.
+    /// Returns the number of contacts in the last sweep; `usize::MAX` before the first.
     pub fn resolved(&self) -> usize {
         self.resolved
     }
@@ -183,10 +183,10 @@ struct State<'a> {
     clearances: Clearances,
     detector: ContactDetector,
     contacts: Vec<Contact>,
-    /// Index of the sweep with the last detection; `None` if there was none since the number of spans changed.
+    /// Index of the sweep with the last regular detection; `None` if there was none since the last retiming.
     detected_at: Option<usize>,
     displacement: Displacement,
-    /// `[robot]`: spans that may break limits; `None` if no span does.
+    /// `[robot]`: spans to project onto the turn rate limit; `None` if its spline needs no projection.
     dirty: Vec<Option<DirtySpans>>,
     /// `[robot]`: whether `time_scale` is out of date.
     stale: Vec<bool>,
@@ -213,7 +213,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Multiplies the duration by a factor. The additional time goes to spans with contacts, if there are any.
+    /// Multiplies the duration by a factor. Additional time goes to and beside spans with contacts, if any.
     fn give_time(&mut self, factor: f64) {
         let mut congestion = vec![0.0; self.splines.spans];
         for contact in self.contacts.iter().filter(|contact| contact.is_close) {
@@ -304,7 +304,7 @@ impl<'a> State<'a> {
         (greatest, self.time_scale.iter().filter(|&&time_scale| time_scale > GOOD_TIME_SCALE).count())
     }
 
-    /// Whether robots have moved so far that pairs outside `contacts` may be too close.
+    /// Whether robots have moved so far that pairs outside `contacts` may be too close. If so, sets `detected_at`.
     fn is_detection_due(&mut self, sweep: usize) -> bool {
         let is_due = self.detected_at.is_none_or(|last| {
             sweep >= last + DETECTION_EVERY && self.displacement.since_mark() > DETECTION_MOVED_M
@@ -358,7 +358,7 @@ impl<'a> State<'a> {
     }
 
     /// Displaces two robots, or one robot away from a wall, if they are too close, and returns whether they were.
-    /// Otherwise records the displacement up to which they surely stay clear.
+    /// Otherwise records the displacement up to which the pair counts as clear.
     fn resolve(&mut self, contact: &mut Contact) -> bool {
         let closest = self.detector.closest(self.instance, &self.splines, contact);
         if closest.apart >= contact.least {

@@ -23,8 +23,8 @@ const NEAR_GOAL_M: f64 = 0.001;
 /// Shares of the prescribed delay of starts that are tried, one after the other.
 const DELAY_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 
-/// Plans the prescribed drive. `Err(None)` if robots or pixels are not where its ways begin and end. `Err(Some)` if
-/// they are, but the drive must not be driven, with the reason.
+/// Plans the prescribed drive. `Err(None)` if robots or pixels are not where the ways begin and end, or a pixel is
+/// pinned to another robot. `Err(Some)`, with the reason, if the drive applies but must not be driven.
 pub(crate) fn attempt(
     problem: &TransitionProblem,
     prescribed: &Prescribed,
@@ -110,8 +110,8 @@ fn joined(problem: &TransitionProblem) -> impl Fn(((&PrescribedWay, &usize), &Ve
     }
 }
 
-/// Moves the beginning of a path to `start` and its end to `goal`. Only its first and last moving pieces change. The
-/// velocities at the beginning and end stay the same.
+/// Moves the beginning of a path to `start` and its end to `goal`. Only the first and the last moving piece change
+/// their shapes; rests before and after them move along. The velocities at both ends stay the same.
 fn path_between(path: &Path, start: Vec2, goal: Vec2) -> Path {
     let (first, last) = (start - path.start, goal - path.as_ref().end());
     let moves = |(from, _, piece): &(Vec2, Span, &Piece)| !piece.is_rest(*from);
@@ -205,7 +205,8 @@ fn faulty(name: &str, fault: &Fault) -> String {
 }
 
 /// Delays the starts of an ordinary drive, `transition`, so that robots start one after the other. Takes the largest of
-/// [`DELAY_SHARES`] of the prescribed delay that the proof accepts; `None` if it accepts none.
+/// [`DELAY_SHARES`] of the prescribed delay with which the proof accepts the paths and no path has more than
+/// [`Path::MOST_PIECES`]; `None` if there is none.
 pub(crate) fn staggered(
     problem: &TransitionProblem,
     transition: &Transition,

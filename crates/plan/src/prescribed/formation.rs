@@ -20,8 +20,8 @@ const SLACK_M: f64 = 0.05;
 /// Latest moment at which a robot's circles may begin, as a share of the duration of the drive.
 const MOST_LATE: f64 = 0.75;
 
-/// Returns the places of the pixels of `frame` after `motion`, by pixel id, stage metres. Staggered starts and drives
-/// through pictures do not change the places.
+/// Returns the places of the pixels of `frame` after `motion`, by pixel id, stage metres. For staggered starts and
+/// drives through pictures, the places are returned unchanged, because their goals are the pixels of the next frame.
 pub fn moved(motion: &PictureMotion, frame: &Frame) -> PlacesById {
     let before = picture(frame);
     let ways = ways(motion, &before);
@@ -29,7 +29,7 @@ pub fn moved(motion: &PictureMotion, frame: &Frame) -> PlacesById {
 }
 
 /// Returns the way of each pixel's robot, by pixel id; `before`: places of the pixels. Empty for staggered starts and
-/// drives through pictures, which are made elsewhere.
+/// drives through pictures, which are made elsewhere, and for a line of robots without a curve.
 pub(super) fn ways(motion: &PictureMotion, before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     match motion {
         PictureMotion::Travel { along } => {
@@ -60,8 +60,9 @@ fn whole(curve: ShapeCurve) -> Vec<WayPart> {
     vec![WayPart { during: (0.0, 1.0), shape: curve.into() }]
 }
 
-/// Returns a function that takes a robot's place and returns the robot's curve: the line through `along`, which holds
-/// offsets from that place, metres. All curves share one track.
+/// Returns a function that takes a robot's place and returns the robot's curve, which begins there. `along` holds
+/// offsets from that place, metres. One offset gives a straight line; several give a smooth track that all curves
+/// share.
 fn travel(along: &[Vec2]) -> impl Fn(Vec2) -> ShapeCurve {
     let points: Vec<Vec2> = [Vec2::ZERO].into_iter().chain(along.iter().copied()).collect();
     let track = Arc::new(SmoothLine::through(&points, ROUNDING_M));
@@ -126,7 +127,7 @@ fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
 }
 
 /// Returns ways of `times` circles for all robots. The farther a robot stands along `direction`, the later its circles
-/// begin: by the time of one circle for each `length_m` metres, as in a wave.
+/// begin: by the time of one circle for each `length_m` metres, as in a wave, but at most as [`MOST_LATE`] allows.
 fn wave(
     radius_m: f64,
     direction: Vec2,

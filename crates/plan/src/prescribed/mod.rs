@@ -45,7 +45,8 @@ pub struct Prescribed {
 pub(crate) struct Stagger {
     /// Unit vector in stage space: the farther a robot stands in this direction, the later it starts.
     pub direction: Vec2,
-    /// Time from the first start to the last, seconds.
+    /// Prescribed time from the first start to the last, seconds. The planner shortens it if the proof rejects the
+    /// drive.
     pub delay_s: f64,
 }
 

@@ -9,7 +9,7 @@ use crate::Path;
 use crate::motion::progress::ProgressLaw;
 use crate::motion::{quarter_turn, whole_millis};
 
-/// Most corrections of the duration. Each correction multiplies it by the largest ratio of a motion to its limit.
+/// Most corrections of the duration. Each correction multiplies the duration by the factor that [`worst`] estimates.
 const MOST_TRIES: usize = 24;
 /// Share of the limits that timing uses; the rest is for the rounding of durations to whole milliseconds.
 const SHARE: f64 = 0.995;
@@ -80,7 +80,8 @@ fn first_guess(ways: &[MovingWay<'_>], limits: &Limits) -> Span {
     whole_millis(seconds.fold(0.0, f64::max))
 }
 
-/// Returns the factor by which the duration `drive` must be multiplied so that all limits hold; at most 1 if they hold.
+/// Estimates the factor by which the duration `drive` must be multiplied so that all limits hold; at most 1 if they
+/// hold.
 fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -> f64 {
     let one = |way: &MovingWay<'_>| {
         let path = path(way, limits, easing, drive, quarter_turn(limits) + drive);
@@ -90,8 +91,8 @@ fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -
     ways.iter().map(one).fold(0.0, f64::max) / SHARE
 }
 
-/// Returns the largest ratio of a piece's motion to its limit, sampled at nine moments: above 1, the piece is too fast.
-/// `from`: place where the piece begins.
+/// Returns the factor by which a piece would have to last longer to keep all limits, sampled at nine moments; at most 1
+/// if the piece keeps them. `from`: place where the piece begins.
 fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
     if piece.is_rest(from) {
         return 0.0;

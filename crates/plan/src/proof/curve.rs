@@ -10,13 +10,13 @@ const TOLERANCE_M: f64 = 1e-7;
 /// Most parts that are divided; curves on a floor need some dozens. All further parts count with the distance of their
 /// hulls, which is a lower bound.
 const MOST_PARTS: usize = 100_000;
-/// Most successive divisions of a part. Parts become shorter than [`SHORTEST`] before that.
+/// Most successive divisions of a part. Parts that are mostly halved become shorter than [`SHORTEST`] long before that.
 const DEEPEST: usize = 62;
 /// Parts whose range of the parameter is shorter than this are not divided any more.
 const SHORTEST: f64 = 1e-7;
 
-/// Returns the curve's least distance from the origin and the parameter there. `None` if the curve is nowhere nearer
-/// than `enough`.
+/// Returns the curve's least distance from the origin, to [`TOLERANCE_M`], and the parameter there. `None` if the curve
+/// is nowhere nearer than `enough`.
 pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
     let mut search = Search { best: enough, at: None, parts: 0 };
     search.offer(curve[0].length(), 0.0);
@@ -81,8 +81,8 @@ fn share_of_foot(start: Vec2, chord: Vec2) -> f64 {
     if length_squared > 0.0 { (-start.dot(chord) / length_squared).clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// Estimates the parameter of the curve's point nearest to the origin: a few Newton steps from the point of the chord
-/// that is nearest.
+/// Estimates the parameter of the curve's point nearest to the origin: a few Newton steps from the chord's point
+/// nearest to the origin.
 fn foot(curve: &Cubic) -> f64 {
     let mut u = share_of_foot(curve[0], curve[3] - curve[0]);
     for _ in 0..4 {

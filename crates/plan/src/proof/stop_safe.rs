@@ -54,8 +54,8 @@ impl Default for StopAssumptions {
     /// `reaction_s` is [`REACTION_S`]. `silence_s`: the controller requests a report from a silent robot after 0.56 s.
     /// It takes the robot for lost after 0.8 s, which it checks every 0.1 s, and sends a HOLD. This takes effect 0.15 s
     /// later, and its ease of 0.3 s costs half of that in path time. `alarm_s`: the report of a robot that brakes takes
-    /// 0.02 s, then a HOLD follows as above. `spare_m`: robots are up to 3 mm off their paths. Places between two
-    /// moments are interpolated linearly, with an error of at most 0.3 mm at 1 m/s².
+    /// 0.02 s, then a HOLD follows as above. `spare_m` covers a path error of 3 mm. Places between two moments are
+    /// interpolated linearly, with an error of at most 0.3 mm at 1 m/s².
     fn default() -> Self {
         Self {
             reaction_s: REACTION_S,
@@ -123,8 +123,8 @@ pub fn stop_safety(paths: &[Path], limits: &Limits) -> StopSafety {
     measured(paths, limits, &StopAssumptions::default(), Cancel::NEVER)
 }
 
-/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called once
-/// for every eight sampled moments, or once for each moment of very long drives.
+/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called at
+/// least once for every eight sampled moments.
 pub fn stop_safety_unless(
     paths: &[Path],
     limits: &Limits,
@@ -187,9 +187,9 @@ struct Meeting {
 }
 
 impl Sweep {
-    /// Finds the robots that must not stop dead at one moment, and adds them to `found`. There are two kinds of them.
-    /// Another robot cannot stop before it touches the dead robot. Or another robot may brake for the dead robot at a
-    /// moment at which a third robot would touch the braking one.
+    /// Finds the robots that must not stop dead at one moment, and adds them to `found`. A robot must not stop dead if
+    /// another robot cannot stop before the two touch. Nor if another robot may brake for it at a moment at which a
+    /// third robot would touch the braking robot.
     ///
     /// `row`: index of the moment in the window of `rows`.
     fn look(&mut self, rows: &Rows<'_>, row: usize, near: &Near) {
@@ -318,7 +318,8 @@ impl Law {
     }
 
     /// Returns how a robot brakes after another robot stopped dead at `place`. `at(step)` is the planned place of the
-    /// first robot `step` steps after the dead stop. `None` if the first robot does not come nearer than `wary_m`.
+    /// braking robot `step` steps after the dead stop. `None` if its path comes nowhere nearer to `place` than `wary_m`
+    /// or, if that is less, its distance at the dead stop.
     pub fn judge(&self, place: Vec2, at: &impl Fn(usize) -> Vec2) -> Option<Braking> {
         let apart_m = place.distance(at(0));
         let need_m = self.contact_m.min(apart_m) - 1e-6;

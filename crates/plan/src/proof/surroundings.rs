@@ -11,8 +11,8 @@ use lightbots_show::Obstacle;
 /// Number of bisections after which an undecided curve counts as a fault.
 const HALVINGS: u32 = 24;
 
-/// Calls `fault` for the first piece that leaves the floor, and for the first piece that comes too near to an obstacle,
-/// with the begin of the piece.
+/// Calls `fault` with the begin of the first piece that leaves the floor. Also calls it with the begin of the first
+/// piece that comes too near to an obstacle: to the first such obstacle of the list.
 pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(FaultKind, Span)) {
     let (start, end) = (path.start, path.as_ref().end());
     // A robot that starts or ends off the floor may be as far off as that start or end.

@@ -22,15 +22,16 @@ pub struct Fault {
     pub robot: usize,
     /// Kind of the fault.
     pub kind: FaultKind,
-    /// Begin of the faulty piece, counted from the start of the transition.
+    /// Begin of the faulty piece, counted from the start of the transition. It is 0 for a malformed path, and the end
+    /// of the path if the robot does not end at rest.
     pub at: Span,
 }
 
 /// Kinds of illegal motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// A number is not finite, a duration is not positive, or the path does not end at the same time as the longest
-    /// path.
+    /// A coordinate is not finite or beyond 1,000 km, a duration is not positive, or the path does not end at the same
+    /// time as the longest path.
     Malformed,
     /// The robot is faster than its speed limit.
     Speed,
@@ -42,9 +43,9 @@ pub enum FaultKind {
     Turn,
     /// A wheel turns faster than its limit.
     Wheel,
-    /// The rim of the robot leaves the floor.
+    /// The rim of the robot leaves the floor by more than at the start and the end of the path.
     Floor,
-    /// The robot comes too near to a no-go area.
+    /// The robot comes nearer to a no-go area than it must stay; see [`ProofInput::obstacle_gap_m`](super::ProofInput).
     Obstacle,
 }
 

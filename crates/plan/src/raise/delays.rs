@@ -154,15 +154,15 @@ impl<'a> Search<'a> {
         self.cost_at(robot, pair, (self.levels[robot], self.levels[pair.other]))
     }
 
-    /// Returns the cost of a pair with these delays, in units of [`LEVEL`], as [`PairLaw::cost`] defines it; `None` if
-    /// no checks are left.
+    /// Returns the cost that [`PairLaw::cost`] gives a pair with the delays `levels`, which are in units of [`LEVEL`];
+    /// `None` if too few checks are left.
     fn cost_at(&mut self, robot: usize, pair: &Near, levels: (u8, u8)) -> Option<u32> {
         self.looks = self.looks.checked_sub(pair.last - pair.first + 1)?;
         let tracks = (&self.tracks[robot][..], &self.tracks[pair.other][..]);
         Some(self.law.cost(tracks, levels, (pair.first, pair.last)))
     }
 
-    /// Returns all robots that may come near `robot`, with any delays.
+    /// Returns all robots that may come near `robot`, with any delays up to [`MOST`].
     fn near(&mut self, robot: usize) -> Vec<Near> {
         if let Some(known) = self.near.get(&robot) {
             return known.clone();

@@ -8,7 +8,7 @@ use crate::roads::graph::{Graph, NONE};
 
 /// Most near nodes that are considered as neighbours of an added node.
 const MOST_BESIDE: usize = 24;
-/// Most nodes of a lattice; larger lattices are not made.
+/// Most nodes of a lattice, counted as if no place were blocked; larger lattices are not made.
 const MOST_NODES: usize = 200_000;
 
 /// A lattice: free places on the floor, the nodes, and their neighbours.
@@ -16,9 +16,9 @@ pub(crate) struct Lattice {
     /// Place of each node, stage metres.
     pub places: Vec<Vec2>,
     /// `[node][direction]`: the neighbour in direction k, which points at k · 60° from the x axis; [`NONE`] if there is
-    /// no edge.
+    /// no edge. At an added node, the true direction is up to 30° off.
     pub neighbours: Vec<[u32; 6]>,
-    /// Distance between neighbours, metres.
+    /// Distance between neighbours in rows and columns, metres.
     pub pitch_m: f64,
     columns: i64,
     rows: i64,

@@ -277,7 +277,8 @@ impl Regions {
         }
     }
 
-    /// Returns the widest of the too narrow gaps between region `part` and other regions; `None` if there is none.
+    /// Returns the widest of the gaps between region `part` and other regions that are wider than 0, but too narrow;
+    /// `None` if there is none.
     pub fn way_out(&self, part: u32) -> Option<Gap> {
         let off_m = self.square_m * (MOST_RINGS as f64 - 1.0);
         let out = self.gaps.iter().filter(|gap| gap.wide_m > 0.0 && self.leads_out(gap, part, off_m));

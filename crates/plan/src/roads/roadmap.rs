@@ -46,8 +46,8 @@ pub(crate) struct Roadmap {
 
 impl Roadmap {
     /// The roadmap of an instance, with a lattice of this pitch, metres. All nodes except starts and ends keep rims at
-    /// least `off_edge_m` metres from the floor's edge. `None` if it would have more than [`MOST_NODES`], or the
-    /// planner is cancelled.
+    /// least `off_edge_m` metres from the floor's edge. `None` if it would have more than [`MOST_NODES`], its lattice
+    /// would be too large, or the planner is cancelled.
     pub fn new(
         instance: &Instance,
         visibility: &VisibilityGraph,

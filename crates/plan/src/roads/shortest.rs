@@ -14,8 +14,8 @@ use crate::roads::visibility::VisibilityGraph;
 /// Radius around a start or end, in pitches, within which its path must enter or leave the lattice.
 const REACH: f64 = 3.0;
 
-/// Returns `[robot]`: the corners of its path, from its start to its end. A spare robot stays at its start. `None` if a
-/// robot is walled in, or the planner is cancelled.
+/// Returns `[robot]`: the corners of its path, from its start to its end. A spare robot stays at its start. `None` if
+/// no path is found for a robot that has an end, or the planner is cancelled.
 pub(crate) fn shortest_paths(
     instance: &Instance,
     lattice: &Lattice,

@@ -18,8 +18,8 @@ const LEAST_PITCH: f64 = 0.83;
 const MOST_PITCH: f64 = 1.45;
 /// A gap is narrow if it is wider than a robot by less than this, metres. Two robots cannot pass each other in it.
 const NARROW_M: f64 = 0.04;
-/// Factor on the least distance of nodes when a line is divided evenly, so that nodes on crossing lines fit beside its
-/// nodes.
+/// Factor on the least distance of nodes when a line is divided evenly, so that nodes on crossing lines fit beside the
+/// nodes of that line.
 const EVEN: f64 = 1.08;
 /// Distance between neighbouring places at which an additional node is tried, metres.
 const FILL_STEP_M: f64 = 0.01;
@@ -149,7 +149,7 @@ fn seen(instance: &Instance, places: &[Vec2], from: Vec2) -> Vec<u32> {
     (0..places.len() as u32).filter(is_seen).collect()
 }
 
-/// Corners of the polygon around a wall whose sides are `off_m` metres from the wall.
+/// Corners of a polygon around a wall. The sides of the polygon are `off_m` metres from the wall.
 fn around(wall: &Obstacle, off_m: f64) -> Vec<Vec2> {
     match *wall {
         Obstacle::Disc { at, radius_m } => {

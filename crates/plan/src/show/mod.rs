@@ -50,7 +50,7 @@ pub struct ShowPlan {
     /// The closest approach of two centres in the whole show; `None` if no transition has one.
     pub closest: Option<ShowClosest>,
     /// `stop_safety[k]`: the moments of transition k at which robots must not stop dead, because another robot would
-    /// touch them. Empty for a preview.
+    /// touch them. Empty for a preview. A transition that must not be driven has no moments.
     pub stop_safety: Vec<StopSafety>,
     /// `explanations[k]`: the solvers that ran for transition k, and why its plan was chosen.
     pub explanations: Vec<Explanation>,
@@ -93,8 +93,8 @@ pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     planned(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
-/// [`show`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called about every tenth of a second on
-/// the calling thread, and must be cheap.
+/// [`show`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called at least about every tenth of a
+/// second, mostly far more often, on the calling thread. It must be cheap.
 pub fn show_unless(
     show: &Show,
     starts: &[Vec2],
@@ -183,8 +183,8 @@ fn all_raised(
     done.map(|(drive, safety)| (drive.shown, drive.transition, safety)).collect()
 }
 
-/// Plans the drives of a show that has no validation errors, each from the end of the drive before it. Their
-/// stop-safety is not raised yet. The returned plan has issues, names and explanations, but not the drives.
+/// Plans the drives of a show that has no validation errors, each from the end of the drive before it. The stop-safety
+/// of the drives is not raised yet. The returned plan has issues, names and explanations, but not the drives.
 fn chained(
     show: &Show,
     starts: &[Vec2],

@@ -62,7 +62,7 @@ impl<'a> Guesses<'a> {
     }
 }
 
-/// Describes a manner and clearances in a few words, for the explanation.
+/// Describes a manner, and the distance between centres that `clearances` has, in a few words, for the explanation.
 pub(super) fn named(manner: Manner, clearances: Clearances) -> String {
     let Manner { bow, early, level, spread, staged } = manner;
     let flags = [(early, "early"), (level, "level"), (spread, "spread"), (staged, "staged")];

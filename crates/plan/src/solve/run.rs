@@ -29,11 +29,13 @@ use crate::{Meeting, Path, Repaired, TransitionProblem};
 
 /// Length of a span that first guesses aim at, seconds: the time that the smallest curve takes at full speed.
 const SPAN_S: f64 = 0.25;
-/// Length of a span in first guesses of large fleets, seconds: longer, because fewer spans are less work.
+/// Length of a span in first guesses of successive halving, seconds: longer than [`SPAN_S`], because fewer spans are
+/// less work.
 const LONG_SPAN_S: f64 = 0.33;
 /// Number of meetings per robot above which slack does not help. A meeting is a pair of robots that still touch.
 const HOPELESS: usize = 3;
-/// Most robots for which several solutions are compared. With more robots, the first acceptable solution is taken.
+/// Most robots for which several solutions are compared. With more robots, the groups for small fleets are skipped, so
+/// that the schedule mostly ends with the first acceptable solution.
 const MOST_TO_COMPARE: usize = 600;
 /// With more robots than this, successive halving runs first if the best guess needs more than [`LITTLE_PROMISED`]
 /// times the least duration.
@@ -44,7 +46,7 @@ const LITTLE_PROMISED: f64 = 1.16;
 const RACERS: usize = 2;
 /// Number of sweeps of each guess in the first round.
 const FIRST_SWEEPS: usize = 7;
-/// If a guess leaves fewer contacts per robot than this, the first round ends: no other guess takes part.
+/// If a guess leaves fewer contacts per robot than this, the first round ends: no further guess takes part in it.
 const PROMISING: usize = 6;
 /// Factor on the number of contacts of the highest-ranked guess when guesses are compared after the first round. It
 /// favours this guess.
@@ -53,8 +55,8 @@ const HEAD_START: f64 = 0.9;
 const AMENDMENTS: usize = 4;
 /// Most sweeps of each of those rounds.
 const AMENDING_SWEEPS: usize = 72;
-/// Ranking penalty: between walls, a solution whose robots are closer than [`WIDE`] counts as 25 % longer, because one
-/// braking robot blocks others there.
+/// Ranking penalty: between walls, a solution that aims at less distance between centres than [`WIDE`] counts as 25 %
+/// longer, because one braking robot blocks others there.
 const CLOSE: f64 = 1.25;
 
 /// A solution that the proof accepts.
@@ -74,8 +76,8 @@ enum Trajectories {
 
 /// The result of a run of the schedule.
 pub(crate) struct Solution {
-    /// The chosen paths, or the pairs of robots that still touch in the row that left the fewest. These are empty if
-    /// that row failed for another reason.
+    /// The chosen paths; or else the pairs of robots that still touch in the row that left the fewest pairs. Rows that
+    /// left no pair, because they failed for another reason, do not count. `Err` is empty if no row left a pair.
     pub result: Result<Repaired, Vec<Meeting>>,
     pub explanation: Explanation,
 }
@@ -115,7 +117,8 @@ struct Run<'a> {
     /// Number of checks of two robots' moves that stop-and-go may still make.
     looks: usize,
     candidates: Vec<Candidate>,
-    /// Pairs of robots that still touch in the row that left the fewest, at least one if any row left some.
+    /// Pairs of robots that still touch in the row that left the fewest pairs. Rows that left no pair do not count;
+    /// empty if there is no other row.
     left_over: Vec<Meeting>,
     rows: Vec<ExplainedRow>,
 }
@@ -160,8 +163,8 @@ impl Run<'_> {
         self.instance.cancel.is_wanted()
     }
 
-    /// Runs the rows of a group until its target is reached. If its condition does not hold, reports the group as
-    /// skipped.
+    /// Runs the rows of a group until its target is reached, at most [`MOST_TRIES`] of them. Reports the group as
+    /// skipped if its condition does not hold, if it needs shortest paths and a robot has none, or if cancelled.
     fn group(&mut self, group: &Group) {
         let facts = self.facts();
         let needs_guesses = !matches!(group.rows[0].solver, Solver::StopAndGo { .. });
@@ -191,8 +194,8 @@ impl Run<'_> {
         }
     }
 
-    /// Runs a row. `tries`: number of rows of the group that ran before. Returns `false` if the row has no guess and
-    /// thus did not run.
+    /// Runs a row. `tries`: number of rows of the group that ran before. Returns `false`, and reports nothing, if there
+    /// is no guess of the rank that the row takes.
     fn row(&mut self, row: &SolverRow, tries: usize) -> bool {
         let (wide, is_large) = (WIDE.robots_m, self.is_large());
         let SolverRow { solver, clearances, stretch, sweeps } = *row;
@@ -314,7 +317,8 @@ impl Run<'_> {
     }
 
     /// Returns the splines as soon as the proof accepts them. Splines with illegal motion are smoothed, and contacts
-    /// that follow are resolved. `Err` if the proof rejects the last splines too, with the pairs that touch, if known.
+    /// that follow are resolved. `Err` if the proof rejects the last splines too, or slower driving and smoothing
+    /// cannot help; with the pairs that touch, if known.
     fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, Vec<Meeting>> {
         let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
         for _ in 0..AMENDMENTS {

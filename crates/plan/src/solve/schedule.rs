@@ -32,7 +32,7 @@ pub(super) enum Solver {
     StopAndGo { pitch_m: f64, off_edge_m: f64 },
 }
 
-/// Which of the guesses in minimum time a row takes. They are ranked by how promising they are.
+/// Which of the guesses in minimum time a row takes. Guesses are ranked by their badness, the least first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pick {
     /// The guess of rank 0.
@@ -50,7 +50,9 @@ pub(super) struct SolverRow {
     pub solver: Solver,
     /// Distances that the deformation aims at.
     pub clearances: Clearances,
-    /// Largest factor by which the deformation may lengthen the duration of the guess.
+    /// Largest factor by which the deformation may lengthen the duration of the guess, while more than a few contacts
+    /// are left. In minimum time, it counts from the least duration, but at least 1.8 from the guess. Successive
+    /// halving uses [`MOST_STRETCH`], stop-and-go uses none.
     pub stretch: f64,
     /// Most sweeps of the deformation. A sweep handles each contact once.
     pub sweeps: usize,
@@ -88,14 +90,16 @@ pub(super) enum When {
     SmallUnsolved,
     /// There are too many robots to compare solutions, and no solution is acceptable yet.
     LargeUnsolved,
-    /// No solution is acceptable yet, and the best attempt left so few contacts that more time may resolve them.
+    /// No solution is acceptable yet. If there is no solution at all, the best attempt left so few contacts that more
+    /// time may resolve them.
     SlackMayHelp,
     /// There are few enough robots to compare solutions, and no solution is acceptable yet or the best is slow. A
     /// solution over a lattice may be faster.
     SmallSlow,
-    /// There are walls, and the best solution is slow or has less than the usual clearance.
+    /// There are walls, and there is no solution, or the best one is slow or has less than the usual clearance between
+    /// robots.
     WallsSlowOrClose,
-    /// There are walls, and the best solution is slow.
+    /// There are walls, and there is no solution or the best one is slow.
     WallsSlow,
     /// There is no solution.
     NoSolution,
@@ -109,10 +113,10 @@ pub(super) enum Until {
     /// A solution is good. After [`ENOUGH_TRIES`] rows of the group, or with less than [`WORK_TO_SPARE`] work left, an
     /// acceptable solution is enough.
     Good,
-    /// A row of the group made the best solution faster, or the best solution is acceptable.
+    /// A row of the group found a solution faster than all before the group, or the best solution is acceptable.
     Faster,
-    /// The best solution is not slow, and a row of the group made it faster that was not the last to run. One more row
-    /// thus runs after an improvement.
+    /// The best solution is not slow, and one more row has run since a row of the group found a solution faster than
+    /// all before the group.
     FasterAndNotSlow,
     /// There is a solution.
     Solved,
@@ -165,22 +169,23 @@ impl Until {
 const ENOUGH_TRIES: usize = 4;
 /// Work left below which a solution need not be good, only acceptable.
 const WORK_TO_SPARE: usize = 14_000_000;
-/// Work of the whole schedule, unless a group sets its own budget: some seconds on one core.
+/// Work that is left before the first group: some seconds on one core. Groups with their own budgets do not keep to it.
 pub(super) const MOST_WORK: usize = 22_000_000;
 /// Most work for the group "with slack".
 const SLACK_WORK: usize = 8_000_000;
-/// Work for each group "from lattice".
+/// Work for each group "from lattice". Each group through gaps gets at least half of it.
 const LATTICE_WORK: usize = 18_000_000;
-/// A solution is good if it lasts less than this many times the least duration.
+/// A solution is good if its [`Facts::lasts_s`] is less than this many times the least duration.
 const GOOD: f64 = 1.15;
 
-/// Distance between neighbouring lattice nodes, metres. Robots that follow each other around a corner come as close as
-/// 0.83 of this pitch.
+/// Usual distance between neighbouring lattice nodes, metres: in the lattice for shortest paths, and in most rows.
+/// Centres of robots that follow each other around a corner come as close as 0.83 of the pitch.
 pub(super) const PITCH_M: f64 = 0.072;
-/// Pitch of the second attempt over a lattice, metres: fewer robots fit on it, but their paths have more clearance.
+/// Pitch of the second row "from lattice", and of later rows through gaps, metres: fewer robots fit on this lattice,
+/// but their paths have more clearance.
 const LOOSE_PITCH_M: f64 = 0.078;
-/// Pitch of the last attempt between walls, metres. 0.83 of it is hardly more than the distance that the proof demands
-/// of two centres.
+/// Pitch of the last row "through tight gaps", metres. 0.83 of this pitch is hardly more than the distance that the
+/// proof demands of two centres.
 const TIGHT_PITCH_M: f64 = 0.069_5;
 
 /// Clearances of the first rows in minimum time. They suit robots that follow curves with poor sensors on slippery
@@ -193,7 +198,8 @@ pub(super) const WIDE: Clearances =
 /// Clearances of rows "from lattice" and most rows "with slack".
 const NARROW: Clearances =
     Clearances { robots_m: 0.059_5, walls_m: 0.006_5, edge_m: EDGE_M, slack_m: 0.001_5 };
-/// Clearances of the last rows of groups: hardly more than the proof demands.
+/// Clearances of the last rows "with slack" and of the last row "through tight gaps": hardly more than the proof
+/// demands.
 const TIGHT: Clearances = Clearances { robots_m: 0.057_5, walls_m: 0.003_3, edge_m: 0.0, slack_m: 0.000_2 };
 /// [`TIGHT`], but with the clearance [`EDGE_M`] from the floor's edge.
 const TIGHT_OFF_EDGE: Clearances = Clearances { edge_m: EDGE_M, ..TIGHT };
@@ -203,8 +209,8 @@ const _: () = assert!(NARROW.robots_m < WIDE.robots_m);
 const _: () = assert!(WIDE.robots_m < ROOMY.robots_m);
 const _: () = assert!(WORK_TO_SPARE < MOST_WORK);
 
-/// Clearances for a narrow gap between walls, through which one robot follows another. Robots are `walls_m` from its
-/// walls, but as far apart as elsewhere.
+/// Clearances for a narrow gap between walls, through which one robot follows another. Rims keep `walls_m` from the
+/// walls of the gap. Centres keep 65 mm from each other, more than with [`WIDE`].
 const fn in_gap(walls_m: f64, slack_m: f64) -> Clearances {
     Clearances { robots_m: 0.065, walls_m, slack_m, ..TIGHT_OFF_EDGE }
 }
@@ -216,7 +222,8 @@ const LOOSE: Manner = Manner { spread: true, ..TOGETHER };
 /// [`LOOSE`], but the fleet spreads before any robot drives to its goal.
 const STAGED: Manner = Manner { staged: true, ..LOOSE };
 
-/// Largest duration of a solution in minimum time, as a multiple of the least duration.
+/// Largest duration that the deformation aims at in minimum time, as a multiple of the least duration. A guess that is
+/// slow from the start may become up to 1.8 times longer all the same.
 pub(super) const MOST_STRETCH: f64 = 2.4;
 
 const fn minimum_time(pick: Pick, clearances: Clearances) -> SolverRow {
@@ -339,7 +346,7 @@ pub(super) const SCHEDULE: [Group; 8] = [
     },
 ];
 
-/// Most rows of a group that run. Rows without a guess do not count.
+/// Most rows of a group that run, and most guesses of successive halving. Rows without a guess do not count.
 pub(super) const MOST_TRIES: usize = 8;
 
 #[cfg(test)]

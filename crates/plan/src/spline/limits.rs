@@ -42,8 +42,9 @@ impl<'a> LimitProjector<'a> {
         }
     }
 
-    /// Projects a robot's spline onto its limits in the spans of `dirty`. Returns the spans that may still exceed
-    /// limits; `None` if the spline keeps all limits.
+    /// Projects a robot's spline onto the limits of speed and acceleration, and in the spans of `dirty` onto the limit
+    /// of the turn rate. Then moves control points onto the floor. Returns the spans to project again; `None` if the
+    /// last pass found no limit clearly exceeded and changed no turn.
     pub fn project(
         &self,
         splines: &mut SplineSet,

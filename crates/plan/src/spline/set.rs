@@ -166,7 +166,8 @@ impl SplineSet {
         (0..self.robots()).for_each(|robot| self.tie_ends(robot));
     }
 
-    /// Smooths the control points of a robot's spline that determine a span or its neighbours.
+    /// Smooths the free control points from `span - 2` to `span + 5` of a robot's spline. Points `span` to `span + 3`
+    /// determine the span.
     pub fn smooth(&mut self, robot: usize, span: usize) {
         let last = self.spans;
         for _ in 0..SMOOTHING {
@@ -186,7 +187,8 @@ impl SplineSet {
         fold(weights, span, self.spans, self.ends[robot].1.is_none())
     }
 
-    /// Moves each of a span's four control points by `shift` times its influence.
+    /// Moves each of a span's four control points by `shift` times its influence. Points at the ends of the spline then
+    /// follow from the free points again.
     pub fn displace(&mut self, robot: usize, span: usize, influence: &[f64; 4], shift: Vec2) {
         let outer = span < 2 || span + 3 > self.spans;
         let spline = &mut self.spline_mut(robot)[span..span + 4];

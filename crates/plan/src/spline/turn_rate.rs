@@ -16,7 +16,7 @@ const BETWEEN_MOMENTS: f64 = 0.96;
 /// curve.
 const REVERSAL: f64 = 0.5;
 /// A span is smoothed instead of turned if the three steps between its control points are all shorter than this many
-/// `creep_m`.
+/// times [`TurnRate::creep_m`].
 const WIGGLE: f64 = 3.0;
 /// Multiple of [`CREEP_MPS`] below which a robot counts as slow. The direction may change during a slow stretch by as
 /// much as the turn rate limit allows in the time of that stretch.
@@ -141,7 +141,8 @@ impl TurnRate {
         Self { turn: limits.turn_radps * span_s * BETWEEN_MOMENTS, creep_m: CREEP_MPS * span_s }
     }
 
-    /// Deforms a spline once where it turns too fast in the spans of `dirty`. Returns the spans that it changed.
+    /// Deforms a spline once where it turns too fast in the spans of `dirty`, and at the worst turn of a slow stretch.
+    /// Returns the spans to check again: those that were changed, and those that share control points with them.
     /// `spare`: as in [`fold`].
     pub fn smooth_turns(&self, spline: &mut [Vec2], spare: bool, dirty: DirtySpans) -> DirtySpans {
         let mut again = DirtySpans::NOTHING;
@@ -273,7 +274,8 @@ impl TurnRate {
         Some(worst)
     }
 
-    /// Whether the steps between a span's control points are so short that it cannot become a reversal.
+    /// Whether the steps between a span's control points are so short that the span is smoothed instead of turned or
+    /// reversed.
     fn only_wiggles(&self, four: &[Vec2]) -> bool {
         four.windows(2).all(|step| step[0].distance(step[1]) < WIGGLE * self.creep_m)
     }
@@ -310,8 +312,9 @@ impl TurnRate {
         steps.iter().all(|step| step.length_squared() < speed_m * speed_m)
     }
 
-    /// Returns displacements of control points after which |v × a| ≤ turn · v², to first order; `None` if that holds.
-    /// `v` and `a`: the weights of the control points, and the velocity and acceleration.
+    /// Returns displacements of control points after which |v × a| ≤ turn · v², to first order; `None` if that holds
+    /// already, or control points have no influence on it. `v` and `a`: the weights of the control points, and the
+    /// velocity and acceleration.
     fn widened(&self, v: ([f64; 4], Vec2), a: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {
         let ((v_weights, v), (a_weights, a)) = (v, a);
         let cross = v.cross(a);

@@ -154,7 +154,7 @@ pub(super) fn unmoved(problem: &TransitionProblem) -> Transition {
     }
 }
 
-/// Makes a transition in which all robots stay for the asked duration.
+/// Makes a transition in which all robots stay for the asked duration, or for no time if none is asked.
 pub(super) fn standing_still(problem: &TransitionProblem) -> Transition {
     let mut transition =
         Candidate::straight(&TransitionProblem { goals: Vec::new(), ..problem.clone() }, &[], Cancel::NEVER)

@@ -30,7 +30,8 @@ const fn slowest(aim: Aim) -> f64 {
 const EXTRA: f64 = 1.15;
 
 /// Returns the better of a candidate of straight lines, `straight`, and its deformation. `start_of[goal]` is its
-/// assignment. Makes at most `rounds` rounds, and none if too many pairs conflict.
+/// assignment. Makes at most `rounds` rounds for each aim, and none if too many pairs conflict. With an asked duration,
+/// a deformation that is better at full speed is returned.
 pub(super) fn deform(
     problem: &TransitionProblem,
     start_of: &[usize],
@@ -107,8 +108,9 @@ fn deformed(
     best
 }
 
-/// Slows all paths of a candidate until they keep the limits, because a robot at full speed has no speed left for a
-/// displacement. Returns the candidate unchanged if it would have to be slower than [`slowest`] allows.
+/// Slows all paths of a candidate so that they keep the limits of speed and acceleration, because a robot at full speed
+/// has no speed left for a displacement. Returns the candidate unchanged if it would have to be slower than [`slowest`]
+/// allows.
 fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
     let too_fast = deformed
         .proof

@@ -27,14 +27,15 @@ use lightbots_base::Span;
 use reachability::Walls;
 use straight::straight_lines;
 
-/// Plans a transition. Returns the proven plan that the order on candidate plans (`order.rs`) prefers, or why there is
-/// none.
+/// Plans a transition. Takes the drive that the show prescribes, if it applies, or else straight lines, if no robots
+/// touch on them. Otherwise runs the schedule of solvers, and the order on candidate plans (`order.rs`) chooses among
+/// its plans. Returns the proven plan, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }
 
-/// [`transition`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called about every tenth of a second
-/// on the calling thread, and must be cheap.
+/// [`transition`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called at least about every tenth of
+/// a second, mostly far more often, on the calling thread. It must be cheap.
 pub fn transition_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,
@@ -110,8 +111,9 @@ fn as_prescribed(problem: &TransitionProblem, prescribed: &Prescribed, cancel: C
     }
 }
 
-/// Plans an ordinary drive in which robots start one after the other, along `stagger.direction`. If they would touch,
-/// all start together, and the reason is given.
+/// Plans an ordinary drive in which robots start one after the other, along `stagger.direction`. If the drive takes an
+/// asked duration, it is planned for that duration less the delay. If no share of the delay is legal, all robots start
+/// together, in that shorter time, and the reason is given.
 fn one_after_another(problem: &TransitionProblem, stagger: Stagger, cancel: Cancel<'_>) -> Attempt {
     let delay = Span::from_secs(stagger.delay_s.max(0.0));
     let quicker = problem.duration.map(|asked| (asked - delay).max(Span::ZERO));

@@ -15,7 +15,8 @@ const LEAST_GAP_M: f64 = 0.001;
 
 /// How walls restrict a transition.
 pub(super) enum Walls {
-    /// No restriction: all robots can drive to all goals, or the regions of some places are unknown.
+    /// No restriction: all robots can drive to all goals, the regions of some places are unknown, or no assignment
+    /// within the regions was found.
     Open,
     /// Each robot must stay in its region. `[goal]`: index of the start assigned to that goal.
     Apart(Vec<Option<usize>>),

@@ -10,7 +10,7 @@ const RINGS: i32 = 400;
 
 /// Adds a goal for each spare robot, after the real goals. Returns the extended problem and its assignment.
 /// `start_of[goal]` is the assignment of the real goals. A spare robot waits where it stands if it is far enough from
-/// all goals and standing discs, else at the nearest free place.
+/// all goals and standing discs, else at the nearest free place. If there is no free place, it waits where it stands.
 pub(super) fn with_spares(
     problem: &TransitionProblem,
     mut start_of: Vec<usize>,

@@ -87,8 +87,8 @@ impl<'a> FreeSpace<'a> {
         Some(path)
     }
 
-    /// Returns waypoints of a path from `from` to the nearest free place. It is at least `room_m` metres from all
-    /// `discs`, from all places of `keep_free`, and from `from`. `None` if there is none.
+    /// Returns waypoints of a path from `from` to the nearest free place, without `from`. A free place is at least
+    /// `room_m` metres from all `discs`, from all places of `keep_free`, and from `from`. `None` if there is no path.
     pub fn path_aside(
         &self,
         from: Vec2,

@@ -19,12 +19,13 @@ use crate::Path;
 use lightbots_base::Vec2;
 use order::Order;
 
-/// Most times that robots step aside before the search fails, on average for each robot.
+/// Most times that robots step aside, on average for each robot. After that, all robots without a common clock leave
+/// their places, one after the other.
 const ASIDES_EACH: usize = 1;
 
 /// Finds stages that bring all robots to their goals; `None` if no order was found. `drive` plans the paths of the
-/// synchronised robots among the given discs (stage metres), which stand still meanwhile. It returns `None` if they
-/// cannot drive yet.
+/// synchronised robots among the given discs (stage metres), which stand still meanwhile. `drive` returns `None` if the
+/// synchronised robots cannot drive yet.
 pub fn stages(
     problem: &UnsynchronisedProblem<'_>,
     mut drive: impl FnMut(&[Vec2]) -> Option<Vec<(usize, Path)>>,

@@ -12,7 +12,8 @@ use lightbots_base::Vec2;
 const DETOURS_TRIED: usize = 12;
 /// Cost of each stop on a detour, as metres of path.
 const STOP_M: f64 = 0.15;
-/// Cost of a detour for each waiting robot whose straight line the goal of the detour blocks, as metres of path.
+/// Cost of a detour, as metres of path, for each waiting robot whose straight line would be blocked by a robot at the
+/// end of the detour.
 const BLOCKS_M: f64 = 0.3;
 /// Side of a grid cell in the search for paths through narrow gaps, metres.
 const FINE_CELL_M: f64 = 0.012;
@@ -27,7 +28,7 @@ pub(super) struct Order<'a, 'b> {
     /// `[robot]`: number of robots, discs and obstacles on its straight line to its goal. Obstacles count as one. Up to
     /// date only while the robot waits.
     blockers: Vec<usize>,
-    /// `[robot]`: number of waiting robots whose straight line would be blocked by the robot at its goal.
+    /// `[robot]`: number of waiting robots whose straight lines the robot would block if it stood at its own goal.
     blocked: Vec<usize>,
     /// Drives of the current stage, in order.
     drives: Vec<StraightDrive>,

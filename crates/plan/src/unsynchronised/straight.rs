@@ -27,8 +27,8 @@ pub struct StraightDrive {
     pub from: Vec2,
     /// Place where the drive ends, stage metres.
     pub to: Vec2,
-    /// Earlier drives of other robots that this drive would meet. While it is driven, its robot stays at least
-    /// [`Yield::gap_m`] from the remaining line of each of them.
+    /// Earlier drives of other robots that this drive would meet. Until this drive ends, its robot must stay at least
+    /// [`Yield::gap_m`] from the remaining line of each of these earlier drives.
     pub yields: Vec<Yield>,
 }
 

@@ -11,8 +11,9 @@ const GATE: f64 = 5.0;
 const GATE_FLOOR_M: f64 = 0.006;
 /// A heading fix whose innovation is less than this is an inlier whatever the covariance says, radians.
 const GATE_FLOOR_RAD: f64 = 0.1;
-/// Number of agreeing outliers at which the estimate jumps to them: 0.16 s of fixes. With a smaller value, a burst of
-/// reflections moves the estimate. With a larger value, a robot that was carried away stands still for longer.
+/// Number of agreeing outliers at which the estimate jumps to them: 0.16 s of fixes at the default pace. With a smaller
+/// value, a burst of reflections moves the estimate. With a larger value, a robot that was carried away stands still
+/// for longer.
 const OUTLIERS: u8 = 10;
 /// Two jumps of the place within this time are a fault, because no push moves a robot twice so quickly.
 const JUMPS_APART: Span = Span::from_millis(1000);

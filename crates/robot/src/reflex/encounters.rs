@@ -14,7 +14,7 @@ pub(crate) struct Encounters {
     brakes: u32,
     /// When the safety layer last braked the robot, own clock.
     braked: Option<Instant>,
-    /// Least measured gap on the latest route, metres; `None` if no neighbour was seen on it.
+    /// Least estimated gap since the latest route began, metres; `None` if no neighbour was seen since.
     near_m: Option<f32>,
 }
 
@@ -24,7 +24,7 @@ impl Encounters {
         self.brakes
     }
 
-    /// Least gap between rims on the latest route, metres, rounded to 0.1 mm; `None` if no neighbour was seen.
+    /// Least gap between rims since the latest route began, metres, rounded to 0.1 mm; `None` if no neighbour was seen.
     pub fn near_m(&self) -> Option<f64> {
         self.near_m.map(|gap_m| libm::round(f64::from(gap_m) * 1e4) / 1e4)
     }

@@ -64,7 +64,8 @@ pub(crate) struct StandingObject {
 /// The readings of a step that may belong to standing objects.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readings<'a> {
-    /// Sensors whose readings belong to no planned neighbour, one bit each.
+    /// Sensors that see no planned neighbour and none that has left its plan, one bit each. Sensors without a reading
+    /// are included.
     pub open: u8,
     /// For each sensor, the natural logarithm of the density of its reading, if the reading is of a moving neighbour.
     pub logs: &'a [f32; SENSORS],
@@ -102,8 +103,8 @@ impl StandingObject {
         self.hypotheses.iter_mut().for_each(|one| one.outline.predict(own, of));
     }
 
-    /// Updates all hypotheses by the readings of a step. `but`: a sensor whose reading was used before, by
-    /// [`begin`](Self::begin).
+    /// Updates all hypotheses, and the likelihood of the object, by the readings of a step. `but`: a sensor whose
+    /// reading was used before, by [`begin`](Self::begin). Unlikely hypotheses are dropped, and similar ones merged.
     pub fn take(&mut self, readings: &Readings<'_>, but: Option<usize>, scan: &Scan<'_>) {
         let explained = self.explained(readings.open, scan);
         self.add_ends(scan);
@@ -137,8 +138,9 @@ impl StandingObject {
         self.hypotheses.iter().map(|one| one.log)
     }
 
-    /// Adds hypotheses that the edge has an end. The end is assumed between two places: where a sensor saw the edge
-    /// last, and where the next sensors no longer see it.
+    /// Adds hypotheses that the endless edge has an end to the left or to the right. The end is assumed between the
+    /// outermost place at which a sensor saw the object in the step before, and the outermost place that any sensor
+    /// could see.
     fn add_ends(&mut self, scan: &Scan<'_>) {
         let Some(endless) = self.hypotheses.iter().find(|one| one.outline.form == Form::Edge) else { return };
         let Hypothesis { outline, log } = endless.clone();
@@ -236,8 +238,9 @@ impl Hypothesis {
         }
     }
 
-    /// Corrects the outline by a reading and returns the natural logarithm of the reading's density. A reading that the
-    /// outline does not explain has the density of a reading of a new neighbour.
+    /// Corrects the outline by a reading and returns the natural logarithm of the reading's density. The result is at
+    /// least the density of a reading of a new neighbour. If the outline is an edge with an end outside the sensor's
+    /// cone, the end is moved towards the cone.
     fn take_reading(&mut self, sensor: usize, view: Option<View>, read_m: f32, scan: &Scan<'_>) -> f32 {
         let unexplained = scan.sensors.new_log;
         let Some(view) = view else {
@@ -254,7 +257,8 @@ impl Hypothesis {
     }
 
     /// Uses the fact that a sensor does not see the outline, and returns the natural logarithm of its probability.
-    /// Possible reasons: the outline is out of range, it ends before the sensor's cone, or the sensor misses it.
+    /// Possible reasons: the outline is out of range, it ends before the sensor's cone, or the sensor misses it. If an
+    /// end before the cone is the likeliest reason, the end is moved there.
     fn take_silence(&mut self, sensor: usize, view: &View, scan: &Scan<'_>) -> f32 {
         let (off_m, variance) = self.outline.innovation(view, scan.sensors.range_m, scan.sensors);
         let mut silence =

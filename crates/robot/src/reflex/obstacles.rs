@@ -71,7 +71,7 @@ impl StandingObjects {
 
     /// Whether the objects for which `meant` returns `true` replace the track of a moving neighbour. They do if they
     /// explain all its readings. If the track has no reading, they do if they overlap it. A track of a planned
-    /// neighbour is never replaced.
+    /// neighbour, or of one that has left its plan, is never replaced.
     pub fn hide(&self, track: &Track, contact_m: f32, meant: fn(&Track) -> bool) -> bool {
         if track.is_known() {
             return false;

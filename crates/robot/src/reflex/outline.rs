@@ -31,13 +31,14 @@ pub(crate) enum Form {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outline {
     pub form: Form,
-    /// Distance from the robot's centre to the edge along the normal, metres.
+    /// Distance from the robot's centre along the normal, metres: to the edge, or to the disc's centre.
     pub distance_m: f32,
-    /// Unit vector from the robot's centre perpendicular to the edge, body space.
+    /// Unit vector in body space: perpendicular to the edge, from the robot to the edge. For a disc: the line of sight
+    /// at first.
     pub normal: Point,
     /// Place of the edge's end, or of the disc's centre, metres to the left of the normal through the robot's centre.
     pub along_m: f32,
-    /// Covariance of distance (metres), direction of the normal (radians) and place of the end (metres).
+    /// Covariance of distance (metres), direction of the normal (radians) and `along_m` (metres).
     variance: [[f32; 3]; 3],
 }
 
@@ -68,8 +69,8 @@ impl Outline {
         Self { form: Form::Edge, distance_m, normal, along_m: 0.0, variance }
     }
 
-    /// A disc centred at `at`. `towards`: unit vector from a sensor to its centre; `along_m` and `across_m`: errors of
-    /// the centre along and across this vector, metres, 1 sigma.
+    /// A disc centred at `at`. `towards`: unit vector from a sensor to the disc's centre; `along_m` and `across_m`:
+    /// errors of the centre along and across this vector, metres, 1 sigma.
     pub fn disc(at: Point, towards: Point, along_m: f32, across_m: f32) -> Self {
         let variance = [[along_m * along_m, 0.0, 0.0], [0.0; 3], [0.0, 0.0, across_m * across_m]];
         let form = Form::Disc;

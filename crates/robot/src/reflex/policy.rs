@@ -17,7 +17,7 @@ const ABEAM: f32 = 0.05;
 /// The motion along its front that the robot wants; negative is backwards.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
-    /// The wanted speed: that of the setpoint for the route or target, m/s.
+    /// The wanted speed, m/s: that of the setpoint for the route, or for rolling out to rest.
     pub speed_mps: f32,
     /// The speed that was commanded in the last step, which the wheels carry out now, m/s.
     pub told_mps: f32,
@@ -34,7 +34,7 @@ impl Wish {
 }
 
 /// The highest speed that a neighbour allows, m/s; `None` if it allows the wanted speed. `clearance_m`: planned
-/// clearance to this neighbour, metres; `None` if it is unknown.
+/// clearance to this neighbour, metres; `None` if it is unknown or the neighbour stands by plan.
 pub(crate) fn allowed_mps(
     track: &Track,
     wish: &Wish,
@@ -80,7 +80,8 @@ pub(crate) fn allowed_mps(
     Some(safe)
 }
 
-/// The manoeuvre that is checked: the robot drives on at a speed for one step, and then brakes at the grip limit.
+/// The manoeuvre that is checked: the robot drives at the last commanded speed until the motors react, then at a tried
+/// speed for one step, and then brakes at the grip limit.
 struct Stop<'a> {
     /// Centre of the neighbour, body space, metres.
     at: Point,

@@ -33,7 +33,8 @@ pub(crate) struct Expected {
     pub far_m: f32,
     /// Unit vector from the sensor to the disc's centre. It is also the gradient of the reading over the disc's place.
     pub towards: Point,
-    /// How far the disc's centre is inside the sensor's cone, metres; negative if it is outside.
+    /// Measure of how far the disc's centre is inside the sensor's cone, metres; negative if it is outside. It is the
+    /// centre's distance along the axis, minus that of a place on the cone's edge equally far from the sensor.
     pub inside_m: f32,
 }
 

@@ -44,10 +44,10 @@ pub(crate) struct Track {
     pub seen_by: u8,
     /// The test whether the neighbour still keeps to the plan.
     pub departure: Departure,
-    /// Index, among the neighbours of the route, of the planned neighbour that it was before it left its plan; `None`
-    /// if it left none.
+    /// Index, among the neighbours of the route, of the planned neighbour that it was before it last left its plan;
+    /// `None` if it never left one.
     pub left: Option<u8>,
-    /// Number of steps since the neighbour came into sight, at most 255.
+    /// Number of steps since the neighbour came into sight, at most 255. Always 255 for a standing object.
     pub age: u8,
     /// Whether the track stands for a straight edge. A robot that drives along an edge comes no nearer to it.
     pub is_flat: bool,
@@ -132,8 +132,9 @@ impl Track {
         self.covariance.rotate(turn);
     }
 
-    /// Turns the track into that of a neighbour that has left its plan and stands. `at`: its centre, body space,
-    /// metres.
+    /// Sets the place to `at` (centre of the neighbour, body space, metres) and the velocity to 0, with the errors of a
+    /// neighbour that was found to have stopped. The track then follows no planned neighbour (`planned` is `None`). The
+    /// caller sets `left`.
     pub fn stand(&mut self, at: Point, of: &NeighbourModel) {
         let towards = at.times(1.0 / at.length().max(1e-3));
         let [place_m2, velocity_m2ps2] = [of.stop_sigma_m, of.stop_sigma_mps].map(|sigma| sigma * sigma);
@@ -161,9 +162,9 @@ impl Track {
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Corrects the place along a unit vector towards `at`, with an error of `sigma_m`, by other knowledge than
-    /// readings. The correction only makes the variance of the place as small as that of `at`, and no smaller. So
-    /// repeating it at every step makes the place no more certain.
+    /// Corrects the coordinate of the place along the unit vector `unit` to that of `at`, whose error is `sigma_m`
+    /// (metres, 1 sigma), by other knowledge than readings. It only reduces the variance along `unit` to that of `at`.
+    /// So repeating it at every step makes the place no more certain.
     pub fn bound_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let (known, bound) = (self.covariance.place_along(unit), sigma_m * sigma_m);
         if known > bound {
@@ -203,9 +204,9 @@ impl Track {
             })
     }
 
-    /// Moves the place towards the edge of a sensor's cone, because it is on the wrong side of that edge. The place
-    /// becomes no more certain, because the next steps repeat the same information. `across`: unit vector along which
-    /// it moves; `gradient`: of `inside_m` over the place.
+    /// Moves the place along the unit vector `across` towards the edge of a sensor's cone, because it is on the wrong
+    /// side of that edge. `inside_m`: how far it is inside the cone, negative if outside; `gradient`: of `inside_m`
+    /// over the place. The place becomes no more certain, because the next steps repeat the same information.
     pub fn stay_within(&mut self, across: Point, gradient: Point, inside_m: f32) {
         let slope = gradient.dot(across);
         let known = self.covariance.place_along(across);

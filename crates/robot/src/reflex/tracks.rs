@@ -106,8 +106,8 @@ impl Tracks {
         self.look_for_obstacles(&logs, scan);
     }
 
-    /// Updates the standing objects by the readings that belong to no planned neighbour. `logs`: see
-    /// [`Readings::logs`].
+    /// Updates the standing objects by the readings that belong to no planned neighbour and to no neighbour that has
+    /// left its plan. `logs`: see [`Readings::logs`].
     fn look_for_obstacles(&mut self, logs: &[f32; SENSORS], scan: &Scan<'_>) {
         let known = self.list.iter().filter(|track| track.is_known());
         let open = !known.fold(0, |seen_by, track| seen_by | track.seen_by);
@@ -117,8 +117,8 @@ impl Tracks {
         }
     }
 
-    /// Index of the track to which a sensor's reading most likely belongs. `None` if it fits no track, or if a planned
-    /// neighbour without a track explains the reading better.
+    /// Index of the track to which a sensor's reading most likely belongs. `None` if the sensor has no reading, if the
+    /// reading fits no track, or if a planned neighbour without a track explains it better.
     fn owner(&self, sensor: usize, scan: &Scan<'_>) -> Option<usize> {
         let read_m = scan.reads_m(sensor)?;
         let mut best: Option<(f32, usize)> = None;
@@ -175,7 +175,8 @@ impl Tracks {
     }
 
     /// Compares tracks with the planned neighbours. A track that keeps to the plan of a neighbour is taken for this
-    /// neighbour, and is corrected by its planned place and velocity.
+    /// neighbour, and is corrected by its planned place and velocity. A track that no longer keeps to the plan follows
+    /// no planned neighbour.
     fn recognise(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
@@ -199,8 +200,8 @@ impl Tracks {
         }
     }
 
-    /// Replaces the track of an unplanned neighbour by that of a planned neighbour, if this one explains its nearest
-    /// reading and has no track yet. A track that has left its plan is never replaced.
+    /// Replaces the track of an unplanned neighbour by the track of a planned neighbour, if the planned one has no
+    /// track yet and explains the nearest reading. A track of a neighbour that has left its plan is never replaced.
     fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];
@@ -249,8 +250,9 @@ fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     track.keeps_to(one.at, one.velocity, scan.planned_sigma_m, scan.of) && track.sensors().all(explains)
 }
 
-/// Corrects a track by the readings that belong to it, and by the fact that other sensors do not see it. `seen_by`: the
-/// sensors with its readings, one bit each; `logs`: see [`Readings::logs`].
+/// Corrects a track by the readings that belong to it, and by the fact that other sensors do not see it. Before, tests
+/// whether it has left its plan. `seen_by`: the sensors with its readings, one bit each; `logs`: see
+/// [`Readings::logs`].
 fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
     track.age = track.age.saturating_add(1);
     track.seen_by = seen_by;

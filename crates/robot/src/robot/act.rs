@@ -88,7 +88,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// The setpoint before the safety layer limits it: along the route under way, else to the target, else a turn
-    /// towards the kept route. `None` if the robot has nothing to do.
+    /// towards the kept route. A robot with unknown heading drives straight on slowly instead of along a route or to a
+    /// target. `None` if the robot has nothing to do.
     fn want(&mut self, route_time: Option<Instant>, took: Span) -> Option<Setpoint> {
         let hot = &mut self.hot;
         if !hot.routes.under_way() && hot.seek.is_none() && !hot.routes.keeps_one() {

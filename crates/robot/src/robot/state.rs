@@ -76,8 +76,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         (!self.is_lost(self.hot.now - self.hot.lag)).then(|| self.hot.estimate.at())
     }
 
-    /// Direction of the neighbour for which the safety layer slows the robot in this step, radians counter-clockwise
-    /// from the robot's front. `None` if the safety layer does not slow the robot.
+    /// Direction of the neighbour that slows or blocks the robot in this step, radians counter-clockwise from the
+    /// robot's front. `None` if the safety layer does neither.
     pub fn braking_towards(&self) -> Option<f64> {
         if self.hot.is_wary { self.reflex.braking_towards() } else { None }
     }
@@ -147,7 +147,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.config.id
     }
 
-    /// Number of unknown and invalid commands since power-on.
+    /// Number of unknown and invalid commands since power-on. Commands for which the robot lacks the ability count as
+    /// unknown.
     pub fn unknown(&self) -> u32 {
         self.unknown
     }
@@ -170,8 +171,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Number of red flashes that show what is wrong: 3 if faulty, 2 if cut off or the link is down, 1 if lost, 0 if
-    /// nothing is wrong. A robot without abilities never flashes.
+    /// Number of red flashes that show what is wrong: 3 if faulty, 2 if cut off, 1 if lost, else 2 if the link has been
+    /// down for longer than `Config::silence`. 0 if nothing is wrong. A robot without abilities never flashes.
     pub(super) fn trouble(&self, now: Instant) -> u8 {
         match self.hot.state {
             _ if !self.hot.shows_trouble => 0,

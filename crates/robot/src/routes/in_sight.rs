@@ -59,9 +59,9 @@ impl Routes {
     }
 }
 
-/// Puts a neighbour into the full list `expected`. It replaces the farthest standing neighbour, if it moves or is nearer
-/// than that one. Standing neighbours can also be places where a silent robot may stand, and there may be dozens of these
-/// beside a path.
+/// Puts the neighbour `one` into the full list `expected`. If `one` moves or is nearer than the farthest standing
+/// neighbour of the list, `one` replaces that neighbour; otherwise `one` is left out. Standing neighbours can also be
+/// places where a silent robot may stand, and there may be dozens of these beside a path.
 fn take_in(one: Expectation, expected: &mut InSight) {
     let moves = |one: &Expectation| one.velocity != Point::ZERO;
     let far_m = |one: &Expectation| one.at.length();

@@ -25,7 +25,8 @@ pub struct HashTurn {
 }
 
 impl HashThread {
-    /// Starts the thread. It ends when the returned value is dropped. Error if the operating system cannot start a thread.
+    /// Starts the thread. The thread ends when the returned value is dropped. Error if the operating system cannot start a
+    /// thread.
     pub fn start() -> Result<Self, String> {
         let (jobs, inbox) = channel::<Job>();
         let thread = std::thread::Builder::new().name("passwords".into()).spawn(move || {

@@ -26,7 +26,7 @@ const FILE: &str = "accounts.json";
 const LOCK: &str = ".accounts-lock";
 /// Longest file that is read, bytes; enough for thousands of people.
 const FILE_MAX: u64 = 1 << 20;
-/// Longest name of a person or a token, letters.
+/// Longest name of a person or a token, characters.
 const NAME_MAX: usize = 32;
 /// Fewest characters of a password: NIST SP 800-63B (revision 3), section 5.1.1.1.
 const PASSWORD_MIN: usize = 8;

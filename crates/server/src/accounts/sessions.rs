@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use super::Secret;
 
-/// Time from sign-in to the end of a session: a long day of rehearsal and show.
+/// Longest time from sign-in to the end of a session: a long day of rehearsal and show. A sign-out or a new password ends
+/// the session earlier.
 pub const SESSION_LASTS: Duration = Duration::from_secs(12 * 3600);
 /// Most sessions at once. A further sign-in ends the oldest one.
 const MOST: usize = 1_000;

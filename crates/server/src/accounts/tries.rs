@@ -139,8 +139,8 @@ fn key(name: &str, address: IpAddr) -> (String, IpAddr) {
     (name.chars().take(LETTERS_MAX).collect(), network(address))
 }
 
-/// Returns the address by which a client is counted. Of an IPv6 address, this is the /64 network, because one machine can
-/// use every address of its network.
+/// Returns the address by which a client is counted. For an IPv6 address, this is the /64 network, because one machine can
+/// use every address of its network. Loopback and IPv4 addresses stay as they are.
 fn network(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
         IpAddr::V6(address) if !address.is_loopback() => {

@@ -18,12 +18,12 @@ const VERSION: u32 = 1;
 /// Most files of a backup: ten times the files of 200 shows with 50 earlier states each. Bounds the memory for names.
 const FILES_MAX: usize = 100_000;
 
-/// List of what a backup holds. It is the last entry of the zip, because it describes the files as they were saved.
+/// List of what a backup holds. The list is the last entry of the zip, because it describes the files as they were saved.
 #[derive(Debug, Serialize, Deserialize)]
 struct BackupList {
     /// [`VERSION`].
     lightbots_backup: u32,
-    /// Version of the program that made it.
+    /// Version of the program that made the backup.
     program: String,
     /// Time at which the backup was begun, milliseconds since the start of 1970 (UTC).
     began_ms: u64,
@@ -37,6 +37,6 @@ struct BackupFile {
     bytes: u64,
     /// Time of the last change of the file, milliseconds since the start of 1970 (UTC).
     modified_ms: u64,
-    /// Whether only its owner may read the file.
+    /// Whether only the owner of the file had any rights to it. Always false on systems other than Unix.
     is_private: bool,
 }

@@ -20,13 +20,15 @@ const DRAFT: &str = ".saving";
 /// Content of a data folder.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// Paths of regular files, with `/` between folders.
+    /// Paths of the regular files that a backup holds, with `/` between folders.
     pub files: BTreeSet<String>,
-    /// Paths that cannot be saved: links, pipes, names that are no text, folders that are too deep.
+    /// Paths that cannot be saved: links, pipes, paths that [`check`] refuses or that are no text, folders that are too
+    /// deep.
     pub odd: BTreeSet<PathBuf>,
 }
 
-/// Finds the files in a folder and its subfolders. The error names the folder or file that cannot be read.
+/// Finds the files of a data folder and its subfolders that a backup holds, and the paths that it cannot hold. The error
+/// names the folder or file that cannot be read.
 pub fn find(data: &Path) -> Result<Found, (PathBuf, std::io::Error)> {
     let mut found = Found::default();
     look(data, "", 0, &mut found)?;
@@ -75,7 +77,7 @@ fn is_left_out(path: &str) -> bool {
     path == LIST || path.ends_with(DRAFT) || OF_A_RUNNING_PROGRAM.contains(&path)
 }
 
-/// Checks the path of a file in a backup. Error if it is too long, if it leads out of the data folder, or if it has
+/// Checks the path of a file in a backup. Error if the path is too long or too deep, leads out of the data folder, or has
 /// characters with another meaning on other systems.
 pub fn check(path: &str) -> Result<(), &'static str> {
     let parts = || path.split('/');

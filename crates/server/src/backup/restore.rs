@@ -33,8 +33,8 @@ struct Backup {
     list: BackupList,
 }
 
-/// Restores the backup `file` as the data folder `data`. If `data` holds files already, the result is an error. With
-/// `replace`, the old folder is renamed instead, and keeps its files.
+/// Restores the backup `file` as the data folder `data`. Error if a running program uses `data`, or if `data` holds files
+/// already. With `replace`, a folder with files is renamed instead, and keeps its files.
 pub fn restore(file: &Path, data: &Path, replace: bool) -> Result<Restored, Failure> {
     let mut backup = Backup::open(file)?;
     let folder = if fs::symlink_metadata(data).is_ok() { Some(DataFolder::take(data)?) } else { None };
@@ -120,8 +120,7 @@ impl Backup {
     }
 }
 
-/// Reads an entry of the zip and keeps its read error. The error is then told from one of the disk that the entry is written
-/// to.
+/// Reads an entry of the zip and keeps an error of reading, so that it is not taken for an error of writing.
 struct Counted<R> {
     entry: R,
     failure: Option<io::Error>,
@@ -176,8 +175,8 @@ fn holds_files(data: &Path) -> Result<bool, Failure> {
     Ok(false)
 }
 
-/// Gives the folder `staging` the name `data`. If `data` holds files, it is first renamed, and its new path is returned.
-/// Otherwise `data` is deleted first if it exists, and the result is `None`.
+/// Gives the folder `staging` the name `data`. If `holds_files`, the old folder `data` is first renamed, and its new path is
+/// returned. Otherwise the old folder is deleted first if it exists, and the result is `None`.
 fn put_in_place(staging: &Path, data: &Path, holds_files: bool) -> Result<Option<PathBuf>, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(

@@ -32,7 +32,8 @@ pub struct DeskArguments {
     /// Receive OSC: /lightbots/go and /lightbots/stop [without an address: from this machine, 127.0.0.1:53100]
     #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = OSC, value_parser = address)]
     pub osc: Option<SocketAddr>,
-    /// Send OSC to this address when robots leave for a frame, a picture stands, or a cue waits for GO
+    /// Send OSC to this address when robots leave for a frame or reach it, a cue waits for GO, or the controller's state
+    /// changes
     #[arg(long, value_name = "HOST:PORT", value_parser = address)]
     pub osc_out: Option<SocketAddr>,
     /// Play the music of the show on a sound device of this machine, at the show's position

@@ -33,7 +33,7 @@ pub struct RehearseArguments {
     /// Record the inputs of the controller, for `replay`
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Write the place of each robot ten times a second: time_s, robot, x_m, y_m
+    /// Write the place of each robot about ten times a second: time_s, robot, x_m, y_m
     #[arg(long, value_name = "FILE.csv")]
     pub steps: Option<PathBuf>,
     /// One JSON object on stdout

@@ -71,7 +71,7 @@ fn authority(out: &Path) -> Result<Authority, Failure> {
 }
 
 /// Verifies `server.pem` with the authority in the folder, as a client does. Fails if another program made the authority,
-/// because its name then differs from the issuer that [`issue`] writes.
+/// because the authority's name then differs from the issuer that [`issue`] writes.
 fn check(out: &Path) -> Result<(), Failure> {
     let wrong = |error: &dyn std::fmt::Display| unusable(out, &error.to_string());
     let read = |name: &str| CertificateDer::from_pem_file(out.join(name)).map_err(|error| wrong(&error));

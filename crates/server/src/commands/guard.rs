@@ -10,7 +10,7 @@ use crate::failure::{Failure, Outcome};
 use crate::own_program::own_program;
 use crate::say;
 
-/// Name of the environment variable that marks the child, so that it does not start another one.
+/// Name of the environment variable that marks a child process, so that the child does not start a further child.
 const CHILD: &str = "LIGHTBOTS_READING_CHILD";
 
 /// Most memory of the child, bytes.
@@ -72,7 +72,7 @@ fn run_in_child() -> Outcome {
     }
 }
 
-/// Time limit for reading: ends the child process if reading takes longer than `READING_MAX`.
+/// Time limit for reading: if this process is the child, ends it when reading takes longer than `READING_MAX`.
 pub struct ReadingTime(Arc<AtomicBool>);
 
 impl ReadingTime {

@@ -24,14 +24,15 @@ use crate::{open_files, say, show_file};
 /// Without `--wait`: if no further robot becomes ready for this time, the show starts with fewer robots than pixels. A
 /// shorter time would leave out robots that start slowly.
 const SETTLED: Duration = Duration::from_secs(10);
-/// A run without any event for this time is aborted, unless a frame waits for GO, because a fault must have gone unnoticed.
-/// It is longer than any usual air time.
+/// A run without events, warnings and changes of the link for this time is aborted, because a fault must have gone
+/// unnoticed. It goes on if a frame waits for GO or frames repeat until GO. The time is longer than any usual air time.
 const NOTHING: Duration = Duration::from_secs(900);
 
 /// Without a terminal: interval at which the run is checked for a frame to which GO must be given.
 const LOOK_AT_CUE: Duration = Duration::from_millis(250);
 
-/// Longest time for disconnecting and for writing to the disk after a run.
+/// Longest time for disconnecting and for writing to the disk after a run that the user did not stop. After a stop,
+/// [`GOODBYE`] holds.
 const SAVED: Duration = Duration::from_secs(10);
 
 pub async fn run(arguments: PlayArguments, stop: Stop) -> Outcome {
@@ -82,8 +83,8 @@ fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outco
     played.map(|()| ok)
 }
 
-/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. The wait has a limit. If a
-/// stop is wanted, the conductor stops the robots before it disconnects.
+/// Waits until the conductor has disconnected from the broker and the recorded run is on disk: at most [`GOODBYE`] if the
+/// user wants to stop, else `SAVED`. The conductor stops the robots of an unfinished run before it disconnects.
 async fn finish(stop: &Stop, task: tokio::task::JoinHandle<()>) {
     // The wait is limited, because a broker or a disk may hang.
     let patience = if stop.is_wanted() { GOODBYE } else { SAVED };
@@ -284,7 +285,8 @@ async fn go(handle: &Handle) {
     }
 }
 
-/// Resumes the interrupted show if `goes_on`. Otherwise returns an error, because there is no terminal to ask at.
+/// Resumes the interrupted show if `goes_on`, and prints a refusal. Otherwise returns an error, because there is no terminal
+/// to ask at.
 async fn go_on(handle: &Handle, goes_on: bool) -> Result<(), Failure> {
     if !goes_on {
         let why = "robots were out of reach for more than 30 s, and there is no terminal to press Enter on: the show was ended";

@@ -146,7 +146,7 @@ fn step_row(at: Instant, name: RobotId, place: Vec2) -> Vec<u8> {
     format!("{:.3},\"{quoted}\",{:.5},{:.5}\n", at.as_secs(), place.x, place.y).into_bytes()
 }
 
-/// Returns notes for the log: the arguments that repeat the same rehearsal.
+/// Returns notes for the log: the arguments of the rehearsal, except `--floor` and `--identity`.
 fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
     let mut notes = vec![
         ("command", "rehearse".to_owned()),
@@ -159,13 +159,13 @@ fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
     notes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-/// Returns the name of the show. Shows of the original format have none, and take the name of their file.
+/// Returns the name of the show. A show without a name gets the name of its file, without the ending.
 fn title(name: &str, file: &Path) -> String {
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     if name.is_empty() { stem.unwrap_or_default() } else { name.to_owned() }
 }
 
-/// Returns the report with numbers rounded to the same digits as those of `check`.
+/// Returns the report with its spreads and most of its other times and lengths rounded, so that the JSON is readable.
 fn readable(mut report: RehearsalReport) -> RehearsalReport {
     for seconds in [&mut report.duration_s, &mut report.lower_bound_s] {
         *seconds = rounded(*seconds, 3);

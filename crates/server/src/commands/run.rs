@@ -35,11 +35,11 @@ use crate::stop::{End, Stop};
 use crate::web::{self, Admission, BrokerDesk, Exposure, Planner, Scheme, ScreenLog, Shared, WebCertificate};
 use crate::{open_files, playlist_player, say, show_file};
 
-/// The example that is opened if no show is given.
+/// Name of the show that is opened if the command line names none and none was open before: an example.
 const FIRST: &str = "countdown";
-/// Seed of simulated robots without `--seed`. Fixed, so that robots keep their names between starts.
+/// Seed of simulated robots on the embedded broker without `--seed`. Fixed, so that robots keep their names between starts.
 const USUAL_SEED: u64 = 1;
-/// Most issues of the show that are printed at the start. The screen lists all of them.
+/// Most errors of the show that are printed at the start. The screen lists all issues.
 const ISSUES_SHOWN: usize = 5;
 /// Longest time at the end of the program for stopping the robots and disconnecting. After it, connections are cut off.
 pub const GOODBYE: Duration = Duration::from_secs(5);
@@ -80,7 +80,7 @@ impl Started {
         self.tasks.push(tokio::spawn(cast.run(shared.handle.clone(), shared.desk.watch(), until)));
     }
 
-    /// Starts the tasks for lighting desk, sound desk, warnings of the broker, and music.
+    /// Starts the tasks for lighting desk, sound desk, warnings of the broker, and music, as far as `run` has these.
     fn follow(
         &mut self,
         arguments: &RunArguments,
@@ -226,7 +226,7 @@ async fn open_desks(arguments: &RunArguments) -> Result<Desks, Failure> {
 }
 
 /// If the network reaches the web app, prints that. While there are no accounts, also prints the address at which the first
-/// operator gets one.
+/// operator chooses a name and a password.
 fn invite(
     arguments: &RunArguments,
     shared: &Shared,
@@ -294,7 +294,8 @@ async fn relay(mut lines: mpsc::Receiver<String>, log: ScreenLog, stop: Stop) {
 }
 
 /// Returns the settings for the screen's form, and the broker for the controller. The broker is that of the command line,
-/// else the one that was chosen on the screen, else the embedded one.
+/// else the one that was chosen on the screen, else the embedded one. `--broker embedded`, or a disconnection on the screen,
+/// rules out the one from the screen.
 fn chosen(
     arguments: &RunArguments,
     other: Option<BrokerUrl>,

@@ -33,7 +33,7 @@ pub fn begin() {
     NOTED.with(|noted| *noted.borrow_mut() = Some(Vec::new()));
 }
 
-/// Returns the operations that were recorded since the last call.
+/// Returns the operations that were recorded since the last call of `begin` or of this function.
 pub fn take() -> Vec<Operation> {
     NOTED.with(|noted| noted.borrow_mut().as_mut().map(std::mem::take).unwrap_or_default())
 }

@@ -18,7 +18,7 @@ const UNUSED_FOR: Duration = Duration::from_secs(30 * 24 * 3600);
 #[derive(Clone, Debug)]
 pub struct AssetStore {
     folder: PathBuf,
-    /// Files of built-in shows, which are in no folder.
+    /// Assets of built-in shows. They are kept in memory, because these shows are in no folder.
     given: Arc<Mutex<BTreeMap<AssetHash, Arc<[u8]>>>>,
 }
 

@@ -13,7 +13,8 @@ use super::lock::lock;
 use super::show_files;
 use super::version::etag;
 
-/// The most files whose facts are remembered: all shows that a library lists, and the states of 400 shows.
+/// The most files whose facts are remembered: all shows that a library lists, and the states of 400 shows. Beyond it, all
+/// facts are forgotten.
 const FILES_MAX: usize = 30_000;
 /// Age from which the facts of a file are remembered. A file that was written more recently is read each time, because a
 /// second change may not alter its time of change. Some file systems count that time in steps of two seconds.

@@ -4,14 +4,15 @@ use std::path::Path;
 
 use lightbots_exchange::stem;
 
-/// The longest name, in characters.
+/// The longest name, in characters. In bytes, a name may have 200.
 const NAME_MAX: usize = 80;
 
 fn may_hold(letter: char) -> bool {
     letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | ',' | '(' | ')' | '!' | '\'' | '+')
 }
 
-/// Returns the name if it is allowed on every system. The error says which names are allowed.
+/// Returns the name if the library allows it: only characters that file names may have on all systems. The error says which
+/// names are allowed.
 pub(super) fn checked(name: &str) -> Result<&str, String> {
     let fits = (1..=NAME_MAX).contains(&name.chars().count())
         && name.len() <= 200

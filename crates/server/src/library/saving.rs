@@ -7,9 +7,10 @@ use super::lock::lock;
 use super::{Condition, Kept, Library, LibraryError, checked};
 
 impl Library {
-    /// Saves a show of any format. The library writes it in our format. Only a file that is partly understood is kept byte
-    /// for byte. A built-in show is not changed: a copy is saved under a free name, which the entry states together with
-    /// `copy_of`. With [`Condition::IsNew`], the name of a built-in show is a conflict.
+    /// Saves a show of any format. The library writes it in our format; only a file that is partly understood is kept byte
+    /// for byte. Error if the present file of the show is partly understood. A built-in show is not changed: a copy is saved
+    /// under a free name, which the entry states together with `copy_of`. With [`Condition::IsNew`], the name of a built-in
+    /// show is a conflict.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
         let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;

@@ -1,8 +1,9 @@
 //! Earlier saved states of shows: `history/NAME/NUMBER.lightbots.json` in the library's folder, counted up.
 //!
-//! When a show's file is replaced or deleted, a hard link to the old file is made there. No byte is copied, and a crash
-//! in between leaves one state twice at most. The last [`STATES`] states are kept, and of older ones the last of each
-//! day for [`DAYS`] days. A screen saves after every change, so the last states alone may span only a minute.
+//! When a show's file is replaced or deleted, a hard link to the old file is made there. No byte is copied, and a crash in
+//! between leaves one state twice at most. The last [`STATES`] states are kept. Of older ones, the last of each day is kept
+//! if it is at most [`DAYS`] days older than the newest state. A screen saves after every change, so the last states alone
+//! may span only a minute.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -16,7 +17,8 @@ use crate::disk;
 
 /// Number of the latest states of a show that are kept whatever their age.
 pub const STATES: usize = 20;
-/// Number of days for which the last state of each day is kept. The states of a deleted show are kept as long.
+/// Number of days before the newest state in which the last state of each day is kept. The states of a deleted show are kept
+/// for this time after the deletion.
 const DAYS: u64 = 30;
 /// Length of a day, milliseconds. Days are those of UTC.
 const DAY_MS: u64 = 24 * 3600 * 1000;

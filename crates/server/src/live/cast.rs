@@ -15,7 +15,7 @@ use super::crowd::{Crowd, TOGETHER};
 use crate::stop::Stop;
 use crate::web::Shown;
 
-/// Number of robots if the show needs no more.
+/// Number of robots if the command line states none and the show needs no more.
 const USUAL: usize = 30;
 /// Most robots that are simulated because a show needs them.
 const MOST: usize = 5_000;

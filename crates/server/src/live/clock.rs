@@ -6,9 +6,9 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use lightbots_base::Instant;
 
-/// The show clock. At the program's start, it shows the microseconds since 1970. It never goes back, and runs while the
-/// computer sleeps, as robots' clocks do. The clock of a restarted controller thus continues close to that of its
-/// predecessor. The clock can be held for a while, together with all its clones.
+/// The show clock. A new clock begins with the microseconds since 1970, or continues the clock of a run that was cut off. It
+/// never goes back, and runs while the computer sleeps, as robots' clocks do. The clock of a restarted controller thus
+/// continues close to that of its predecessor. The clock can be held for a while, together with all its clones.
 #[derive(Clone, Debug)]
 pub struct Clock {
     began: Duration,
@@ -19,7 +19,7 @@ pub struct Clock {
 /// State that all clones of a clock share. Its times count in microseconds from `began`.
 #[derive(Debug)]
 struct Shared {
-    /// How long the clock has been held since its start.
+    /// How long the clock has been held from its start to the last [`Clock::grant`].
     withheld_us: AtomicU64,
     /// Latest time that the clock may show; it is held there.
     limit_us: AtomicU64,

@@ -25,7 +25,7 @@ const STEP: Span = Span::from_millis(16);
 const BEHIND: i64 = 2;
 /// Time between two checks whether messages that the clock waits for have arrived.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
-/// If no message arrives for this time while messages are under way, these messages count as lost.
+/// If the clock waits for messages under way and none arrives for this time, these messages count as lost.
 const LOST: Duration = Duration::from_millis(1_000);
 
 /// Index of a connection, and an event of that connection.

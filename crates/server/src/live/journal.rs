@@ -23,8 +23,8 @@ const WAITING_MAX: usize = 64;
 /// Pause after a failure of the disk before the journal is written again.
 const TRY_AGAIN: Duration = Duration::from_secs(10);
 
-/// Reads the unfinished run from the journal that a killed program left in its data folder; `None` if there is none.
-/// `Err`: a line for people.
+/// Reads the unfinished run from the journal that a killed program left in its data folder. `None` if there is no journal,
+/// or if its run had ended; such a journal is removed. `Err`: a line for people.
 pub fn unfinished_run(data: &Path) -> Result<Option<UnfinishedRun>, String> {
     let path = data.join(FILE);
     if let Some(folder) = path.parent() {

@@ -95,8 +95,8 @@ impl Recorder {
         }
     }
 
-    /// Makes the controller take up a run that was cut off, and begins the run's log. If the controller has no run
-    /// afterwards, removes the journal.
+    /// Makes the controller take up a run that was cut off. If each run has its own log, begins the log of this run first.
+    /// If the controller has no run afterwards, removes the journal.
     pub fn take_up(
         &mut self,
         controller: &mut RecordedController,

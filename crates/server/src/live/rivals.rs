@@ -16,13 +16,14 @@ const EVERY: Span = Span::from_millis(2_000);
 /// Number of consecutive names without an echo that are tolerated. After one more, the broker counts as mute. Applies only
 /// once the first echo has come.
 const MUTE: u32 = 4;
-/// Upper bound of the tolerated number of names, which doubles each time the broker counts as mute.
+/// Upper bound of the tolerated number of names. That number doubles each time the broker counts as mute, and is [`MUTE`]
+/// again after an echo.
 const MUTE_MOST: u32 = 32;
 /// For each group of this many robots, one more name may stay without an echo. The robots' messages may delay or displace
 /// the name.
 const MUTE_PER: usize = 250;
-/// Time within which the broker must return a command of this controller. A later one counts as the command of another
-/// controller.
+/// Time after which an unreturned command of this controller is forgotten, when the controller sends the next one. An echo
+/// that comes still later counts as the command of another controller.
 const ECHO: Span = Span::from_millis(60_000);
 /// Most commands whose echo is awaited. Beyond it, the oldest are forgotten.
 const ECHOES: usize = 4_096;

@@ -12,8 +12,8 @@ const FOLDER: &str = "runs";
 const ENDING: &str = ".lblog";
 /// Most recorded runs that are kept.
 const RUNS_MAX: usize = 20;
-/// Most bytes of all recorded runs together, including [`RUN_BYTES_MAX`] for the next one. The oldest runs are deleted to
-/// keep it.
+/// Most bytes of all recorded runs together, including [`RUN_BYTES_MAX`] for the next run. The oldest runs are deleted to
+/// stay below this bound.
 const BYTES_MAX: u64 = 4 << 30;
 /// Most bytes of one recorded run; what comes later is not recorded. A robot takes 9 to 23 KB a minute, so that an hour
 /// and a half of a thousand robots with light fits.

@@ -23,8 +23,8 @@ const WAITING_MAX: usize = 256;
 pub struct ReportsUnderWay(Arc<Mutex<BTreeSet<PathBuf>>>);
 
 impl ReportsUnderWay {
-    /// Whether the report of this log is being made. The report is ready soon after the run. If making it fails, it must be
-    /// made from the whole log.
+    /// Whether the report of this log is being made. The report is ready soon after the run. If making the report fails, it
+    /// can still be made from the whole log.
     pub fn contains(&self, log: &Path) -> bool {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).contains(log)
     }
@@ -81,8 +81,8 @@ impl RunReporter {
         Self { pieces, is_over, thread }
     }
 
-    /// Passes bytes of the log to the thread. Returns `false` if the thread is too slow. The thread then ends without a
-    /// report once this value is dropped.
+    /// Passes bytes of the log to the thread. Returns `false` if the thread is too slow or has failed. A slow thread ends
+    /// without a report once this value is dropped.
     pub fn feed(&self, bytes: Vec<u8>) -> bool {
         self.pieces.try_send(Piece::Log(bytes)).is_ok()
     }

@@ -14,11 +14,11 @@ use serde::{Deserialize, Serialize};
 use super::list::{PlaylistTurn, TurnStart};
 use super::times::{date_of, moment};
 
-/// Longest delay of a show, seconds: an audience still waits for that long. A turn that would begin later is skipped and not
-/// played afterwards.
+/// Longest delay of a show, seconds: an audience still waits for that long. A turn that would begin later counts as skipped
+/// or failed, and is not played afterwards.
 pub const LATE_S: i64 = 300;
 
-/// Whether the playlist is on, and the latest turn of each entry.
+/// Whether the playlist is on or held, and the latest turn of each entry.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DayLog {
@@ -51,7 +51,7 @@ pub struct TurnRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TurnStage {
-    /// Robots were sent to their starting places during the pause before the turn.
+    /// The drive to the starting places was ordered in the pause before the turn, even if the controller refused it.
     SentHome,
     Playing,
     Played,

@@ -92,7 +92,8 @@ impl PlaylistStore {
         }
     }
 
-    /// Replaces the entries, and switches the playlist on or off.
+    /// Replaces the entries, and switches the playlist on or off. Switching it off also ends a hold. An entry whose show or
+    /// start has changed loses the record of its latest turn.
     pub fn change(&self, change: PlaylistChange) -> Result<(), ChangeRefused> {
         let mut kept = self.refreshed();
         if let Some(fault) = &kept.fault {
@@ -147,7 +148,7 @@ impl PlaylistStore {
         self.lock().log.playing()
     }
 
-    /// Records that robots were sent to their starting places before a turn.
+    /// Records that the drive to the starting places before a turn is being ordered.
     pub fn sent_home(&self, key: TurnKey) {
         self.note(|log| log.note(key, TurnStage::SentHome, now_s(), None));
     }
@@ -167,8 +168,9 @@ impl PlaylistStore {
         self.note(|log| log.note(key, stage, at_s, line));
     }
 
-    /// Holds the playlist, if it is on: nothing starts until it is released. Returns `false` if it was held already or
-    /// is off.
+    /// Holds the playlist, if it is on and not held already: keeps `line`, which says why, and returns `true`. No turn
+    /// begins until [`Self::release`] is called or the playlist is switched off. Otherwise changes nothing and returns
+    /// `false`.
     pub fn hold(&self, line: &str) -> bool {
         let is_new = {
             let kept = self.lock();

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-/// Makes a key file readable for its owner only. Returns a line for people if other users of the machine could read it
-/// before.
+/// Makes a key file readable for its owner only, unless it is a link. Returns a line for people if other users of the
+/// machine had rights to the file, or still have them.
 #[cfg(unix)]
 pub fn keep_private(key: &Path) -> Option<String> {
     use std::fs::{self, Permissions};

@@ -4,8 +4,8 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 
 use super::scheme::Scheme;
 
-/// An address outside this network (RFC 5737). This machine's own address is found as the start of the path to it. Nothing
-/// is sent there.
+/// An address outside this network (RFC 5737). The path from this machine to that address begins at this machine's own
+/// address, which is found in this way. Nothing is sent.
 const ELSEWHERE: (Ipv4Addr, u16) = (Ipv4Addr::new(192, 0, 2, 1), 9);
 
 /// Returns the URL of the web app for other machines. Its host is the name that the user gave, or this machine's own

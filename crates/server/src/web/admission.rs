@@ -158,8 +158,8 @@ impl Admission {
         }
     }
 
-    /// Makes the first operator and signs that person in. `token` must be the one that [`Self::new`] returned. Returns the
-    /// token of the session.
+    /// Makes the first operator and signs that person in. `token` must be the one that [`Self::new`] returned. Refused once
+    /// any person has an account. Returns the token of the session.
     pub async fn begin_first(
         &self,
         token: &str,
@@ -208,8 +208,8 @@ impl Admission {
     }
 }
 
-/// Passes on requests that are admitted. A request for a page from a caller that is not signed in gets the sign-in page.
-/// Other requests of that caller, and requests beyond the caller's role, are refused.
+/// Passes on requests that are admitted, and short requests to sign in. A request for a page from a caller that is not
+/// signed in gets the sign-in page. Other requests of that caller, and requests beyond the caller's role, are refused.
 pub async fn guard(State(admission): State<Arc<Admission>>, mut request: Request, next: Next) -> Response {
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
     let ticket = admission.ticket(request.headers());

@@ -85,7 +85,7 @@ pub async fn get(State(shared): State<Arc<Shared>>, Path(name): Path<String>) ->
     Ok(document(beside(move || library.get(&name)).await?.map_err(library_problem)?))
 }
 
-/// Returns the response with a show's document. Its ETag is the show's version.
+/// Returns the response with a show's document. The ETag of the response is the version of the show's file.
 fn document(kept: Kept) -> Response {
     let about = [
         (header::CONTENT_TYPE, "application/json"),
@@ -145,8 +145,8 @@ pub async fn put(
     Ok(([(header::ETAG, etag)], Json(entry)).into_response())
 }
 
-/// `GET /api/assets/{hash}`: returns an asset. It is sent without its media type, so that no browser runs scripts in a
-/// drawing.
+/// `GET /api/assets/{hash}`: returns an asset. The asset is sent without its media type, so that no browser runs scripts in
+/// a drawing.
 pub async fn asset(State(shared): State<Arc<Shared>>, Path(hash): Path<String>) -> Answer<Response> {
     let library = shared.library.clone();
     let content = beside(move || library.asset(&hash)).await?.map_err(library_problem)?;
@@ -296,7 +296,8 @@ fn failed() -> Refused {
     refuse(StatusCode::INTERNAL_SERVER_ERROR, line)
 }
 
-/// `GET /api/plan`: returns the plan of the open show, with paths.
+/// `GET /api/plan`: returns the plan of the open show, with paths. While that plan is being made, returns an empty one with
+/// `planning` true.
 pub async fn plan(State(shared): State<Arc<Shared>>) -> Answer<Response> {
     let plan = shared.desk.plan();
     let text = beside(move || serde_json::to_string(&*plan)).await?;

@@ -50,7 +50,8 @@ impl BrokerDesk {
         Ok(())
     }
 
-    /// Disconnects from the broker. The settings are kept.
+    /// Disconnects from the broker. The settings are kept with `connect` false, so that later starts do not connect to that
+    /// broker.
     pub async fn disconnect(&self, handle: &Handle) {
         let settings = Settings { connect: false, ..self.lock().clone() };
         self.keep(settings);

@@ -27,7 +27,7 @@ pub struct WebCertificate {
     pub fingerprint: String,
     /// Path of the certificate's file.
     pub file: PathBuf,
-    /// Names of the server that the certificate does not hold: browsers warn of them.
+    /// Names of the server that the certificate does not hold: browsers warn people that use one of these names.
     pub missing: Vec<String>,
     /// A line for people if other users of the machine could read the private key.
     pub key_note: Option<String>,

@@ -34,7 +34,7 @@ pub struct Ends {
     pub is_secure: bool,
 }
 
-/// Accepts a bounded number of connections and adds their addresses.
+/// Accepts a bounded number of connections, and passes on each with the addresses of both ends.
 pub struct Connections {
     listener: TcpListener,
     /// Does TLS handshakes; `None` if the web app is served without TLS.
@@ -68,8 +68,8 @@ impl Connections {
         Some(Guest::new(stream, place?))
     }
 
-    /// Logs an error of the system with a remedy, and waits for `AGAIN_IN`. Ignores connections that broke off by
-    /// themselves.
+    /// Logs an error of the system, and waits for `AGAIN_IN`. If the system allows no more open files, also closes the
+    /// connection that has been silent for longest. Ignores connections that broke off by themselves.
     async fn failed(&mut self, error: &io::Error) {
         use io::ErrorKind::{ConnectionAborted, ConnectionReset, Interrupted};
         if matches!(error.kind(), ConnectionAborted | ConnectionReset | Interrupted) {

@@ -24,7 +24,8 @@ pub struct Desk {
     /// Cancels the running plan as soon as another value replaces this one.
     planning: Arc<std::sync::Mutex<GiveUp>>,
     last_plan: Arc<show_plan::LastPlan>,
-    /// Revision of the open show that the controller has. Locked while the controller gets another revision.
+    /// Revision of the show that this value gave to the controller last; 0 if none. Locked while the controller gets another
+    /// revision.
     given: Arc<Mutex<u32>>,
 }
 
@@ -59,7 +60,8 @@ impl Desk {
         }
     }
 
-    /// Opens a show on every screen and in the controller, and begins to plan it.
+    /// Opens a show on every screen and in the controller, and begins to plan it. During a run, the controller gets the show
+    /// when the run is over.
     pub async fn open(&self, name: String, kept: Kept) {
         let mut message = api::OpenShow {
             revision: 0,
@@ -102,7 +104,7 @@ impl Desk {
         self.shown.subscribe()
     }
 
-    /// The plan of the open show, with paths.
+    /// The plan of the open show, with paths. While that plan is being made, an empty one with `planning` true.
     pub fn plan(&self) -> Arc<api::Plan> {
         self.plan.borrow().clone()
     }

@@ -16,8 +16,8 @@ use crate::sentences::sentence;
 
 /// Number of lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
 const KEPT: usize = 300;
-/// Shortest time between two versions of a line that counts robots: five versions a second look like one change. A shorter
-/// time could send one message for each robot of a large fleet.
+/// Longest delay after which a grown line that counts robots is sent again; other news sends it earlier. Five versions a
+/// second look like one change. A shorter time could send one message for each robot of a large fleet.
 const GROWS: Duration = Duration::from_millis(200);
 
 /// The last lines, and a channel for later ones. Clones share the log.
@@ -83,7 +83,7 @@ impl ScreenLog {
         (kept.lines.iter().cloned().collect(), self.lines.subscribe())
     }
 
-    /// Adds the conductor's events to the log until the conductor ends.
+    /// Adds the conductor's events, its warnings and the reasons of a missing link to the log until the conductor ends.
     pub async fn follow(self, mut news: broadcast::Receiver<News>) {
         let mut sums = Sums::default();
         let mut due: Option<Instant> = None;

@@ -122,8 +122,8 @@ impl Names {
 }
 
 impl Authority {
-    /// Reads `HOST` or `HOST:PORT`. Without a port, it is `usual_port`. An IPv6 address is in brackets. `None` for other
-    /// text.
+    /// Reads `HOST` or `HOST:PORT`. Without a port in the text, the port is `usual_port`. An IPv6 address is in brackets.
+    /// `None` for other text.
     fn read(text: &str, usual_port: u16) -> Option<Self> {
         let (host, port) = match text.strip_prefix('[') {
             Some(rest) => {

@@ -127,7 +127,8 @@ async fn go_on(shared: &Shared) -> Result<(), String> {
     }
 }
 
-/// Sets whether only listed robots take part. Returns the operation that the controller needs for it.
+/// Sets whether only listed robots take part. If `on`, puts the robots that the controller knows on the list, too. Returns
+/// the operation that the controller needs for it.
 async fn only_listed(shared: &Shared, on: bool) -> Result<Operation, String> {
     let present = shared.handle.look().await.map(|snapshot| snapshot.robots).unwrap_or_default();
     let present: Vec<RobotId> = present.iter().map(|robot| robot.id).collect();
@@ -135,14 +136,15 @@ async fn only_listed(shared: &Shared, on: bool) -> Result<Operation, String> {
     Ok(Operation::Admit(shared.book.admitted()))
 }
 
-/// Reads a layer of live light and returns the operation that shows it. `Err`: a sentence for people.
+/// Reads a layer of live light and returns the operation that shows it. Without a layer, the operation takes the layer
+/// `name` off. `Err`: a sentence for people.
 fn live_light(name: String, layer: Option<serde_json::Value>) -> Result<Operation, String> {
     let layer = layer.map(|layer| read_layer(layer.to_string().as_bytes())).transpose();
     let layer = layer.map_err(|fault| format!("This light cannot be shown: {fault}."))?;
     Ok(Operation::LiveLight { name, layer })
 }
 
-/// Plays or previews the open show, unless its plan is complete and has errors.
+/// Gives the open show to the controller, and plays or previews it. Refused if the show's plan is complete and has errors.
 async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
     let plan = shared.desk.plan();
     let red = plan.issues.iter().find(|issue| issue.severity == api::Severity::Error);

@@ -17,12 +17,13 @@ use super::refused::{Refused, refuse};
 use super::scheme::Scheme;
 use super::state::Shared;
 
-/// Longest time for a request from its first byte to the end of its answer. The longest upload (20 s of waiting and 74 s of
+/// Longest time from the end of a request's headers until its answer begins. The longest upload (20 s of waiting and 74 s of
 /// transfer) and a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Passes on requests that are for this server. Refuses requests to other names (DNS rebinding) and requests that pages
-/// of other servers send through a visitor's browser (cross-site request forgery).
+/// Passes on requests that are for this server. Refuses requests to other names (DNS rebinding) and requests that pages of
+/// other servers send through a visitor's browser (cross-site request forgery). Also refuses bodies that are too long. On a
+/// server with TLS, redirects or refuses requests without TLS.
 pub async fn guard(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -45,8 +46,8 @@ pub async fn guard(
     }
 }
 
-/// Redirects a request for a page without TLS to the same address with TLS. Refuses any other request, so that a program
-/// that sends its token without TLS does not go on with it.
+/// Redirects a request for a page without TLS to the same address with TLS. Refuses any other request. A program that sends
+/// its token without TLS then gets an error and not an answer.
 fn elsewhere(names: &Names, local: IpAddr, request: &Request) -> Response {
     let host = only(request.headers(), header::HOST).flatten();
     let own = host.filter(|host| {

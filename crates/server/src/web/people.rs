@@ -28,7 +28,7 @@ pub async fn add(
     })
 }
 
-/// `PUT /api/people/{name}`: changes the role or the password of a person.
+/// `PUT /api/people/{name}`: changes the role, the password or both of a person. The last operator keeps that role.
 pub async fn change(
     State(admission): State<Arc<Admission>>,
     Path(name): Path<String>,
@@ -51,7 +51,7 @@ pub async fn change(
     })
 }
 
-/// `DELETE /api/people/{name}`: removes a person, whose sessions and tokens end.
+/// `DELETE /api/people/{name}`: removes a person, whose sessions and tokens end. Refused for the last operator.
 pub async fn remove(
     State(admission): State<Arc<Admission>>,
     Path(name): Path<String>,

@@ -82,9 +82,10 @@ impl Planner {
         self.budget
     }
 
-    /// Runs `work` for a client on a separate thread. The argument of `work` returns whether the work is cancelled; `work`
-    /// must call it often, and end soon once it is `true`. The work is cancelled when the budget is used up, when the client
-    /// sends a newer request, or when this future is dropped. The client's next request begins when `work` has ended.
+    /// Runs `work` for a client on a separate thread. `work` gets a function that returns whether the work is cancelled. It
+    /// must call that function often, and end soon once the function returns `true`. The work is cancelled when the budget
+    /// is used up, when the client sends a newer request, or when this future is dropped. The client's next request begins
+    /// when `work` has ended.
     pub async fn work<T: Send + 'static>(
         &self,
         client: IpAddr,

@@ -8,7 +8,7 @@ use lightbots_api::{PlaylistChange, PlaylistState};
 use super::refused::{Refused, refuse};
 use crate::playlist::{ChangeRefused, PlaylistStore};
 
-/// Longest body of a change, bytes: twice the length of the longest playlist.
+/// Longest body of a change, bytes: more than twice the length of the longest playlist.
 pub const LONGEST: usize = 128 << 10;
 
 /// `GET /api/playlist`: returns the playlist and its state.
@@ -16,7 +16,8 @@ pub async fn read(State(playlist): State<PlaylistStore>) -> Json<PlaylistState> 
     Json(playlist.state())
 }
 
-/// `PUT /api/playlist`: changes the playlist. Returns its new state.
+/// `PUT /api/playlist`: replaces the entries and switches the playlist on or off. Returns the new state. Refused if another
+/// client changed the playlist first.
 pub async fn change(
     State(playlist): State<PlaylistStore>,
     Json(change): Json<PlaylistChange>,

@@ -7,7 +7,7 @@ use lightbots_api::rounded;
 use lightbots_base::RobotId;
 use lightbots_control::{PreflightFinding, PreflightProgress, PreflightRobot, Snapshot};
 
-/// Returns the results of the last preflight by robot.
+/// Returns the results of the last preflight: for each robot that has one, by the name of the robot.
 pub fn results(snapshot: &Snapshot) -> HashMap<RobotId, &PreflightRobot> {
     let robots = snapshot.preflight.iter().flat_map(|report| &report.robots);
     robots.map(|robot| (robot.id, robot)).collect()
@@ -27,7 +27,8 @@ pub fn result(robot: &PreflightRobot) -> api::PreflightResult {
     }
 }
 
-/// Returns the state of the preflight that is under way, or else of the last one. `None` if there was none.
+/// Returns the state of the preflight that is under way, or else of the last preflight. `None` if there was no preflight
+/// yet.
 pub fn state(snapshot: &Snapshot) -> Option<api::PreflightState> {
     if let Some(progress) = snapshot.run.as_ref().and_then(|run| run.preflight) {
         let PreflightProgress { round, rounds, doing } = progress;

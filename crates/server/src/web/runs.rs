@@ -40,7 +40,7 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 pub struct Runs {
     data: Arc<Path>,
     handle: Handle,
-    /// Its one permit lets one report be made at a time.
+    /// The one permit of this semaphore lets one report be made at a time.
     turn: Arc<Semaphore>,
 }
 
@@ -56,7 +56,7 @@ impl Runs {
     }
 
     /// Returns the page of a run's report, and makes it if there is none. `is_running`: whether the newest run is still
-    /// going on.
+    /// going on; its report is refused then.
     async fn report(&self, number: u64, is_running: bool) -> Result<Vec<u8>, Refused> {
         let failed = |line: String| refuse(StatusCode::INTERNAL_SERVER_ERROR, &line);
         let (data, turn) = (self.data.clone(), self.turn.clone());

@@ -67,13 +67,13 @@ pub async fn people(State(admission): State<Arc<Admission>>) -> Result<Json<Vec<
     Ok(Json(people.into_iter().map(|(name, person)| AccountEntry { name, role: person.role }).collect()))
 }
 
-/// `GET /api/tokens`: lists all tokens with their roles, without their text.
+/// `GET /api/tokens`: lists all tokens without their text, with the roles that they were given.
 pub async fn tokens(State(admission): State<Arc<Admission>>) -> Result<Json<Vec<AccountEntry>>, Refused> {
     let tokens = admission.accounts.read().map_err(failed)?.tokens;
     Ok(Json(tokens.into_iter().map(|(name, token)| AccountEntry { name, role: token.role }).collect()))
 }
 
-/// `POST /api/tokens`: makes a token. Only this answer holds its text.
+/// `POST /api/tokens`: makes a token. Only this answer holds the text of the token.
 pub async fn make_token(
     State(admission): State<Arc<Admission>>,
     Extension(ticket): Extension<Ticket>,

@@ -18,7 +18,8 @@ impl Findings {
     /// is broken everywhere.
     const MOST: usize = 1_000;
 
-    /// Adds an issue unless there are [`Self::MOST`] already.
+    /// Adds an issue. If there are [`Self::MOST`] already, adds one error that says so instead, and from then on
+    /// nothing.
     pub fn add(&mut self, issue: Issue) {
         if self.issues.len() < Self::MOST {
             self.issues.push(issue);

@@ -12,17 +12,17 @@ use crate::floor::FloorObject;
 use crate::mishap::Mishap;
 use crate::robot_set::RobotSet;
 
-/// A robot must stand still from this time on after Stop, or after the last message that it received (R40 and R43 of
-/// docs/protocol.md). A robot that receives nothing stops after 2 s, and brakes within 0.1 s.
+/// A robot must stand still from this time on after Stop, after the end of the run, or after the last message that it
+/// received (R40 and R43 of docs/protocol.md). A robot that receives nothing stops after 2 s, and brakes within 0.1 s.
 const RESTS_AFTER: Span = Span::from_millis(2_200);
-/// How long checks go on after all robots were stopped or the run ended.
+/// When a run is over, checks go on for this long after the time [`Invariants::stopped`].
 const WATCHED: Span = Span::from_millis(3_500);
 /// Time since a broken robot's dropout after which a contact with it is a violation, because other robots must drive
 /// around it. Before, all robots are held (within 0.6 s) and get new plans.
 const KNOWN_AFTER: Span = Span::from_millis(1_000);
-/// Time since a robot was put down elsewhere, or a foot was put on the floor, after which a contact with it is a
-/// violation. The moved robot notices within 0.3 s (R47) and reports, and all robots are held within 0.6 s. Messages
-/// may be late and lost.
+/// Time since a robot was put down elsewhere, began or ceased to report a false place, or a foot was put on the floor.
+/// After this time a contact with the robot or foot is a violation. The moved robot notices within 0.3 s (R47) and
+/// reports, and all robots are held within 0.6 s. Messages may be late and lost.
 const EXPECTED_AFTER: Span = Span::from_millis(1_500);
 /// Gap between the rims of two robots from which an excused contact has ended, metres.
 const APART_M: f64 = 0.01;
@@ -57,16 +57,17 @@ struct Watched {
     is_broken: bool,
     /// When it dropped out; `None` while it takes part.
     out: Option<Instant>,
-    /// Whether a plan failed while the robot was out. The controller may then plan paths through the robot's place.
+    /// Whether the robot was out when a plan last failed. The controller may then plan paths through the robot's place.
     is_place_given_up: bool,
-    /// Whether a dropout of the robot is no violation: messages are lost at random, something happened to this robot
-    /// alone, or it understands the command TARGET but no routes.
+    /// Whether a dropout of the robot is no violation: messages are lost at random, a breakdown or mishap happened to
+    /// this robot, or it understands the command TARGET but no routes.
     may_drop_out: bool,
     /// Whether it reports a false place, or shares its name with another robot.
     is_false: bool,
     /// When the robot was last put down elsewhere, or last began or ceased to report a false place.
     moved: Option<Instant>,
-    /// Whether the last check found its wheels turning although it had to rest. One such movement is one violation.
+    /// Whether the present turning of its wheels was already counted as a violation, because it had to rest. Becomes
+    /// false when the wheels stand, or the robot has no power or drives to a target. One movement is one violation.
     moves: bool,
 }
 
@@ -79,7 +80,8 @@ pub(crate) struct Invariants {
     /// Index of the frame that robots reached last; `None`: none yet. After a jump of the operator: of the frame before
     /// the chosen frame.
     reached: Option<usize>,
-    /// Indices of frames that robots need not reach, because no plan was found or the frames were skipped.
+    /// Indices of frames that robots need not reach, because no plan was found, or the frames were skipped or left out
+    /// to keep up with the music.
     given_up: Vec<usize>,
     /// The first and the last frame of the latest loop.
     repeats: Option<(usize, usize)>,
@@ -91,7 +93,7 @@ pub(crate) struct Invariants {
     /// ended.
     stopped: Option<Instant>,
     is_over: bool,
-    /// Pairs of robots whose contact was excused, and that have not parted.
+    /// Pairs of robots, or of a robot and the foot, whose contact was excused and that have not parted.
     together: Vec<(u32, u32)>,
     routes: RouteWatch,
     violations: Vec<Violation>,
@@ -226,8 +228,8 @@ impl Invariants {
         }
     }
 
-    /// Notes that a robot dropped out, and checks that it had a reason. Being late or blocked is always a reason,
-    /// because other robots may cause it.
+    /// Notes that a robot dropped out, and checks that it had a reason. Always a reason, because other robots may cause
+    /// it: the robot is late, blocked, unsure of its place, or missed its goal.
     fn dropped_out(&mut self, now: Instant, robot: usize, why: Trouble) {
         self.robots[robot].out = Some(now);
         let by_others = matches!(why, Trouble::Late | Trouble::Blocked | Trouble::Missed | Trouble::Unsure);
@@ -240,8 +242,8 @@ impl Invariants {
         }
     }
 
-    /// Notes a reached frame, and checks the order: each frame once, none left out. Only a loop goes back, from its
-    /// last frame to its first.
+    /// Notes a reached frame, and checks the order: each frame once, and none left out except those in `given_up`. Only
+    /// a loop goes back, from its last frame to its first. An old journal excuses any order.
     fn frame_stands(&mut self, now: Instant, frame: usize) {
         let goes_back =
             self.repeats.is_some_and(|(first, last)| self.reached == Some(last) && frame == first);
@@ -272,8 +274,9 @@ impl Invariants {
         }
     }
 
-    /// Checks that no route leads through a robot that dropped out and has no route. Robots whose place the controller
-    /// cannot know are not checked, such as TARGET-only robots, which do not report their places on the way.
+    /// Checks that no route leads through a robot that dropped out and has no route. Dropped-out robots are not checked
+    /// if their place was given up or the controller cannot know it. TARGET-only robots, for example, do not report
+    /// their places on the way.
     fn check_routes(&mut self, now: Instant, robots: &RobotSet) {
         let is_out = |robot: &usize| {
             let watched = &self.robots[*robot];
@@ -341,8 +344,8 @@ impl Invariants {
         (!is_excused).then(|| format!("robot {robot} touched a person"))
     }
 
-    /// Whether the controller cannot know the robot's place: the robot was moved less than [`EXPECTED_AFTER`] ago,
-    /// reports a false place, or shares its name.
+    /// Whether the controller cannot know the robot's place: the robot reports a false place or shares its name. Or
+    /// less than [`EXPECTED_AFTER`] ago it was put down elsewhere, or began or ceased to report a false place.
     fn is_unexpected(&self, now: Instant, robot: usize) -> bool {
         let watched = &self.robots[robot];
         watched.is_false || watched.moved.is_some_and(|at| now - at < EXPECTED_AFTER)

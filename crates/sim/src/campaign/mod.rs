@@ -21,8 +21,8 @@ pub use invariants::Violation;
 pub use scene::Scene;
 pub use story::Story;
 
-/// Longest time from the moment robots are switched on until the show begins, seconds. Robots find the controller and
-/// set their clocks, which takes half a minute on a slow link.
+/// Part of the time limit of a run: time from the moment robots are switched on until the first departure, seconds. On
+/// a slow link, robots need half a minute to find the controller and set their clocks.
 const BEGINS_WITHIN_S: f64 = 42.0;
 /// Time that recovery from a fault may take after the fault has ended, seconds: to notice a silent robot, to plan three
 /// times, and to gather robots after each plan.

@@ -48,8 +48,8 @@ impl RouteWatch {
         known.since
     }
 
-    /// Finds robots whose route is, at this moment, at the place of a robot in `out`. Returns each pair once in a run:
-    /// the robot with the route, and the robot that is out.
+    /// Finds robots whose route is, at this moment, at the place of a robot in `out` that has stood still for
+    /// [`AROUND_AFTER`]. Returns each pair once in a run: the robot with the route, and the robot that is out.
     pub fn look(&mut self, now: Instant, robots: &RobotSet, out: &[usize]) -> Vec<(usize, usize)> {
         let (places, contact_m) = (robots.world.places(), robots.world.contacts().contact_m());
         let mut through = Vec::new();

@@ -18,7 +18,7 @@ const HAPPEN_S: (f64, f64) = (0.0, 20.0);
 const SHORT_S: (f64, f64) = (0.1, 6.0);
 /// Shortest and longest duration of a long outage, seconds.
 const LONG_S: (f64, f64) = (6.0, 40.0);
-/// Share of the outages that are short.
+/// Share of the outages that are short, among those that may be short or long.
 const SHORT: f64 = 0.8;
 /// Time within which clients find a broker that is back.
 const FOUND_AGAIN: Span = Span::from_millis(2_000);
@@ -29,7 +29,8 @@ const FURTHER_FROM: u64 = 1_000;
 const PEOPLE_FROM: u64 = 2_000;
 /// Share of the stories from [`PEOPLE_FROM`] on that have a person on the floor.
 const PEOPLE: f64 = 0.5;
-/// From this seed on, each story has a fault of the controller's clocks, and outages of the broker may overlap.
+/// From this seed on, a fault of the controller's clocks is drawn for each story, and outages of the broker may
+/// overlap.
 const CLOCKS_FROM: u64 = 3_000;
 /// Largest change of the time of day, forwards or back, seconds. The first value is for the share [`SHORT`] of the
 /// changes, the second for the others.
@@ -79,7 +80,8 @@ impl Fault {
         }
     }
 
-    /// The robot that it happens to.
+    /// The robot that it happens to; `None` for a fault of the broker, controller, disk or operator, or a person on the
+    /// floor.
     fn robot(self) -> Option<usize> {
         match self {
             Self::Dead(robot) | Self::Stuck(robot) | Self::Moved(robot, _) => Some(robot),

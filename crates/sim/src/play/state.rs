@@ -46,14 +46,14 @@ pub(crate) struct Play {
     pub(super) mishaps: Timetable<Mishap>,
     /// Indices of the frames that the operator still has to jump to, in this order.
     pub(super) visits: VecDeque<usize>,
-    /// Number of rounds of a loop after which the operator gives GO.
+    /// Number of the round of a loop in which the operator gives GO, counted from 1.
     pub(super) loop_rounds: u32,
     /// Invariants that are checked after each step; `None` except in a campaign.
     pub invariants: Option<Box<Invariants>>,
     pub(super) record: RehearsalRecord,
     pub(super) lights: LightWatch,
     pub(super) hash: StateHash,
-    /// Name and index of each robot, sorted by name.
+    /// First name and index of each robot, sorted by name. Restarts under another name are in `namesakes`.
     pub(super) by_id: Vec<(RobotId, usize)>,
     pub(super) now: Instant,
     pub(super) began: bool,

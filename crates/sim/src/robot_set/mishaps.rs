@@ -49,8 +49,8 @@ impl RobotSet {
         }
     }
 
-    /// Puts a person's foot on the floor, at the free place nearest to `to` among those tried. `None`: takes the foot
-    /// off.
+    /// Puts a person's foot on the floor, at the free place nearest to `to` among those tried. If `to` is `None`, or no
+    /// place is free, the foot goes beside the floor.
     pub fn put_foot(&mut self, stage: &Stage, to: Option<Vec2>) {
         let place = to.and_then(|to| self.free_place(self.robots.len(), to));
         self.world.put_foot(stage, place);

@@ -10,15 +10,17 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_show::FrameLoop;
 use lightbots_wire::RobotState;
 
-/// Largest delay of the last arrival after the planned end of the leg that counts as in time. The air time (how long
-/// robots stay in a frame) then counts from the planned end.
+/// Largest delay of the last arrival after the planned end of a leg of routes that counts as in time. The air time (how
+/// long robots stay in a frame) then counts from the planned end. Robots beside their goals may count as arrived from
+/// this time before the planned end on.
 const IN_TIME: Span = Span::from_millis(250);
-/// Distance from its goal beyond which a robot counts as having missed the goal, metres: more than a robot's diameter
-/// of 54 mm.
+/// Distance from its goal beyond which a robot has missed the goal, and from its straight drive beyond which it has
+/// left that drive, metres. It is more than a robot's diameter of 54 mm.
 pub(crate) const MISSED_M: f64 = 0.06;
 
 impl Driving {
-    /// Handles the arrival of a robot that follows paths.
+    /// Handles the reported arrival of a robot that follows paths. The arrival counts if the robot is at its goal. Near
+    /// the planned end it also counts up to `MISSED_M` beside the goal. Any other arrival is ignored.
     pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, at: Option<Vec2>) -> Next {
         let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return Next::Stay };
         if !self.is_under_way(cx, participant) {
@@ -78,7 +80,7 @@ impl Driving {
         self.arrive(cx, participant)
     }
 
-    /// Ends the leg if all robots that drive in it have arrived.
+    /// Returns the end of the leg, if its drive has begun and all robots that drive in it have arrived.
     pub fn end_leg(&mut self, cx: &mut RunContext) -> Next {
         let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
         let (now, clock) = (cx.now, self.clock);
@@ -100,8 +102,9 @@ impl Driving {
     }
 }
 
-/// Notes that robots have reached a frame: events, counts, and whether the run waits for GO. `ends` is when they were
-/// to reach the frame by plan, holds included.
+/// Notes that robots have reached a frame: events, counts, and whether the run pauses or waits for GO. Forgets
+/// obstacles, and makes the frame after it the next one. `ends`: when robots were to reach the frame by plan, holds
+/// included.
 fn reach_frame(cx: &mut RunContext, frame: usize, ends: Instant) {
     let spread = cx.tally.arrivals.take().map_or(Span::ZERO, |(first, last)| last - first);
     let wait = (cx.now - ends).max(Span::ZERO);

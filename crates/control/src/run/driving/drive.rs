@@ -9,38 +9,39 @@ use lightbots_wire::Command;
 
 /// Time between two turns of the watch over driving robots.
 pub(crate) const WATCH_EVERY: Span = Span::from_millis(100);
-/// Time after the planned end of the drive at which robots that have not arrived are first asked for a report. An
+/// Time after the planned end of the drive from which robots are asked for a report because they have not arrived. An
 /// arrival in time has been reported by then.
 pub(crate) const ASK_AFTER_END: Span = Span::from_millis(300);
 
-/// Least time between two requests to the same robot for a report.
+/// Least time between two requests by [`Driving::ask`] to the same robot for a report.
 pub(crate) const ASKED_EVERY: Span = Span::from_millis(90);
 
 /// What the controller notes of one robot on a drive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RobotProgress {
-    /// Whether the robot has reached the goal of the leg.
+    /// Whether the robot counts as arrived: it has reached its goal in the leg, or was accepted beside the goal.
     pub arrived: bool,
-    /// Since when all robots wait for this one, because it is off its path, unsure of its place, obstructed or silent.
-    /// `None` if they do not.
+    /// Since when the robot is late: all robots wait for it, because it is off its path, unsure of its place,
+    /// obstructed or silent. `None` if it is not late.
     pub late_since: Option<Instant>,
-    /// Whether the robot is late because it is unsure of its place.
+    /// Whether the robot last became late because it was unsure of its place. Without meaning unless it is late.
     pub is_unsure: bool,
     /// Since when the robot reports an obstacle in its path. `None` if its last report names none.
     pub obstructed_since: Option<Instant>,
-    /// When the robot last began to report an obstacle, if it was not late before, or had become late just before. The
-    /// obstacle is then the reason why it is late.
+    /// When the robot last began to report an obstacle that is the reason why it is late. That is so unless it had
+    /// already been late for some time. `None` if it never did.
     pub obstructed_at: Option<Instant>,
     /// Since when a report of the robot is awaited, because a robot near it reports an obstacle. `None` if none is
     /// awaited.
     pub probed_since: Option<Instant>,
-    /// When the robot was last asked for a report.
+    /// When the robot was last asked for a report, other than by a check of a hold. At first, when the drive began.
     pub asked_at: Instant,
     /// Latest moment, at most `SLOW` after the planned end of the drive, at which the robot was on its route or made
     /// progress.
     pub on_route_at: Instant,
-    /// Shortest distance from the robot's reported places to its goal, metres, and when that distance last fell by at
-    /// least `NEARER_M`.
+    /// Distance from the robot to its goal when it last made progress, metres, and when that was. Progress is a place
+    /// that is nearer to the goal by more than `NEARER_M`. Infinite, and the beginning of the drive, until it is first
+    /// compared.
     pub nearest: (f64, Instant),
 }
 
@@ -56,11 +57,11 @@ pub(crate) struct Driving {
     pub last_arrival: Instant,
     /// Number of robots for which all wait (`late_since`).
     pub late: usize,
-    /// When START is sent again, so that robots know that the link works.
+    /// When START is sent again, so that robots know that the link works. [`Instant::FAR`] if robots drive by TARGET.
     pub heartbeat_at: Instant,
     /// When the next turn of the watch is due.
     pub watch_at: Instant,
-    /// When the controller begins to ask robots that have not arrived.
+    /// When the controller begins to ask robots for reports because they have not arrived.
     pub ask_at: Instant,
     /// The participant with which the next turn of the watch begins.
     pub watched: usize,
@@ -101,7 +102,7 @@ impl Driving {
         }
     }
 
-    /// When [`on_tick`](Self::on_tick) has something to do next.
+    /// When [`on_tick`](Self::on_tick) has something to do next, apart from light and uploads of routes.
     pub fn due(&self) -> Instant {
         let release_at = self.clock.hold.and_then(|hold| hold.release_at).unwrap_or(Instant::FAR);
         self.watch_at.min(self.heartbeat_at).min(release_at)

@@ -16,7 +16,8 @@ const COPIES: (u32, Span) = (5, Span::from_millis(30));
 /// Least time before the planned end of the drive at which a hold still begins, unless the operator asks for it. Robots
 /// need [`Route::EASE`] to stop and as long to pick up speed.
 const WORTH: Span = Span::from_millis(400);
-/// Time from when all robots should stand in a hold until the controller checks that they do: each reports within it.
+/// Time from when all robots should stand in a hold until the controller checks that they do. Each robot has reported
+/// by then.
 const CHECK_AFTER: Span = Span::from_millis(400);
 
 impl Driving {
@@ -49,8 +50,9 @@ impl Driving {
         }
     }
 
-    /// Ends a hold: sends RESUME, so that all robots pick up speed together once all stand. RESUME is not sent earlier
-    /// than needed for that, because after it the next hold can begin only when robots are back at full speed.
+    /// Ends a hold: sends RESUME, so that all robots pick up speed together once all stand. RESUME is sent no earlier
+    /// than needed for that. After RESUME the next hold can begin only when robots are back at full speed. If this call
+    /// is too early, only notes when RESUME is to be sent.
     pub fn release(&mut self, cx: &mut RunContext) {
         let (now, lead) = (cx.now, cx.link.resume_lead());
         let Some(hold) = self.clock.hold.as_mut().filter(|hold| hold.until.is_none()) else { return };
@@ -83,7 +85,8 @@ impl Driving {
         }
     }
 
-    /// Notes that all robots wait for a participant because of `why`, and begins a hold.
+    /// Notes that all robots wait for a participant because of `why`, records an event, and begins a hold. If the
+    /// participant is silent, also asks all robots for a report.
     pub fn mark_late(&mut self, cx: &mut RunContext, participant: usize, why: Trouble) {
         self.late += 1;
         self.progress[participant].late_since = Some(cx.now);

@@ -8,7 +8,8 @@ use lightbots_base::{Span, Vec2};
 use lightbots_wire::Details;
 
 /// Largest bound on a robot's distance off its path, metres. The bound is half the clearance of the plan, but at most
-/// this and at least the configured one. Beyond the bound, all wait for the robot.
+/// this and at least the configured one. Beyond the bound, all wait for the robot. Also the largest distance off its
+/// path at which an overdue robot counts as still on its way.
 pub(crate) const LATE_MAX_M: f64 = 0.03;
 /// A late robot counts as back on its path when its distance off the path falls below this share of the bound. The gap
 /// prevents quick switching between the two (hysteresis).
@@ -58,7 +59,8 @@ const PATIENCE: Patience =
     Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
 
 impl Driving {
-    /// Handles a driving robot's report of how far it is off its path and how unsure it is of its place.
+    /// Handles a driving robot's report of how far it is off its path and how unsure it is of its place. Beyond the
+    /// bounds all robots hold and wait for it. Once no robot is late, the hold ends unless the operator asked for it.
     pub fn on_progress(&mut self, cx: &mut RunContext, participant: usize, details: &Details) {
         let room_m = cx.pipeline.leg().map_or(0.0, |leg| leg.room_m);
         let late_m = cx.io.config.late.off_m.max((room_m / 2.0).min(LATE_MAX_M));
@@ -74,8 +76,9 @@ impl Driving {
         }
     }
 
-    /// Whether a robot may touch another one within `ahead`, if its place is wrong by as much as its error allows.
-    /// `err_m`: standard error of its place, metres.
+    /// Whether all robots have to wait because of `err_m`, the standard error of a robot's place, metres. `true` from
+    /// `unsure_m` on, `false` below `sure_m`. Between these bounds: whether the robot, wrong by its error, may touch
+    /// another one within `ahead`.
     fn is_too_unsure(&self, cx: &RunContext, participant: usize, err_m: f64) -> bool {
         let Uncertainty { sure_m, unsure_m, sigmas, others_m, ahead, step } = UNCERTAINTY;
         let Some(leg) = cx.pipeline.leg() else { return false };

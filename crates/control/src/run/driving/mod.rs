@@ -57,7 +57,8 @@ impl Heartbeat {
 
 impl Driving {
     /// Begins the drive of the first leg of the queue, which is under way since `began`. The returned [`Next`] ends the
-    /// leg if all robots have arrived already. Panics if no leg is queued.
+    /// leg if all robots have arrived already; it may also be a dropout or a failure from sending routes. Panics if no
+    /// leg is queued.
     pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
         let leg = cx.pipeline.drive_next().expect("a drive begins with a planned leg");
         let clock = PathClock::new(began, leg.duration);

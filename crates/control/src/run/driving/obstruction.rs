@@ -16,7 +16,8 @@ use crate::snapshot::Age;
 use lightbots_base::{Instant, Span, Vec2};
 use lightbots_wire::{Blocked, Command};
 
-/// Robots closer to an obstructed robot than this are asked for a report, metres: one of them may be dead in its path.
+/// Robots closer to an obstructed robot than this are asked for a report, metres. One of them may have died in the path
+/// of the obstructed robot.
 const NEAR_M: f64 = 0.5;
 /// Time within which a robot that was asked has to answer, or it counts as silent; round trips of the link are added.
 const ANSWER: Span = Span::from_millis(800);
@@ -48,7 +49,8 @@ impl RobotProgress {
 }
 
 impl Driving {
-    /// Handles a robot's report of an obstacle in its path, or of none. A new obstacle begins a hold of all robots.
+    /// Handles a robot's report of an obstacle in its path, or of none. A new obstacle begins a hold of all robots, and
+    /// robots near this one are asked for a report.
     pub fn on_obstruction(&mut self, cx: &mut RunContext, participant: usize, blocked: Option<Blocked>) {
         let progress = &mut self.progress[participant];
         if blocked.is_none() {
@@ -68,7 +70,7 @@ impl Driving {
         self.probe_around(cx, participant);
     }
 
-    /// Asks robots near an obstructed robot for a report.
+    /// Asks robots near an obstructed robot for a report, if they are still on their way and follow routes.
     fn probe_around(&mut self, cx: &mut RunContext, participant: usize) {
         let Some(at) = cx.robot(participant).reported.at else { return };
         for other in 0..cx.roster.len() {
@@ -101,8 +103,8 @@ impl Driving {
     }
 
     /// Watches a robot that reports an obstacle since `since`. If the obstacle stays and is a late robot, that late
-    /// robot drops out. Otherwise all is planned again around the obstacle. After too many of these plans the
-    /// obstructed robot drops out.
+    /// robot drops out. If it is no late robot and stays longer, all is planned again around it. After `REPLANS_MAX` of
+    /// these plans the obstructed robot drops out instead.
     pub fn watch_obstructed(&mut self, cx: &mut RunContext, participant: usize, since: Instant) -> Next {
         if cx.now - since > STAYS
             && let Some(culprit) = self.late_robot_seen_by(cx, participant)
@@ -131,8 +133,8 @@ impl Driving {
         Next::Regather
     }
 
-    /// The late robot that the obstructed `participant` sees in its path. A robot that became late only after it
-    /// reported an obstacle does not count: a standing robot also reports others that come near. Robots that are late
+    /// The late robot that the obstructed `participant` sees in its path. A robot that is late because it reports an
+    /// obstacle itself does not count: a standing robot also reports others that come near. Robots that are late
     /// because they are unsure of their places do not count either.
     fn late_robot_seen_by(&self, cx: &RunContext, participant: usize) -> Option<usize> {
         let there = seen_by(cx.robot(participant), cx.playback.contact_m())?;

@@ -17,12 +17,13 @@ use lightbots_wire::Command;
 const MOVED_M: f64 = 0.005;
 /// Shortest time between requests to a TARGET-only robot for its place, while other robots wait for it to pass.
 const ASK_AWAITED: Span = Span::from_millis(90);
-/// Time that each robot of the run adds between these requests, because the answers share one link. In fleets of fewer
-/// than 90 robots the time is [`ASK_AWAITED`]. In fleets of more than 500 it is [`ASK`], as for robots for which no
-/// other waits.
+/// Time between these requests divided by the number of robots in the run, because the answers share one link. In
+/// fleets of fewer than 90 robots the time is [`ASK_AWAITED`]. In fleets of more than 500 it is [`ASK`], as for robots
+/// for which no other waits.
 const ASK_PER_ROBOT: Span = Span::from_millis(1);
-/// A robot that reports its arrival farther from its goal than this is sent its target again, metres. It stopped at an
-/// earlier target, or farther before its target than usual. The planner leaves room for a little more than this.
+/// A robot that reports its arrival within the arrival tolerance, but farther from its goal than this, is sent its
+/// target again; metres. It stopped at an earlier target, or farther before its target than usual. The planner leaves
+/// room for a little more than this.
 const OFF_M: f64 = 0.015;
 /// How often at most a robot is sent its target again because it stands beside its goal.
 const CORRECTIONS: u8 = 2;
@@ -35,9 +36,10 @@ struct Standstill {
     accepted_after: Span,
     /// At its goal without a report of arrival: the robot counts as arrived.
     believed_after: Span,
-    /// Elsewhere: an event names the robot.
+    /// Anywhere on its straight drive: an event names the robot.
     named_after: Span,
-    /// Elsewhere: the robot drops out after this many times `Config::late.wait`, the bound for late robots.
+    /// Anywhere on its straight drive: the robot drops out after this many times `Config::late.wait`, the bound for
+    /// late robots.
     dropped_after_bounds: i64,
 }
 
@@ -56,7 +58,7 @@ const SILENCE_BOUNDS: i64 = 4;
 
 impl Driving {
     /// Handles a report of a TARGET-only robot with its place `at`, stage metres. `arrived`: the robot reports that it
-    /// has reached its target.
+    /// has reached its target. A robot that left its straight drive while no hold is on drops out.
     pub fn on_target_report(
         &mut self,
         cx: &mut RunContext,
@@ -151,7 +153,8 @@ impl Driving {
         }
     }
 
-    /// Watches a TARGET-only robot that is on its way, or waits for others to pass.
+    /// Watches a TARGET-only robot that is on its way, or waits for others to pass. It drops out after a long silence
+    /// or standstill. Otherwise it is asked for its place.
     pub fn watch_target_robot(&mut self, cx: &mut RunContext, participant: usize) -> Next {
         let silent = cx.now - cx.robot(participant).contact.heard.max(self.clock.began);
         if silent > cx.io.config.silence * SILENCE_BOUNDS {
@@ -169,7 +172,7 @@ impl Driving {
     }
 
     /// The index of the straight drive on which a participant has made no progress for longer than `bound`. `None` if
-    /// it makes progress or all are held.
+    /// it makes progress, is not on a drive, has come as far as it may go, or all robots are held.
     fn standing_drive(&self, cx: &RunContext, participant: usize, bound: Span) -> Option<usize> {
         let DrivenLeg { leg, targets } = cx.pipeline.driven.as_ref()?;
         let place = targets.under_way(participant).filter(|_| !self.clock.is_held())?;

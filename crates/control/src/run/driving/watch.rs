@@ -32,9 +32,10 @@ const _: () = assert!(SILENCE.asked_after.0 + ASKED_EVERY.0 < SILENCE.held_after
 /// Time after the planned end of the drive, or after the robot was last on its route if that is later. When it is over,
 /// the robot's place decides whether it counts as arrived or drops out.
 const OVERDUE: Span = Span::from_millis(3_000);
-/// Longest time after the planned end for which the fleet waits for a robot that still drives on its route. The robot
-/// may be in a simulated world that runs slower than the plan, on a busy machine. Without a bound, a robot that reports
-/// nonsense would stop the show for good.
+/// Longest time after the planned end for which the fleet waits for a robot that still drives on its route. Also the
+/// longest time for which all hold for a late robot that makes progress. The robot may be in a simulated world that
+/// runs slower than the plan, on a busy machine. Without a bound, a robot that reports nonsense would stop the show for
+/// good.
 const SLOW: Span = Span::from_millis(60_000);
 /// A robot is still on its way if its distance to the goal is larger, by more than this, than its distance off the
 /// route; metres.
@@ -121,7 +122,8 @@ impl Driving {
     }
 
     /// Watches a driving robot that has been silent for the time `silent`. After a short silence all hold and wait for
-    /// it. After a longer one, and once all stand, it drops out. `None` if neither happens in this turn.
+    /// it. After a longer one it drops out, once all robots should stand or it must have stopped by itself. `None` if
+    /// neither happens in this turn.
     fn watch_silent(&mut self, cx: &mut RunContext, participant: usize, silent: Span) -> Option<Next> {
         let bound = cx.io.config.silence + cx.link.round_trip * 2;
         if silent > bound && self.all_stand(cx, silent) {
@@ -144,8 +146,8 @@ impl Driving {
         silent > bound || cx.now >= stand_at
     }
 
-    /// When a robot last reported a place that is nearer to its goal by at least `NEARER_M`. All wait for a robot while
-    /// it makes progress.
+    /// When a robot last made progress: its reported place was nearer to its goal, by more than `NEARER_M`, than at its
+    /// progress before. If it never did: when the drive began. All wait for a robot while it makes progress.
     fn last_progress(&mut self, cx: &RunContext, participant: usize) -> Instant {
         let nearest = &mut self.progress[participant].nearest;
         if let (Some(at), Some(goal)) = (cx.robot(participant).reported.at, cx.goal(participant))
@@ -168,8 +170,8 @@ impl Driving {
         self.accept_misaligned(cx, participant, off_m)
     }
 
-    /// Checks during a hold whether all robots stand. Robots that still drive are sent HOLD individually. If some drive
-    /// after `HOLD_BOUND`, all robots are stopped and planned again.
+    /// Checks during a hold whether all robots that follow routes stand. Robots that still drive are sent HOLD
+    /// individually. If some drive after `HOLD_BOUND`, all robots are stopped and planned again.
     fn check_hold(&mut self, cx: &mut RunContext) -> Next {
         let Some(hold) = self.clock.open_hold().copied().filter(|hold| cx.now >= hold.check_at) else {
             return Next::Stay;

@@ -37,7 +37,8 @@ const CHANGE: Span = Span::from_millis(250);
 /// Layers that run freely are moved to the music if they are farther from it than this, seconds. People notice twice
 /// this difference.
 const NEAR_MUSIC_S: f64 = 0.03;
-/// Largest number of stretches that are computed at once. Each takes 0.3 ms, and reports of robots wait meanwhile.
+/// Largest number of long stretches that are computed at once; of short ones, up to five times as many. A long one
+/// takes 0.3 ms, and reports of robots wait meanwhile.
 pub(crate) const AT_ONCE: usize = 16;
 /// Pause until the next `AT_ONCE` stretches are computed.
 pub(crate) const AGAIN_AFTER: Span = Span::from_millis(5);
@@ -72,10 +73,10 @@ pub(crate) struct LightPlayer {
     live: LiveLayers,
     /// Whether live light was used in this run. From then on stretches are sent even if the show has no layers.
     was_live: bool,
-    /// When all robots get a new stretch, because live light changed or their drive began without one; [`Instant::FAR`]
-    /// if never.
+    /// When all robots get a new stretch; [`Instant::FAR`] if never. Reasons: live light changed, a drive began after
+    /// live light was used, or layers that run freely are moved to the music.
     renew_at: Instant,
-    /// When all robots last began to get a new stretch for either of these reasons; [`Instant::ZERO`] if never.
+    /// When all robots last began to get a new stretch for any of these reasons; [`Instant::ZERO`] if never.
     renewed_at: Instant,
     /// How long before the end of the newest stretch the next one begins to be sent.
     refill: Span,
@@ -272,14 +273,15 @@ impl LightPlayer {
         self.renew_at < Instant::FAR || is_under_way
     }
 
-    /// Whether lights still blend to the colours of a new drive or of changed live light. Also `true` before the drive
-    /// begins; `false` if no stretches are used.
+    /// Whether lights still blend to the colours of a new drive or of changed live light. Also `true` after the drive
+    /// was interrupted, until the next one begins. `false` if no stretches are used, or before the first drive.
     pub fn blends(&self, now: Instant) -> bool {
         let Some(current) = self.current.as_ref().filter(|_| self.is_active()) else { return false };
         self.is_changing(now) || current.elapsed(now).is_none_or(|elapsed| elapsed < current.first.over)
     }
 
-    /// The colour that a participant should show now. `None` if no stretches are used or the drive has not begun.
+    /// The colour that a participant should show now. `None` if no stretches are used, no drive has begun, the drive
+    /// was interrupted, or the participant is not in the leg.
     pub fn colour(
         &self,
         now: Instant,

@@ -23,8 +23,9 @@ pub(super) struct LegPlace {
     pub leads_music: bool,
 }
 
-/// Finds where the leg after `current` is on the timeline. If `current` leads to the same frame, the drive to it is
-/// planned anew and robots are late. Show time then goes on, and the frame stays due when it was before.
+/// Finds where the leg after `current` is on the timeline. If `current` leads to the same frame, either several legs
+/// lead there, or the drive was planned anew and robots are late. Unless the operator chose the frame, show time then
+/// goes on, and the frame stays due when it was before. Notes in `times` when the frame is due.
 pub(super) fn place(
     times: &mut ShowTimes,
     current: Option<&LegLight>,

@@ -12,7 +12,8 @@ use lightbots_base::{Instant, Span, TICK};
 use lightbots_lighting::is_seen_apart;
 use lightbots_wire::Command;
 
-/// How long before its beginning a stretch that goes on during holds is sent: time for a round trip.
+/// Least time from sending a stretch that goes on during holds to its beginning: a round trip. For changes of live
+/// light it is `LIVE.lead`.
 const LEAD: Span = Span::from_millis(100);
 /// For how long after a drive began the second stretch is not sent. A robot whose clock is a little behind has not
 /// begun the drive yet. It drops a waiting stretch when it begins (R56).

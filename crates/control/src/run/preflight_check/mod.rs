@@ -20,9 +20,8 @@ use lightbots_wire::{Blink, Command, Details, RobotState, Route, Topic};
 use robot_test::{RobotTest, untested};
 use std::collections::BTreeMap;
 
-/// All robots are told to stop when one of them would come to rest this close to the end of its way out, metres. A
-/// robot that does not stop drives on by this distance, which its reports show. While they slow down for it, all robots
-/// are still fast.
+/// All robots are stopped on the way out once one of them would come to rest at most this far from its goal, metres. A
+/// robot that does not stop then drives on by up to this distance, which its reports show.
 const STOP_LEFT_M: f64 = 0.02;
 /// If a stopped robot would rest closer to its goal than this, its stop is not tested, metres. Its place may be off by
 /// [`OFF_M`], and by as much again for noise, so stopping and driving on could not be told apart.
@@ -47,7 +46,7 @@ const BLINK: Span = Span::from_millis(4_000);
 /// they drive.
 const ASK_DRIVERS_EVERY: Span = Span::from_millis(120);
 /// Least time between these requests, divided by the number of robots in the run, because the answers share one link.
-/// From 300 robots on, it is longer than `ASK_DRIVERS_EVERY`.
+/// Above 300 robots, this least time is longer than `ASK_DRIVERS_EVERY`.
 const ASK_DRIVERS_PER_ROBOT: Span = Span(400);
 
 /// The preflight under way.
@@ -128,7 +127,8 @@ impl PreflightCheck {
         self.standing.map_or(Instant::FAR, |test| test.ask_at)
     }
 
-    /// Notes that a participant dropped out, as a finding of its robot.
+    /// Notes that a participant dropped out, as a finding of its robot. If it was to stop on the way and did not
+    /// acknowledge, the finding is that it did not stop.
     pub fn drop_out(&mut self, participant: usize, why: Trouble) {
         let is_stopping = self.stop.is_some() && why == Trouble::Deaf;
         let finding = if is_stopping { PreflightFinding::DidNotStop } else { PreflightFinding::Failed(why) };
@@ -230,8 +230,9 @@ impl PreflightCheck {
     }
 
     /// Checks, for each robot that was told to stop, where and when it stood. Returns participants that stand elsewhere
-    /// or reported too late; they are to drop out. On a link so slow that HOLD may have come late, a robot that stands
-    /// elsewhere counts as not tested, and stays.
+    /// or reported too late; they are to drop out. A robot that reported in time stays, but counts as not tested, if it
+    /// was to stop too close to its goal. So does one that stands elsewhere on a link so slow that HOLD may have come
+    /// late.
     fn judge_stop(&mut self, cx: &RunContext) -> Vec<usize> {
         let Some(stop) = self.stop.take() else { return Vec::new() };
         let within = STOPS_WITHIN + cx.link.round_trip * 2;

@@ -13,7 +13,7 @@ use super::show_places::{began_s, frame_name, pixel};
 pub(super) struct StopSafe {
     /// Share of safe moments among all moments of driving robots, 0 to 1; null: the plan must not be played.
     share: Option<f64>,
-    /// The moment with the largest missing clearance; null: the share is 1.
+    /// The unsafe moment with the largest missing clearance; null: all moments are safe, or no transition has a plan.
     worst: Option<Worst>,
     /// Index and share of each transition with a share below 1.
     #[serde(skip)]

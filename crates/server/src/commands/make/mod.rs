@@ -39,7 +39,8 @@ struct Picture {
     closest_m: Option<f64>,
     correlation: Option<f64>,
     symmetry: Option<f64>,
-    /// Number of robots that would show the source readably, if it is more than the requested number; else `None`.
+    /// Number of robots that would show the source readably, if the frame is hard to read. `None` if it is readable, or if
+    /// no number above the requested one is known.
     enough: Option<usize>,
 }
 

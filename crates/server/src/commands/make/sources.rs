@@ -15,10 +15,10 @@ use crate::cli::MakeArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
 
-/// Largest file of a source, bytes.
+/// Largest file of a source or of a font, bytes.
 const FILE_MAX: u64 = 64 << 20;
 
-/// Number of frames of a scrolling text for each character of the text.
+/// Number of steps of a scrolling text for each character of the text. Steps whose window is empty give no frame.
 const STEPS_PER_CHARACTER: usize = 1;
 
 /// Width of the part of a scrolling text that one frame shows, in cap heights of the font.

@@ -22,8 +22,8 @@ pub(super) enum Container {
 }
 
 impl Container {
-    /// Returns the encoders and their settings. They favour quality over a small file, and give the same bytes for the same
-    /// pictures.
+    /// Returns the arguments of ffmpeg for this container: encoders and their settings. They favour quality over a small
+    /// file.
     fn settings(self) -> &'static [&'static str] {
         match self {
             Self::Mp4 => &[
@@ -87,8 +87,8 @@ impl Music {
     }
 }
 
-/// Finds the show's music in the show or beside its file. Music in the show is copied to a file beside `out`. If the
-/// music is missing, the film is silent and an issue says so.
+/// Finds the show's music in the show or beside its file. Music in the show is copied to a file beside `out`. `None` if the
+/// show names no music, or if the music is missing. Missing music leads to an issue and a silent film.
 pub(super) fn music(
     show: &Show,
     (file, out): (&Path, &Path),

@@ -15,7 +15,7 @@ struct Answer {
     robot: Option<String>,
     broker: String,
     rules: Vec<RuleAnswer>,
-    /// Why no robot was examined.
+    /// Why there are no findings, such as that no robot was found or that the exam was stopped. `None` if the exam ended.
     #[serde(skip_serializing_if = "Option::is_none")]
     issue: Option<String>,
 }
@@ -38,7 +38,7 @@ struct Tried {
     fits: bool,
 }
 
-/// Prints the findings, or why no robot was examined.
+/// Prints the findings. If there are none, returns the reason as an error, and with `json` prints it, too.
 pub fn tell(examined: Result<Exam, Failure>, broker: &BrokerUrl, json: bool) -> Outcome {
     let (exam, failure) = match examined {
         Ok(exam) => (Some(exam), None),

@@ -120,7 +120,8 @@ impl Door {
         self.who(id)?.may_subscribe(filter)
     }
 
-    /// Checks whether a client may publish a message. `Err`: why not, and whether the client is cut off.
+    /// Counts a message of a client, and checks whether the client may publish it. `Err`: why not, and whether the client is
+    /// cut off.
     fn message(&self, id: &Id, topic: &str, payload: &[u8]) -> Result<(), (String, bool)> {
         let who = self.who(id).map_err(|why| (why, false))?;
         let now = Instant::now();

@@ -32,8 +32,8 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Starts to listen. If other machines can reach the broker, `options` must name users or require client certificates;
-    /// otherwise an error is returned.
+    /// Starts to listen. Without users in `options`, an error is returned if other machines can reach the broker. For the
+    /// TLS address, an authority of client certificates is enough instead of users.
     pub fn start(options: BrokerOptions) -> Result<Self, Failure> {
         options.check_exposure()?;
         let acceptor = options.tls.as_ref().map(TlsOptions::acceptor).transpose()?;

@@ -145,7 +145,7 @@ impl Gate {
     }
 
     /// Does the TLS handshake with a client and connects to the broker behind the gate. `None` if the client sent nothing in
-    /// time. `Err`: why the client is refused.
+    /// time, or closed the connection before its first byte. `Err`: why the client is refused.
     async fn open(&self, stream: TcpStream, client: SocketAddr) -> Result<Option<Opened>, String> {
         let mut first = [0];
         let peeked = tokio::time::timeout(PATIENCE, stream.peek(&mut first)).await;

@@ -57,11 +57,12 @@ pub fn connections(open_files: usize, has_tls: bool) -> usize {
 /// Longest report of a robot, in bytes. The longest that our robots send has 400 (R10 with every field).
 pub const REPORT_BYTES: usize = 4_096;
 
-/// Rate limit of one robot. A robot reports at most ten times a second, and acknowledges each part of its routes. A robot
-/// that comes back to a long show acknowledges 100 parts at once.
+/// Rate limit of one robot, and of a client with the role cue. A robot reports at most ten times a second, and acknowledges
+/// each part of its routes. A robot that comes back to a long show acknowledges 100 parts at once.
 pub const ROBOT_RATE: Rate = Rate { per_second: 100, burst: 1_000 };
 
-/// Rate limit of a connection that robots share, at most 1,000: each robot answers a frame with some twenty messages.
+/// Rate limit of a tool, and of a connection that robots share. At most 1,000 robots share one, and each answers a frame
+/// with some twenty messages.
 pub const SHARED_RATE: Rate = Rate { per_second: 30_000, burst: 60_000 };
 
 /// How long a client that was cut off for a flood may not connect.
@@ -122,7 +123,7 @@ pub const TOPIC_ALIASES: u16 = 8;
 /// broker no way to shorten it.
 pub const KEEP_ALIVE_S: u16 = 60;
 
-/// Most bytes of data of the broker's process, where the system can bound them. Above it, the process ends and is started
+/// Most bytes of data of the broker's process, on Linux only. Above it, the process ends. The command `run` then starts it
 /// again. The limits above keep the process far below it.
 pub const PROCESS_BYTES: u64 = 1 << 30;
 

@@ -45,7 +45,8 @@ pub struct BrokerOptions {
     pub listen: SocketAddr,
     /// Address and certificates for MQTT with TLS; `None` without TLS.
     pub tls: Option<TlsOptions>,
-    /// Users that may log in. If there are none, every client on this machine may connect.
+    /// Users that may log in. If there are none, clients on this machine may connect without login, and over TLS also other
+    /// clients with a certificate of the authority.
     pub users: Users,
     /// Expected number of robots, for the size of queues.
     pub robots: usize,

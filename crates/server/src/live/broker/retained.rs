@@ -91,7 +91,8 @@ impl Kept {
         (self.count, self.bytes) = (count, bytes);
     }
 
-    /// Returns the retained messages that match a filter. The expiry interval of each is the time that is left.
+    /// Returns the retained messages that match a filter. The expiry interval of a message that expires is set to the time
+    /// that is left.
     fn matching(&self, filter: &Topic) -> Vec<(TopicName, Retain)> {
         let found = self.tree.matches(filter).into_iter().filter(|(_, message)| !message.is_expired());
         found

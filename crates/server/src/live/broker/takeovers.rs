@@ -11,10 +11,10 @@ use super::limits;
 const TAKEOVERS: u32 = 3;
 /// Time within which [`TAKEOVERS`] take-overs must happen.
 const WITHIN: Duration = Duration::from_secs(10);
-/// A take-over counts only if the old connection sent a packet within this time before the take-over.
+/// A take-over counts only if the client logged in or published a message within this time before the take-over.
 const ALIVE: Duration = Duration::from_secs(1);
 
-/// Recent packets and take-overs of connections, by client id.
+/// Latest login or message, and counted take-overs, by client id.
 #[derive(Debug, Default)]
 pub struct Takeovers(Mutex<BTreeMap<String, Contest>>);
 

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 
-/// Users by name. If there are none, all clients on this machine may connect.
+/// Users by name. If there are none, clients on this machine may connect without login, and over TLS also other clients with
+/// a certificate of the authority.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Users(BTreeMap<String, User>);
 

@@ -30,7 +30,8 @@ const LONGEST_S: usize = 1_200;
 #[derive(Debug, Default)]
 struct Wanted {
     music: Option<Arc<LoudMusic>>,
-    /// Moment of the last reading, and the music's position then, seconds. `None` while the show stands.
+    /// Moment of the last reading, and the music's position then, seconds. `None` while the show stands, or if the reading
+    /// took longer than `BELIEVED`.
     position: Option<(Instant, f64)>,
 }
 

@@ -20,7 +20,7 @@ const GONE_IN_S: f64 = 2.0;
 
 impl LoudMusic {
     /// Returns the sample of a channel at a position, interpolated between two frames. Before the start and after the end of
-    /// the music, it is silence.
+    /// the music, the sample is 0, silence.
     fn at(&self, position_s: f64, channel: usize) -> f32 {
         let frame = position_s * self.rate_hz;
         if frame < 0.0 {

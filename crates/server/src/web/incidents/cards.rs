@@ -80,7 +80,7 @@ fn of_robot(kind: &EventKind) -> Option<FirstCard> {
     })
 }
 
-/// Cards about the run, its controller and its fleet.
+/// Cards about the run, the controller, the fleet, plans and music.
 fn of_run(kind: &EventKind) -> Option<FirstCard> {
     use EventKind as E;
     Some(match kind {

@@ -25,14 +25,15 @@ use words::Card;
 const KEPT: usize = 40;
 /// Most robot names that an incident keeps.
 const NAMED: usize = 50;
-/// Robots that drop out for the same reason make one incident if each follows the one before within this time, milliseconds.
+/// Robots that drop out for the same reason in the same frame make one incident if each follows the one before within this
+/// time, milliseconds. An incident that the operator has read gets no further robots.
 const TOGETHER_MS: u64 = 4_000;
 
 #[derive(Debug)]
 struct Entry {
     subject: Subject,
     incident: Incident,
-    /// All robots of the incident, not only those that the card names.
+    /// Robots of the incident that have not come back or joined meanwhile, also those that the card does not name.
     robots: Vec<RobotId>,
     last_ms: u64,
 }
@@ -59,7 +60,7 @@ impl IncidentBoard {
         Self { book: Arc::default(), message: watch::channel(message).0 }
     }
 
-    /// Returns a receiver of the message with all incidents. It changes with them.
+    /// Returns a receiver of the message with all incidents. Each change of the incidents gives a new message.
     pub fn watch(&self) -> watch::Receiver<Utf8Bytes> {
         self.message.subscribe()
     }
@@ -119,7 +120,7 @@ impl IncidentBoard {
 }
 
 impl Entry {
-    /// Adds a robot to the incident.
+    /// Adds a robot to the incident. The card's count becomes the number of robots that have not come back or joined.
     fn grow(&mut self, robot: RobotId, now_ms: u64) {
         self.robots.push(robot);
         self.last_ms = now_ms;
@@ -223,8 +224,8 @@ impl Book {
         changed
     }
 
-    /// Opens an incident. If one with the same subject is not over, that one gets the new card instead and becomes unread.
-    /// Dropouts and joining always open another incident.
+    /// Opens an incident. If an incident with the same subject is not over, that incident gets the new card instead and
+    /// becomes unread. Dropouts and wishes to join always open another incident.
     fn open(&mut self, subject: Subject, tone: IncidentTone, card: Card, robots: Vec<RobotId>, now_ms: u64) {
         let Card { title, done, advice } = card;
         let holds = |entry: &&mut Entry| entry.subject == subject && !entry.incident.over;

@@ -3,7 +3,8 @@
 use lightbots_base::RobotId;
 use lightbots_control::Trouble;
 
-/// What an incident is about. Events with the same subject change the same incident.
+/// What an incident is about. Events with the same subject change the same incident until it is over. Dropouts and wishes to
+/// join also begin another incident once the operator has read theirs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
     Dropouts {
