@@ -17,7 +17,7 @@ pub struct Plan {
     pub ok: bool,
     /// Duration of the show, seconds: transitions and air times.
     pub duration_s: f64,
-    /// Lower bound on the duration of any show with these frames, seconds.
+    /// Lower bound on `duration_s`, seconds: the sum of the lower bounds of all transitions, and all air times.
     pub lower_bound_s: f64,
     /// Smallest distance between two centres, metres; null with fewer than two robots.
     pub closest_m: Option<f64>,

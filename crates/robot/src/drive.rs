@@ -4,10 +4,11 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::filter::turned;
 
-/// Largest acceleration (the ramp), as a multiple of the acceleration that plans use. With a smaller value, a robot cannot
-/// catch up with its route. With a larger value, its wheels lose grip.
+/// Acceleration of the ramp, as a multiple of the acceleration that plans use. Braking for others is not limited by it, and
+/// speed lost by that may be regained faster ([`RECOVERY`]). With a smaller value, a robot cannot catch up with its route.
 const ACCEL_RESERVE: f64 = 1.25;
-/// Largest speed, as a multiple of the speed limit that plans use. See [`ACCEL_RESERVE`].
+/// Largest speed, as a multiple of the speed limit that plans use. With a smaller value, a robot that is late at full speed
+/// cannot catch up with its route.
 const SPEED_RESERVE: f64 = 1.25;
 /// Acceleration with which a robot regains its speed after braking without a ramp, as a multiple of the ramp: about the grip
 /// of the tyres. An Elisa-3 slips at it and falls behind by at most 4 mm. With the ramp alone, it falls behind by 20 mm.

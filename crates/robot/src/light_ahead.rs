@@ -83,7 +83,7 @@ pub(crate) struct LightAhead {
     playing: Option<Playing>,
     /// Stretches that have not begun, in the order in which they arrived.
     waiting: heapless::Vec<Kept, STORED>,
-    /// Number of the stretch that was received last; 0 if none was.
+    /// Number of the stretch that was received last, apart from old messages; 0 if none was.
     newest: u32,
     /// Route number and moment (show clock) of the START that was received last.
     started: Option<(u32, Instant)>,

@@ -1,6 +1,7 @@
 //! `PATH seq x y piece…`: a route as text, in tenths of a millimetre and microseconds.
 //!
-//! A piece is `R us` (rest), `L us x y` (straight at constant speed) or `C us x1 y1 x2 y2 x y` (cubic Bézier).
+//! A piece is `R us` (rest), `L us x y` (straight at constant speed) or `C us x1 y1 x2 y2 x y` (cubic Bézier). After the
+//! pieces may come `G room`, the planned clearance in millimetres, and the neighbours.
 
 use core::fmt::{self, Write};
 
@@ -15,7 +16,8 @@ use crate::{Neighbours, Pieces, Route};
 /// values.
 type Tenths = [i32; 2];
 
-/// Reads the route after the word `PATH`; `None` if a field is invalid or there are more than `MAX_PIECES` pieces.
+/// Reads the route after the word `PATH`. `None` if there are more than `MAX_PIECES` pieces, or a field is invalid. An
+/// invalid entry among the neighbours only ends their list (R31).
 pub(crate) fn decode_route(fields: &mut Fields<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;

@@ -94,8 +94,8 @@ impl<'a> TestFloor<'a> {
         }
     }
 
-    /// Returns the goals to which a robot can drive without meeting a standing robot, an obstacle or the floor's edge;
-    /// the preferred goal first.
+    /// Returns the goals to which a robot can drive while all other robots stand: its line keeps its gap from them, leads
+    /// through no obstacle, and ends inside the floor. They are in the order of [`DIRECTIONS`].
     fn free_goals(&self, robot: usize) -> Vec<Vec2> {
         let TestedRobot { at, heading } = self.robots[robot];
         let goal = |eighths: &i32| at + Vec2::unit(heading + f64::from(*eighths) * FRAC_PI_4) * OUT_M;

@@ -9,7 +9,7 @@ use lightbots_base::{Span, Vec2};
 use std::sync::Arc;
 
 /// A reported place and a place that the plan drives around count as the same if they are closer than this, metres.
-/// This is 4 sigma of two position fixes.
+/// This is 4 sigma of a position fix, whose sigma is 2 mm.
 const SAME_M: f64 = 0.008;
 /// Share of the contact distance (between the centres of two robots that touch). A path that comes closer to a robot
 /// than this share leads through the robot. Plans keep the whole distance and more; position fixes are off by a few

@@ -67,8 +67,9 @@ fn is_dot(line: &StrokeLine) -> bool {
     bounds(line.iter()).is_some_and(|(low, high)| high.distance(low) < 2.0 * STEP)
 }
 
-/// Stretches lines so that they reach the middle of the outermost strokes of an area, then moves them into the middle
-/// of all strokes.
+/// Stretches lines to the extent of an area, less half a stroke width on each side. Then moves each line into the middle
+/// of the stroke on which it lies, and cuts off ends outside the area. If there are as many dots as small separate parts
+/// of the area, each dot is moved to the centre of one of them instead.
 fn fitted(lines: Vec<StrokeLine>, area: &LetterArea) -> Vec<StrokeLine> {
     let half = Vec2::new(area.stem, area.stem) / 2.0;
     let (mut dots, mut lines): (Vec<StrokeLine>, Vec<StrokeLine>) = lines.into_iter().partition(is_dot);

@@ -68,7 +68,8 @@ impl Default for StopAssumptions {
     }
 }
 
-/// The moments of a transition at which robots must not stop dead, and the number of all moments that were sampled.
+/// The pairs of a robot and a moment of a transition at which a dead stop of that robot may lead to a contact, and the
+/// number of all pairs that were sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StopSafety {
     /// Number of sampled pairs of a robot that drives in this transition and a moment.

@@ -26,7 +26,8 @@ struct Worst {
     robot: usize,
     /// Id of the pixel to which the robot drives; null: the robot has none.
     pixel: Option<u32>,
-    /// Index of the other robot, which would touch the stopped robot.
+    /// Index of the other robot, which would touch the stopped robot. If `missing_m` is 0 it can stop in time, but then
+    /// a third robot would touch it.
     by: usize,
     /// Id of the pixel to which the other robot drives; null: that robot has none.
     by_pixel: Option<u32>,
