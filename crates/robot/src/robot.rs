@@ -26,6 +26,9 @@ const GIVE_UP_M: f64 = 0.3;
 /// A robot that the safety layer slowed has caught up once it is within this distance of the present place of its route,
 /// metres. With a smaller value, the error of following a route counts as being behind.
 const CAUGHT_UP_M: f64 = 0.02;
+/// Speed below which a robot may stop dead where its route was broken off, m/s: in a step, at a third of the grip limit.
+/// With a smaller value, a robot that catches up with its place still moves 2.2 s after the last message (R43).
+const CATCHES_UP_MPS: f64 = 0.06;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Handles a message that arrives at `now`, own clock. Messages are ignored unless their topic is `Broadcast` or the
@@ -201,6 +204,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let is_behind = off_m > CAUGHT_UP_M;
         self.hot.is_held_up = is_behind && (self.hot.is_held_up || self.braking_towards().is_some());
         self.heed_link(now, route_time);
+        self.end_broken_off(now, route_time);
         let hot = &mut self.hot;
         if drives == Drives::Route {
             let gives_up = off_m > GIVE_UP_M;
@@ -234,7 +238,19 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 hot.supervisor.cut_off();
             }
         }
-        if hot.routes.end_broken_off(route_time) && hot.supervisor.is_out(now, Drives::Route) {
+    }
+
+    /// Ends a route that was broken off once it has come to rest. A robot that still catches up with its place there
+    /// stops; a faster one rolls out.
+    fn end_broken_off(&mut self, now: Instant, route_time: Option<Instant>) {
+        let hot = &mut self.hot;
+        if !hot.routes.end_broken_off(route_time) {
+            return;
+        }
+        if hot.drive.speed_mps().abs() < CATCHES_UP_MPS {
+            hot.drive.halt();
+        }
+        if hot.supervisor.is_out(now, Drives::Route) {
             hot.supervisor.cut_off();
         }
     }

@@ -34,6 +34,9 @@ const BACK_M: f64 = 0.004;
 /// A route is an old message that arrived late if its number is below the newest one by less than this. A route whose
 /// number is farther below comes from a restarted controller.
 const OLD_NUMBERS: u32 = 64;
+/// A route that was broken off is abandoned this long before it would rest, so that the robot stands in time (R43): one
+/// step, in which path time advances by less than 1 ms.
+const LAST_STEP: Span = Span::from_millis(16);
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
 
@@ -139,7 +142,7 @@ impl Routes {
     /// Slows the route under way to rest from the latest step on. [`Self::end_broken_off`] abandons it then.
     pub(crate) fn break_off(&mut self) {
         if let Some(running) = self.running.as_mut() {
-            running.abandoned_at = Some(running.latest + Route::EASE);
+            running.abandoned_at = Some(running.latest + Route::EASE - LAST_STEP);
             self.timeline.rest(running.latest);
         }
     }

@@ -70,8 +70,8 @@ fn after_a_pause_longer_than_its_patience_a_message_does_not_set_a_robot_going_a
     let from = plant.at;
     plant.run(0.35);
     assert_eq!(plant.robot.state(), RobotState::Idle);
-    // As in a hold, half of 0.3 s at 0.27 m/s.
-    assert!(plant.stands() && plant.at.distance(from) < 0.045, "{:?}", plant.at);
+    // As in a hold: half of 0.3 s at 0.27 m/s, and up to two steps.
+    assert!(plant.stands() && plant.at.distance(from) < 0.05, "{}", plant.at.distance(from));
 }
 
 #[test]
