@@ -27,7 +27,8 @@ pub(crate) struct FleetUpdate {
     pub restarted: bool,
 }
 
-/// All known robots. Indices into the fleet are stable until a robot is forgotten, which is refused during a run.
+/// All known robots. Indices into the fleet are stable until a robot is forgotten, which is refused during a run, and while
+/// robots are being stopped.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct KnownRobots {
     robots: Vec<KnownRobot>,

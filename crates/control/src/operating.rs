@@ -371,11 +371,8 @@ impl Controller {
     }
 
     fn forget(&mut self, id: RobotId) -> Result<(), Refusal> {
+        self.idle()?;
         let index = self.context.fleet.find(id).ok_or(Refusal::UnknownRobot(id))?;
-        if self.run.is_some() {
-            return Err(Refusal::TakesPart(id));
-        }
-        self.stopping = None;
         self.context.fleet.forget(index);
         self.context.mapping.forget(id);
         Ok(())

@@ -46,8 +46,8 @@ pub enum Operation {
     Refresh,
     /// Make a robot flash for five seconds. A robot that does not support BLINK is asked to report.
     Identify(RobotId),
-    /// Remove a robot from the fleet, with its pixel bindings, until it reports again. Refused during a run. While
-    /// robots are being stopped, ends that stopping.
+    /// Remove a robot from the fleet, with its pixel bindings, until it reports again. Refused during a run, and while
+    /// robots are being stopped.
     Forget(RobotId),
     /// Set whether the show starts again after its last frame.
     Loop(bool),
@@ -192,8 +192,6 @@ pub enum Refusal {
     },
     /// No robot of that name is known.
     UnknownRobot(RobotId),
-    /// No robot can be forgotten during a run. Holds the robot that was to be forgotten.
-    TakesPart(RobotId),
     /// The last run failed or was stopped, and the operator has not dismissed the message about it.
     NotDismissed,
     /// A preflight is not possible: no robot has enough free floor around it for its test drive.
@@ -255,6 +253,9 @@ impl fmt::Display for Refusal {
             Self::NoSuchFrame { frame, frames } => {
                 write!(f, "There is no frame {}: the show has {frames}.", frame + 1)
             }
+            Self::Busy(ControllerState::Aborting) => {
+                write!(f, "Not while the robots are being stopped: wait until they stand.")
+            }
             Self::Busy(state) => write!(f, "Not while the controller is {state}: abort first."),
             Self::NoRun => write!(f, "Nothing is being played."),
             Self::NotPaused => write!(f, "The run is not paused: pause it first."),
@@ -291,9 +292,6 @@ impl fmt::Display for Refusal {
                 "Pixels {pixels:?} are bound to robots that are not here: free them, or leave them out."
             ),
             Self::UnknownRobot(id) => write!(f, "No robot {id} is known: refresh the fleet."),
-            Self::TakesPart(id) => {
-                write!(f, "Robot {id} cannot be forgotten during a run: abort the run first.")
-            }
             Self::NotDismissed => {
                 write!(f, "The last run was stopped: look at the floor, then dismiss the message about it.")
             }

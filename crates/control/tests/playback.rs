@@ -160,6 +160,25 @@ fn stop_lets_a_drive_come_to_rest_first_and_pressed_again_halts_at_once() {
 }
 
 #[test]
+fn no_robot_is_forgotten_while_robots_are_being_stopped() {
+    for operation in [Operation::StopAll, Operation::Abort] {
+        let mut world = World::under_way(6);
+        world.deaf = vec![5];
+        world.operate(operation.clone()).unwrap();
+        world.run_for(0.1);
+        let forgotten = world.operate(Operation::Forget(world.robots[5].id));
+        world.run_for(0.2);
+        world.deaf.clear();
+        world.run_for(1.0);
+        assert!(world.robots[5].stops > 0, "{operation:?}: the robot missed `STOP at`, and drives on");
+        world.run_for(1.0);
+        assert_eq!(forgotten, Err(Refusal::Busy(ControllerState::Aborting)));
+        assert_eq!(world.operate(Operation::Forget(world.robots[5].id)), Ok(()));
+        assert_eq!(world.controller.robots(), 5);
+    }
+}
+
+#[test]
 fn a_run_says_for_which_clocks_it_waits() {
     let mut world = World::ready(3, 0, show(1, 3, 0.2));
     world.robots[1].clock_us = 40_000;

@@ -16,8 +16,8 @@ const SPACING_M: f64 = 0.0764;
 
 /// Fits every frame of a show to `robots` robots. Frames that already have `robots` pixels are kept. Frames with
 /// exactly one source are made anew from it. Other frames, and frames whose source cannot be drawn, keep their lights
-/// as far as possible. Starts for another number of robots are dropped. Returns notes about changes that people may not
-/// expect.
+/// as far as possible. Starts for another number of robots are dropped. Returns notes about sources that cannot be
+/// drawn, and about changes that people may not expect.
 ///
 /// # Errors
 /// If `robots` robots find no room in a frame, or a frame has neither pixels nor a source that can be drawn. The message
@@ -41,7 +41,16 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
                 frame
             }
             Some(Err(error)) if error.code == "too-many-robots" => return Err(named(error)),
-            _ => fitted(frame, &floor, robots).map_err(named)?,
+            other => {
+                if let Some(Err(error)) = other {
+                    let what = format!(
+                        "{label}: its source cannot be drawn ({}), so it keeps its lights as far as possible",
+                        error.message
+                    );
+                    notes.push(Note::new("source-not-drawn", what));
+                }
+                fitted(frame, &floor, robots).map_err(named)?
+            }
         };
         show.frames[index] = fitted;
     }
@@ -154,6 +163,16 @@ mod tests {
             let pinned = fitted.frames[1].pixels.iter().filter(|pixel| pixel.robot.is_some());
             assert_eq!(pinned.count(), 1);
         }
+    }
+
+    #[test]
+    fn a_source_that_cannot_be_drawn_is_noted() {
+        let mut show = show();
+        show.frames[0].sources = vec![Recipe::new(Content::Svg).source()];
+        let notes = fit_show(&mut show, 30).unwrap();
+        assert_eq!(show.frames[0].pixels.len(), 30);
+        assert_eq!(notes.iter().map(|note| note.code).collect::<Vec<_>>(), ["source-not-drawn"]);
+        assert!(notes[0].message.contains("Word"), "{}", notes[0].message);
     }
 
     #[test]

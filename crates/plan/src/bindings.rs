@@ -54,7 +54,7 @@ pub enum BindingIssue {
     /// The pixel stays dark.
     Unknown,
     /// Identity is fixed, but the robot that showed this pixel last has another pixel in this frame. The pixel gets
-    /// another robot if enough are left.
+    /// another robot if enough are left, and stays dark otherwise.
     Lost,
 }
 

@@ -39,6 +39,8 @@ pub enum RowOutcome {
         /// still touch. 0 if it is only known that the paths are rejected.
         contacts: usize,
     },
+    /// The work for the row was used up, or planning was cancelled, before contacts were counted.
+    Unfinished,
     /// A plan that the proof accepts.
     Solved {
         /// Duration of the plan at full speed.
@@ -78,6 +80,7 @@ impl fmt::Display for RowOutcome {
             Self::Rejected { contacts: 0 } => f.write_str("rejected by the proof"),
             Self::Rejected { contacts: 1 } => f.write_str("1 contact or fault left"),
             Self::Rejected { contacts } => write!(f, "{contacts} contacts or faults left"),
+            Self::Unfinished => f.write_str("not finished"),
             Self::Solved { duration, stop_safe_percent } => {
                 write!(f, "solved in {:.2} s", duration.as_secs())?;
                 stop_safe_percent.map_or(Ok(()), |percent| write!(f, ", {percent} % stop-safe"))

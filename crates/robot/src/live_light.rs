@@ -6,8 +6,8 @@ use lightbots_wire::{LiveColours, LiveRelease};
 
 use crate::light_ahead::OLD_NUMBERS;
 
-/// The robot shows its own light again after this time without live colours for it: the network data loss timeout of ANSI
-/// E1.31-2018, 6.7.1.
+/// After this time without a LIVE or RELEASE message for it, the robot shows its own light again and takes any number: the
+/// network data loss timeout of ANSI E1.31-2018, 6.7.1.
 const LOSS: Span = Span::from_millis(2_500);
 
 /// Live light of a robot.
@@ -15,10 +15,11 @@ const LOSS: Span = Span::from_millis(2_500);
 pub(crate) struct LiveLight {
     /// Slot of the robot: the number by which LIVE and RELEASE messages address it. `None` until it is received.
     slot: Option<u16>,
-    /// Number of the newest LIVE or RELEASE message for this robot. 0 if none came yet, or the live light was lost since.
-    newest: u32,
-    /// The live colour that is shown, and until when (own clock) if no message follows. `None` if the own light is shown.
-    shown: Option<(Rgb, Instant)>,
+    /// Number of the newest LIVE or RELEASE message for this robot, and until when (own clock) it counts. `None` if none
+    /// came yet.
+    newest: Option<(u32, Instant)>,
+    /// The live colour that is shown while the newest message counts. `None` if the own light is shown.
+    shown: Option<Rgb>,
 }
 
 impl LiveLight {
@@ -37,29 +38,25 @@ impl LiveLight {
     /// Handles live colours that arrive at `now`, own clock. Returns whether one of them is for this robot. An old message
     /// is ignored.
     pub(crate) fn receive(&mut self, now: Instant, live: &LiveColours) -> bool {
-        let colour = self.slot.and_then(|slot| live.of(slot)).filter(|_| !self.is_old(live.number));
-        if let Some(colour) = colour {
-            (self.newest, self.shown) = (live.number, Some((colour, now + LOSS)));
+        let colour = self.slot.and_then(|slot| live.of(slot)).filter(|_| !self.is_old(now, live.number));
+        if colour.is_some() {
+            (self.newest, self.shown) = (Some((live.number, now + LOSS)), colour);
         }
         colour.is_some()
     }
 
-    /// Handles a RELEASE: the own light is shown again, if the message covers this robot's slot and is not old.
-    pub(crate) fn release(&mut self, release: &LiveRelease) {
-        if self.slot.is_some_and(|slot| release.covers(slot)) && !self.is_old(release.number) {
-            (self.newest, self.shown) = (release.number, None);
+    /// Handles a RELEASE that arrives at `now`, own clock: the own light is shown again, if the message covers this robot's
+    /// slot and is not old.
+    pub(crate) fn release(&mut self, now: Instant, release: &LiveRelease) {
+        if self.slot.is_some_and(|slot| release.covers(slot)) && !self.is_old(now, release.number) {
+            (self.newest, self.shown) = (Some((release.number, now + LOSS)), None);
         }
     }
 
     /// Returns the live colour at `now`, own clock; `None` if the own light is shown.
     pub(crate) fn colour(&mut self, now: Instant) -> Option<Rgb> {
-        let (colour, until) = self.shown?;
-        if now >= until {
-            // A controller that comes back may begin with any number.
-            (self.newest, self.shown) = (0, None);
-            return None;
-        }
-        Some(colour)
+        self.shown = self.shown.filter(|_| self.counted(now).is_some());
+        self.shown
     }
 
     /// Whether a live colour is shown instead of the own light.
@@ -67,10 +64,16 @@ impl LiveLight {
         self.shown.is_some()
     }
 
-    /// Whether the message with this number is older than the newest one. Messages of the same moment have the same number
-    /// and are not old.
-    fn is_old(&self, number: u32) -> bool {
-        self.newest != 0 && (1..OLD_NUMBERS).contains(&self.newest.wrapping_sub(number))
+    /// Whether the message with this number, which arrives at `now` (own clock), is older than the newest one that counts.
+    /// Messages of the same moment have the same number and are not old.
+    fn is_old(&self, now: Instant, number: u32) -> bool {
+        self.counted(now).is_some_and(|newest| (1..OLD_NUMBERS).contains(&newest.wrapping_sub(number)))
+    }
+
+    /// Returns the number of the newest message. `None` if no message counts at `now`, own clock: a controller that comes
+    /// back may begin with any number.
+    fn counted(&self, now: Instant) -> Option<u32> {
+        self.newest.filter(|(_, until)| now < *until).map(|(number, _)| number)
     }
 }
 
@@ -125,12 +128,23 @@ mod tests {
         light.receive(ms(0), &live(u32::MAX, 3, &[RED]));
         assert!(light.receive(ms(0), &live(u32::MAX, 3, &[BLUE])), "messages of one moment have one number");
         assert!(!light.receive(ms(0), &live(u32::MAX - 1, 3, &[RED])));
-        light.release(&LiveRelease { number: u32::MAX - 63, first: 0, count: 9 });
-        light.release(&LiveRelease { number: 1, first: 0, count: 3 });
+        light.release(ms(0), &LiveRelease { number: u32::MAX - 63, first: 0, count: 9 });
+        light.release(ms(0), &LiveRelease { number: 1, first: 0, count: 3 });
         assert_eq!(light.colour(ms(0)), Some(BLUE));
-        light.release(&LiveRelease { number: 1, first: 0, count: 4 });
+        light.release(ms(0), &LiveRelease { number: 1, first: 0, count: 4 });
         assert_eq!(light.colour(ms(0)), None);
         assert!(!light.receive(ms(0), &live(u32::MAX, 3, &[RED])), "it is older than the release");
         assert!(light.receive(ms(0), &live(2, 3, &[RED])));
+    }
+
+    #[test]
+    fn a_controller_that_comes_back_after_a_release_counts_anew() {
+        let mut light = LiveLight::default();
+        light.give_slot(0);
+        light.receive(ms(0), &live(40, 0, &[RED]));
+        light.release(ms(100), &LiveRelease { number: 41, first: 0, count: 1 });
+        assert!(!light.receive(ms(2_599), &live(1, 0, &[RED])), "it may be a message that was delayed");
+        assert!(light.receive(ms(2_600), &live(1, 0, &[RED])));
+        assert_eq!(light.colour(ms(2_600)), Some(RED));
     }
 }

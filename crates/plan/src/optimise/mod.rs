@@ -4,6 +4,7 @@
 pub(crate) mod cells;
 pub(crate) mod contacts;
 pub(crate) mod displacement;
+pub(crate) mod left_over;
 pub(crate) mod neighbours;
 pub(crate) mod relaxation;
 pub(crate) mod stagnation;

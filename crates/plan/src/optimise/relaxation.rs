@@ -3,10 +3,10 @@
 
 use lightbots_base::Vec2;
 
-use crate::Meeting;
 use crate::instance::Instance;
 use crate::optimise::contacts::{Clearances, Contact, ContactDetector, Other, displacement_m};
 use crate::optimise::displacement::Displacement;
+use crate::optimise::left_over::LeftOver;
 use crate::optimise::neighbours::MOVED_M;
 use crate::optimise::stagnation::{Stagnation, growth};
 use crate::spline::limits::LimitProjector;
@@ -61,14 +61,14 @@ pub(crate) struct Effort {
     pub clearances: Clearances,
 }
 
-/// Deforms splines until they have no contacts; `Err` with the pairs of the detection that found the fewest. The result
+/// Deforms splines until they have no contacts; `Err` with what the detection found that found the fewest. The result
 /// may be too fast: its duration must be multiplied by [`SplineSet::greatest_time_scale`].
 pub(crate) fn relax(
     instance: &Instance,
     splines: SplineSet,
     effort: Effort,
     work: &mut usize,
-) -> Result<SplineSet, Vec<Meeting>> {
+) -> Result<SplineSet, LeftOver> {
     let mut relaxation = Relaxation::new(instance, splines, effort);
     relaxation.go_on(effort.sweeps, work);
     relaxation.outcome()
@@ -89,7 +89,7 @@ pub(crate) struct Relaxation<'a> {
     /// The fastest splines without contacts, and their duration, seconds.
     best: Option<(f64, SplineSet)>,
     fewest: usize,
-    left_over: Vec<Meeting>,
+    left_over: LeftOver,
 }
 
 impl<'a> Relaxation<'a> {
@@ -106,7 +106,7 @@ impl<'a> Relaxation<'a> {
             resolved: usize::MAX,
             best: None,
             fewest: usize::MAX,
-            left_over: Vec::new(),
+            left_over: LeftOver::default(),
         }
     }
 
@@ -130,8 +130,8 @@ impl<'a> Relaxation<'a> {
         self.resolved
     }
 
-    /// Returns the fastest splines without contacts, or the pairs of the detection that found the fewest.
-    pub fn outcome(self) -> Result<SplineSet, Vec<Meeting>> {
+    /// Returns the fastest splines without contacts, or what the detection found that found the fewest.
+    pub fn outcome(self) -> Result<SplineSet, LeftOver> {
         self.best.map(|(_, splines)| splines).ok_or(self.left_over)
     }
 
@@ -145,7 +145,7 @@ impl<'a> Relaxation<'a> {
             return false;
         }
         if anew && (1..self.fewest).contains(&resolved) {
-            (self.fewest, self.left_over) = (resolved, self.state.meetings());
+            (self.fewest, self.left_over) = (resolved, self.state.left_over());
         }
         let (time_scale, too_fast) = if resolved == 0 { self.state.time_scale() } else { (f64::MAX, 0) };
         let lasts_s = self.state.splines.lasts_s() * time_scale;
@@ -341,20 +341,15 @@ impl<'a> State<'a> {
         resolved
     }
 
-    /// Returns the pairs of robots that were too close at the last check, each once, and their places.
-    fn meetings(&self) -> Vec<Meeting> {
+    /// Returns the pairs that were too close at the last check.
+    fn left_over(&self) -> LeftOver {
         let close = self.contacts.iter().filter(|contact| contact.is_close).enumerate();
         let close = close.take_while(|(number, _)| number % POLLED != 0 || !self.instance.cancel.is_wanted());
-        let of_robots = close.filter_map(|(_, contact)| {
-            let Other::Robot(b) = contact.b else { return None };
+        LeftOver::of(close.map(|(_, contact)| contact), |contact, b| {
             let weights = self.detector.closest(self.instance, &self.splines, contact).weights;
             let place = |robot: usize| self.splines.place(robot, contact.span, &weights);
-            Some(Meeting { pair: (contact.a, b), place: place(contact.a).lerp(place(b), 0.5) })
-        });
-        let mut meetings: Vec<Meeting> = of_robots.collect();
-        meetings.sort_by_key(|meeting| meeting.pair);
-        meetings.dedup_by_key(|meeting| meeting.pair);
-        meetings
+            place(contact.a).lerp(place(b), 0.5)
+        })
     }
 
     /// Displaces two robots, or one robot away from a wall, if they are too close, and returns whether they were.

@@ -125,9 +125,10 @@ pub(super) fn of_bound_frame(show: &Show, frame: usize, bound: &BoundFrame<'_>, 
                 Issue::warning("unknown-robot", format!("{frame_name}: {what}"))
             }
             BindingIssue::Lost => {
+                let then = if bound.dark.contains(&id) { "stays dark" } else { "gets another robot" };
                 let what = format!(
                     "the robot that showed pixel {id} before must show another pixel, though identity is fixed; \
-                     pixel {id} gets another robot"
+                     pixel {id} {then}"
                 );
                 Issue::warning("robot-bound-to-another", format!("{frame_name}: {what}"))
             }

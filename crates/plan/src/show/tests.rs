@@ -187,6 +187,19 @@ fn no_show_panics() {
     }
 }
 
+#[test]
+fn a_pixel_that_loses_its_robot_and_gets_no_other_is_told_to_stay_dark() {
+    let first = asking(0.5, [None, None, Some("anna")]);
+    let mut second = asking(0.0, [Some("anna"), None, None]);
+    second.pixels.insert(2, Pixel { id: 5, at: Vec2::new(0.0, -0.5), ..Pixel::default() });
+    let mut show_of = of(vec![first, second]);
+    show_of.identity = Identity::Fixed;
+    let plan = show(&show_of, &STARTS, &ShowOptions::default());
+    assert_eq!(codes(&plan), ["too-few-robots", "robot-bound-to-another"]);
+    assert_eq!((&plan.issues[0].pixels[..], &plan.issues[1].pixels[..]), (&[2][..], &[2][..]));
+    assert!(plan.issues[1].message.ends_with("pixel 2 stays dark"), "{}", plan.issues[1].message);
+}
+
 /// A frame whose pixels stand in a row and ask for robots by name, `None` for any.
 fn asking(y: f64, names: [Option<&str>; 3]) -> Frame {
     let mut frame = frame(&[(0, -0.5, y), (1, 0.0, y), (2, 0.5, y)]);

@@ -17,6 +17,7 @@ use super::verify::{Rejected, least_span, span_of, verified};
 use crate::explain::{ExplainedRow, Explanation, RowOutcome};
 use crate::instance::Instance;
 use crate::motion::quarter_turn;
+use crate::optimise::left_over::LeftOver;
 use crate::optimise::relaxation::{Effort, Relaxation, relax};
 use crate::order::{Chosen, PlanQuality, choose, percent};
 use crate::proof::prove_unless;
@@ -308,7 +309,8 @@ impl Run<'_> {
                 self.keep(name, Trajectories::Splines(splines), lasts_s * penalty, is_close);
             }
             Err(left) => {
-                self.report(name, RowOutcome::Rejected { contacts: left.len() });
+                self.report(name, left.outcome());
+                let left = left.meetings;
                 if self.left_over.is_empty() || (1..self.left_over.len()).contains(&left.len()) {
                     self.left_over = left;
                 }
@@ -318,8 +320,8 @@ impl Run<'_> {
 
     /// Returns the splines as soon as the proof accepts them. Splines with illegal motion are smoothed, and contacts
     /// that follow are resolved. `Err` if the proof rejects the last splines too, or slower driving and smoothing
-    /// cannot help; with the pairs that touch, if known.
-    fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, Vec<Meeting>> {
+    /// cannot help; with the contacts that are left, if known.
+    fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, LeftOver> {
         let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
         for _ in 0..AMENDMENTS {
             let Rejected { splines: mut rejected, faulty_spans } =
@@ -328,12 +330,12 @@ impl Run<'_> {
                     Err(rejected) => rejected,
                 };
             if faulty_spans.is_empty() {
-                return Err(Vec::new());
+                return Err(LeftOver::BY_PROOF);
             }
             faulty_spans.into_iter().for_each(|(robot, span)| rejected.smooth(robot, span));
             splines = relax(self.instance, rejected, effort, &mut self.work)?;
         }
-        verified(self.problem, self.instance, splines).map_err(|_| Vec::new())
+        verified(self.problem, self.instance, splines).map_err(|_| LeftOver::BY_PROOF)
     }
 
     fn keep(&mut self, name: String, solution: Trajectories, lasts_s: f64, is_close: bool) {

@@ -83,7 +83,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                     self.hot.light_changes = true;
                 }
             }
-            Command::Release(ref release) => self.light.live.release(release),
+            Command::Release(ref release) => self.light.live.release(now, release),
             Command::Blink(blink) => {
                 self.light.blink(now, blink.over);
                 self.hot.light_changes = true;

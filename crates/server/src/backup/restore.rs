@@ -158,7 +158,8 @@ fn check(archive: &ZipArchive<BufReader<File>>, list: &BackupList) -> Result<(),
 }
 
 /// Whether a folder holds any file or folder, except those files of `paths::OF_A_RUNNING_PROGRAM` that lie directly in it. A
-/// program leaves them in an empty data folder.
+/// program leaves them in an empty data folder. The journal lies deeper: a folder with an unfinished run holds files, so
+/// that the run is moved aside and not deleted.
 fn holds_files(data: &Path) -> Result<bool, Failure> {
     let failed = |error: io::Error| {
         Failure::problem(format!(
@@ -235,5 +236,22 @@ impl Drop for Staging {
     fn drop(&mut self) {
         // Fails if the folder was renamed, which is usual.
         let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_with_an_unfinished_run_holds_files_and_one_with_lock_files_does_not() {
+        let folder = std::env::temp_dir().join(format!("lightbots-restore-{}", std::process::id()));
+        fs::create_dir_all(folder.join("runs")).unwrap();
+        fs::write(folder.join("runs/present.lbjournal"), b"run").unwrap();
+        assert!(holds_files(&folder).unwrap());
+        fs::remove_dir_all(folder.join("runs")).unwrap();
+        fs::write(folder.join(".lock"), b"process 1").unwrap();
+        assert!(!holds_files(&folder).unwrap());
+        fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -73,7 +73,8 @@ impl Cast {
                 if stop.is_wanted() {
                     return;
                 }
-                // The controller refuses this for a robot that it does not know, which does no harm.
+                // The controller refuses this for a robot that it does not know, which does no harm. It also refuses this
+                // if a run or a stop has begun meanwhile: the robot then stays in the fleet as gone.
                 let _ = handle.operate(Operation::Forget(name)).await;
             }
         }

@@ -50,8 +50,14 @@ pub struct Connections {
 impl Connections {
     /// Accepts connections of the listener. At most half of the files that the system lets this program open become
     /// connections, because the library and the link to the broker need files, too. Refusals are written to the log.
-    pub fn new(listener: TcpListener, acceptor: Option<TlsAcceptor>, log: ScreenLog) -> Self {
-        let guests = Guests::new(MOST.min(open_files::limit() / 2));
+    /// `longest_wait`: longest time that a client waits for an answer without sending.
+    pub fn new(
+        listener: TcpListener,
+        acceptor: Option<TlsAcceptor>,
+        log: ScreenLog,
+        longest_wait: Duration,
+    ) -> Self {
+        let guests = Guests::new(MOST.min(open_files::limit() / 2), longest_wait);
         Self { listener, acceptor, handshakes: JoinSet::new(), guests, log, said: None }
     }
 

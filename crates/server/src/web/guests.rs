@@ -12,14 +12,16 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::oneshot;
 
-/// Time without a byte in either direction after which a connection may be closed to make room. It is longer than the
-/// default time for a plan (30 s), during which a client waits without sending.
+/// Least time without a byte in either direction after which a connection may be closed to make room. A client waits 20 s
+/// for its turn to upload without sending.
 const SILENT: Duration = Duration::from_secs(40);
 
 /// The open connections, at most `most`.
 #[derive(Debug)]
 pub struct Guests {
     most: usize,
+    /// Time without a byte in either direction after which a connection may be closed.
+    silent: Duration,
     next: u64,
     lines: Arc<Mutex<BTreeMap<u64, Line>>>,
 }
@@ -42,9 +44,9 @@ pub struct GuestPlace {
 }
 
 impl Guests {
-    /// Room for `most` connections.
-    pub fn new(most: usize) -> Self {
-        Self { most, next: 0, lines: Arc::default() }
+    /// Room for `most` connections. `longest_wait`: longest time that a client waits for an answer without sending.
+    pub fn new(most: usize, longest_wait: Duration) -> Self {
+        Self { most, silent: SILENT.max(longest_wait), next: 0, lines: Arc::default() }
     }
 
     /// The most connections that may be open.
@@ -53,7 +55,7 @@ impl Guests {
     }
 
     /// Returns a place for a further connection. If all places are taken, closes the connection that has been silent for
-    /// longest. `None` if no connection has been silent for `SILENT`.
+    /// longest. `None` if no connection has been silent for `silent`.
     pub fn admit(&mut self, now: Instant) -> Option<GuestPlace> {
         if lock(&self.lines).len() >= self.most && !self.close_silent(now) {
             return None;
@@ -66,12 +68,12 @@ impl Guests {
         Some(GuestPlace { number, alive, ended, lines: self.lines.clone() })
     }
 
-    /// Ends the connection that has been silent for longest, if that is at least `SILENT`. Returns whether a connection was
+    /// Ends the connection that has been silent for longest, if that is at least `silent`. Returns whether a connection was
     /// ended.
     pub fn close_silent(&self, now: Instant) -> bool {
         let mut lines = lock(&self.lines);
         let oldest = lines.iter().map(|(number, line)| (*lock(&line.alive), *number)).min();
-        let silent = oldest.filter(|(alive, _)| now.duration_since(*alive) >= SILENT);
+        let silent = oldest.filter(|(alive, _)| now.duration_since(*alive) >= self.silent);
         silent.is_some_and(|(_, number)| lines.remove(&number).is_some())
     }
 }
@@ -171,13 +173,13 @@ mod tests {
     #[test]
     fn a_full_house_takes_another_guest_for_the_one_that_was_silent_for_the_longest_time() {
         let began = Instant::now();
-        let mut guests = Guests::new(2);
+        let mut guests = Guests::new(2, Duration::from_secs(5));
         let mut first = guests.admit(began).unwrap();
         let mut second = guests.admit(began).unwrap();
         *lock(&first.alive) = began + Duration::from_secs(1);
         assert!(
             guests.admit(began + SILENT - Duration::from_millis(1)).is_none(),
-            "nobody is silent for long"
+            "no client is silent for long"
         );
         let _third = guests.admit(began + SILENT).unwrap();
         assert!(second.ended.try_recv() == Err(oneshot::error::TryRecvError::Closed), "its connection ends");
@@ -185,5 +187,14 @@ mod tests {
         assert!(guests.admit(began + SILENT).is_none());
         drop(first);
         assert!(guests.admit(began + SILENT).is_some());
+    }
+
+    #[test]
+    fn a_client_that_waits_for_a_long_plan_keeps_its_connection() {
+        let (began, longest_wait) = (Instant::now(), SILENT * 10);
+        let mut guests = Guests::new(1, longest_wait);
+        let _waiting = guests.admit(began).unwrap();
+        assert!(guests.admit(began + longest_wait - Duration::from_millis(1)).is_none());
+        assert!(guests.admit(began + longest_wait).is_some());
     }
 }

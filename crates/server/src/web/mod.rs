@@ -75,7 +75,8 @@ pub async fn listen(exposure: &Exposure) -> Result<(TcpListener, Names), Failure
 
 /// Serves the web app until the task is dropped, over TLS if there is an acceptor.
 pub async fn serve(listener: TcpListener, acceptor: Option<TlsAcceptor>, shared: Arc<Shared>) {
-    let connections = Connections::new(listener, acceptor, shared.log.clone());
+    let longest_wait = shared.planner.longest_wait();
+    let connections = Connections::new(listener, acceptor, shared.log.clone(), longest_wait);
     let routes = Router::new()
         .route("/ws", any(socket::open))
         .route("/api/shows", get(api::list))

@@ -17,9 +17,9 @@ use super::refused::{Refused, refuse};
 use super::scheme::Scheme;
 use super::state::Shared;
 
-/// Longest time from the end of a request's headers until its answer begins. The longest upload (20 s of waiting and 74 s of
-/// transfer) and a plan of the default budget (30 s) fit. A longer time would keep hostile connections open.
-const PATIENCE: Duration = Duration::from_secs(300);
+/// Longest time from the end of a request's headers until its answer begins, beyond the budget of a plan. The longest upload
+/// (20 s of waiting and 74 s of transfer) fits. A longer time would keep hostile connections open.
+const PATIENCE: Duration = Duration::from_secs(270);
 
 /// Passes on requests that are for this server. Refuses requests to other names (DNS rebinding) and requests that pages of
 /// other servers send through a visitor's browser (cross-site request forgery). Also refuses bodies that are too long. On a
@@ -40,7 +40,7 @@ pub async fn guard(
     if length.and_then(|length| length.parse::<usize>().ok()).is_some_and(|length| length > BODY_MAX) {
         return too_long().into_response();
     }
-    match tokio::time::timeout(PATIENCE, next.run(request)).await {
+    match tokio::time::timeout(PATIENCE + shared.planner.budget(), next.run(request)).await {
         Ok(response) => response,
         Err(_) => refuse(StatusCode::REQUEST_TIMEOUT, "this took too long: try again").into_response(),
     }

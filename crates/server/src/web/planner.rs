@@ -11,6 +11,9 @@ use std::time::Duration;
 
 use tokio::sync::watch;
 
+/// Time beyond the budget to end the work and to send the answer.
+const ANSWER: Duration = Duration::from_secs(10);
+
 /// Why the work on a request gave no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CutOff {
@@ -80,6 +83,11 @@ impl Planner {
     /// Returns the longest time of a request.
     pub fn budget(&self) -> Duration {
         self.budget
+    }
+
+    /// Returns the longest time for which a client waits for the answer to a request without sending.
+    pub fn longest_wait(&self) -> Duration {
+        self.budget + ANSWER
     }
 
     /// Runs `work` for a client on a separate thread. `work` gets a function that returns whether the work is cancelled. It

@@ -59,7 +59,7 @@ impl Row {
                 (Some(rounded(duration.as_secs(), 3)), stop_safe_percent, None)
             }
             RowOutcome::Rejected { contacts } => (None, None, Some(contacts)),
-            RowOutcome::Skipped(_) | RowOutcome::NoGuess => (None, None, None),
+            RowOutcome::Skipped(_) | RowOutcome::NoGuess | RowOutcome::Unfinished => (None, None, None),
         };
         let (solver, outcome) = (row.solver.clone(), row.outcome.to_string());
         Self { solver, outcome, duration_s, stop_safe_percent, contacts }

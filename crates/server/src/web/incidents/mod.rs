@@ -5,6 +5,7 @@ mod cards;
 mod subject;
 mod words;
 
+use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::extract::ws::Utf8Bytes;
@@ -33,8 +34,10 @@ const TOGETHER_MS: u64 = 4_000;
 struct Entry {
     subject: Subject,
     incident: Incident,
-    /// Robots of the incident that have not come back or joined meanwhile, also those that the card does not name.
-    robots: Vec<RobotId>,
+    /// All robots of the incident, not only those that the card names.
+    robots: BTreeSet<RobotId>,
+    /// The robots of the incident that still have the trouble.
+    affected: BTreeSet<RobotId>,
     last_ms: u64,
 }
 
@@ -73,7 +76,7 @@ impl IncidentBoard {
         });
     }
 
-    /// Removes robots from incidents about joining, because they were put on the list of robots that take part.
+    /// Notes that robots no longer want to join, because they were put on the list of robots that take part.
     pub fn joined(&self, robots: &[RobotId]) {
         self.change(|book| {
             let mut changed = false;
@@ -120,12 +123,13 @@ impl IncidentBoard {
 }
 
 impl Entry {
-    /// Adds a robot to the incident. The card's count becomes the number of robots that have not come back or joined.
+    /// Adds a robot to the incident, which then is not over. A robot that was in it before is named and counted once.
     fn grow(&mut self, robot: RobotId, now_ms: u64) {
-        self.robots.push(robot);
-        self.last_ms = now_ms;
+        self.affected.insert(robot);
+        (self.last_ms, self.incident.over) = (now_ms, false);
+        let is_new = self.robots.insert(robot);
         self.incident.count = self.robots.len();
-        if self.incident.robots.len() < NAMED {
+        if is_new && self.incident.robots.len() < NAMED {
             self.incident.robots.push(robot.to_string());
         }
     }
@@ -184,14 +188,13 @@ impl Book {
         (incident.title, incident.done, incident.advice) = (card.title, card.done, card.advice);
     }
 
-    /// Removes a robot from the incidents whose subject `of` accepts. An incident that loses its last robot is over. Returns
-    /// whether an incident is over because of this call. The card itself keeps the robot's name.
+    /// Notes that a robot no longer has the trouble of the incidents whose subject `of` accepts. An incident without an
+    /// affected robot is over. Returns whether an incident is over because of this call. The card still names and counts the
+    /// robot, because it says what happened.
     fn leave(&mut self, robot: RobotId, of: impl Fn(&Subject) -> bool) -> bool {
         let mut changed = false;
         for entry in self.entries.iter_mut().filter(|entry| of(&entry.subject)) {
-            let before = entry.robots.len();
-            entry.robots.retain(|one| *one != robot);
-            if entry.robots.is_empty() && before > 0 {
+            if entry.affected.remove(&robot) && entry.affected.is_empty() {
                 entry.incident.over = true;
                 changed = true;
             }
@@ -252,7 +255,8 @@ impl Book {
             over: false,
             read: false,
         };
-        self.entries.push(Entry { subject, incident, robots, last_ms: now_ms });
+        let robots = BTreeSet::from_iter(robots);
+        self.entries.push(Entry { subject, incident, affected: robots.clone(), robots, last_ms: now_ms });
     }
 
     fn make_room(&mut self) {

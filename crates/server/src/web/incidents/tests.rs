@@ -41,6 +41,22 @@ fn a_card_is_over_when_all_its_robots_take_part_again() {
 }
 
 #[test]
+fn a_card_names_and_counts_each_of_its_robots_once() {
+    let mut book = Book::default();
+    book.note(&lost(7), 0);
+    book.note(&lost(8), 0);
+    book.note(&EventKind::Rejoined(robot(7)), 1);
+    book.note(&EventKind::Rejoined(robot(8)), 2);
+    book.note(&lost(7), 3);
+    book.note(&lost(9), 4);
+    let incident = &book.entries[0].incident;
+    assert_eq!((incident.robots.join(" "), incident.count, incident.over), ("7 8 9".to_owned(), 3, false));
+    assert_eq!(titles(&book), ["Robots 7, 8 and 9 fell silent – their pixels are left dark."]);
+    assert!(!book.note(&EventKind::Rejoined(robot(9)), 5));
+    assert!(book.note(&EventKind::Rejoined(robot(7)), 6) && book.entries[0].incident.over);
+}
+
+#[test]
 fn a_lost_link_is_one_card_until_it_is_back() {
     let mut book = Book::default();
     book.note(&EventKind::LinkLost { silent: 24, robots: 60 }, 0);
@@ -141,6 +157,9 @@ fn robots_that_want_to_join_are_one_card_until_they_are_listed() {
     assert!(incident(&board).wants_to_join && incident(&board).robots == ["7", "8"]);
     board.joined(&[robot(7)]);
     assert!(!incident(&board).over);
-    board.joined(&[robot(8)]);
+    board.change(|book| book.note(&EventKind::WantsToJoin(robot(9)), 0));
+    assert_eq!(incident(&board).title, "Robots 7, 8 and 9 are new and want to join.");
+    assert_eq!(incident(&board).count, 3);
+    board.joined(&[robot(8), robot(9)]);
     assert!(incident(&board).over);
 }
