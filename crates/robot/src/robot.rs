@@ -26,9 +26,9 @@ const GIVE_UP_M: f64 = 0.3;
 /// A robot that the safety layer slowed has caught up once it is within this distance of the present place of its route,
 /// metres. With a smaller value, the error of following a route counts as being behind.
 const CAUGHT_UP_M: f64 = 0.02;
-/// Speed below which a robot may stop dead where its route was broken off, m/s: in a step, at a third of the grip limit.
-/// With a smaller value, a robot that catches up with its place still moves 2.2 s after the last message (R43).
-const CATCHES_UP_MPS: f64 = 0.06;
+/// Speed below which a robot may stop dead where its route was broken off, m/s: in one step, below the grip limit. With a
+/// smaller value, a robot that catches up with its place still moves 2.2 s after the last message (R43).
+const CATCHES_UP_MPS: f64 = 0.12;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Handles a message that arrives at `now`, own clock. Messages are ignored unless their topic is `Broadcast` or the

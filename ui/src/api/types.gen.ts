@@ -1,9 +1,10 @@
 // Made from crates/api by `cargo run -p lightbots-api --example types`. Change it there.
 
 /**
- * A message to a screen. After `hello` come `show`, `plan`, `incidents`, `fleet` and the last lines of the log; each is
- * sent again after a change. `state` comes 20 times a second, each after the binary message `Robots`. A screen
- * acknowledges each `state` with `took`. A screen with several unacknowledged ones gets no more until it catches up.
+ * A message to a screen. `hello` is followed by `show`, `plan`, `incidents`, `fleet` and the last lines of the log.
+ * Each of these is sent again after a change, `fleet` also without a change. `state` comes 20 times a second, each
+ * after the binary message `Robots`. A screen acknowledges each `state` with `took`. While a screen has not
+ * acknowledged several, it gets no more.
  */
 export type ToScreen = { "type": "hello" } & Hello | { "type": "show" } & OpenShow | { "type": "plan" } & Plan | { "type": "fleet" } & Fleet | { "type": "state" } & State | { "type": "log" } & LogLine | { "type": "incidents" } & Incidents | { "type": "answer" } & Answer;
 
@@ -29,7 +30,8 @@ screen: number,
  */
 simulated: number, 
 /**
- * Whether the network can reach the server without TLS (`--plain-http`): passwords can be read on the way.
+ * Whether the network can reach the server without TLS (`--plain-http`), so that others on the network can read
+ * passwords.
  */
 plain_http: boolean, };
 
@@ -46,11 +48,12 @@ revision: number,
  */
 name: string | null, 
 /**
- * Version of the show in the library, for `If-Match`.
+ * Version of the show in the library, for `If-Match`; null: no show is open.
  */
 etag: string | null, 
 /**
- * Why the show cannot be saved under its name, for people: its file holds more than the document. null: it can.
+ * Why the show cannot be saved under its name, for people: its file holds fields that the document lacks. null: the
+ * show can be saved.
  */
 read_only: string | null, 
 /**
@@ -67,7 +70,7 @@ export type Plan = {
  */
 revision: number, 
 /**
- * Whether the server is still planning that revision. If it is, the fields below are empty.
+ * Whether the server is still planning that revision. While it is planning, the fields below are empty.
  */
 planning: boolean, 
 /**
@@ -79,7 +82,7 @@ ok: boolean,
  */
 duration_s: number, 
 /**
- * Lower bound on the duration of any show with these frames, seconds.
+ * Lower bound on `duration_s`, seconds: the sum of the lower bounds of all transitions, and all air times.
  */
 lower_bound_s: number, 
 /**
@@ -87,7 +90,7 @@ lower_bound_s: number,
  */
 closest_m: number | null, 
 /**
- * Share of all moments, 0 to 1, at which any single robot could stop dead without a contact.
+ * Share of all moments, 0 to 1, at which any single robot could stop dead without a contact; 1 if not measured.
  */
 stop_safe: number, 
 /**
@@ -95,7 +98,7 @@ stop_safe: number,
  */
 plan_ms: number, 
 /**
- * Issues in the order of frames.
+ * Issues: first those of reading and checking the show, then those of planning.
  */
 issues: Array<Issue>, 
 /**
@@ -112,7 +115,8 @@ export type PlanningRequest = {
  */
 show: unknown, 
 /**
- * `quick` neither improves stop-safety nor measures it. The paths are proven with either quality.
+ * With `quick`, stop-safety is neither improved nor measured. Paths are proven to be free of contact with either
+ * quality.
  */
 quality: MakeQuality, };
 
@@ -121,7 +125,7 @@ quality: MakeQuality, };
  */
 export type PlanAnswer = { 
 /**
- * The plan. Its `stop_safe` is measured only for quality `full`. null: there is no plan.
+ * The plan. With quality `quick`, `stop_safe` of the plan is not measured and is 1. null: there is no plan.
  */
 plan: Plan | null, 
 /**
@@ -138,7 +142,7 @@ export type LightRequest = {
  */
 show: unknown, 
 /**
- * The drives to the frames of the show, with paths. In a frame without a drive, robots stand on its pixels.
+ * The drives to the frames of the show, with paths. In a frame without a drive, robots stand on the frame's pixels.
  */
 transitions: Array<Transition>, };
 
@@ -151,7 +155,7 @@ export type LightAnswer = {
  */
 robots: number, 
 /**
- * Why there are no colours; null: there are.
+ * Why there are no colours; null: there are colours.
  */
 error: MakeRemark | null, };
 
@@ -184,16 +188,18 @@ lower_bound_s: number,
  */
 closest_m: number | null, 
 /**
- * Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact.
+ * Share of the transition's moments, 0 to 1, at which any single robot could stop dead without a contact; 1 if not
+ * measured.
  */
 stop_safe: number, 
 /**
- * `pixels[robot]` is the id of the pixel that the robot shows afterwards; null: the robot stands by. Empty on the
- * WebSocket; HTTP has it.
+ * `pixels[robot]` is the id of the pixel that the robot shows after the transition; null: the robot stands by. The
+ * list is empty in messages on the WebSocket; answers over HTTP have it.
  */
 pixels: Array<number | null>, 
 /**
- * `paths[robot]`, each lasting `duration_s`. Empty on the WebSocket; HTTP has it.
+ * `paths[robot]` is the path of the robot, which lasts `duration_s`. The list is empty in messages on the WebSocket;
+ * answers over HTTP have it.
  */
 paths: Array<Path>, };
 
@@ -232,7 +238,7 @@ frame: number | null,
  */
 pixels: Array<number>, 
 /**
- * One line for people with place, cause and remedy. Frames are counted from 1 there.
+ * One line for people with place, cause and remedy. The text counts frames from 1.
  */
 message: string, };
 
@@ -242,7 +248,7 @@ message: string, };
 export type Severity = "note" | "warning" | "error";
 
 /**
- * The fleet table, sent after each change.
+ * The fleet table. It is sent at once when a robot is added or removed, and otherwise at most twice a second.
  */
 export type Fleet = { 
 /**
@@ -267,7 +273,7 @@ export type FleetRow = {
  */
 id: string, 
 /**
- * The status of the robot's last report.
+ * The status of the robot's last report; `idle` for an original robot, whose reports have none.
  */
 status: RobotStatus, 
 /**
@@ -287,7 +293,7 @@ battery: number | null,
  */
 battery_left_s: number | null, 
 /**
- * Id of the pixel that the robot shows or drives to; null: the robot stands by.
+ * Id of the pixel that the robot shows or drives to, or showed at the end of its last run; null: none.
  */
 pixel: number | null, 
 /**
@@ -299,7 +305,7 @@ firmware: string | null,
  */
 abilities: Abilities, 
 /**
- * Bound on the error of the robot's clock, microseconds; null: not synchronised.
+ * Error of the robot's show clock, 2 sigma, microseconds; null: not synchronised.
  */
 clock_us: number | null, 
 /**
@@ -311,7 +317,7 @@ called: string | null,
  */
 admitted: boolean, 
 /**
- * Whether the robot reports that it is simulated. A robot that does not report it counts as real.
+ * Whether the robot reports that it is simulated. Without such a report, the robot counts as real.
  */
 simulated: boolean, 
 /**
@@ -324,15 +330,16 @@ preflight: PreflightResult | null, };
  */
 export type PreflightResult = { 
 /**
- * What is wrong with the robot; empty: it passed.
+ * What is wrong with the robot; empty: the robot passed.
  */
 faults: Array<PreflightFault>, 
 /**
- * Largest distance between the robot and its planned places, millimetres; null: not measured.
+ * Largest distance between the robot and the planned end of a drive, measured after each drive of the preflight,
+ * millimetres; null: not measured.
  */
 off_mm: number | null, 
 /**
- * Largest error of its heading, degrees; null: not measured.
+ * Largest measured error of the robot's heading after a drive of the preflight, degrees; null: not measured.
  */
 off_deg: number | null, 
 /**
@@ -346,7 +353,7 @@ limited: boolean, };
  */
 export type PreflightFault = { 
 /**
- * What it is, for people: a sentence whose subject is the robot, without a full stop.
+ * The fault, for people: a sentence whose subject is the robot, without a full stop.
  */
 cause: string, 
 /**
@@ -355,7 +362,7 @@ cause: string,
 remedy: string, };
 
 /**
- * What a robot does. `Robots.status` holds the index in this order, from 0.
+ * What a robot does. A number in `Robots.status` is an index into these values, counted from 0.
  */
 export type RobotStatus = "idle" | "ready" | "driving" | "held" | "lost" | "cut" | "faulty";
 
@@ -390,7 +397,7 @@ export type State = {
  */
 at_ms: number, 
 /**
- * Rate of the show clock: 1 is real time. Less if the machine is too slow for its simulated robots.
+ * Rate of the show clock: 1 is real time. Less than 1 if the machine is too slow for its simulated robots.
  */
 pace: number, 
 /**
@@ -431,7 +438,8 @@ connected: boolean,
  */
 node: string | null, 
 /**
- * Why the broker does not answer: one line for people with cause, place and remedy; null: it answers.
+ * Why the broker does not answer: one line for people with cause, place and remedy; null unless `phase` is
+ * `retrying`.
  */
 reason: string | null, };
 
@@ -486,12 +494,12 @@ phase: Phase,
  */
 doing: string | null, 
 /**
- * Index of the frame that is shown or driven to, counted from 0; null: none, or robots drive to their
- * starting places.
+ * Index of the frame that robots show or drive to, counted from 0; null: there is no run, or it is a preflight or
+ * a drive to the starting places.
  */
 frame: number | null, 
 /**
- * Index of the frame after `frame`; null: none, the run ends after `frame`.
+ * Index of the frame after `frame`, counted from 0; null: `frame` is null, or the run ends after `frame`.
  */
 next: number | null, 
 /**
@@ -503,20 +511,23 @@ may_jump: boolean,
  */
 frames: number, 
 /**
- * Progress of the transition to `frame`, 0 to 1; 1 during the air time.
+ * Progress of the drive under way, 0 to 1; 1 during the air time and while the show waits for `go`, 0 without a
+ * run.
  */
 progress: number, 
 /**
- * Time to the end of the show, seconds; null: unknown.
+ * Planned time to the end of the show, or of its present pass if it begins again, seconds. null: no show is
+ * played, or frames repeat until `go`.
  */
 left_s: number | null, 
 /**
- * Why and where the last run failed, a sentence for people; null: no failure since the last start, or dismissed.
+ * Why and where the last run failed, a sentence for people; null: no failure since the last run began, or
+ * dismissed.
  */
 failure: string | null, 
 /**
- * Index of the frame in which the last run of the show ended before its end; null: it was played to its end, or
- * `dismiss_failure` cleared the index.
+ * Index of the frame in which the last run of a show ended early, counted from 0. null: the run reached its end,
+ * another run began, another show was opened, or `dismiss_failure` cleared the index.
  */
 stopped_in: number | null, 
 /**
@@ -536,15 +547,16 @@ live_light: Array<string>,
  */
 repeats: Repeats | null, 
 /**
- * Whether `go_on` can continue a show whose robots were out of reach: some of them report again.
+ * Whether `go_on` can continue a show whose robots were out of reach, because some of its robots report again.
  */
 may_go_on: boolean, 
 /**
- * Speed of drives, percent of the usual one.
+ * Speed of drives of a show, of one frame and to the starting places, percent of the usual speed.
  */
 speed_percent: number, 
 /**
- * Whether the present robots have never played the open show to its end. The screen then offers a slow first run.
+ * Whether robots of this kind (real or simulated) have never played the open show to its end. The screen then
+ * offers a slow first run. `false` for a show without frames, and until the server knows the drives of the show.
  */
 first_run: boolean, 
 /**
@@ -557,7 +569,7 @@ looping: boolean,
 late: Array<string>, };
 
 /**
- * A preflight.
+ * The preflight that is under way, or the last one.
  */
 export type PreflightState = { 
 /**
@@ -565,11 +577,12 @@ export type PreflightState = {
  */
 doing: string | null, 
 /**
- * The round under way, counted from 1. Robots in each other's way take turns.
+ * The round under way, counted from 1; 0: the preflight is over. Robots that would be in each other's way are
+ * tested in different rounds.
  */
 round: number, 
 /**
- * Number of rounds.
+ * Number of rounds; 0: the preflight is over.
  */
 rounds: number, 
 /**
@@ -607,16 +620,16 @@ round: number,
 leaves: boolean, };
 
 /**
- * Position on the timeline: that of the music, or of the show if it has no music.
+ * Position of the show on its timeline. In a show with music, this is the position of the music.
  */
 export type ShowTime = { 
 /**
- * Seconds from the start of the first frame's air time; negative during the drive there.
+ * Seconds from the start of the first frame's air time; negative during the drive to the first frame.
  */
 show_s: number, 
 /**
- * Whether the position advances with the show clock. With music, it stands during a pause and while the show waits
- * for GO. Without music, it also stands while robots are held or waited for.
+ * Whether the position advances with the show clock. With music, the position stands still during a pause and while
+ * the show waits for GO. Without music, it also stands still while robots are held or waited for.
  */
 runs: boolean, };
 
@@ -638,23 +651,26 @@ x: Float32Array,
  */
 y: Float32Array, 
 /**
- * Planned x now, stage metres; NaN: the robot has no path. A planned place is never drawn as a measured one.
+ * Planned x now, stage metres; NaN: the robot drives no path now. A planned place is never drawn as a measured
+ * one.
  */
 planned_x: Float32Array, 
 /**
- * Planned y now, stage metres; NaN: the robot has no path.
+ * Planned y now, stage metres; NaN: the robot drives no path now.
  */
 planned_y: Float32Array, 
 /**
- * x of the robot's pixel, stage metres; NaN: the robot stands by.
+ * x of the place where the robot is to stand after its present or last drive, stage metres; NaN: there was no
+ * drive.
  */
 goal_x: Float32Array, 
 /**
- * y of the robot's pixel, stage metres; NaN: the robot stands by.
+ * y of the place where the robot is to stand after its present or last drive, stage metres; NaN: there was no
+ * drive.
  */
 goal_y: Float32Array, 
 /**
- * Colour of the light: R·65536 + G·256 + B.
+ * Colour that the light should have: R·65536 + G·256 + B.
  */
 colour: Uint32Array, 
 /**
@@ -683,7 +699,7 @@ level: Level,
  */
 text: string, 
 /**
- * Number of robots if the line sums up events of several robots, else 0.
+ * Number of robots if the line sums up events of at least two robots, else 0.
  */
 count: number, 
 /**
@@ -710,11 +726,11 @@ list: Array<Incident>, };
  */
 export type Incident = { 
 /**
- * Number of the incident. It stays the same when further events are added.
+ * Number of the incident. It does not change when further events are added to the incident.
  */
 id: number, 
 /**
- * Time of its first event, milliseconds since 1970.
+ * Time of the incident's first event, milliseconds since 1970.
  */
 time_ms: number, 
 /**
@@ -726,7 +742,7 @@ tone: IncidentTone,
  */
 title: string, 
 /**
- * What the program did about it; may be empty.
+ * What the program did about the incident; may be empty.
  */
 done: string, 
 /**
@@ -742,7 +758,7 @@ robots: Array<string>,
  */
 count: number, 
 /**
- * Whether its robots are not admitted yet; the operation `list` admits them.
+ * Whether the robots concerned are not admitted to runs yet; the operation `list` admits them.
  */
 wants_to_join: boolean, 
 /**
@@ -797,11 +813,11 @@ missing?: Missing, } | { "do": "pause" } | { "do": "resume" } | { "do": "step" }
  */
 frame: number, } | { "do": "skip" } | { "do": "live_light", 
 /**
- * Name of the layer. A layer of the same name is replaced.
+ * Name of the layer. A layer that already has this name is replaced.
  */
 name: string, 
 /**
- * The layer, as in a show file (docs/light.md); its span of time is ignored. Null: take the layer off.
+ * The layer, as in a show file (docs/light.md); the layer's span of time is ignored. Null: take the layer off.
  */
 layer: Record<string, unknown> | null, } | { "do": "loop", 
 /**
@@ -865,7 +881,8 @@ address: string,
  */
 user?: string | null, 
 /**
- * Password; null: the password in the address, else the kept one if address and user are the kept ones.
+ * Password; null: the password in the address. If the address has none: the kept password, provided that
+ * address and user are the kept ones.
  */
 password?: string | null, 
 /**
@@ -877,13 +894,13 @@ ca?: string | null,
  */
 client_cert?: string | null, 
 /**
- * Key of the client certificate: PEM text or the path of a file on the server; null: the kept key if the
- * certificate is the kept one.
+ * Key of the client certificate: PEM text or the path of a file on the server; null: the kept key, provided
+ * that `client_cert` is the kept certificate.
  */
 client_key?: string | null, } | { "do": "disconnect" };
 
 /**
- * What happens if there are fewer ready robots than pixels.
+ * What happens if there are fewer ready robots than pixels, or the robot of a pinned pixel is not ready.
  */
 export type Missing = "refuse" | "leave_out";
 
@@ -900,7 +917,7 @@ id: number,
  */
 ok: boolean, 
 /**
- * Why it was refused: one line for people with cause and remedy; null if `ok`.
+ * Why the operation was refused: one line for people with cause and remedy; null if `ok`.
  */
 error: string | null, 
 /**
@@ -942,7 +959,7 @@ frames: number,
  */
 pixels: number, 
 /**
- * Time of the last save, milliseconds since 1970; 0 for a read-only show.
+ * Time of the last save, milliseconds since 1970; 0 unless `origin` is `saved`.
  */
 modified_ms: number, 
 /**
@@ -955,11 +972,12 @@ etag: string,
 origin: ShowOrigin, 
 /**
  * Why the show cannot be saved under its name, for people: its file holds fields that this version does not know.
- * null: it can be saved, or it is read-only because of its origin.
+ * null: the show can be saved, or is read-only because of `origin`.
  */
 read_only: string | null, 
 /**
- * Origin of the read-only show that this new entry is a copy of. Only in the answer to a save of such a show.
+ * Origin of the example or start file of which this new entry is a copy. Only in the answer to a save under the
+ * name of an example or the start file; otherwise null.
  */
 copy_of: ShowOrigin | null, 
 /**
@@ -981,7 +999,7 @@ export type ShowState = {
  */
 number: number | null, 
 /**
- * Time of the save, milliseconds since 1970; 0 for a read-only show.
+ * Time of the save, milliseconds since 1970; 0 for an example or the start file.
  */
 saved_ms: number, 
 /**
@@ -997,7 +1015,7 @@ frames: number,
  */
 pixels: number, 
 /**
- * Version of the file, with its quotes. States with the same version have the same content.
+ * Version of the file, with its quotes. States with equal versions have equal content.
  */
 etag: string, };
 
@@ -1022,15 +1040,16 @@ show: string,
  */
 began_ms: number, 
 /**
- * When it ended, milliseconds since 1970; null: the run is still on, or the program ended before it.
+ * When the run ended, milliseconds since 1970; null: the run is still on, or the program ended before the run did.
  */
 ended_ms: number | null, 
 /**
- * Whether all frames were shown and no robot was lost for good.
+ * Whether the run reached its end, all its frames were shown, and no robot was missing at the end. `false` while
+ * the run is on.
  */
 ok: boolean, 
 /**
- * How the run ended, in one sentence; null: it is still on, or the program ended before it.
+ * How the run ended, in one sentence; null: the run is still on, or the program ended before the run did.
  */
 outcome: string | null, 
 /**
@@ -1057,11 +1076,11 @@ error: string, };
  */
 export type PlaylistChange = { 
 /**
- * `PlaylistState.revision` of the playlist that this one replaces.
+ * `PlaylistState.revision` of the playlist that this new playlist replaces.
  */
 revision: number, 
 /**
- * Whether shows start by themselves. It survives a restart of the program.
+ * Whether shows start by themselves. The server keeps the setting over restarts of the program.
  */
 on: boolean, 
 /**
@@ -1070,7 +1089,7 @@ on: boolean,
 entries: Array<PlaylistEntry>, };
 
 /**
- * A show of a playlist. It has a time of day (`at`) or follows the entry before it (`pause_min`).
+ * A show of a playlist. Either it starts at a time of day (`at`), or `pause_min` after the previous entry has ended.
  */
 export type PlaylistEntry = { 
 /**
@@ -1082,7 +1101,7 @@ id?: number,
  */
 show: string, 
 /**
- * Local time of day of the server, `HH:MM`; null: it follows the entry before it.
+ * Time of day at which the entry starts, `HH:MM`, local time of the server; null: it follows the previous entry.
  */
 at?: string | null, 
 /**
@@ -1090,15 +1109,15 @@ at?: string | null,
  */
 weekdays?: Array<PlaylistDay>, 
 /**
- * Minutes between the end of the entry before it and the start of this one; null: it has a time of day.
+ * Minutes from the end of the previous entry to the start of this entry; null: this entry has a time of day.
  */
 pause_min?: number | null, 
 /**
- * Whether robots drive to their starting places at the beginning of the pause.
+ * Whether robots drive to their starting places at the beginning of the pause. Only for an entry with `pause_min`.
  */
 home?: boolean, 
 /**
- * Speed of drives, percent of the usual one.
+ * Speed of drives, percent of the usual speed.
  */
 speed_percent: number, };
 
@@ -1124,7 +1143,7 @@ on: boolean,
  */
 entries: Array<PlaylistEntry>, 
 /**
- * What became of each entry today, in their order.
+ * What became of each entry today, in the order of `entries`.
  */
 today: Array<PlaylistToday>, 
 /**
@@ -1133,12 +1152,13 @@ today: Array<PlaylistToday>,
  */
 next: PlaylistNext | null, 
 /**
- * Why the playlist starts no show after a person stopped robots, one sentence; null: it is not held. The operation
- * `go_on` lets it continue.
+ * Why the playlist is held and starts no show, one sentence: a person stopped robots. null: the playlist is not
+ * held. The operation `go_on` lets it continue.
  */
 held: string | null, 
 /**
- * Why the playlist cannot be read, with file, place and remedy; null: it can. Nothing is played meanwhile.
+ * Why the playlist's file cannot be read, with file, place and remedy: nothing is played meanwhile. null: the file can
+ * be read.
  */
 fault: string | null, 
 /**
@@ -1155,7 +1175,8 @@ export type PlaylistToday = {
  */
 result: PlaylistResult, 
 /**
- * Local time of day, `HH:MM`, at which the entry starts, began or ended; null: not known yet.
+ * Local time of day of the server, `HH:MM`, at which the entry starts, began or ended; null: not known yet, or
+ * `result` is `not_today` or `past`.
  */
 time: string | null, 
 /**
@@ -1194,7 +1215,7 @@ in_s: number, };
  */
 export type RefusedOperation = { 
 /**
- * Why it was refused: one line for people with cause and remedy.
+ * Why the operation was refused: one line for people with cause and remedy.
  */
 error: string, 
 /**
@@ -1242,11 +1263,11 @@ export type MadeToken = {
  */
 name: string, 
 /**
- * What the token may do. It never allows more than the present role of the person that made it.
+ * What the token may do. A token never allows more than the present role of the person that made the token.
  */
 role: AccountRole, 
 /**
- * The token, for `Authorization: Bearer TOKEN`. The server keeps its hash only.
+ * The token itself, for the header `Authorization: Bearer TOKEN`. The server keeps only a hash of it.
  */
 token: string, };
 
@@ -1315,8 +1336,8 @@ password: string, };
  */
 export type MakeRequest = { 
 /**
- * A show in the format `lightbots`, of which only the stage and the first frame are used. The frame holds the
- * source; its pixels that were moved by hand keep their places.
+ * A show in the format `lightbots`. Only its stage and its first frame, which has the source, are used. Pixels of that
+ * frame that were moved by hand keep their places.
  */
 show: unknown, 
 /**
@@ -1393,11 +1414,12 @@ robot: string | null,
 part: string | null, };
 
 /**
- * How well lights show what they are made from.
+ * How well the lights of a frame show the frame's source.
  */
 export type MadeReadability = { 
 /**
- * Normalised cross-correlation of the blurred lights with the source, 0 to 1. Of several parts, the lowest value.
+ * Normalised cross-correlation of the blurred lights with the source, 0 to 1. A source of several parts, such as
+ * letters, gets the lowest value of its parts.
  */
 correlation: number, 
 /**
@@ -1440,7 +1462,7 @@ offset_s: number | null,
  */
 times_s: Array<number>, 
 /**
- * Why no beats were found, and what to do; null: they were.
+ * Why no beats were found, and what to do; null: beats were found.
  */
 error: MakeRemark | null, };
 
@@ -1457,11 +1479,11 @@ frames: Array<FilmPicture>,
  */
 slowdown: number, 
 /**
- * What is missing, or different from the animation.
+ * What is missing from the frames, or differs from the animation.
  */
 notes: Array<MakeRemark>, 
 /**
- * Why there are no frames; null: there are.
+ * Why there are no frames; null: there are frames.
  */
 error: MakeRemark | null, };
 
@@ -1491,7 +1513,7 @@ export type FitAnswer = {
  */
 show: unknown, 
 /**
- * Differences from what might be expected of the fitted show.
+ * Changes to the show that people may not expect, such as lost starting places.
  */
 notes: Array<MakeRemark>, 
 /**
@@ -1546,7 +1568,7 @@ count: number,
  */
 turns: number, 
 /**
- * Inner radius as a share of the outer one.
+ * Inner radius as a share of the outer radius.
  */
 inner: number, 
 /**
@@ -1559,16 +1581,16 @@ span: number, };
  */
 export type MakeFile = { 
 /**
- * SHA-256 of its bytes as 64 hexadecimal digits.
+ * SHA-256 of the file's bytes as 64 hexadecimal digits.
  */
 hash: string, 
 /**
- * `svg`, `picture`, `list` or `animation`: a frame is made from it; `font`: words are set in it; `show`: it is a
- * show; `music`: it is the music of a show; null: the file cannot be used.
+ * What the file can be used for. `svg`, `picture`, `list` or `animation`: source of a frame; `font`: font of words;
+ * `show`: a show; `music`: music of a show; null: the file cannot be used.
  */
 kind: string | null, 
 /**
- * Why the file cannot be used, and what to do; null: it can be.
+ * Why the file cannot be used, and what to do; null: the file can be used.
  */
 error: MakeRemark | null, };
 
