@@ -3,7 +3,7 @@
 //! 1. Fewer contacts and faults; a fault is illegal motion. A plan without contacts and faults is contact-free.
 //! 2. Contact-free plans only: a duration of at most [`MOST_LONGER`] × the shortest.
 //! 3. Contact-free plans only: the greater stop-safe share, in steps of 1 %. It is the share of moments at which a
-//! robot may stop dead without a contact.
+//!    robot may stop dead without a contact.
 //! 4. The shorter duration.
 //! 5. The lower index in the list of candidates.
 //!

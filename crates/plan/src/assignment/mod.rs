@@ -177,8 +177,8 @@ impl<'a> Minimiser<'a> {
         Self { choice, solver }
     }
 
-    /// Returns `start_of[goal]` with the least sum of squared lengths among assignments without a line longer than `(1
-    /// + slack)` × the reach of the choice. `slack` must not shrink from call to call. `None` if the search was
+    /// Returns `start_of[goal]` with the least sum of squared lengths among assignments without a line longer than
+    /// `(1 + slack)` × the reach of the choice. `slack` must not shrink from call to call. `None` if the search was
     /// cancelled.
     pub fn solve(&mut self, slack: f64) -> Option<Vec<usize>> {
         let choice = self.choice;
