@@ -11,10 +11,10 @@ pub(crate) struct Backoff {
 
 impl Backoff {
     /// First waiting time. With a shorter one, a dead broker would be tried too often. With a longer one, a restarted broker
-    /// could be found later than the 1.85 s without messages after which robots stop (R43).
+    /// could be found later than the 1.9 s without messages after which robots stop (R43).
     const FIRST: Duration = Duration::from_millis(100);
     /// Longest waiting time. A broker that is back is found within it, which is about as long as robots drive on without
-    /// messages (1.85 s, R43).
+    /// messages (1.9 s, R43).
     const LONGEST: Duration = Duration::from_secs(2);
 
     pub(crate) fn new() -> Self {

@@ -30,7 +30,7 @@ const DISCONNECT_MAX: Duration = Duration::from_millis(500);
 const RESUBSCRIBE_AFTER: [Duration; 3] =
     [Duration::from_millis(1_000), Duration::from_millis(2_000), Duration::from_millis(6_000)];
 /// Longest random wait before the next address is tried. It keeps the robots of a fleet from connecting at one moment. With
-/// a longer wait, robots could reach the 1.85 s without messages after which they stop (R43).
+/// a longer wait, robots could reach the 1.9 s without messages after which they stop (R43).
 const NEXT_ADDRESS_MAX: Duration = Duration::from_millis(100);
 
 pub(crate) struct ConnectionTask {

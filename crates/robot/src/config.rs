@@ -218,7 +218,7 @@ impl NeighbourModel {
 
 impl Config {
     /// The configuration of an Elisa-3 with all abilities. Fixes come at every step, without delay, with noise of 2 mm
-    /// and 1°. The robot drives on without a link for at most 1.85 s.
+    /// and 1°. The robot drives on without a link for at most 1.9 s.
     pub fn new(id: RobotId) -> Self {
         Self {
             id,
@@ -231,7 +231,7 @@ impl Config {
                 .unwrap_or_default(),
             fix_delay: Span::ZERO,
             fix_pace: Span::from_millis(16),
-            silence: Span::from_millis(1850),
+            silence: Span::from_millis(1900),
             seed: 0,
             fix_sigma_m: 0.002,
             heading_sigma_rad: 0.0175,

@@ -26,9 +26,6 @@ const GIVE_UP_M: f64 = 0.3;
 /// A robot that the safety layer slowed has caught up once it is within this distance of the present place of its route,
 /// metres. With a smaller value, the error of following a route counts as being behind.
 const CAUGHT_UP_M: f64 = 0.02;
-/// Speed below which a robot may stop dead where its route was broken off, m/s: in one step, below the grip limit. With a
-/// smaller value, a robot that catches up with its place still moves 2.2 s after the last message (R43).
-const CATCHES_UP_MPS: f64 = 0.12;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Handles a message that arrives at `now`, own clock. Messages are ignored unless their topic is `Broadcast` or the
@@ -41,7 +38,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.now = self.hot.now.max(now);
         // The link is checked first. A silence may have become too long while the simulation stood still and no step
         // ran.
-        self.heed_link(now, self.route_time(now));
+        self.heed_link(now);
         let hot = &mut self.hot;
         if hot.supervisor.was_out(now) {
             hot.routes.note_outage();
@@ -83,7 +80,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let show = self.hot.clock.show_time(now);
         let route_time = show.map(|show| show - inputs.lag);
         self.begin_due(route_time);
-        self.supervise(now, route_time);
+        self.supervise(now);
         let wheels_radps = self.act(now, route_time, took);
         self.hot.is_wary = self.hot.is_wary && self.reflex.is_wary();
         self.hot.stall.command(wheels_radps);
@@ -196,15 +193,14 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     /// Stops the robot or ends its route if it must not drive on. During a silence of the controller, asks for the time. A
     /// lost or faulty robot gives up its route, because the other robots drive on. But a lost or faulty robot keeps its
     /// target, as an original robot does.
-    fn supervise(&mut self, now: Instant, route_time: Option<Instant>) {
+    fn supervise(&mut self, now: Instant) {
         self.stop_in_time(now);
         let drives = self.drives();
         let is_lost = self.is_lost_now();
         let off_m = self.hot.routes.off_m().unwrap_or(0.0);
         let is_behind = off_m > CAUGHT_UP_M;
         self.hot.is_held_up = is_behind && (self.hot.is_held_up || self.braking_towards().is_some());
-        self.heed_link(now, route_time);
-        self.end_broken_off(now, route_time);
+        self.heed_link(now);
         let hot = &mut self.hot;
         if drives == Drives::Route {
             let gives_up = off_m > GIVE_UP_M;
@@ -221,37 +217,14 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Breaks off the drive if the link has been down for too long, or silent on a route for too long. On a route that
-    /// the robot keeps to, it slows to rest as by a hold, so that it knows where its neighbours are meanwhile. Another
-    /// drive ends at once.
-    fn heed_link(&mut self, now: Instant, route_time: Option<Instant>) {
+    /// Abandons the target and the route if the link has been down for too long, or silent on a route for too long.
+    fn heed_link(&mut self, now: Instant) {
         let drives = self.drives();
         let hot = &mut self.hot;
-        if hot.supervisor.is_out(now, drives) && !hot.routes.is_broken_off() {
+        if hot.supervisor.check_link(now, drives) {
             hot.seek = None;
             hot.routes.note_outage();
-            let keeps_up = hot.routes.off_m().is_some_and(|off_m| off_m <= CAUGHT_UP_M);
-            if route_time.is_some() && hot.drive.rolls() && keeps_up {
-                hot.routes.break_off();
-            } else {
-                hot.routes.abandon();
-                hot.supervisor.cut_off();
-            }
-        }
-    }
-
-    /// Ends a route that was broken off once it has come to rest. A robot that still catches up with its place there
-    /// stops; a faster one rolls out.
-    fn end_broken_off(&mut self, now: Instant, route_time: Option<Instant>) {
-        let hot = &mut self.hot;
-        if !hot.routes.end_broken_off(route_time) {
-            return;
-        }
-        if hot.drive.speed_mps().abs() < CATCHES_UP_MPS {
-            hot.drive.halt();
-        }
-        if hot.supervisor.is_out(now, Drives::Route) {
-            hot.supervisor.cut_off();
+            hot.routes.abandon();
         }
     }
 

@@ -34,9 +34,6 @@ const BACK_M: f64 = 0.004;
 /// A route is an old message that arrived late if its number is below the newest one by less than this. A route whose
 /// number is farther below comes from a restarted controller.
 const OLD_NUMBERS: u32 = 64;
-/// A route that was broken off is abandoned this long before it would rest, so that the robot stands in time (R43): one
-/// step, in which path time advances by less than 1 ms.
-const LAST_STEP: Span = Span::from_millis(16);
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
 
@@ -51,11 +48,6 @@ struct Running {
     seek: Option<Seek>,
     /// The drive back to the place of the route during a hold; otherwise `None`.
     back: Option<Seek>,
-    /// When the latest setpoint takes effect, show clock; before the first step, when the route begins.
-    latest: Instant,
-    /// When the route is abandoned, show clock, because it was broken off; `None` if it was not. It slows to rest
-    /// before.
-    abandoned_at: Option<Instant>,
     slot: Slot,
     /// Whether path time stands still at the moment when the latest setpoint takes effect.
     rests: bool,
@@ -139,26 +131,6 @@ impl Routes {
         }
     }
 
-    /// Slows the route under way to rest from the latest step on. [`Self::end_broken_off`] abandons it then.
-    pub(crate) fn break_off(&mut self) {
-        if let Some(running) = self.running.as_mut() {
-            running.abandoned_at = Some(running.latest + Route::EASE - LAST_STEP);
-            self.timeline.rest(running.latest);
-        }
-    }
-
-    /// Whether the route under way was broken off.
-    pub(crate) fn is_broken_off(&self) -> bool {
-        self.running.as_ref().is_some_and(|running| running.abandoned_at.is_some())
-    }
-
-    /// Abandons the route under way if it was broken off and has come to rest by `show`, show clock; at once if that
-    /// is unknown. Returns whether it did.
-    pub(crate) fn end_broken_off(&mut self, show: Option<Instant>) -> bool {
-        let is_at_rest = |at: Instant| show.is_none_or(|show| show >= at);
-        self.running.take_if(|running| running.abandoned_at.is_some_and(is_at_rest)).is_some()
-    }
-
     /// Begins the kept route if its start time has come at `show`, and returns whether it began. A start time that is
     /// past by more than [`TOO_LATE`] is discarded, for example if the show clock was unknown at that time.
     #[inline]
@@ -190,8 +162,6 @@ impl Routes {
             look_ahead: LookAhead::default(),
             seek: None,
             back: None,
-            latest: starts,
-            abandoned_at: None,
             off_m: 0.0,
             due_off_m: 0.0,
             due: route.start,
@@ -213,7 +183,6 @@ impl Routes {
         storage: &RouteStorage,
     ) -> Option<Setpoint> {
         let running = self.running.as_mut()?;
-        running.latest = takes_effect.max(running.starts);
         let route = storage.at(running.slot);
         let due = self.timeline.at(takes_effect);
         let progress = running.steady.step(takes_effect, due);
@@ -233,8 +202,7 @@ impl Routes {
         {
             return Some(running.seek.get_or_insert_with(|| Seek::new(motion.position)).step(body, limits));
         }
-        let is_broken_off = running.abandoned_at.is_some();
-        let waits = progress.rate == 0.0 && self.timeline.stays_held(takes_effect) && !is_broken_off;
+        let waits = progress.rate == 0.0 && self.timeline.stays_held(takes_effect);
         if waits && (running.back.is_some() || running.off_m > STRAYED_M) {
             // During a hold, a robot that left its route drives back to it. Once the resume is known, it turns to the
             // direction of its route instead.
@@ -247,9 +215,7 @@ impl Routes {
             running.back = None;
         }
         let speed = by_path_time.velocity.length();
-        let ahead = if is_broken_off && speed < SLOW_MPS {
-            None
-        } else if speed < SLOW_MPS {
+        let ahead = if speed < SLOW_MPS {
             running.look_ahead.look(route, running.cursor.piece(), progress.time)
         } else if motion.velocity.length() < RESTING_MPS {
             // A route that is held in motion is at rest: the robot keeps to the tangent there.
@@ -331,10 +297,10 @@ impl Routes {
         self.running.is_some() || self.kept.as_ref().is_some_and(|kept| kept.starts.is_some())
     }
 
-    /// Whether a route is under way that was not broken off, and a hold is in force at the moment `show`, show clock.
-    /// `false` if the moment is unknown.
+    /// Whether a route is under way and a hold is in force at the moment `show`, show clock. `false` if the moment is
+    /// unknown.
     pub(crate) fn held(&self, show: Option<Instant>) -> bool {
-        self.under_way() && !self.is_broken_off() && show.is_some_and(|show| self.timeline.held(show))
+        self.running.is_some() && show.is_some_and(|show| self.timeline.held(show))
     }
 
     /// Whether a route is under way whose path time stood still in the latest step.

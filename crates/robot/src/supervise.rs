@@ -6,7 +6,7 @@ use lightbots_base::{Instant, Span};
 /// repeatedly.
 const FAULT: Span = Span::from_millis(1000);
 /// Time without a message on a route, or before a known start, after which the robot asks for the time to get an
-/// answer. It must be shorter than `Config::silence` (1.85 s by default). With a larger value, a question that is lost
+/// answer. It must be shorter than `Config::silence` (1.9 s by default). With a larger value, a question that is lost
 /// cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
 /// Time without a message after which the link counts as out, whatever the robot does. A robot asks for the time at
@@ -96,18 +96,19 @@ impl Supervisor {
         now - self.heard > OUTAGE
     }
 
-    /// Whether the link has been down for too long for a drive, or silent for too long for a route.
-    pub(crate) fn is_out(&self, now: Instant, drives: Drives) -> bool {
-        match drives {
+    /// Cuts the robot off if the link has been down for too long during a drive, or silent for too long during a route.
+    /// Returns whether the robot was cut off by this call.
+    pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
+        let down = self.is_down(now);
+        let silent = self.is_silent(now);
+        let cuts = match drives {
             Drives::Not | Drives::Soon => false,
-            Drives::Target => self.is_down(now),
-            Drives::Route => self.is_down(now) || self.is_silent(now),
-        }
-    }
-
-    /// Cuts the robot off from its drive.
-    pub(crate) fn cut_off(&mut self) {
-        self.cut = true;
+            Drives::Target => down,
+            Drives::Route => down || silent,
+        };
+        let news = cuts && !self.cut;
+        self.cut |= cuts;
+        news
     }
 
     /// Returns whether the robot is to ask for the time now, because of a silence. If so, the call counts as having
@@ -162,13 +163,13 @@ mod tests {
     fn silence_cuts_off_a_route_and_a_message_ends_it() {
         let mut supervisor = Supervisor::new(Span(2_000_000));
         supervisor.receive(Instant(SECOND));
-        assert!(!supervisor.is_out(Instant(3 * SECOND), Drives::Route));
-        assert!(!supervisor.is_out(Instant(9 * SECOND), Drives::Target));
-        assert!(supervisor.is_out(Instant(3 * SECOND + 1), Drives::Route));
-        supervisor.cut_off();
+        assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Route));
+        assert!(!supervisor.check_link(Instant(9 * SECOND), Drives::Target));
+        assert!(supervisor.check_link(Instant(3 * SECOND + 1), Drives::Route));
+        assert!(!supervisor.check_link(Instant(3 * SECOND + 2), Drives::Route));
         assert!(supervisor.is_cut());
         supervisor.link(Instant(4 * SECOND), true);
-        assert!(!supervisor.is_cut() && supervisor.is_out(Instant(4 * SECOND), Drives::Route));
+        assert!(!supervisor.is_cut() && supervisor.check_link(Instant(4 * SECOND), Drives::Route));
         supervisor.receive(Instant(4 * SECOND));
         assert!(!supervisor.is_cut());
     }
@@ -178,8 +179,8 @@ mod tests {
         let mut supervisor = Supervisor::new(Span(2_000_000));
         supervisor.link(Instant(SECOND), false);
         supervisor.link(Instant(2 * SECOND), false);
-        assert!(!supervisor.is_out(Instant(3 * SECOND), Drives::Target));
-        assert!(supervisor.is_out(Instant(3 * SECOND + 1), Drives::Target));
+        assert!(!supervisor.check_link(Instant(3 * SECOND), Drives::Target));
+        assert!(supervisor.check_link(Instant(3 * SECOND + 1), Drives::Target));
         supervisor.link(Instant(4 * SECOND), true);
         assert!(!supervisor.is_cut() && supervisor.is_up());
     }

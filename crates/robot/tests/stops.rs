@@ -63,28 +63,6 @@ fn stop_for_a_moment_lets_its_route_come_to_rest_whatever_resumes() {
     has_stopped(&mut plant);
 }
 
-/// R43: the robot slows down on its path, where its neighbours expect it, and nothing that comes meanwhile resumes it.
-#[test]
-fn in_a_silence_its_route_comes_to_rest_where_it_would_be_after_two_seconds() {
-    for resumes in [false, true] {
-        let (mut plant, route, at) = driving();
-        plant.answers = false;
-        plant.tell(&Command::Status);
-        let last = plant.show();
-        plant.run(2.0);
-        assert_eq!(plant.robot.state(), RobotState::Driving);
-        if resumes {
-            plant.tell(&Command::Resume { at: plant.show() });
-        }
-        plant.run(0.2);
-        assert!(plant.stands());
-        assert_eq!(plant.robot.state(), if resumes { RobotState::Ready } else { RobotState::Cut });
-        let rests_at =
-            PathRef::new(route.start, &route.pieces).at(last - at + Span::from_millis(2_000)).position;
-        assert!(plant.at.distance(rests_at) < 0.005, "{}", plant.at.distance(rests_at));
-    }
-}
-
 #[test]
 fn stop_for_a_moment_is_at_once_where_that_is_long_ago_or_far_ahead_or_nothing_drives() {
     for ahead_ms in [-400, 1_800, 3_600_000] {

@@ -20,7 +20,7 @@ use lightbots_wire::RobotState;
 const UNREPORTED: Span = Span::from_millis(600);
 
 /// How long a robot drives on after its link broke, counted from its last report. By R43 of docs/protocol.md it slows
-/// down from 1.85 s after the last message that it received. It comes to rest where it would have been after 2 s.
+/// down from 1.9 s after the last message that it received. It comes to rest where it would have been after 2 s.
 pub(crate) struct LinkLoss {
     /// Least time that the robot drives on after its last report.
     pub drives_on: Span,

@@ -50,7 +50,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             }
             Command::Hold { at } => self.note(at, true),
             Command::Resume { at } => {
-                if self.hot.stops_at.is_none() && !self.hot.routes.is_broken_off() {
+                if self.hot.stops_at.is_none() {
                     self.note(at, false);
                 }
             }

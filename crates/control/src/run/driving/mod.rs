@@ -25,7 +25,7 @@ use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 
 /// How often the START of the present drive is sent again, so that robots know that the link works. Without messages
-/// they stop after 1.85 s (R43). If the link breaks while copies are on their way, robots receive different last copies.
+/// they stop after 1.9 s (R43). If the link breaks while copies are on their way, robots receive different last copies.
 /// The shorter the interval, the closer together in time they then stop.
 const HEARTBEAT: Heartbeat =
     Heartbeat { a_robot: Span::from_millis(2), least: Span::from_millis(60), most: Span::from_millis(500) };
