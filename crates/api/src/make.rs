@@ -158,8 +158,8 @@ pub struct MakeFont {
 pub struct MakeFile {
     /// SHA-256 of the file's bytes as 64 hexadecimal digits.
     pub hash: String,
-    /// What the file can be used for. `svg`, `picture`, `list` or `animation`: source of a frame; `font`: font of words;
-    /// `show`: a show; `music`: music of a show; null: the file cannot be used.
+    /// What the file can be used for. `svg`, `picture`, `list` or `animation`: source of a frame; `font`: font of
+    /// words; `show`: a show; `music`: music of a show. null: the file cannot be used.
     pub kind: Option<String>,
     /// Why the file cannot be used, and what to do; null: the file can be used.
     pub error: Option<MakeRemark>,

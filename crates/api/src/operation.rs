@@ -167,7 +167,7 @@ pub enum Operation {
         #[serde(default)]
         #[ts(optional = nullable)]
         client_cert: Option<String>,
-        /// Key of the client certificate: PEM text or the path of a file on the server; null: the kept key, provided
+        /// Key of the client certificate: PEM text or the path of a file on the server. null: the kept key, provided
         /// that `client_cert` is the kept certificate.
         #[serde(default)]
         #[ts(optional = nullable)]

@@ -102,7 +102,7 @@ pub struct PlaylistState {
 pub struct PlaylistToday {
     /// What became of the entry.
     pub result: PlaylistResult,
-    /// Local time of day of the server, `HH:MM`, at which the entry starts, began or ended; null: not known yet, or
+    /// Local time of day of the server, `HH:MM`, at which the entry starts, began or ended. null: not known yet, or
     /// `result` is `not_today` or `past`.
     pub time: Option<String>,
     /// Why the entry failed or was skipped, with a remedy: one line; null: neither happened.
@@ -118,8 +118,8 @@ pub enum PlaylistResult {
     /// The entry's time has not come, or the previous entry is not over, or robots drive to their starting places
     /// before the entry.
     Waiting,
-    /// The entry's time of day, or that of the entry that it follows, had passed by more than five minutes before the
-    /// playlist was switched on.
+    /// The time for the entry had passed by more than five minutes before the playlist was switched on. That time is
+    /// the entry's time of day, or that of the entry that it follows.
     Past,
     /// The entry plays.
     Playing,

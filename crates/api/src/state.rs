@@ -68,7 +68,7 @@ pub struct Playback {
     pub phase: Phase,
     /// What the run does, for people, such as `driving`; null: there is no run.
     pub doing: Option<String>,
-    /// Index of the frame that robots show or drive to, counted from 0; null: there is no run, or it is a preflight or
+    /// Index of the frame that robots show or drive to, counted from 0. null: there is no run, or it is a preflight or
     /// a drive to the starting places.
     pub frame: Option<usize>,
     /// Index of the frame after `frame`, counted from 0; null: `frame` is null, or the run ends after `frame`.

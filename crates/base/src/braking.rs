@@ -16,7 +16,8 @@ pub const REACTION_S: f64 = DETECTION_S + ACTUATION_S;
 pub const GRIP_MPS2: f64 = 11.75;
 
 /// Distance in metres that a robot at `speed_mps` drives while its wheels brake at the grip limit. This is an upper
-/// bound: an Elisa-3 at 0.27 m/s needs 1.3 mm instead of 3.1 mm, because its speed falls at the beginning of a step.
+/// bound: an Elisa-3 at 0.27 m/s needs 1.3 mm instead of 3.1 mm. The reason is that its speed falls at the beginning of
+/// a step.
 pub const fn braking_m(speed_mps: f64) -> f64 {
     speed_mps * speed_mps / (2.0 * GRIP_MPS2)
 }

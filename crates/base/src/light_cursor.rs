@@ -50,8 +50,8 @@ impl LightCursor {
         elapsed_us
     }
 
-    /// Returns the current record as a straight line in sRGB codes: its beginning after the start of the track, its
-    /// duration, and its first and last colour. `None` if the track is over.
+    /// Returns the current record as a straight line in sRGB codes. The result is its beginning after the start of the
+    /// track, its duration, and its first and last colour. `None` if the track is over.
     #[inline]
     pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, (Rgb, Rgb))> {
         let record = *track.records.get(self.record)?;

@@ -257,7 +257,8 @@ mod tests {
         assert!(none.colours(0.0, 1.0, 9).is_empty());
     }
 
-    /// A GIF of 2 by 1 pixels, blue and red: a palette of two colours, and codes of three bits (clear 4, 0, 1, end 5).
+    /// A GIF of 2 by 1 pixels, blue and red. It has a palette of two colours, and codes of three bits (clear 4, 0, 1,
+    /// end 5).
     const GIF: &[u8] = b"GIF89a\x02\0\x01\0\x80\0\0\0\0\xff\xff\0\0,\0\0\0\0\x02\0\x01\0\0\x02\x02D\n\0;";
 
     #[test]

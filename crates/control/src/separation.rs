@@ -1,6 +1,6 @@
 //! Moves robots apart that stand too close to each other for a plan, each by a short distance.
 //!
-//! Two robots that begin a drive close to each other may stay that close on the whole drive: the proof demands only
+//! Two robots that begin a drive close to each other may stay that close on the whole drive. The proof demands only
 //! their clearance at the start. After a robot fails in a queue, rows of robots stand rim to rim. Without this module
 //! they would touch again and again.
 
@@ -8,7 +8,7 @@ use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;
 
-/// Clearance to which robots are moved apart, metres: the 8 mm that the planner keeps if there is space, plus the
+/// Clearance to which robots are moved apart, metres. It is the 8 mm that the planner keeps if there is space, plus the
 /// errors of two position fixes. With less, the next drive has too little clearance. With more, dense robots are moved
 /// without need.
 pub(crate) const CLEARANCE_M: f64 = 0.010;

@@ -169,8 +169,8 @@ pub struct Reported {
     pub blocked: Option<Blocked>,
     /// Error of the robot's show clock, 2 sigma, microseconds; `None` if the clock is not synchronised.
     pub clock_us: Option<u32>,
-    /// Number of a route: of the one that the robot keeps for later, else of the one that it drives, else of the one that it
-    /// finished last. 0 if there is none.
+    /// Number of the route that the robot keeps for later. If there is none, number of the route that it drives, else
+    /// of the one that it finished last. 0 if there is none of these.
     pub route: u32,
     /// Name and version of its firmware; may be empty.
     pub firmware: Firmware,

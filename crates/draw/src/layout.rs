@@ -187,8 +187,8 @@ impl LayoutTask<'_> {
 
     /// Returns the places in `fixed` and `count` relaxed places in the areas. If `start` has the right number of
     /// places, relaxation begins with them, and symmetry is not sought. Otherwise, if the areas are symmetric and no
-    /// place is kept, the places are symmetric, unless their energy is then more than [`SYMMETRY_WORTH`] times that of
-    /// asymmetric places.
+    /// place is kept, the places are symmetric, with one exception. Asymmetric places are returned if the energy of
+    /// symmetric places is more than [`SYMMETRY_WORTH`] times theirs.
     fn relaxed(&self, fixed: &[Vec2], count: usize, spacing: f64) -> (Vec<Vec2>, Option<Pairing>) {
         if count == 0 || self.ground.samples.is_empty() {
             return (fixed.to_vec(), None);

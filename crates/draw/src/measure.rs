@@ -8,7 +8,7 @@ use crate::ground::{Ground, Quality};
 use crate::pins::{self, CORNER_RAD};
 
 /// Figures of places on a part. Distances are divided by an ideal spacing. For areas, that is the spacing of a
-/// hexagonal grid with this number of places; for lines, the length of the lines divided by the number of places.
+/// hexagonal grid with this number of places. For lines, it is the length of the lines divided by the number of places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// Standard deviation of the places' distances to their nearest neighbours, divided by the mean of these distances.

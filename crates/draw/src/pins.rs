@@ -23,8 +23,8 @@ pub(crate) struct Pin {
     pub arc: f64,
     /// The place.
     pub at: Vec2,
-    /// Importance of a light at this place: 2 at an end, 1 at a crossing, below 1 at a corner, where it grows with the
-    /// turn.
+    /// Importance of a light at this place: 2 at an end, 1 at a crossing, below 1 at a corner. At a corner, it grows
+    /// with the turn.
     pub rank: f64,
 }
 

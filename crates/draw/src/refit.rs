@@ -27,8 +27,8 @@ const HALF_WIDTHS: [f64; 8] = [0.22, 0.5, 0.9, 1.4, 2.1, 3.2, 4.8, 7.0];
 /// (Lloyd without pushing apart, measured).
 const RELAXED: f64 = 0.5;
 
-/// If there are more robots than this multiple of an ideal filling of the lines, and new lights are needed, lines of
-/// this width are not tried. It is above 1 because the picture may grow.
+/// Largest number of robots, as a multiple of an ideal filling of the lines. If there are more robots and new lights
+/// are needed, lines of this width are not tried. The multiple is above 1 because the picture may grow.
 const SPARE: f64 = 1.5;
 
 /// Number of samples along a typical distance.

@@ -26,9 +26,9 @@ pub struct PlaceSettings {
     pub center: Vec2,
     /// Angle by which the picture is turned, radians counter-clockwise.
     pub turn: f64,
-    /// The rectangle of the drawing that is scaled to the picture's size: its corners with the smaller and the larger x
-    /// and y, in the drawing's units. `None`: the rectangle around the whole drawing. If a series of pictures has one
-    /// view, all have one scale.
+    /// The rectangle of the drawing that is scaled to the picture's size. It is given by its corners with the smaller
+    /// and the larger x and y, in the drawing's units. `None`: the rectangle around the whole drawing. If a series of
+    /// pictures has one view, all have one scale.
     pub view: Option<(Vec2, Vec2)>,
     /// Lights that stay where they are. They are included in `robots` and come first in the result.
     pub kept: Vec<PlacedLight>,

@@ -3,8 +3,8 @@
 use crate::colour::Linear;
 use lightbots_base::Rgb;
 
-/// Largest number of pixels in all pictures of a film together, chosen by us: 12 MB of memory, or 17 pictures of 640 x
-/// 360 pixels. A picture for a floor of 10,000 robots needs 100 x 100 pixels.
+/// Largest number of pixels in all pictures of a film together, chosen by us. It stands for 12 MB of memory, or 17
+/// pictures of 640 x 360 pixels. A picture for a floor of 10,000 robots needs 100 x 100 pixels.
 pub const PICTURE_PIXELS_MAX: usize = 4_000_000;
 
 /// A picture or film, decoded.

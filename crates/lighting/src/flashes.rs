@@ -1,8 +1,8 @@
 //! Flashes of a show that can cause seizures: WCAG 2.2, success criterion 2.3.1.
 //!
 //! A general flash is a pair of opposing changes of relative luminance by a tenth of the maximum or more, the darker
-//! state below 0.8. A red flash is a pair of opposing changes that involve a saturated red: R/(R + G + B) ≥ 0.8, and (R
-//! − G − B)·320 changes by more than 20. More than three flashes in a second must not cover more than a quarter of any
+//! state below 0.8. A red flash is a pair of opposing changes of (R − G − B)·320 by more than 20. They involve a
+//! saturated red: R/(R + G + B) ≥ 0.8. More than three flashes in a second must not cover more than a quarter of any
 //! 10° of the viewer's field of view. Here such a field is a square whose side is a quarter of the floor's depth, and
 //! each robot lights a square around itself. Three flashes a second are too many if they go on for more than five
 //! seconds (Ofcom's guidance).
@@ -37,8 +37,8 @@ const FLASHES_MAX: u32 = 3;
 const COUNTS_MAX: u32 = 5 * RATE / COUNTED_EVERY;
 /// Largest share of a field that may flash too often; see [`FIELD`].
 const COVERED: f64 = 0.25;
-/// Side of a field, a square of the floor that stands for 10° of the viewer's field of view, as a share of the floor's
-/// depth.
+/// Side of a field, as a share of the floor's depth. A field is a square of the floor that stands for 10° of the
+/// viewer's field of view.
 const FIELD: f64 = 0.25;
 /// Largest side of the square around a robot that counts as lit by the robot, metres.
 const CELL_MAX_M: f64 = 0.3;

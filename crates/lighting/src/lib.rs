@@ -1,8 +1,8 @@
 //! Light of a show: its layers, when each shines, and a robot's colours as a light track.
 //!
-//! `lightbots_light` computes colours of layers and knows no show; here layers are read from a show, placed on its timeline
-//! and turned into the records that robots play. No IO, and no state between two calls. Reading order: [`ShowLight`],
-//! [`FrameTimes`], [`DrivenLight`], [`fit`](fit()), [`flashes`](flashes()), [`validate`],
+//! `lightbots_light` computes colours of layers and knows no show. Here layers are read from a show, placed on its
+//! timeline and turned into the records that robots play. No IO, and no state between two calls. Reading order:
+//! [`ShowLight`], [`FrameTimes`], [`DrivenLight`], [`fit`](fit()), [`flashes`](flashes()), [`validate`],
 //! [`attach_pictures`].
 
 mod driven;

@@ -18,9 +18,9 @@ pub struct PlannedDrive<'a> {
     pub duration: Span,
 }
 
-/// Returns the number of each robot for effects: the rank, from 0, of its pixel's id among all pixels in the frame to
-/// which robots drive first. Plans and runs of a show thus agree. Robots without a pixel come after the others, in their
-/// order. `pixels` has the id of each robot's pixel in that frame.
+/// Returns the number of each robot for effects. It is the rank, from 0, of the id of the robot's pixel among all
+/// pixels in the frame to which robots drive first. Plans and runs of a show thus agree. Robots without a pixel come
+/// after the others, in their order. `pixels` has the id of each robot's pixel in that frame.
 pub fn numbers(pixels: impl IntoIterator<Item = Option<u32>>) -> Vec<u32> {
     let mut robots: Vec<(Option<u32>, usize)> =
         pixels.into_iter().enumerate().map(|(robot, pixel)| (pixel, robot)).collect();

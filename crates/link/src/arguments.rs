@@ -51,8 +51,8 @@ fn wrong(option: &str, why: &dyn fmt::Display) -> ArgumentsError {
 }
 
 impl BrokerArguments {
-    /// Returns one broker with all of `addresses`, the login and the certificates. Addresses are parsed here and not by
-    /// the parser of the command line, because error messages of that parser would show a password in an address.
+    /// Returns one broker with all of `addresses`, the login and the certificates. Addresses are parsed here. The
+    /// parser of the command line does not parse them, because its error messages would show a password in an address.
     pub fn broker(&self, addresses: &[String]) -> Result<BrokerUrl, ArgumentsError> {
         let set = |name| std::env::var(name).ok().filter(|value: &String| !value.is_empty());
         self.broker_given(addresses, set(USER), set(PASSWORD))

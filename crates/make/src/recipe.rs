@@ -274,8 +274,8 @@ fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
     })
 }
 
-/// Returns the style of a content. `chosen` is returned, except that animations get `Filled` for `Auto`: robots keep their
-/// indices from picture to picture, which is not possible along edges whose length changes.
+/// Returns the style of a content. `chosen` is returned, except that animations get `Filled` for `Auto`. The robots of
+/// an animation keep their indices from picture to picture, which is not possible along edges whose length changes.
 pub(crate) fn style_of(chosen: Style, content: &Content) -> Style {
     let is_animation = matches!(content, Content::Animation { .. });
     if is_animation && chosen == Style::Auto { Style::Filled } else { chosen }

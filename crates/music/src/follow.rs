@@ -80,9 +80,9 @@ fn blurred(onsets: &[f32], frame: usize, period: f64) -> f64 {
         .sum()
 }
 
-/// Returns the increasing sequence of frames with the largest sum of onset strengths minus costs, among those that end
-/// in the last beat length of the music. Distances that differ from the period have a cost. `period_at` gives the
-/// length of a beat at a frame, in frames.
+/// Returns the increasing sequence of frames with the largest sum of onset strengths minus costs. Only sequences that
+/// end in the last beat length of the music count. Distances that differ from the period have a cost. `period_at` gives
+/// the length of a beat at a frame, in frames.
 fn best_chain(strength: &[f64], period_at: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut sums = strength.to_vec();
     let mut before: Vec<Option<usize>> = vec![None; strength.len()];

@@ -293,8 +293,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// If there are more open pixels than free robots, leaves the surplus pixels dark, without an issue: first pixels
-    /// that name no robot, from the end of the frame.
+    /// If there are more open pixels than free robots, leaves the surplus pixels dark, without an issue. Pixels that
+    /// name no robot are the first to stay dark, from the end of the frame.
     fn drop_surplus(&mut self) {
         let open = self.roles.iter().filter(|role| role.is_open()).count();
         let free = self.taken.iter().filter(|&&taken| !taken).count();

@@ -31,7 +31,7 @@ pub(crate) struct Instance<'a> {
 impl Instance<'_> {
     /// The instance of a problem with the assignment `goal_of[robot]`. `None` if the assignment does not fit the
     /// problem or a place is not finite. `None` also if the speed, the acceleration or the radius of the robots is not
-    /// positive, or the floor is not wider and deeper than a robot.
+    /// positive. It is `None`, too, if the floor is not wider and deeper than a robot.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;
@@ -77,8 +77,8 @@ impl Instance<'_> {
         }
     }
 
-    /// Distance that the centres of robots `a` and `b` must keep, metres: [`Self::widest_gap_m`], or slightly less than
-    /// the distance of their starts or ends if these are closer.
+    /// Distance that the centres of robots `a` and `b` must keep, metres. It is [`Self::widest_gap_m`], or slightly
+    /// less than the distance of their starts or ends if these are closer.
     pub fn least_gap(&self, a: usize, b: usize) -> f64 {
         self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
     }

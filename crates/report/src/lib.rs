@@ -1,5 +1,5 @@
-//! The report of a run or rehearsal: what was planned, what happened, and a replay to scrub, as one type and as one HTML
-//! page that needs no other file.
+//! The report of a run or rehearsal: what was planned, what happened, and a replay to scrub. The report exists as one
+//! type and as one HTML page that needs no other file.
 //!
 //! It reads the recorded inputs of a controller ([`lightbots_control::replay_observed`]). It uses no files, sockets,
 //! clocks or simulator: the same inputs give the same bytes. What only a simulator knows of a rehearsal is passed in as

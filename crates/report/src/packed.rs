@@ -19,8 +19,8 @@ struct Facts<'a> {
     end_s: f64,
     tolerance_m: f64,
     areas: &'a [Vec<f64>],
-    /// For each robot: how many planned places, driven places and changes of light it has, and when it was lost, 1/100 s
-    /// after the first departure; `None`: not lost.
+    /// For each robot: how many planned places, driven places and changes of light it has, and when it was lost. That
+    /// time is in 1/100 s after the first departure; `None`: not lost.
     tracks: Vec<(usize, usize, usize, Option<i64>)>,
 }
 
@@ -35,8 +35,9 @@ pub(crate) fn facts(scrub: &Scrub) -> String {
 }
 
 /// The numbers of all tracks, compressed with zlib (RFC 1950), in Base64. Numbers of one kind compress best together, so
-/// they are in columns: first the planned times of all robots, then their planned x, and so on. Each number is written in
-/// zigzag coding, with the sign in the lowest bit, as a variable-length integer with 7 bits per byte, lowest bits first.
+/// they are in columns. The planned times of all robots come first, then their planned x, and so on. Each number is
+/// written in zigzag coding, with the sign in the lowest bit. It becomes a variable-length integer with 7 bits per byte,
+/// lowest bits first.
 pub(crate) fn numbers(scrub: &Scrub) -> String {
     let mut bytes = Vec::new();
     let mut column = |list: &dyn Fn(&ScrubTrack) -> Vec<i64>| {

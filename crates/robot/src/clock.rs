@@ -24,8 +24,8 @@ const GOOD_US: f64 = 3_000.0;
 /// of 2 ms after 3 s.
 const QUICK: u32 = 16;
 /// Number of answers until which a robot whose clock has an error above [`GOOD_US`] asks every [`QUICK_PACE`]: 30 s.
-/// With a smaller value, clocks differ too much on a link of 5 to 250 ms each way: robots are 25 mm off and brake for
-/// each other. With a larger value, a fleet floods a link that is always bad.
+/// With a smaller value, clocks differ too much on a link of 5 to 250 ms each way. Robots are then 25 mm off and brake
+/// for each other. With a larger value, a fleet floods a link that is always bad.
 const PATIENT: u32 = 150;
 /// Number of answers from which questions are sent every [`OLD_PACE`]: the clock is settled. With a smaller value, the
 /// drift is too uncertain for questions that rare.

@@ -89,17 +89,17 @@ pub struct SafetyPolicy {
     /// One standard deviation of the neighbour's place is subtracted from the bound. For a neighbour that stands by
     /// plan there is no such bound.
     pub planned_share: f32,
-    /// For a neighbour with a known planned clearance that is already too near: how much nearer it may come before the
-    /// robot brakes for it, metres.
+    /// How much nearer a neighbour may come before the robot brakes for it, metres. This applies to a neighbour that is
+    /// already too near and has a known planned clearance.
     pub tolerance_m: f32,
     /// A robot counts as blocked after this number of steps in which less than half the wanted speed was allowed. A
     /// step without a speed limit lowers the count by one.
     pub steps_to_block: u8,
     /// Number of steps in a row in which the blocking obstacle must be missing before the robot is free again.
     pub steps_to_free: u8,
-    /// Two bounds on a gap, metres. The blocking obstacle counts as missing once the gap to it exceeds, by more than
-    /// this, the gap at which the robot stopped or last backed away. A blocked robot backs away only while the gap
-    /// itself is at most this.
+    /// Two bounds on a gap, metres. The blocking obstacle counts as missing once the gap to it has grown by more than
+    /// this. The growth is counted from the gap at which the robot stopped or last backed away. A blocked robot backs
+    /// away only while the gap itself is at most this.
     pub clear_m: f32,
     /// Speed at which a blocked robot backs away, m/s.
     pub retreat_mps: f32,
@@ -151,8 +151,8 @@ pub struct NeighbourModel {
     /// A planned neighbour counts as stopped above this natural logarithm of the likelihood ratio of "stopped" to
     /// "drives by plan".
     pub stop_log_ratio: f32,
-    /// A neighbour counts as having left its plan if the offset of the readings from the plan, smoothed over steps,
-    /// exceeds this multiple of the standard deviation of planned places.
+    /// Bound on the offset of a neighbour's readings from its plan, smoothed over steps: a multiple of the standard
+    /// deviation of planned places. Above it, the neighbour counts as having left its plan.
     pub stray_sigmas: f32,
     /// Error of the place of a neighbour that was found to have stopped, 1 sigma across the line of sight, metres.
     pub stop_sigma_m: f32,
@@ -171,14 +171,14 @@ pub struct NeighbourModel {
     pub standing_remembered: f32,
     /// Probability that a sensor does not see a standing object in its cone.
     pub unseen_share: f32,
-    /// Prior for each tried place and direction of an edge's end, when an object comes into sight: natural logarithm of
-    /// its likelihood over that of an endless edge.
+    /// Prior for each tried place and direction of an edge's end, when an object comes into sight. It is the natural
+    /// logarithm of this end's likelihood over that of an endless edge.
     pub end_log_prior: f32,
-    /// Prior for each tried place of a standing robot, when an object comes into sight: natural logarithm of its
-    /// likelihood over that of an endless edge.
+    /// Prior for each tried place of a standing robot, when an object comes into sight. It is the natural logarithm of
+    /// this place's likelihood over that of an endless edge.
     pub disc_log_prior: f32,
-    /// Prior for an end of an edge that may lie where the sensors stop seeing the edge: natural logarithm of its
-    /// likelihood over that of an endless edge.
+    /// Prior for an end of an edge that may lie where the sensors stop seeing the edge. It is the natural logarithm of
+    /// this end's likelihood over that of an endless edge.
     pub new_end_log_prior: f32,
     /// Hypotheses of the same kind about a standing object are merged if their distances from the robot differ by less
     /// than this, metres. Their ends or centres must then differ by less than twice this, and their directions little.

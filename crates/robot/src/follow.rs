@@ -90,8 +90,8 @@ impl Follow {
         self.rest(motion, stray || ahead.is_some(), body)
     }
 
-    /// Returns the setpoint that turns the robot on the spot until its front or its back points along `ahead`, the
-    /// first direction of a route that has not begun.
+    /// Returns the setpoint that turns the robot on the spot until its front or its back points along `ahead`. `ahead`
+    /// is the first direction of a route that has not begun.
     pub(crate) fn prepare(&mut self, ahead: Vec2, body: BodyPose) -> Setpoint {
         self.travel = ahead;
         self.choose_sense(body.facing);

@@ -6,8 +6,8 @@ use lightbots_wire::{LiveColours, LiveRelease};
 
 use crate::light_ahead::OLD_NUMBERS;
 
-/// After this time without a LIVE or RELEASE message for it, the robot shows its own light again and takes any number: the
-/// network data loss timeout of ANSI E1.31-2018, 6.7.1.
+/// After this time without a LIVE or RELEASE message for it, the robot shows its own light again and takes any number.
+/// This is the network data loss timeout of ANSI E1.31-2018, 6.7.1.
 const LOSS: Span = Span::from_millis(2_500);
 
 /// Live light of a robot.
@@ -45,7 +45,7 @@ impl LiveLight {
         colour.is_some()
     }
 
-    /// Handles a RELEASE that arrives at `now`, own clock: the own light is shown again, if the message covers this robot's
+    /// Handles a RELEASE that arrives at `now`, own clock. The own light is shown again if the message covers this robot's
     /// slot and is not old.
     pub(crate) fn release(&mut self, now: Instant, release: &LiveRelease) {
         if self.slot.is_some_and(|slot| release.covers(slot)) && !self.is_old(now, release.number) {

@@ -351,8 +351,8 @@ impl Routes {
 }
 
 impl Running {
-    /// Whether the robot at `at` is near enough to `end`: within [`NEAR_M`], or, from [`TRYING`] after the end of the
-    /// route on, within the arrival test of the original robots. `time`: path time.
+    /// Whether the robot at `at` is near enough to `end`, which means within [`NEAR_M`]. From [`TRYING`] after the end
+    /// of the route on, it is enough to be within the arrival test of the original robots. `time`: path time.
     fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
         at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }

@@ -104,7 +104,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
     pub robots: Option<u32>,
     /// Use this broker instead of the embedded one: mqtt[s]://[user[:password]@]host[:port], further addresses of the same
-    /// broker after commas; `embedded` overrules a broker that was chosen on the screen before
+    /// broker after commas. `embedded` overrules a broker that was chosen on the screen before
     #[arg(long, value_name = "URL")]
     pub broker: Vec<String>,
     #[command(flatten)]
@@ -112,8 +112,8 @@ pub struct RunArguments {
     /// Where the browser app is served. On any address except a loopback one, people have to sign in, over TLS
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:8420", value_parser = address)]
     pub listen: SocketAddr,
-    /// Serve the browser app without TLS where the network can reach --listen: passwords can be read on the way, and
-    /// browsers then refuse film and MIDI
+    /// Serve the browser app without TLS where the network can reach --listen. Passwords can then be read on the way, and
+    /// browsers refuse film and MIDI
     #[arg(long)]
     pub plain_http: bool,
     /// A further name of this machine in the browser's address line, such as stage.local; may be repeated
@@ -135,8 +135,8 @@ pub struct RunArguments {
     /// ask]
     #[arg(long, value_name = "WHAT", value_enum)]
     pub on_return: Option<OnReturnArgument>,
-    /// Seed of the simulated robots' noise and names; pins in a show refer to these names [default: 1; with --broker, where
-    /// other robots may have the same names, a random one]
+    /// Seed of the simulated robots' noise and names. Pins in a show refer to these names. [default: 1; with --broker,
+    /// where other robots may have the same names, a random one]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
     /// Simulated robots without sensor noise and wheel slip
@@ -246,7 +246,7 @@ pub struct PlayArguments {
     pub broker: Vec<String>,
     #[command(flatten)]
     pub login: BrokerArguments,
-    /// Number of robots that must be ready before the show starts; with fewer robots than pixels, some pixels stay dark
+    /// Number of robots that must be ready before the show starts. With fewer robots than pixels, some pixels stay dark.
     /// [default: as many as pixels, or those that are ready once no further robot has come for ten seconds]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub wait: Option<u32>,
@@ -289,7 +289,7 @@ pub struct RobotsArguments {
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
     /// Where the robots stand at first: `rows` along the front edge, a SHOW's first frame, or one place X,Y in metres for
-    /// each robot, with blanks between places; may be repeated
+    /// each robot. Places are separated by blanks; may be repeated
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true, default_value = "rows")]
     pub start: Vec<String>,
     /// Without sensor noise and wheel slip
@@ -329,7 +329,7 @@ pub struct RobotCheckArguments {
     /// Name of the robot to test; needed if several are on the broker
     #[arg(long, value_name = "ID", value_parser = robot)]
     pub robot: Option<RobotId>,
-    /// Width and depth of the floor in metres: the robot is not sent off the floor, and a reported place off the floor
+    /// Width and depth of the floor in metres. The robot is not sent off the floor, and a reported place off the floor
     /// breaks a rule
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),

@@ -1,5 +1,5 @@
-//! Files that survive a crash and a full disk: a file is replaced whole or not at all, and what a call has done is on the
-//! disk when it returns.
+//! Files that survive a crash and a full disk. A file is replaced whole or not at all. What a call has done is on the disk
+//! when the call returns.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};

@@ -117,8 +117,8 @@ impl Library {
     }
 
     /// Adds a built-in show and returns the name under which it is listed, as close to `name` as possible. If an example has
-    /// the same name as the file of the command line, the file keeps the name, and the example is listed under another name.
-    /// `unread` says why the show's file holds more than the show; `None`: it does not.
+    /// the same name as the file of the command line, the file keeps the name. The example is then listed under another
+    /// name. `unread` says why the show's file holds more than the show; `None`: it does not.
     pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show, unread: Option<String>) -> String {
         self.assets.give(show);
         self.given.add(Given::new(tidy_name(name), origin, show, unread), &self.files.names())

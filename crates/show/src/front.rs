@@ -32,7 +32,7 @@ const FULL_ROWS_MAX: usize = 10_000;
 const COMPARISONS_MAX: usize = 200_000_000;
 
 /// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Robots
-/// of a row are 0.1 m apart, and so are rows; the first row is 0.2 m from the edge, or a quarter of the floor's depth
+/// of a row are 0.1 m apart, and so are rows. The first row is 0.2 m from the edge, or a quarter of the floor's depth
 /// if that is less. A row runs from left to right and is centred. On the original system's floor of 3 m by 3 m the
 /// first thirty places have y = 1.3 m and begin at x = −1.45 m. Places on no-go areas are left out.
 ///

@@ -92,14 +92,14 @@ pub struct Frame {
     pub name: String,
     /// Air time, seconds: how long the frame stays.
     pub air_time_s: f64,
-    /// Moment at which the air time must begin, seconds from the start of the first frame's air time; `None`: as soon as
+    /// Moment at which the air time must begin, seconds from the start of the first frame's air time. `None`: as soon as
     /// the transition is over.
     pub at_s: Option<f64>,
     /// Wanted duration of the transition to the frame, seconds; `None`: the shortest that the robots' limits allow.
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
-    /// How robots drive from the previous frame's picture to this one; `None`: on the trajectories that the show has to
+    /// How robots drive from the previous frame's picture to this one. `None`: on the trajectories that the show has to
     /// this frame, or else the shortest drive that the planner finds.
     pub motion: Option<PictureMotion>,
     /// Identity in this frame; `None`: that of the show.

@@ -19,8 +19,9 @@ pub use limits::{
     PROVABLE_GAP_M,
 };
 
-/// Returns the issues of a show: first those of the stage and of all frames together, then those of each frame, then
-/// those of other parts. A show with an error must not be planned. Any show is accepted. Equal shows give equal issues.
+/// Returns the issues of a show. Those of the stage and of all frames together come first, then those of each frame,
+/// then those of other parts. A show with an error must not be planned. Any show is accepted. Equal shows give equal
+/// issues.
 pub fn validate(show: &Show) -> Issues {
     let mut findings = Findings::default();
     let is_sound = stage::check(&show.stage, &mut findings);

@@ -128,8 +128,8 @@ mod tests {
     use crate::conditions::Conditions;
     use crate::faults::Faults;
 
-    /// Fixes of a robot that moves 1 mm a step along x from 0, for 5000 steps: error of the place along x and of the
-    /// heading, or nothing.
+    /// Fixes of a robot that moves 1 mm a step along x from 0, for 5000 steps. Each element is the error of the place
+    /// along x and of the heading, or nothing.
     fn errors(faults: &str) -> Vec<Option<(f64, f64)>> {
         errors_of(&Faults::parse(faults).unwrap())
     }

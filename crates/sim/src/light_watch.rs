@@ -18,7 +18,7 @@ pub struct LightCounts {
     /// Number of comparisons: about every sixth of a second, one for each robot that the layers give a colour.
     pub compared: u64,
     /// Number of comparisons in which a channel of the light was too far outside the range of that channel in the
-    /// layers' colours, sampled from 25 ms before to 25 ms after.
+    /// layers' colours. The colours are sampled from 25 ms before to 25 ms after.
     pub wrong: u64,
 }
 

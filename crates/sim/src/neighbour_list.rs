@@ -87,8 +87,8 @@ impl NeighbourList {
         self.cells[cell as usize + 1] as usize..self.cells[cell as usize + 2] as usize
     }
 
-    /// Adds the near pairs of a cell's discs with each other and with the discs of four neighbouring cells: the next in
-    /// the row, and three in the next row.
+    /// Adds the near pairs of a cell's discs with each other and with the discs of four neighbouring cells. These cells
+    /// are the next in the row, and three in the next row.
     fn pair_cell(&mut self, grid: &Grid, column: u32, row: u32, places: &[Vec2]) {
         let mine = self.members(row * grid.columns + column);
         if mine.is_empty() {

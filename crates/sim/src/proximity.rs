@@ -9,7 +9,7 @@ use crate::dice::{Dice, Purpose};
 /// to 60 mm, with less and less certainty.
 const RANGE_M: f64 = 0.03;
 /// Constant part of a reading's noise, metres, 1 sigma. Together with [`NOISE_SHARE`] it fits the Elisa-3 in Webots
-/// R2023b, measured on 2026-11-21: 0.5 mm at a gap of 5 mm, 0.8 mm at 10 mm.
+/// R2023b, measured on 2026-11-21. The measured noise is 0.5 mm at a gap of 5 mm, and 0.8 mm at 10 mm.
 const NOISE_M: f64 = 0.0003;
 /// Part of a reading's noise that grows with the gap, as a share of the gap, 1 sigma.
 const NOISE_SHARE: f64 = 0.05;

@@ -26,8 +26,8 @@ pub struct RehearsalReport {
     pub planned_s: f64,
     /// No plan for this show can be shorter than this, seconds.
     pub lower_bound_s: f64,
-    /// Number of contacts: of two robots, of a robot with a no-go area, and of a robot that is pressed over the floor's
-    /// edge by more than [`EDGE_SLACK_M`](crate::EDGE_SLACK_M).
+    /// Number of contacts of two robots, or of a robot with a no-go area. A robot that is pressed over the floor's edge
+    /// by more than [`EDGE_SLACK_M`](crate::EDGE_SLACK_M) also counts as a contact.
     pub contacts: u64,
     /// Number of contacts of two robots after the first replan began. They are attributed to recovery rather than to
     /// the first plan.

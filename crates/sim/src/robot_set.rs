@@ -26,9 +26,9 @@ const STEPS_PER_PERCENT: u64 = 11_250;
 /// Up to this number of robots, nothing is prefetched, because the cache still holds the robots from the step before.
 /// Tuned on `--example speed`.
 const CACHED: usize = 1_500;
-/// A robot is prefetched this number of turns before its own: first its first cache line, which tells whether it runs
-/// our firmware, later the state that a step reads. With fewer turns, memory arrives too late. With more, it has left
-/// the cache.
+/// A robot is prefetched this number of turns before its own. The first number is for its first cache line, which
+/// tells whether it runs our firmware. The second number is for the state that a step reads. With fewer turns, memory
+/// arrives too late. With more, it has left the cache.
 const AHEAD: [usize; 2] = [5, 2];
 
 /// All robots of a rehearsal or a fleet, and their world.

@@ -10,10 +10,10 @@ use std::time::Duration;
 
 use lightbots_base::{Instant, Span};
 
-/// Share of the lag (own clock minus world clock) that a driving robot makes up in a step, and any robot in the step
-/// after a pause. With a larger share, a late reading of the clock on a busy machine moves the robot. With a smaller
-/// share, the lag grows. A simulation at 0.967 of real time (docs/webots.md) lags by 0.034 of a step divided by this
-/// share, which is 11 ms or 3 mm.
+/// Share of the lag (own clock minus world clock) that a driving robot makes up in a step. In the step after a pause,
+/// any robot makes up this share. With a larger share, a late reading of the clock on a busy machine moves the robot.
+/// With a smaller share, the lag grows. A simulation at 0.967 of real time (docs/webots.md) lags by 0.034 of a step
+/// divided by this share, which is 11 ms or 3 mm.
 const DRIVING_SHARE: f64 = 0.05;
 /// Like `DRIVING_SHARE`, for a robot without a route. The share is larger, because making up the lag does not move a
 /// robot at rest.

@@ -25,7 +25,7 @@ pub struct Details {
     /// Number of the kept route. Without one, that of the route under way, or else of the route finished last; 0 if
     /// there is none.
     pub route: u32,
-    /// When the kept route begins, or else when the route under way began, show clock; `None` if there is neither, or
+    /// When the kept route begins, or else when the route under way began, show clock. `None` if there is neither, or
     /// its moment is not known.
     pub starts: Option<Instant>,
     /// Number of the stretch of light that the robot received last; 0 if there is none (R55).

@@ -11,8 +11,8 @@ use lightbots_base::{Instant, Span};
 
 /// Longest time between two entries of a journal. A later controller computes from it by when robots stood.
 const ALIVE: Span = Span::from_millis(2_000);
-/// A journal is replaced by a new one once it is too long: longer than this number of bytes, and than this multiple of
-/// its first piece. It thus stays small while a show loops for days.
+/// A new journal replaces one that is longer than both this number of bytes and this multiple of its first piece. A
+/// journal thus stays small while a show loops for days.
 const BEGUN_AGAIN: (usize, usize) = (4 << 20, 8);
 
 /// Bytes for a journal's file, in order.

@@ -1,7 +1,7 @@
 //! The preflight: each robot drives 50 mm out and back, is stopped on its way out, and blinks.
 //!
-//! [`rounds`](rounds::rounds) chooses directions, [`show`] makes frames of them, which the planner plans and proves like any
-//! show, `run/preflight_check` compares reports with the plan, and [`PreflightReport`] is the result.
+//! [`rounds`](rounds::rounds) chooses directions, and [`show`] makes frames of them. The planner plans and proves these
+//! frames like any show. `run/preflight_check` compares reports with the plan, and [`PreflightReport`] is the result.
 
 mod driven_track;
 mod report;

@@ -94,8 +94,9 @@ impl<'a> TestFloor<'a> {
         }
     }
 
-    /// Returns the goals to which a robot can drive while all other robots stand: its line keeps its gap from them, leads
-    /// through no obstacle, and ends inside the floor. They are in the order of [`DIRECTIONS`].
+    /// Returns the goals to which a robot can drive while all other robots stand, in the order of [`DIRECTIONS`]. The
+    /// robot's line to a goal keeps its gap from the other robots, leads through no obstacle, and ends inside the
+    /// floor.
     fn free_goals(&self, robot: usize) -> Vec<Vec2> {
         let TestedRobot { at, heading } = self.robots[robot];
         let goal = |eighths: &i32| at + Vec2::unit(heading + f64::from(*eighths) * FRAC_PI_4) * OUT_M;

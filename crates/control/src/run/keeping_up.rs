@@ -81,8 +81,8 @@ impl Run {
         }
     }
 
-    /// Whether the next frame may be left out for the music: it is not the last one, not in a loop, has no cue, and the
-    /// operator did not choose it.
+    /// Whether the next frame may be left out for the music. It must stay if it is the last one, is in a loop, has a
+    /// cue, or was chosen by the operator.
     fn may_leave_out_next(&self) -> bool {
         let playback = &self.playback;
         let frame = playback.next.frame;

@@ -23,8 +23,8 @@ const HOLD_LEAD: Span = Span::from_millis(150);
 /// towards what blocks another robot. With a smaller one, on a slow link some robots receive HOLD late and slow down
 /// later than others.
 const HOLD_LEAD_MAX: Span = Span::from_millis(450);
-/// Shortest time before the moment of a START at which the controller checks which robots have confirmed it: enough to
-/// send a later moment to all.
+/// Shortest time before the moment of a START at which the controller checks which robots have confirmed it. It is
+/// enough to send a later moment to all.
 const CHECK_AHEAD: Span = Span::from_millis(80);
 /// Time that each robot adds to the lead of a START, because their reports share one link: 20 ms for 1,000 robots.
 const LEAD_PER_ROBOT: Span = Span(20);

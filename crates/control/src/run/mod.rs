@@ -271,8 +271,8 @@ impl Run {
     }
 
     /// The moment at which robots begin to slow down together on their paths before STOP, if all are to be stopped now.
-    /// `None` if STOP is to be sent at once: robots stand, have not started, are out of reach, drive by TARGET, or
-    /// arrive before that moment.
+    /// `None` if STOP is to be sent at once. This is the case if robots stand, have not started, are out of reach,
+    /// drive by TARGET, or arrive before that moment.
     pub fn holds_before_stop(&mut self, io: &mut Context, now: Instant) -> Option<Instant> {
         let (phase, cx) = self.split(io, now);
         match phase {

@@ -76,10 +76,12 @@ fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
     }
 }
 
-/// Drops obstacles, because no plan leads from where robots stand to the next frame. Each call drops the first of these
-/// that is left: robots that came during the run and take no part (any client can claim to be a robot); unlikely places
-/// of silent robots; all inferred places; the next frame itself, so that robots go to the one after it. Returns whether
-/// anything was dropped.
+/// Drops obstacles, because no plan leads from where robots stand to the next frame. Returns whether anything was
+/// dropped. Each call drops the first of these that is left:
+/// - robots that came during the run and take no part (any client can claim to be a robot);
+/// - unlikely places of silent robots;
+/// - all inferred places;
+/// - the next frame itself, so that robots go to the one after it.
 pub(crate) fn relax(cx: &mut RunContext) -> bool {
     let participants = &cx.roster.participants;
     let is_any_silent = participants.iter().any(|known| !known.last_seen.possible.is_empty());

@@ -56,9 +56,9 @@ const SAME_MOMENT_M: f64 = 0.005;
 /// as closely as the planner allows. The disc of a dropped place must therefore not stick out of the kept ones.
 const SAME_PLACE_M: f64 = 0.002;
 
-/// Where a silent robot may stand. Likely places: on its path near its last report, if it died; and where its path was
-/// when all stopped, if only its reports are lost. Possible places are also those where it stops by itself (R43), if it
-/// receives no messages either.
+/// Where a silent robot may stand. Likely places are on its path near its last report, if it died. Another likely place
+/// is where its path was when all stopped, if only its reports are lost. Possible places are also those where it stops
+/// by itself (R43), if it receives no messages either.
 ///
 /// If its last report came after all began to stop, the path from the reported place on counts too. A frozen broker may
 /// have held the report back, or the clock of a restarted controller is wrong. Stopped robots may also have blocked the

@@ -16,8 +16,9 @@ use crate::run::target_progress::TargetProgress;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, Details, RobotState, Topic};
 
-/// When robots that did not confirm a START are first asked individually: this percentage of the time from sending
-/// START to its moment (the lead), counted from sending. By then the confirmations of the broadcast have arrived.
+/// Percentage of the lead, counted from sending, after which robots that did not confirm a START are first asked
+/// individually. The lead is the time from sending START to its moment. By the time of asking, the confirmations of the
+/// broadcast have arrived.
 const ASK_FIRST_PERCENT: i64 = 27;
 /// If at most this many robots did not confirm, each is asked individually; one in `MANY` of the robots that start, if
 /// that is more. If more did not confirm, only the repeated broadcast asks them.

@@ -54,8 +54,8 @@ impl Animation {
     }
 }
 
-/// Reads the pictures of a file: the only picture of a PNG, JPEG or WebP file, or all pictures of a GIF or animated
-/// WebP file. Returns at least one picture.
+/// Reads the only picture of a PNG, JPEG or WebP file, or all pictures of a GIF or animated WebP file. Returns at least
+/// one picture.
 pub fn stills(bytes: &[u8]) -> Result<Vec<Still>, DrawError> {
     let alone = |bitmap| vec![Still { bitmap, lasts_s: 1.0 }];
     match sniff(bytes) {

@@ -85,8 +85,8 @@ fn curve(points: &mut Vec<Spot>, control: [Spot; 4], tolerance: f64) {
     points.extend((1..=chords).map(|n| cubic(control, n as f64 / chords as f64)));
 }
 
-/// Returns the number of chords for a cubic curve: enough to stay within `tolerance` of the curve and to turn by less
-/// than [`TURN_MAX`] each time, but at most [`CHORDS_MAX`]. The turn of a curve smaller than `tolerance` does not
+/// Returns the number of chords for a cubic curve. It is enough to stay within `tolerance` of the curve and to turn by
+/// less than [`TURN_MAX`] each time, but at most [`CHORDS_MAX`]. The turn of a curve smaller than `tolerance` does not
 /// matter.
 fn chords([a, b, c, d]: [Spot; 4], tolerance: f64) -> usize {
     let bend = |p: Spot, q: Spot, r: Spot| libm::hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1]);

@@ -123,8 +123,8 @@ fn shape(accent: char) -> Option<&'static [&'static [(f64, f64)]]> {
     })
 }
 
-/// Returns the bar of ł: a line between the left and the right end of those parts of the outline that do not belong to
-/// the plain letter.
+/// Returns the bar of ł. It is a line between the left and the right end of those parts of the outline that do not
+/// belong to the plain letter.
 fn bar(region: &LetterArea, plain: &LetterArea) -> Option<Vec<StrokeLine>> {
     let own = |point: &Vec2| !plain.contains(*point) && plain.distance(*point) > CLEAR;
     let points: Vec<Vec2> = region.edges().map(|(a, _)| a).filter(own).collect();

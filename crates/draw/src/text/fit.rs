@@ -257,8 +257,9 @@ fn straightened(line: &[Vec2]) -> StrokeLine {
     }
 }
 
-/// Returns how well lines represent an area: the share of the lines that is inside, plus the share of the outline that
-/// is near the lines. `None` if one of these shares is too small, or a point of the lines is too far outside.
+/// Returns how well lines represent an area. This is the share of the lines that is inside, plus the share of the
+/// outline that is near the lines. `None` if one of these shares is too small, or a point of the lines is too far
+/// outside.
 pub(super) fn quality(lines: &[StrokeLine], area: &LetterArea) -> Option<f64> {
     let points: Vec<Vec2> = lines.iter().flat_map(divided).collect();
     let inside = points.iter().filter(|point| area.contains(**point)).count() as f64 / points.len() as f64;

@@ -24,8 +24,8 @@ const RANGE_M: f64 = 0.55;
 /// Largest distance between two reported positions of a robot that stands still, metres: 7 sigma of the 2 mm noise in
 /// docs/simulator.md.
 pub(super) const STILL_M: f64 = 0.015;
-/// Largest distance in each coordinate from a target that the robot has reached, metres: 0.02 m of R17, and 5 mm for a
-/// fix between arrival and report.
+/// Largest distance in each coordinate from a target that the robot has reached, metres. It is the 0.02 m of R17 plus
+/// 5 mm for a fix between arrival and report.
 pub(super) const THERE_M: f64 = 0.025;
 /// Time between position requests to a moving robot. A longer time would make the measured speed less precise
 /// (`fastest_mps`).

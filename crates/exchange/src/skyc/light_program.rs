@@ -64,8 +64,8 @@ struct Program<'a> {
     /// The number of ticks that the operations so far take.
     tick: u64,
     light: TimedLight,
-    /// For each open loop, the outermost first: index of the first byte of its body, and the number of repetitions left;
-    /// `None`: it repeats for ever.
+    /// For each open loop, the outermost first: index of the first byte of its body, and the number of repetitions
+    /// left. `None`: it repeats for ever.
     loops: Vec<(usize, Option<u32>)>,
 }
 

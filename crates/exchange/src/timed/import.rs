@@ -62,8 +62,8 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
 }
 
 /// How long all robots must be dark so that no frame is needed before the first picture, seconds from the start of the
-/// file. This is the time until the first picture. If the music begins with that picture, lights may fade in earlier: a
-/// further frame would move the music, which matters more than an exact fade.
+/// file. This is the time until the first picture. If the music begins with that picture, lights may fade in earlier.
+/// The reason: a further frame would move the music, which matters more than an exact fade.
 fn dark_s(file: &TimedShow, first: &FrameTimes) -> f64 {
     let is_in_step = file.music.as_ref().is_some_and(|music| music.late_s(first.air_s) == 0.0);
     let fade_s = fade_of(Span::from_secs(first.air_s - first.drive_s)).as_secs();

@@ -6,8 +6,8 @@ use lightbots_show::{Issue, MAX_LABEL_CHARS, Show};
 
 use crate::archive::asset_of;
 
-/// Largest time between the start of the music and that of the first frame's air time that counts as none, seconds: it
-/// is not noticed (docs/exchange.md).
+/// Largest time between the start of the music and that of the first frame's air time that counts as none, seconds. A
+/// time this short is not noticed (docs/exchange.md).
 const TOLERANCE_S: f64 = 0.05;
 
 /// Music in a file.

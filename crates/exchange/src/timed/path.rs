@@ -81,9 +81,9 @@ impl<'a> PathReader<'a> {
         Self { path: None, room }
     }
 
-    /// Adds the next place of the robot, `[x, y, z]` in metres with z up, which it reaches `at_s` seconds after the start
-    /// of the show. `controls` are the control points of a cubic Bézier curve to that place; `None`: a straight line.
-    /// Until the time of the first point, the robot stands at the first place.
+    /// Adds the next place of the robot, `[x, y, z]` in metres with z up. The robot reaches it `at_s` seconds after the
+    /// start of the show. `controls` are the control points of a cubic Bézier curve to that place; `None`: a straight
+    /// line. Until the time of the first point, the robot stands at the first place.
     pub fn point(
         &mut self,
         at_s: f64,

@@ -40,8 +40,8 @@ pub(super) fn noise(look: &Look, turns: f64, place: Vec2, count: u32) -> f64 {
     octaves(look.seed, [at.x, at.y, turns], count)
 }
 
-/// Noise, 0 to 1, that moves along the effect's direction by the effect's size per cycle, and gets darker with the height
-/// above the effect's place. `turns`: cycles since the effect began.
+/// Noise, 0 to 1, that moves along the effect's direction by the effect's size per cycle. It gets darker with the
+/// height above the effect's place. `turns`: cycles since the effect began.
 pub(super) fn fire(look: &Look, turns: f64, place: Vec2) -> f64 {
     let up = Vec2::unit(look.angle);
     let from_place = (place - look.place) / look.size_m;

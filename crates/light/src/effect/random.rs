@@ -9,8 +9,8 @@ use core::f64::consts::PI;
 /// the random choice of the robots that are lit.
 const OFFSETS: u64 = 0x6f66_6673;
 
-/// In each of its cycles, a robot either glows up from 0 to 1 and fades again over the first `width` of the cycle, or stays
-/// dark. It glows with the probability `density`. The cycles of robots start at random moments.
+/// In each of its cycles, a robot glows with the probability `density`, or stays dark. A robot that glows rises from 0
+/// to 1 and fades again over the first `width` of the cycle. The cycles of robots start at random moments.
 pub(super) fn twinkle(look: &Look, turns: f64, robot: u32, density: f64) -> f64 {
     let own = turns + unit(look.seed ^ OFFSETS, u64::from(robot), 0);
     let phase = fraction(own);

@@ -1,8 +1,8 @@
 //! Assignment of goals to starts by the straight lines between them. It minimises the longest line first, then the sum
 //! of squared lengths among assignments with no longer line.
 //!
-//! Both steps are exact and sparse: with ten thousand robots there are a hundred million edges (pairs of a goal and a
-//! start), of which a few for each robot are examined. The same places give the same assignment, bit for bit. Of
+//! Both steps are exact and sparse. With ten thousand robots there are a hundred million edges (pairs of a goal and a
+//! start). Of these edges, a few for each robot are examined. The same places give the same assignment, bit for bit. Of
 //! equally good edges, the first in the k-d tree wins.
 
 mod bottleneck;

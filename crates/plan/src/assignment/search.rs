@@ -149,8 +149,8 @@ impl Search {
         losers
     }
 
-    /// Unmatches rows after their edges changed. If there are more columns than rows, unmatches all rows, resets all
-    /// column duals to 0, and forgets the bounds on edges that are not listed.
+    /// Unmatches rows after their edges changed. If there are more columns than rows, unmatches all rows and resets all
+    /// column duals to 0. In this case it also forgets the bounds on edges that are not listed.
     pub fn reopen(&mut self, rows: &[u32]) {
         if self.edges.len() < self.column_duals.len() {
             // An unmatched column must have a dual of 0, which holds only for columns never used. Therefore the search

@@ -2,11 +2,11 @@
 //! the two sets of places that are matched.
 //!
 //! With as many rows as columns, the sum of squared distances of an assignment differs only by a constant from −2 Σ row
-//! · column, the sum of the dot products of partners. That sum does not change when columns are scaled by m along an
-//! axis and rows by 1/m. Moving either set changes it by a constant. Therefore both sets are centred and scaled to the
-//! same spread, and the same assignment stays optimal. Partners are then near each other, and few edges besides those
-//! to the nearest neighbours matter. This holds even if robots from a band along the floor's edge spread over the whole
-//! floor.
+//! · column. Here Σ row · column is the sum of the dot products of partners. That sum does not change when columns are
+//! scaled by m along an axis and rows by 1/m. Moving either set changes it by a constant. Therefore both sets are
+//! centred and scaled to the same spread, and the same assignment stays optimal. Partners are then near each other, and
+//! few edges besides those to the nearest neighbours matter. This holds even if robots from a band along the floor's
+//! edge spread over the whole floor.
 
 use lightbots_base::Vec2;
 

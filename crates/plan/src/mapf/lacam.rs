@@ -21,7 +21,7 @@ struct SearchNode {
     /// Indices of robots, the most urgent first.
     ranks: Vec<usize>,
     /// `[robot]`: its urgency. It begins with a share from 0 to 1, by the cost of the robot's path. It rises by 1 with
-    /// each step that does not end at the robot's goal, and falls to that share − 1 with a step that does.
+    /// each step that does not end at the robot's goal. With a step that ends there, it falls to the share − 1.
     urgency: Vec<f64>,
     /// Lists of constraints that were not tried yet, the shortest lists first.
     constraints: VecDeque<Vec<Constraint>>,

@@ -43,7 +43,7 @@ impl Contact {
         Self { span, a, b: Other::Robot(b), wanted, least: wanted, clear_until: 0.0, is_close: false }
     }
 
-    /// Returns the contact for the next detection; `None` if one of its robots has moved farther than [`MOVED_M`],
+    /// Returns the contact for the next detection. `None` if one of its robots has moved farther than [`MOVED_M`],
     /// because new contacts of that robot are then searched.
     fn still(&self, near: &MovedNeighbours) -> Option<Self> {
         let moved_m = match self.b {

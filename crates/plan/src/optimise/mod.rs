@@ -1,5 +1,5 @@
-//! Trajectory optimisation: robots that come too close to each other or to walls are displaced, then limits of their
-//! motion are restored, until neither is needed.
+//! Trajectory optimisation: robots that come too close to each other or to walls are displaced. Then limits of their
+//! motion are restored. Both steps are repeated until neither is needed.
 
 pub(crate) mod cells;
 pub(crate) mod contacts;

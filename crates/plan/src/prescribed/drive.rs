@@ -206,7 +206,7 @@ fn faulty(name: &str, fault: &Fault) -> String {
 
 /// Delays the starts of an ordinary drive, `transition`, so that robots start one after the other. Takes the largest of
 /// [`DELAY_SHARES`] of the prescribed delay with which the proof accepts the paths and no path has more than
-/// [`Path::MOST_PIECES`]; `None` if there is none.
+/// [`Path::MOST_PIECES`]. `None` if there is no such share.
 pub(crate) fn staggered(
     problem: &TransitionProblem,
     transition: &Transition,

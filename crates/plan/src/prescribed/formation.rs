@@ -111,8 +111,8 @@ fn follow(along: &[Vec2], before: &PlacesById) -> BTreeMap<u32, PrescribedWay> {
     ways.collect()
 }
 
-/// Returns the ids of all pixels in the order of a line: first the pixel nearest to `begin`, then always the remaining
-/// pixel nearest to the last one.
+/// Returns the ids of all pixels in the order of a line. The first is the pixel nearest to `begin`. Each further one is
+/// the remaining pixel nearest to the last one.
 fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
     let mut left: Vec<(u32, Vec2)> = before.iter().map(|(&id, &at)| (id, at)).collect();
     let (mut chain, mut here) = (Vec::with_capacity(left.len()), begin);
@@ -127,7 +127,8 @@ fn chain(before: &PlacesById, begin: Vec2) -> Vec<u32> {
 }
 
 /// Returns ways of `times` circles for all robots. The farther a robot stands along `direction`, the later its circles
-/// begin: by the time of one circle for each `length_m` metres, as in a wave, but at most as [`MOST_LATE`] allows.
+/// begin. As in a wave, the delay is the time of one circle for each `length_m` metres, but at most as [`MOST_LATE`]
+/// allows.
 fn wave(
     radius_m: f64,
     direction: Vec2,

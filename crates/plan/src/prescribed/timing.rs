@@ -91,8 +91,8 @@ fn worst(ways: &[MovingWay<'_>], limits: &Limits, easing: Easing, drive: Span) -
     ways.iter().map(one).fold(0.0, f64::max) / SHARE
 }
 
-/// Returns the factor by which a piece would have to last longer to keep all limits, sampled at nine moments; at most 1
-/// if the piece keeps them. `from`: place where the piece begins.
+/// Returns the factor by which a piece would have to last longer to keep all limits, sampled at nine moments. It is at
+/// most 1 if the piece keeps them. `from`: place where the piece begins.
 fn excess(from: Vec2, piece: &Piece, limits: &Limits) -> f64 {
     if piece.is_rest(from) {
         return 0.0;
@@ -157,9 +157,9 @@ fn add_part(path: &mut Path, part: &WayPart, lasts: Span, limits: &Limits, easin
     }
 }
 
-/// Returns the moments at which pieces of a part end, counted from the begin of the part: the ends of both ramps of
-/// speed, and further moments within and between the ramps, as many as the shape needs. They are increasing whole
-/// milliseconds.
+/// Returns the moments at which pieces of a part end, counted from the begin of the part. These are the ends of both
+/// ramps of speed, and further moments within and between the ramps, as many as the shape needs. They are increasing
+/// whole milliseconds.
 fn moments(law: &ProgressLaw, pieces: usize) -> Vec<Span> {
     let (ramp_s, drive_s) = (law.ramp_s(), law.drive_s);
     let ramp_pieces = ((pieces as f64 * law.share(ramp_s)).ceil() as usize).max(1);

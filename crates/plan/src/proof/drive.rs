@@ -18,9 +18,9 @@ const FARTHEST_M: f64 = 1e6;
 /// or more. An undecided speed gets twice as many bisections, and then counts as too fast.
 const HALVINGS: u32 = 8;
 
-/// Calls `fault` once for each kind of illegal motion in a path, with the begin of the first piece that has it, or
-/// `horizon` if only the end of the path is not at rest. `horizon`: time at which the path must end. A malformed path
-/// gets only [`FaultKind::Malformed`].
+/// Calls `fault` once for each kind of illegal motion in a path, with the begin of the first piece that has it.
+/// `fault` gets `horizon` instead if only the end of the path is not at rest. `horizon`: time at which the path must
+/// end. A malformed path gets only [`FaultKind::Malformed`].
 pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl FnMut(FaultKind, Span)) {
     if !is_well_formed(path, horizon) {
         return fault(FaultKind::Malformed, Span::ZERO);

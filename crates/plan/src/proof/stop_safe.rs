@@ -5,9 +5,9 @@
 //! brakes at the grip limit after the reaction time. As soon as the first robot brakes, one HOLD is sent. All other
 //! robots drive on until this HOLD has eased them to rest.
 //!
-//! A braking robot becomes an obstacle too. It may begin to brake at any moment from the first at which it may see the
-//! dead robot to the last at which it must. The robots behind it must be able to stop at each of these moments.
-//! Moments are sampled.
+//! A braking robot becomes an obstacle too. It may begin to brake at any moment from the first when it may see the dead
+//! robot to the last when it must brake. The robots behind it must be able to stop at each of these moments. Moments
+//! are sampled.
 
 mod corridor;
 mod rows;
@@ -68,7 +68,7 @@ impl Default for StopAssumptions {
     }
 }
 
-/// The pairs of a robot and a moment of a transition at which a dead stop of that robot may lead to a contact, and the
+/// The pairs of a robot and a moment of a transition at which a dead stop of that robot may lead to a contact. Also the
 /// number of all pairs that were sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StopSafety {
@@ -109,8 +109,8 @@ impl StopSafety {
             .reduce(|worst, one| if one.missing_m > worst.missing_m { one } else { worst })
     }
 
-    /// Whether a robot may stop dead at a moment, counted from the transition's start: the sampled moments before and
-    /// after it are safe for this robot.
+    /// Whether a robot may stop dead at a moment, counted from the transition's start. It may if the sampled moments
+    /// before and after that moment are safe for this robot.
     pub fn is_safe(&self, robot: usize, at: Span) -> bool {
         let near = |one: &&UnsafeMoment| one.robot == robot && (one.at - at).0.abs() < self.pace.0;
         !self.unsafe_moments.iter().any(|one| near(&one))

@@ -30,8 +30,8 @@ pub struct Fault {
 /// Kinds of illegal motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// A coordinate is not finite or beyond 1,000 km, a duration is not positive, or the path does not end at the same
-    /// time as the longest path.
+    /// A coordinate is not finite or beyond 1,000 km, a duration is not positive, or the path does not end when the
+    /// longest path ends.
     Malformed,
     /// The robot is faster than its speed limit.
     Speed,

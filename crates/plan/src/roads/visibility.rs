@@ -18,7 +18,7 @@ const LEAST_PITCH: f64 = 0.83;
 const MOST_PITCH: f64 = 1.45;
 /// A gap is narrow if it is wider than a robot by less than this, metres. Two robots cannot pass each other in it.
 const NARROW_M: f64 = 0.04;
-/// Factor on the least distance of nodes when a line is divided evenly, so that nodes on crossing lines fit beside the
+/// Factor on the least distance of nodes when a line is divided evenly. With it, nodes on crossing lines fit beside the
 /// nodes of that line.
 const EVEN: f64 = 1.08;
 /// Distance between neighbouring places at which an additional node is tried, metres.

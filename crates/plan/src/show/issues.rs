@@ -6,8 +6,8 @@ use crate::{BindingIssue, Bindings, BoundFrame, Infeasible, Transition};
 use lightbots_base::Vec2;
 use lightbots_show::{Issue, Issues, Pixel, Show, frame_label, robots_asked_for};
 
-/// Adds errors of frame `index` that no plan can solve: too few robots, or pixels that are too close to each other, to
-/// the floor's edge or to no-go areas. `dark`: ids of pixels without a robot.
+/// Adds errors of frame `index` that no plan can solve. These are too few robots, or pixels that are too close to each
+/// other, to the floor's edge or to no-go areas. `dark`: ids of pixels without a robot.
 pub(super) fn of_frame(show: &Show, index: usize, robots: usize, dark: &[u32], issues: &mut Issues) {
     let frame = &show.frames[index];
     let name = name_of(show, index);

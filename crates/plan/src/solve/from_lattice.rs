@@ -12,7 +12,8 @@ use crate::spline::set::{MOST_SPANS, SplineSet};
 
 /// Makes splines from a multi-agent path finding over the lattice. Their speed is the speed limit or, if that is less,
 /// about the greatest at which the corners of lattice paths are legal. `None` if starts or ends cannot be assigned to
-/// different nodes, the lattice is too large for the search, or the search finds no solution or is cancelled.
+/// different nodes, or the lattice is too large for the search. `None` also if the search finds no solution or is
+/// cancelled.
 pub(crate) fn from_lattice(instance: &Instance, lattice: &Lattice) -> Option<SplineSet> {
     let starts = assign_nodes(instance, lattice, &instance.starts)?;
     let bound: Vec<usize> = (0..instance.robots()).filter(|&robot| instance.ends[robot].is_some()).collect();

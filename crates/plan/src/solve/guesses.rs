@@ -46,7 +46,7 @@ impl<'a> Guesses<'a> {
         }
     }
 
-    /// Returns the guesses in another order: a guess that differs from a better guess only in its bow comes later,
+    /// Returns the guesses in another order. A guess that differs from a better guess only in its bow comes later,
     /// because it mostly fails if the better one fails. Of several guesses with equal trajectories, only the best is
     /// returned.
     pub fn diverse(&self) -> Vec<&Guess<'a>> {

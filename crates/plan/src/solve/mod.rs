@@ -35,7 +35,7 @@ use scale::Scale;
 /// `None` for a spare robot, which may step aside.
 ///
 /// If no solver finds paths, returns the pairs of robots that still touch in the row of the schedule that left the
-/// fewest pairs; rows that left no pair, because they failed for another reason, do not count. The list is empty if no
+/// fewest pairs. Rows that left no pair, because they failed for another reason, do not count. The list is empty if no
 /// row left a pair.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     solve(problem, goal_of, Cancel::NEVER).result

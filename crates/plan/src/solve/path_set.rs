@@ -1,5 +1,5 @@
-//! The shortest paths of all robots, and two displacements of a dense fleet on them: `level` keeps it from gathering in
-//! the middle, `loosen` spreads it.
+//! The shortest paths of all robots, and two displacements of a dense fleet on them. `level` keeps the fleet from
+//! gathering in the middle, `loosen` spreads it.
 
 use lightbots_base::Vec2;
 

@@ -57,7 +57,7 @@ const AMENDMENTS: usize = 4;
 /// Most sweeps of each of those rounds.
 const AMENDING_SWEEPS: usize = 72;
 /// Ranking penalty: between walls, a solution that aims at less distance between centres than [`WIDE`] counts as 25 %
-/// longer, because one braking robot blocks others there.
+/// longer, because one braking robot blocks others.
 const CLOSE: f64 = 1.25;
 
 /// A solution that the proof accepts.

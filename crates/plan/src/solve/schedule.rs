@@ -115,7 +115,7 @@ pub(super) enum Until {
     Good,
     /// A row of the group found a solution faster than all before the group, or the best solution is acceptable.
     Faster,
-    /// The best solution is not slow, and one more row has run since a row of the group found a solution faster than
+    /// The best solution is not slow. Also, one more row has run since a row of the group found a solution faster than
     /// all before the group.
     FasterAndNotSlow,
     /// There is a solution.
@@ -181,7 +181,7 @@ const GOOD: f64 = 1.15;
 /// Usual distance between neighbouring lattice nodes, metres: in the lattice for shortest paths, and in most rows.
 /// Centres of robots that follow each other around a corner come as close as 0.83 of the pitch.
 pub(super) const PITCH_M: f64 = 0.072;
-/// Pitch of the second row "from lattice", and of later rows through gaps, metres: fewer robots fit on this lattice,
+/// Pitch of the second row "from lattice", and of later rows through gaps, metres. Fewer robots fit on this lattice,
 /// but their paths have more clearance.
 const LOOSE_PITCH_M: f64 = 0.078;
 /// Pitch of the last row "through tight gaps", metres. 0.83 of this pitch is hardly more than the distance that the

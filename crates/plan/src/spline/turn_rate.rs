@@ -21,8 +21,8 @@ const WIGGLE: f64 = 3.0;
 /// Multiple of [`CREEP_MPS`] below which a robot counts as slow. The direction may change during a slow stretch by as
 /// much as the turn rate limit allows in the time of that stretch.
 const SLOW: f64 = 2.6;
-/// Ratio of v² to a², with the span as the unit of time, below which samples do not suffice: between two of them, the
-/// speed may be over 2 % lower.
+/// Ratio of v² to a², with the span as the unit of time, below which samples do not suffice. Between two of them, the
+/// speed may then be over 2 % lower.
 const NARROW_SWING: f64 = 0.25;
 /// Share of the turn rate limit that is allowed near the stop of a reversal.
 const REVERSAL_UNDERCUT: f64 = 0.6;
@@ -199,8 +199,8 @@ impl TurnRate {
         (fastest / self.turn).max(self.slow_turn(spline).map_or(0.0, |(_, time_scale)| time_scale))
     }
 
-    /// Returns the worst turn of a slow stretch: the span in which the robot is fast again, and its turn as a multiple
-    /// of what the time of the stretch allows. `None` if all these turns are legal.
+    /// Returns the worst turn of a slow stretch: the span in which the robot is fast again, and its turn. The turn is
+    /// given as a multiple of what the time of the stretch allows. `None` if all these turns are legal.
     fn slow_turn(&self, spline: &[Vec2]) -> Option<(usize, f64)> {
         let slow_m = SLOW * self.creep_m;
         let (mut heading, mut slow, mut worst) = (None::<Vec2>, 0.0, None::<(usize, f64)>);
@@ -242,7 +242,7 @@ impl TurnRate {
         worst
     }
 
-    /// Returns the greatest turn of a span, radians per span, and its moment as a share of the span; `None` if the span
+    /// Returns the greatest turn of a span, radians per span, and its moment as a share of the span. `None` if the span
     /// cannot exceed the limit.
     fn fastest(&self, four: &[Vec2]) -> Option<(f64, f64)> {
         if self.is_easy(four) {
@@ -312,7 +312,7 @@ impl TurnRate {
         steps.iter().all(|step| step.length_squared() < speed_m * speed_m)
     }
 
-    /// Returns displacements of control points after which |v × a| ≤ turn · v², to first order; `None` if that holds
+    /// Returns displacements of control points after which |v × a| ≤ turn · v², to first order. `None` if that holds
     /// already, or control points have no influence on it. `v` and `a`: the weights of the control points, and the
     /// velocity and acceleration.
     fn widened(&self, v: ([f64; 4], Vec2), a: ([f64; 4], Vec2)) -> Option<[Vec2; 4]> {

@@ -108,9 +108,9 @@ fn deformed(
     best
 }
 
-/// Slows all paths of a candidate so that they keep the limits of speed and acceleration, because a robot at full speed
-/// has no speed left for a displacement. Returns the candidate unchanged if it would have to be slower than [`slowest`]
-/// allows.
+/// Slows all paths of a candidate so that they keep the limits of speed and acceleration. The reason: a robot at full
+/// speed has no speed left for a displacement. Returns the candidate unchanged if it would have to be slower than
+/// [`slowest`] allows.
 fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cancel: Cancel<'_>) -> Candidate {
     let too_fast = deformed
         .proof
@@ -125,8 +125,8 @@ fn time_scaled(problem: &TransitionProblem, deformed: Candidate, aim: Aim, cance
     Candidate::of_paths(problem, paths, deformed.transition.goal_of, 1.0, cancel)
 }
 
-/// Factor by which the duration of a path must be multiplied to keep the limits of speed and acceleration, by its
-/// control points; at least 1.
+/// Factor by which the duration of a path must be multiplied to keep the limits of speed and acceleration; at least 1.
+/// It is calculated from the path's control points.
 fn time_scale(path: &Path, problem: &TransitionProblem) -> f64 {
     let (speed, accel) = (problem.limits.speed_mps.max(1e-3), problem.limits.accel_mps2.max(1e-3));
     path.as_ref().timed().fold(1.0, |most, (from, _, piece)| {

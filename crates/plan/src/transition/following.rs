@@ -25,8 +25,9 @@ pub(super) fn wanted_m(paths: &[Path], found: &Closest, limits: &Limits, faster:
     limits.contact_m() + COMFORT_M.max(stopping_m(following_mps.min(limits.speed_mps)))
 }
 
-/// The greater of two speeds, m/s: at which `one` would approach the other robot if that stood, and at which `other`
-/// would approach `one` if `one` stood. `apart`: unit vector from `one` to `other`. `one` and `other`: velocities, m/s.
+/// The greater of two speeds, m/s. At the first, `one` would approach the other robot if that robot stood. At the
+/// second, `other` would approach `one` if `one` stood. `apart`: unit vector from `one` to `other`. `one` and `other`:
+/// velocities, m/s.
 fn following_mps(apart: Vec2, one: Vec2, other: Vec2) -> f64 {
     one.dot(apart).max(-other.dot(apart)).max(0.0)
 }

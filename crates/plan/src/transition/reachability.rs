@@ -1,4 +1,4 @@
-//! Regions of the floor between which no robot can drive: assigns robots to pixels within each region, or says which
+//! Regions of the floor between which no robot can drive. Assigns robots to pixels within each region, or says which
 //! robots or pixels are cut off.
 
 use lightbots_base::Vec2;

@@ -12,8 +12,8 @@ use lightbots_base::Vec2;
 const DETOURS_TRIED: usize = 12;
 /// Cost of each stop on a detour, as metres of path.
 const STOP_M: f64 = 0.15;
-/// Cost of a detour, as metres of path, for each waiting robot whose straight line would be blocked by a robot at the
-/// end of the detour.
+/// Cost of a detour for each waiting robot that it blocks, as metres of path. A robot at the end of the detour would
+/// block the waiting robot's straight line.
 const BLOCKS_M: f64 = 0.3;
 /// Side of a grid cell in the search for paths through narrow gaps, metres.
 const FINE_CELL_M: f64 = 0.012;

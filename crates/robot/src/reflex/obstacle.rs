@@ -138,9 +138,9 @@ impl StandingObject {
         self.hypotheses.iter().map(|one| one.log)
     }
 
-    /// Adds hypotheses that the endless edge has an end to the left or to the right. The end is assumed between the
-    /// outermost place at which a sensor saw the object in the step before, and the outermost place that any sensor
-    /// could see.
+    /// Adds hypotheses that the endless edge has an end to the left or to the right. The end is assumed between two
+    /// places. One is the outermost place at which a sensor saw the object in the step before. The other is the
+    /// outermost place that any sensor could see.
     fn add_ends(&mut self, scan: &Scan<'_>) {
         let Some(endless) = self.hypotheses.iter().find(|one| one.outline.form == Form::Edge) else { return };
         let Hypothesis { outline, log } = endless.clone();

@@ -1,9 +1,9 @@
 //! The outline of a standing object: a straight edge, the end of an edge, or a disc of a robot's size. An extended
 //! Kalman filter estimates where it is.
 //!
-//! The state is relative to the robot: the distance to the edge, the direction of the edge's normal, and the place of
-//! the end along the edge. For a disc, the place of its centre is used instead of the end. The object does not move, so
-//! its motion in body space comes only from the robot's own motion.
+//! The state is relative to the robot. It consists of the distance to the edge, the direction of the edge's normal, and
+//! the place of the end along the edge. For a disc, the place of its centre is used instead of the end. The object does
+//! not move, so its motion in body space comes only from the robot's own motion.
 
 use super::covariance::{CommonError, Covariance};
 use super::motion::OwnMotion;

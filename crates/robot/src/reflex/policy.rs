@@ -80,8 +80,8 @@ pub(crate) fn allowed_mps(
     Some(safe)
 }
 
-/// The manoeuvre that is checked: the robot drives at the last commanded speed until the motors react, then at a tried
-/// speed for one step, and then brakes at the grip limit.
+/// The manoeuvre that is checked. The robot drives at the last commanded speed until the motors react, and then at a
+/// tried speed for one step. After that, it brakes at the grip limit.
 struct Stop<'a> {
     /// Centre of the neighbour, body space, metres.
     at: Point,

@@ -44,7 +44,7 @@ pub(crate) struct Track {
     pub seen_by: u8,
     /// The test whether the neighbour still keeps to the plan.
     pub departure: Departure,
-    /// Index, among the neighbours of the route, of the planned neighbour that it was before it last left its plan;
+    /// Index, among the neighbours of the route, of the planned neighbour that it was before it last left its plan.
     /// `None` if it never left one.
     pub left: Option<u8>,
     /// Number of steps since the neighbour came into sight, at most 255. Always 255 for a standing object.
@@ -132,9 +132,9 @@ impl Track {
         self.covariance.rotate(turn);
     }
 
-    /// Sets the place to `at` (centre of the neighbour, body space, metres) and the velocity to 0, with the errors of a
-    /// neighbour that was found to have stopped. The track then follows no planned neighbour (`planned` is `None`). The
-    /// caller sets `left`.
+    /// Sets the place to `at` (centre of the neighbour, body space, metres) and the velocity to 0. The errors are those
+    /// of a neighbour that was found to have stopped. The track then follows no planned neighbour (`planned` is
+    /// `None`). The caller sets `left`.
     pub fn stand(&mut self, at: Point, of: &NeighbourModel) {
         let towards = at.times(1.0 / at.length().max(1e-3));
         let [place_m2, velocity_m2ps2] = [of.stop_sigma_m, of.stop_sigma_mps].map(|sigma| sigma * sigma);
@@ -162,9 +162,9 @@ impl Track {
         self.velocity = self.velocity.plus(velocity);
     }
 
-    /// Corrects the coordinate of the place along the unit vector `unit` to that of `at`, whose error is `sigma_m`
-    /// (metres, 1 sigma), by other knowledge than readings. It only reduces the variance along `unit` to that of `at`.
-    /// So repeating it at every step makes the place no more certain.
+    /// Corrects the coordinate of the place along the unit vector `unit` to that of `at`, by other knowledge than
+    /// readings. The error of `at` is `sigma_m` (metres, 1 sigma). The correction only reduces the variance along
+    /// `unit` to that of `at`. So repeating it at every step makes the place no more certain.
     pub fn bound_place(&mut self, unit: Point, at: Point, sigma_m: f32) {
         let (known, bound) = (self.covariance.place_along(unit), sigma_m * sigma_m);
         if known > bound {

@@ -15,7 +15,7 @@ use crate::config::SENSORS;
 /// Largest number of neighbours that are tracked at once: the number of robots that fit around a robot of equal size.
 pub(super) const TRACKS: usize = 6;
 /// Largest innovation at which a reading belongs to a neighbour's track, metres. With a larger value, readings of
-/// another neighbour are assigned to the track. With less than 13 mm, a robot that stops dead is lost: the filter
+/// another neighbour are assigned to the track. With less than 13 mm, a robot that stops dead is lost. The filter
 /// follows it one or two steps late, and each step adds up to 4.3 mm.
 const ASSIGN_M: f32 = 0.014;
 /// Largest innovation at which a reading belongs to a track, in standard deviations of the innovation. The larger one
@@ -200,8 +200,9 @@ impl Tracks {
         }
     }
 
-    /// Replaces the track of an unplanned neighbour by the track of a planned neighbour, if the planned one has no
-    /// track yet and explains the nearest reading. A track of a neighbour that has left its plan is never replaced.
+    /// Replaces the track of an unplanned neighbour by the track of a planned neighbour. The planned neighbour must
+    /// have no track yet and must explain the nearest reading. A track of a neighbour that has left its plan is never
+    /// replaced.
     fn explain(&mut self, scan: &Scan<'_>) {
         for index in 0..self.list.len() {
             let track = &self.list[index];

@@ -74,8 +74,8 @@ impl Outline {
         (read_m - view.gap_m - bend_m, variance)
     }
 
-    /// The part of the edge, taken as endless, that a sensor sees within its range: the positions of the part's right
-    /// and left end along the edge, metres. `None` if the sensor sees no part.
+    /// The part of the edge, taken as endless, that a sensor sees within its range. Returns the positions of the part's
+    /// right and left end along the edge, metres. `None` if the sensor sees no part.
     pub fn stretch(&self, sensor: usize, sensors: &Sensors) -> Option<[f32; 2]> {
         let sight = self.sight(sensor, sensors);
         let far_m2 = sensors.range_m * sensors.range_m - sight.height_m * sight.height_m;

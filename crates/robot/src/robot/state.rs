@@ -171,8 +171,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Number of red flashes that show what is wrong: 3 if faulty, 2 if cut off, 1 if lost, else 2 if the link has been
-    /// down for longer than `Config::silence`. 0 if nothing is wrong. A robot without abilities never flashes.
+    /// Number of red flashes that show what is wrong: 3 if faulty, 2 if cut off, 1 if lost. Otherwise it is 2 if the
+    /// link has been down for longer than `Config::silence`, and 0 if nothing is wrong. A robot without abilities never
+    /// flashes.
     pub(super) fn trouble(&self, now: Instant) -> u8 {
         match self.hot.state {
             _ if !self.hot.shows_trouble => 0,

@@ -11,7 +11,7 @@ type Job = Box<dyn FnOnce() + Send>;
 
 /// A separate thread that hashes passwords, because hashing on the threads of the runtime would delay connections. A hash
 /// takes a processor and 19 MiB, some of which the allocator keeps afterwards. In one test (2026-11-27, glibc), the
-/// allocator kept up to 78 MB after hashing on the runtime's threads, and 59 MB after hashing on this thread.
+/// allocator kept up to 78 MB after hashing on the runtime's threads. After hashing on this thread, it was 59 MB.
 #[derive(Debug)]
 pub struct HashThread {
     jobs: Sender<Job>,

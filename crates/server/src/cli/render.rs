@@ -14,8 +14,9 @@ pub struct RenderArguments {
     /// The show
     #[arg(value_name = "SHOW")]
     pub show: PathBuf,
-    /// The file to write: .gif, .mp4 or .webm (a film; the last two need the program ffmpeg), .png (a contact sheet: all
-    /// frames on one picture), .pdf (a sheet for the crew: starting places, cues, checklist)
+    /// The file to write: .gif, .mp4 or .webm for a film, .png for a contact sheet, .pdf for a sheet for the crew. The
+    /// program ffmpeg is needed for .mp4 and .webm. A contact sheet has all frames on one picture. The crew's sheet has
+    /// starting places, cues and a checklist
     #[arg(value_name = "OUT")]
     pub out: PathBuf,
     /// Pixels of the film, or of each picture of a contact sheet [default: 640x360 for .gif, 1280x720 for .mp4 and .webm]

@@ -83,8 +83,9 @@ fn tell(mut report: RunReport, json: bool, played: Result<(), Failure>) -> Outco
     played.map(|()| ok)
 }
 
-/// Waits until the conductor has disconnected from the broker and the recorded run is on disk: at most [`GOODBYE`] if the
-/// user wants to stop, else `SAVED`. The conductor stops the robots of an unfinished run before it disconnects.
+/// Waits until the conductor has disconnected from the broker and the recorded run is on disk. The wait is at most
+/// [`GOODBYE`] if the user wants to stop, else `SAVED`. The conductor stops the robots of an unfinished run before it
+/// disconnects.
 async fn finish(stop: &Stop, task: tokio::task::JoinHandle<()>) {
     // The wait is limited, because a broker or a disk may hang.
     let patience = if stop.is_wanted() { GOODBYE } else { SAVED };

@@ -50,7 +50,7 @@ impl GivenShows {
     }
 
     /// Adds a show and returns the name under which it is listed. If an example has the same name as the file of the command
-    /// line, the file keeps the name, and the example is listed under another name. `saved` has the names of the shows in
+    /// line, the file keeps the name. The example is then listed under another name. `saved` has the names of the shows in
     /// the folder.
     pub fn add(&self, show: Given, saved: &BTreeSet<String>) -> String {
         let (base, origin) = (show.base.clone(), show.origin);

@@ -49,8 +49,8 @@ pub struct Connections {
 
 impl Connections {
     /// Accepts connections of the listener. At most half of the files that the system lets this program open become
-    /// connections, because the library and the link to the broker need files, too. Refusals are written to the log.
-    /// `longest_wait`: longest time that a client waits for an answer without sending.
+    /// connections. The rest is kept free, because the library and the link to the broker need files, too. Refusals are
+    /// written to the log. `longest_wait`: longest time that a client waits for an answer without sending.
     pub fn new(
         listener: TcpListener,
         acceptor: Option<TlsAcceptor>,

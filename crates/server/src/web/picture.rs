@@ -226,9 +226,9 @@ impl Painter {
         }
     }
 
-    /// Returns the planned time to the end of the show, seconds: the rest of the present drive or air time, and all later
-    /// drives and air times. `None` without a run, for a preview, a preflight, or a loop that waits for GO. On the drive to
-    /// the starting places: the rest of that drive and the air time of the show's first frame.
+    /// Returns the planned time to the end of the show, seconds. This is the rest of the present drive or air time, and all
+    /// later drives and air times. `None` without a run, for a preview, a preflight, or a loop that waits for GO. On the
+    /// drive to the starting places: the rest of that drive and the air time of the show's first frame.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
         let is_of_show =
             |run: &&RunView| snapshot.state != ControllerState::Preview && run.preflight.is_none();

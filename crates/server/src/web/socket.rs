@@ -43,8 +43,8 @@ pub async fn open(
     )
 }
 
-/// The connection ends: the screen has gone, is too slow, is no longer signed in, or sent a message that cannot be read; or
-/// the server ends.
+/// The connection ends: the screen has gone, is too slow, is no longer signed in, or sent a message that cannot be read. It
+/// also ends if the server ends.
 struct Gone;
 
 struct Screen {

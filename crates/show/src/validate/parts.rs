@@ -89,8 +89,8 @@ fn named_frames(show: &Show) -> impl Iterator<Item = (&'static str, &str, &str)>
     layers.chain(cues).chain(paths)
 }
 
-/// Warns about moments that are not on the timeline, about stretches that end before or at their start, and about
-/// trajectories whose times do not increase.
+/// Warns about moments that are not on the timeline and about stretches that end before or at their start. Also warns
+/// about trajectories whose times do not increase.
 fn times(show: &Show, findings: &mut Findings) {
     let layers = show.layers.iter().filter_map(|layer| match layer.span {
         LayerSpan::Seconds { from_s, to_s } => Some(("layer", layer.name.as_str(), from_s, to_s)),

@@ -12,8 +12,9 @@ use crate::floor::FloorObject;
 use crate::mishap::Mishap;
 use crate::robot_set::RobotSet;
 
-/// A robot must stand still from this time on after Stop, after the end of the run, or after the last message that it
-/// received (R40 and R43 of docs/protocol.md). A robot that receives nothing stops after 2 s, and brakes within 0.1 s.
+/// Time after which a robot must stand still (R40 and R43 of docs/protocol.md). It counts from Stop, from the end of
+/// the run, or from the last message that the robot received. A robot that receives nothing stops after 2 s, and brakes
+/// within 0.1 s.
 const RESTS_AFTER: Span = Span::from_millis(2_200);
 /// When a run is over, checks go on for this long after the time [`Invariants::stopped`].
 const WATCHED: Span = Span::from_millis(3_500);
@@ -59,8 +60,8 @@ struct Watched {
     out: Option<Instant>,
     /// Whether the robot was out when a plan last failed. The controller may then plan paths through the robot's place.
     is_place_given_up: bool,
-    /// Whether a dropout of the robot is no violation: messages are lost at random, a breakdown or mishap happened to
-    /// this robot, or it understands the command TARGET but no routes.
+    /// Whether a dropout of the robot is no violation. Reasons: messages are lost at random, a breakdown or mishap
+    /// happened to this robot, or it understands the command TARGET but no routes.
     may_drop_out: bool,
     /// Whether it reports a false place, or shares its name with another robot.
     is_false: bool,
@@ -80,7 +81,7 @@ pub(crate) struct Invariants {
     /// Index of the frame that robots reached last; `None`: none yet. After a jump of the operator: of the frame before
     /// the chosen frame.
     reached: Option<usize>,
-    /// Indices of frames that robots need not reach, because no plan was found, or the frames were skipped or left out
+    /// Indices of frames that robots need not reach. No plan to such a frame was found, or it was skipped or left out
     /// to keep up with the music.
     given_up: Vec<usize>,
     /// The first and the last frame of the latest loop.

@@ -24,8 +24,8 @@ pub use story::Story;
 /// Part of the time limit of a run: time from the moment robots are switched on until the first departure, seconds. On
 /// a slow link, robots need half a minute to find the controller and set their clocks.
 const BEGINS_WITHIN_S: f64 = 42.0;
-/// Time that recovery from a fault may take after the fault has ended, seconds: to notice a silent robot, to plan three
-/// times, and to gather robots after each plan.
+/// Time that recovery from a fault may take after the fault has ended, seconds. It is enough to notice a silent robot,
+/// to plan three times, and to gather robots after each plan.
 const RECOVERS_WITHIN_S: f64 = 40.0;
 /// Each fault may cost this multiple of the show's planned duration in addition (`control/src/run/recovery_bound.rs`).
 const REPLAYS: f64 = 2.0;

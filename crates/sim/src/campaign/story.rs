@@ -105,9 +105,9 @@ impl Fault {
     }
 }
 
-/// Removes faults that cannot happen: all but the first fault of a robot, and a fault that begins during an earlier
-/// fault that excludes it, or within [`FOUND_AGAIN`] after. `faults` are in order of time. `may_overlap`: see
-/// [`Fault::excludes`].
+/// Removes faults that cannot happen: all but the first fault of a robot, and faults that an earlier fault excludes. An
+/// excluded fault begins during the earlier fault, or within [`FOUND_AGAIN`] after it. `faults` are in order of time.
+/// `may_overlap`: see [`Fault::excludes`].
 fn without_overlaps(faults: Vec<(Span, Fault)>, may_overlap: bool) -> Vec<(Span, Fault)> {
     let mut kept: Vec<(Span, Fault)> = Vec::new();
     for (at, fault) in faults {

@@ -9,8 +9,8 @@ use crate::forgeries::Forgeries;
 use crate::network::{Network, Way};
 use crate::record::RehearsalRecord;
 
-/// Sends a message of a robot to the controller, unless the robot is mute, or the robot or the controller has no
-/// connection to the broker. Records reports of arrival even if they are not sent.
+/// Sends a message of a robot to the controller. It is not sent if the robot is mute, or if the robot or the controller
+/// has no connection to the broker. Records reports of arrival even if they are not sent.
 pub(super) fn send(
     network: &mut Network,
     record: &mut RehearsalRecord,

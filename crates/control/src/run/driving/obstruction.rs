@@ -1,5 +1,5 @@
-//! An obstacle in a robot's path: all robots hold (stop together), those nearby are asked for a report, and a new plan
-//! leads around the obstacle.
+//! An obstacle in a robot's path: all robots hold (stop together), and those nearby are asked for a report. Then a new
+//! plan leads around the obstacle.
 
 use crate::event::Trouble;
 use crate::robot::KnownRobot;

@@ -37,8 +37,7 @@ const OVERDUE: Span = Span::from_millis(3_000);
 /// runs slower than the plan, on a busy machine. Without a bound, a robot that reports nonsense would stop the show for
 /// good.
 const SLOW: Span = Span::from_millis(60_000);
-/// A robot is still on its way if its distance to the goal is larger, by more than this, than its distance off the
-/// route; metres.
+/// A robot is still on its way if its distance to the goal minus its distance off the route exceeds this, metres.
 const END_M: f64 = 0.01;
 /// Least decrease of the distance to its goal that counts as a robot's progress, metres: more than the error of its
 /// position fixes.

@@ -1,7 +1,7 @@
 //! Light over time. A stretch is up to 10 s of a robot's colours, sent ahead. Robots that do not understand stretches
 //! are sent single colours (the command COLOR).
 //!
-//! Shows without layers of light use this only once live light (layers that the operator adds) is put over them; before
+//! Shows without layers of light use this only once live light (layers that the operator adds) is put over them. Before
 //! that, `lights` changes their colours. `sending` sends what is due, `placing` says where a leg is on the timeline,
 //! and `live` has the layers of live light.
 //!
