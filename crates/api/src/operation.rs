@@ -110,7 +110,8 @@ pub enum Operation {
         /// Name of the robot.
         robot: String,
     },
-    /// Remove a robot from the fleet, with its pinned pixels, until it reports again. Refused during a run.
+    /// Remove a robot from the fleet, with its pinned pixels, until it reports again. Refused during a run, and
+    /// while robots are being stopped.
     Forget {
         /// Name of the robot.
         robot: String,

@@ -60,6 +60,9 @@ fn a_broker_lost_for_a_moment_at_any_time_of_a_short_drive_costs_no_robot() {
         world.link(true);
         let ended = world.run_to_end(90.0);
         assert_eq!(ended, (RunOutcome::Finished, 3, 0), "{tenths}, {gap_s} s\n{}", world.story());
+        // At the end of a drive there is no time for a hold.
+        let dead_stops = world.robots.iter().map(|robot| robot.dead_stops).sum::<u32>();
+        assert!(dead_stops == 0 || tenths > 3, "{tenths}, {gap_s} s: {dead_stops} stops without a hold");
     }
 }
 

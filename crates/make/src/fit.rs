@@ -40,7 +40,9 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
                 );
                 frame
             }
-            Some(Err(error)) if error.code == "too-many-robots" => return Err(named(error)),
+            Some(Err(error)) if error.code == "too-many-robots" || frame.pixels.is_empty() => {
+                return Err(named(error));
+            }
             other => {
                 if let Some(Err(error)) = other {
                     let what = format!(
@@ -173,6 +175,11 @@ mod tests {
         assert_eq!(show.frames[0].pixels.len(), 30);
         assert_eq!(notes.iter().map(|note| note.code).collect::<Vec<_>>(), ["source-not-drawn"]);
         assert!(notes[0].message.contains("Word"), "{}", notes[0].message);
+        // Without pixels there is nothing to keep, and the reason is the source's.
+        let why = notes[0].message.split(['(', ')']).nth(1).unwrap().to_owned();
+        show.frames[0].pixels.clear();
+        let error = fit_show(&mut show, 30).unwrap_err();
+        assert!(error.message.contains(&why), "{}", error.message);
     }
 
     #[test]

@@ -39,7 +39,8 @@ pub enum RowOutcome {
         /// still touch. 0 if it is only known that the paths are rejected.
         contacts: usize,
     },
-    /// The work for the row was used up, or planning was cancelled, before contacts were counted.
+    /// The search for paths ended before it was known which contacts are left: its work was used up, planning was
+    /// cancelled, or the last contacts appeared at its end.
     Unfinished,
     /// A plan that the proof accepts.
     Solved {

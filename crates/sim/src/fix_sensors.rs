@@ -195,4 +195,22 @@ mod tests {
         assert!(bias != 0.0 && bias.abs() < 0.01);
         assert!(errors("bias=1cm").iter().all(|error| (error.unwrap().0 - bias).abs() < 1e-9));
     }
+
+    /// A robot is in the dark for a second every 20 s, however rarely it gets fixes.
+    #[test]
+    fn drop_outs_are_as_frequent_between_rare_fixes() {
+        for every in [1, 5] {
+            let faults = Faults::parse(&format!("fix-every={every},fix-dropout=1s")).unwrap();
+            let conditions = faults.added_to(Conditions::ideal()).fixes;
+            let mut sensors = FixSensors::new(&conditions, &[Pose::default()], 4);
+            let fixes = (0..50_000)
+                .filter(|_| {
+                    sensors.next_step(&[true]);
+                    sensors.fix(0, Pose::default()).is_some()
+                })
+                .count();
+            let dark = 1.0 - f64::from(every) * fixes as f64 / 50_000.0;
+            assert!((0.03..0.07).contains(&dark), "every {every}: {dark} of the time");
+        }
+    }
 }

@@ -27,6 +27,13 @@ impl JournalState {
     }
 }
 
+impl JournalState {
+    /// When the drive that was under way is held, show clock; `None` if it is not.
+    pub fn holds_from(&self) -> Option<Instant> {
+        self.progress.position.drive?.hold.map(|hold| hold.at)
+    }
+}
+
 impl ParticipantEntry {
     fn is_sound(&self) -> bool {
         let Whereabouts { possible, likely } = &self.last_seen;

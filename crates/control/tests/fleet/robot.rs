@@ -9,6 +9,8 @@ use lightbots_wire::{
 /// A message that a robot sends: its topic and payload.
 pub type Said = (Topic, Vec<u8>);
 
+/// A robot that STOP finds driving farther than this in a step of 10 ms stops dead, metres: at 0.03 m/s.
+const DEAD_STOP_M: f64 = 0.0003;
 /// Speed towards a TARGET, m/s.
 const SPEED_MPS: f64 = 0.25;
 
@@ -51,6 +53,10 @@ pub struct Robot {
     heard: Instant,
     said: Vec<Said>,
     pub stops: u32,
+    /// How often it stopped dead: STOP came while it drove along its route.
+    pub dead_stops: u32,
+    /// How far it drove along its route in the latest step, metres.
+    moved_m: f64,
     pub starts_heard: u32,
     /// All stretches of light that it received.
     pub stretches: Vec<LightStretch>,
@@ -88,6 +94,8 @@ impl Robot {
             heard: Instant::ZERO,
             said: Vec::new(),
             stops: 0,
+            dead_stops: 0,
+            moved_m: 0.0,
             starts_heard: 0,
             stretches: Vec::new(),
         }
@@ -196,7 +204,7 @@ impl Robot {
                     self.say_report(Topic::Status, self.named());
                 }
             }
-            Command::Hold { at } => self.hold_since = self.hold_since.or(Some(at)),
+            Command::Hold { at } => self.hold_from(at),
             Command::Resume { at } => {
                 if let Some(since) = self.hold_since.take() {
                     self.held += at - since;
@@ -204,7 +212,7 @@ impl Robot {
                 }
             }
             Command::StopFrom { at } if self.running.is_some() => {
-                self.hold_since = self.hold_since.or(Some(at));
+                self.hold_from(at);
                 self.stops_at = Some(at + Route::EASE);
             }
             Command::Stop | Command::StopFrom { .. } => self.halt(),
@@ -215,8 +223,14 @@ impl Robot {
         }
     }
 
+    /// Holds from the earliest moment that it was told.
+    fn hold_from(&mut self, at: Instant) {
+        self.hold_since = Some(self.hold_since.map_or(at, |since| since.min(at)));
+    }
+
     fn halt(&mut self) {
         self.stops += 1;
+        self.dead_stops += u32::from(self.running.is_some() && self.moved_m > DEAD_STOP_M);
         self.stop();
         self.say_report(Topic::Status, 0);
     }
@@ -298,7 +312,8 @@ impl Robot {
             let path = PathRef::new(route.start, &route.pieces);
             let time = Span::from_secs(self.path_time(show, began).as_secs() * self.pace);
             if !self.stuck {
-                self.at = path.at(time).position;
+                let at = path.at(time).position;
+                (self.moved_m, self.at) = (at.distance(self.at), at);
             }
             if time >= path.duration() && !self.stuck {
                 self.running = None;
