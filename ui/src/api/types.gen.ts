@@ -494,7 +494,7 @@ phase: Phase,
  */
 doing: string | null, 
 /**
- * Index of the frame that robots show or drive to, counted from 0; null: there is no run, or it is a preflight or
+ * Index of the frame that robots show or drive to, counted from 0. null: there is no run, or it is a preflight or
  * a drive to the starting places.
  */
 frame: number | null, 
@@ -894,7 +894,7 @@ ca?: string | null,
  */
 client_cert?: string | null, 
 /**
- * Key of the client certificate: PEM text or the path of a file on the server; null: the kept key, provided
+ * Key of the client certificate: PEM text or the path of a file on the server. null: the kept key, provided
  * that `client_cert` is the kept certificate.
  */
 client_key?: string | null, } | { "do": "disconnect" };
@@ -1175,7 +1175,7 @@ export type PlaylistToday = {
  */
 result: PlaylistResult, 
 /**
- * Local time of day of the server, `HH:MM`, at which the entry starts, began or ended; null: not known yet, or
+ * Local time of day of the server, `HH:MM`, at which the entry starts, began or ended. null: not known yet, or
  * `result` is `not_today` or `past`.
  */
 time: string | null, 
@@ -1585,8 +1585,8 @@ export type MakeFile = {
  */
 hash: string, 
 /**
- * What the file can be used for. `svg`, `picture`, `list` or `animation`: source of a frame; `font`: font of words;
- * `show`: a show; `music`: music of a show; null: the file cannot be used.
+ * What the file can be used for. `svg`, `picture`, `list` or `animation`: source of a frame; `font`: font of
+ * words; `show`: a show; `music`: music of a show. null: the file cannot be used.
  */
 kind: string | null, 
 /**
