@@ -21,6 +21,7 @@ mod schedule;
 mod stop_and_go;
 #[cfg(test)]
 mod tests;
+mod trajectories;
 mod verify;
 
 use crate::cancel::Cancel;

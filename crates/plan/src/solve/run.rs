@@ -2,8 +2,6 @@
 
 use std::cell::OnceCell;
 
-use lightbots_base::Span;
-
 use super::facts::Facts;
 use super::from_lattice::from_lattice;
 use super::guess::Guess;
@@ -13,10 +11,10 @@ use super::schedule::{
     Budget, Group, MOST_STRETCH, MOST_TRIES, MOST_WORK, PITCH_M, SCHEDULE, Solver, SolverRow, WIDE,
 };
 use super::stop_and_go::{MOST_LOOKS, stop_and_go};
-use super::verify::{Rejected, least_span, span_of, verified};
+use super::trajectories::Trajectories;
+use super::verify::{Rejected, verified};
 use crate::explain::{ExplainedRow, Explanation, RowOutcome};
 use crate::instance::Instance;
-use crate::motion::quarter_turn;
 use crate::optimise::left_over::LeftOver;
 use crate::optimise::relaxation::{Effort, Relaxation, relax};
 use crate::order::{Chosen, PlanQuality, choose, percent};
@@ -68,11 +66,6 @@ struct Candidate {
     /// Duration multiplied by its penalty, seconds.
     lasts_s: f64,
     is_close: bool,
-}
-
-enum Trajectories {
-    Splines(SplineSet),
-    StopAndGo(Repaired),
 }
 
 /// The result of a run of the schedule.
@@ -154,7 +147,7 @@ impl Run<'_> {
         (1..=MOST_WALLS).contains(&self.instance.walls.len())
     }
 
-    /// The fastest solution so far by `lasts_s`, on which the schedule's conditions depend. The final choice is made in
+    /// The fastest solution until now by `lasts_s`, on which the schedule's conditions depend. The final choice is made in
     /// [`Run::outcome`] by the order on candidate plans.
     fn fastest(&self) -> Option<&Candidate> {
         self.candidates.iter().min_by(|one, other| one.lasts_s.total_cmp(&other.lasts_s))
@@ -339,7 +332,7 @@ impl Run<'_> {
     }
 
     fn keep(&mut self, name: String, solution: Trajectories, lasts_s: f64, is_close: bool) {
-        let duration = self.least_of(&solution);
+        let duration = solution.least(self.instance);
         self.candidates.push(Candidate { row: self.rows.len(), solution, lasts_s, is_close });
         self.report(name, RowOutcome::Solved { duration, stop_safe_percent: None });
     }
@@ -348,34 +341,10 @@ impl Run<'_> {
         self.rows.push(ExplainedRow { solver, outcome });
     }
 
-    /// The duration of a solution at full speed, including the first turn.
-    fn least_of(&self, solution: &Trajectories) -> Span {
-        match solution {
-            Trajectories::StopAndGo(found) => found.least,
-            Trajectories::Splines(splines) => {
-                let span = least_span(self.instance, splines);
-                quarter_turn(&self.instance.limits) + Span(span.0 * splines.spans as i64)
-            }
-        }
-    }
-
-    /// Returns the paths of a solution, driven in the asked duration, or at full speed if that is longer.
-    fn repaired(&self, solution: &Trajectories) -> Repaired {
-        match solution {
-            Trajectories::StopAndGo(found) => found.clone(),
-            Trajectories::Splines(splines) => {
-                let least = least_span(self.instance, splines);
-                let span = span_of(self.problem, self.instance, splines, least);
-                let paths = splines.paths(quarter_turn(&self.instance.limits), span);
-                Repaired { paths, least: self.least_of(solution) }
-            }
-        }
-    }
-
     /// Chooses among all solutions by the order on candidate plans (`order.rs`), and makes the explanation.
     fn outcome(mut self) -> Solution {
-        let mut plans: Vec<Repaired> =
-            self.candidates.iter().map(|candidate| self.repaired(&candidate.solution)).collect();
+        let repaired = |candidate: &Candidate| candidate.solution.repaired(self.problem, self.instance);
+        let mut plans: Vec<Repaired> = self.candidates.iter().map(repaired).collect();
         let quality = |plan: &Repaired| PlanQuality { contacts: 0, duration: Path::longest(&plan.paths) };
         let qualities: Vec<PlanQuality> = plans.iter().map(quality).collect();
         let (limits, cancel) = (&self.problem.limits, self.instance.cancel);
