@@ -33,6 +33,7 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
         }
         let label = frame_label(index, &frame.name);
         let named = |error: DrawError| DrawError::new(error.code, format!("{label}: {}", error.message));
+        let kept = || fitted(frame, &floor, robots).map_err(named);
         let fitted = match made_anew(show, frame, &floor, robots, &mut film) {
             Some(Ok((frame, more))) => {
                 notes.extend(
@@ -43,16 +44,15 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
             Some(Err(error)) if error.code == "too-many-robots" || frame.pixels.is_empty() => {
                 return Err(named(error));
             }
-            other => {
-                if let Some(Err(error)) = other {
-                    let what = format!(
-                        "{label}: its source cannot be drawn ({}), so it keeps its lights as far as possible",
-                        error.message
-                    );
-                    notes.push(Note::new("source-not-drawn", what));
-                }
-                fitted(frame, &floor, robots).map_err(named)?
+            Some(Err(error)) => {
+                let what = format!(
+                    "{label}: its source cannot be drawn ({}), so it keeps its lights as far as possible",
+                    error.message
+                );
+                notes.push(Note::new("source-not-drawn", what));
+                kept()?
             }
+            None => kept()?,
         };
         show.frames[index] = fitted;
     }

@@ -3,14 +3,10 @@
 use super::{Change, Entry, JournalState, MAGIC, VERSION};
 use crate::block::Blocks;
 use core::fmt;
-use lightbots_base::{Instant, Span};
+use lightbots_base::Instant;
 use lightbots_show::Show;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// A hold is stated for at most this long after the entry that has it; a later one is not of a controller. Controllers
-/// state holds at most 4 s ahead, and every later START waits for the hold.
-const HOLD_AHEAD: Span = Span::from_millis(60_000);
 
 /// Why bytes cannot be read as a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,8 +72,7 @@ impl UnfinishedRun {
 
     /// Whether the values of the state are plausible and fit together, so that a controller can go on with the run.
     pub(crate) fn is_sound(&self) -> bool {
-        let holds_soon = self.state.holds_from().is_none_or(|at| at < self.at + HOLD_AHEAD);
-        self.state.is_sound() && holds_soon
+        self.state.is_sound(self.at)
     }
 
     /// Returns the show that is played.

@@ -9,10 +9,14 @@ use std::collections::BTreeSet;
 /// Moments and spans must be less than this number of microseconds (36,000 years), so that sums of a few of them do not
 /// overflow.
 const TIME_MAX: u64 = 1 << 60;
+/// Longest time from an entry of a journal to the begin of a hold that was stated before the entry. Controllers state
+/// holds at most 4 s ahead. With a larger value, a forged journal delays every START of the controller that takes it up.
+const HOLD_AHEAD: Span = Span::from_millis(60_000);
 
 impl JournalState {
     /// Whether the values of this state are plausible and fit together, so that a controller can go on with the run.
-    pub fn is_sound(&self) -> bool {
+    /// `at`: show clock at the last entry.
+    pub fn is_sound(&self, at: Instant) -> bool {
         let names: BTreeSet<_> = self.participants.iter().map(|entry| entry.id).collect();
         let leg_fits = self.leg.as_ref().is_none_or(|leg| leg.to_leg(self.participants.len()).is_some());
         let needs_leg = self.progress.position.drive.is_some();
@@ -23,14 +27,7 @@ impl JournalState {
             && (self.leg.is_some() || !needs_leg)
             && self.found.iter().all(is_place)
             && self.participants.iter().all(ParticipantEntry::is_sound)
-            && self.progress.position.is_sound()
-    }
-}
-
-impl JournalState {
-    /// When the drive that was under way is held, show clock; `None` if it is not.
-    pub fn holds_from(&self) -> Option<Instant> {
-        self.progress.position.drive?.hold.map(|hold| hold.at)
+            && self.progress.position.is_sound(at)
     }
 }
 
@@ -46,18 +43,20 @@ impl ParticipantEntry {
 }
 
 impl Position {
-    fn is_sound(&self) -> bool {
+    fn is_sound(&self, at: Instant) -> bool {
         let is_air =
             |air: AirTime| is_moment(air.since) && is_moment(air.until) && air.left.is_none_or(is_span);
         let are_moments = |stops: StopTimes| is_moment(stops.began) && is_moment(stops.stood);
-        self.drive.is_none_or(is_clock) && self.stops.is_none_or(are_moments) && self.stood.is_none_or(is_air)
+        self.drive.is_none_or(|clock| is_clock(clock, at))
+            && self.stops.is_none_or(are_moments)
+            && self.stood.is_none_or(is_air)
     }
 }
 
-fn is_clock(clock: PathClock) -> bool {
+fn is_clock(clock: PathClock, at: Instant) -> bool {
     let hold = clock.hold.is_none_or(|hold| {
         let stated = [hold.until, hold.release_at].into_iter().flatten().all(is_moment);
-        stated && is_moment(hold.at) && is_moment(hold.check_at)
+        stated && is_moment(hold.at) && hold.at < at + HOLD_AHEAD && is_moment(hold.check_at)
     });
     hold && is_moment(clock.began) && is_moment(clock.ends) && is_span(clock.lost)
 }

@@ -151,6 +151,14 @@ fn entries_that_no_controller_writes_are_refused() {
         entry([leg, vec![progress]].concat())
     };
     assert!(run(&[first.clone(), drives(vec![Change::Leg(leg())])]).unwrap().is_some());
+    let held = |seconds: f64| {
+        let mut clock = PathClock::new(Instant(1), Span(2));
+        clock.stand(Instant(8) + Span::from_secs(seconds));
+        let position = Position { drive: Some(clock), ..Position::default() };
+        let progress = Change::Progress(RunProgress { position, ..state().progress });
+        entry(vec![Change::Leg(leg()), progress])
+    };
+    assert!(run(&[first.clone(), held(4.0)]).unwrap().is_some());
     for bad in [
         vec![entry(Vec::new())],
         vec![entry(vec![participant(0)])],
@@ -158,6 +166,8 @@ fn entries_that_no_controller_writes_are_refused() {
         // Two robots have one name.
         vec![first.clone(), entry(vec![participant(1)])],
         vec![first.clone(), drives(Vec::new())],
+        // Each START waits for a hold.
+        vec![first.clone(), held(3_600.0)],
         vec![
             first.clone(),
             entry(vec![Change::Obstacles {

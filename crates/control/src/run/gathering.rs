@@ -225,17 +225,11 @@ pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Ins
     }
     let soonest = cx.now + cx.link.hold_lead();
     let at = match clock.hold {
-        // A hold for later may come after the end of the drive: robots are then held at once.
-        Some(Hold { at, until: None, .. }) => {
-            if at < clock.ends {
-                at
-            } else {
-                at.min(soonest)
-            }
-        }
+        Some(Hold { at, until: None, .. }) if at < clock.ends => at,
         // Robots are still picking up speed: they slow down after that.
         Some(Hold { until: Some(until), .. }) => soonest.max(until + Route::EASE),
-        None => soonest,
+        // Without a hold, or with one that comes after the end of the drive, robots are held as soon as possible.
+        _ => soonest,
     };
     (cx.now < at + Route::EASE && at < clock.ends).then_some(at)
 }

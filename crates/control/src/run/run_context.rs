@@ -75,6 +75,11 @@ impl RunContext<'_> {
         self.link.start_lead(&self.io.config, self.roster.len())
     }
 
+    /// The earliest moment for a START that is sent now: late enough for all robots, and later than every HOLD.
+    pub fn earliest_start(&self) -> Instant {
+        (self.now + self.start_lead()).max(self.io.outbox.start_after_holds())
+    }
+
     /// Sends those routes of the next leg that may be sent now. Returns a dropout or a failure if robots do not
     /// acknowledge.
     pub fn pump(&mut self) -> Next {

@@ -66,7 +66,7 @@ impl Starting {
         let seq = cx.pipeline.queue.front().map_or(0, |leg| leg.seq);
         assert!(seq != 0, "a START needs a queued leg");
         let lead = cx.start_lead();
-        let at = earliest.max(cx.now + lead).max(cx.io.outbox.start_after_holds());
+        let at = earliest.max(cx.earliest_start());
         cx.io.outbox.send(Topic::Broadcast, &[Command::Start { seq, at }]);
         Self {
             at,
@@ -261,7 +261,7 @@ impl Starting {
 
     fn restate(&mut self, cx: &mut RunContext) {
         let lead = cx.start_lead();
-        self.at = (cx.now + lead).max(cx.io.outbox.start_after_holds());
+        self.at = cx.earliest_start();
         self.check_at = self.at - cx.link.check_ahead();
         self.repeat_at = cx.now + REPEAT_POSTPONED;
         self.ask_at = cx.now + lead * ASK_FIRST_PERCENT / 100;
