@@ -292,7 +292,7 @@ impl Session {
         self.until(Instant::FAR, || self.state.borrow().is_permitted.then_some(())).await;
     }
 
-    /// Asks the person who watches the robot a question. `None` if there is no answer, or the person could not tell.
+    /// Asks the observer of the robot a question. `None` if there is no answer, or the observer could not tell.
     pub async fn ask_person(&self, question: Question) -> Option<bool> {
         self.state.borrow_mut().answer = None;
         self.emit(ExamEvent::Look(question));

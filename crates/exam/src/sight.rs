@@ -2,7 +2,7 @@
 
 use lightbots_base::{Instant, Rgb};
 
-/// A question about the light, for the person who watches the robot.
+/// A question about the light, for the observer of the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Question {
     /// A question that can be answered with yes or no.

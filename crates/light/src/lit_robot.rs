@@ -31,7 +31,7 @@ pub struct LightContext<'a> {
     /// Pictures and films that layers project. The numbers in `LightEffect::Picture` and `LightEffect::Sequence` are
     /// indices into this list.
     pub pictures: &'a [FloorPicture],
-    /// How long show time has stood still so far, in total, seconds. The effects of layers that run freely are ahead by
+    /// How long show time has stood still until now, in total, seconds. The effects of layers that run freely are ahead by
     /// this time.
     pub lead_s: f64,
 }

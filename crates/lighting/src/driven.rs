@@ -55,7 +55,7 @@ pub struct LightMoment {
     pub elapsed: Span,
     /// Show time, seconds.
     pub show_s: f64,
-    /// How long show time has stood still so far, in total, seconds.
+    /// How long show time has stood still until now, in total, seconds.
     pub lead_s: f64,
     /// The show clock, seconds. The effects of live light use this time.
     pub clock_s: f64,

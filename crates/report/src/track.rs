@@ -34,7 +34,7 @@ impl Default for PlaceTrack {
 }
 
 impl PlaceTrack {
-    /// Number of samples that are kept so far.
+    /// Number of samples that are kept.
     pub fn count(&self) -> usize {
         self.kept.len()
     }

@@ -1,5 +1,5 @@
-//! Neighbour list (Verlet, 1967): pairs of discs that may see each other or touch. It is made anew only when a disc has
-//! moved so far that a pair could be missing.
+//! Neighbour list (Verlet, 1967): pairs of discs that may see each other or touch. It is made anew only when a pair
+//! could be missing, because a disc has moved.
 
 use lightbots_base::Vec2;
 

@@ -61,7 +61,7 @@ fn colour(bytes: &mut Vec<u8>, first: u8, code: [u8; 3]) {
 struct Program<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// The number of ticks that the operations so far take.
+    /// Sum of the durations of the operations that were run, ticks.
     tick: u64,
     light: TimedLight,
     /// For each open loop, the outermost first: index of the first byte of its body, and the number of repetitions

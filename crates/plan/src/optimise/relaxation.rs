@@ -304,7 +304,7 @@ impl<'a> State<'a> {
         (greatest, self.time_scale.iter().filter(|&&time_scale| time_scale > GOOD_TIME_SCALE).count())
     }
 
-    /// Whether robots have moved so far that pairs outside `contacts` may be too close. If so, sets `detected_at`.
+    /// Whether pairs outside `contacts` may be too close, because robots have moved. If so, sets `detected_at`.
     fn is_detection_due(&mut self, sweep: usize) -> bool {
         let is_due = self.detected_at.is_none_or(|last| {
             sweep >= last + DETECTION_EVERY && self.displacement.since_mark() > DETECTION_MOVED_M

@@ -27,7 +27,7 @@ pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
 
 /// Branch and bound over parts of a curve.
 struct Search {
-    /// The least distance that was found so far, metres. Before the first find, the distance that it must be below.
+    /// The least distance that was found, metres. Before the first find, the distance that it must be below.
     best: f64,
     /// Parameter of the curve's point at that distance; `None` before the first find.
     at: Option<f64>,

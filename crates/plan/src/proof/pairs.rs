@@ -169,7 +169,7 @@ impl Slice {
     }
 }
 
-/// The closest pair and the conflicts that were found so far.
+/// The closest pair and the conflicts that were found.
 struct Verdict<'a> {
     input: &'a ProofInput<'a>,
     closest: Option<Closest>,

@@ -66,9 +66,9 @@ impl Partition<'_> {
             pinned.clone().find(|&(goal, start)| self.goals[goal] != self.starts[start])
         {
             let (from, to) = (self.problem.starts[start], self.problem.goals[goal]);
-            let who = format!("the robot at {} is kept from the pixel at {}", place(from), place(to));
+            let subject = format!("the robot at {} is kept from the pixel at {}", place(from), place(to));
             return Some(self.infeasible(
-                who,
+                subject,
                 self.smaller(self.starts[start], self.goals[goal]),
                 vec![goal],
                 vec![start],
@@ -88,12 +88,12 @@ impl Partition<'_> {
             return Some(self.pixels_cut_off(goals, count(&self.starts, lacking)));
         }
         let at = place(self.problem.starts[walled[0]]);
-        let who = match walled.len() {
+        let subject = match walled.len() {
             1 => format!("the robot at {at} is walled in"),
             more => format!("{more} robots such as the one at {at} are walled in"),
         };
         let part = self.starts[walled[0]];
-        Some(self.infeasible(who, part, Vec::new(), walled))
+        Some(self.infeasible(subject, part, Vec::new(), walled))
     }
 
     /// Returns the message about a region with more pixels than robots.
@@ -103,12 +103,12 @@ impl Partition<'_> {
             1 => format!("the pixel at {at} is cut off"),
             many => format!("{many} pixels such as the one at {at} are cut off"),
         };
-        let who = match robots {
+        let subject = match robots {
             0 => format!("{what} from all robots"),
             1 => format!("{what} with only one robot"),
             few => format!("{what} with only {few} robots"),
         };
-        self.infeasible(who, self.goals[goals[0]], goals, Vec::new())
+        self.infeasible(subject, self.goals[goals[0]], goals, Vec::new())
     }
 
     /// Returns the region, of regions `a` and `b`, that has fewer robots and pixels.
@@ -117,9 +117,9 @@ impl Partition<'_> {
         if count(a) < count(b) { a } else { b }
     }
 
-    /// Returns the message about robots or pixels that are cut off in region `part`: `who` says which. The message
+    /// Returns the message about robots or pixels that are cut off in region `part`: `subject` names them. The message
     /// names the things around the region, and a gap that would help.
-    fn infeasible(&self, who: String, part: u32, goals: Vec<usize>, starts: Vec<usize>) -> Infeasible {
+    fn infeasible(&self, subject: String, part: u32, goals: Vec<usize>, starts: Vec<usize>) -> Infeasible {
         let things = named(&self.regions.around(part));
         let remedy = match self.regions.way_out(part) {
             Some(gap) if gap.wide_m >= LEAST_GAP_M => self.wider(&gap),
@@ -128,7 +128,7 @@ impl Partition<'_> {
                 format!("leave a gap of {:.0} mm", whole_mm(enough))
             }
         };
-        Infeasible { goals, starts, message: format!("{who} by {things}; {remedy}") }
+        Infeasible { goals, starts, message: format!("{subject} by {things}; {remedy}") }
     }
 
     fn wider(&self, gap: &Gap) -> String {

@@ -21,7 +21,7 @@ const FINE_CELL_M: f64 = 0.012;
 /// The state of the search for an order.
 pub(super) struct Order<'a, 'b> {
     problem: &'a UnsynchronisedProblem<'b>,
-    /// `[robot]`: its place after all drives that were ordered so far, stage metres.
+    /// `[robot]`: its place after all drives that have been ordered, stage metres.
     places: Vec<Vec2>,
     /// `[robot]`: whether it is unsynchronised and not at its goal.
     pub waiting: Vec<bool>,

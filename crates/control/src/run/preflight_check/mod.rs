@@ -329,10 +329,10 @@ impl PreflightCheck {
     }
 }
 
-/// Asks robots of the run to report their places, if `whom` is true for them. Returns whether any was asked.
-fn ask(cx: &mut RunContext, whom: impl Fn(&KnownRobot) -> bool) -> bool {
+/// Asks robots of the run to report their places, if `is_asked` is true for them. Returns whether any was asked.
+fn ask(cx: &mut RunContext, is_asked: impl Fn(&KnownRobot) -> bool) -> bool {
     let active = cx.roster.active().map(|(_, known)| known.robot);
-    let robots: Vec<usize> = active.filter(|&robot| whom(cx.io.fleet.robot(robot))).collect();
+    let robots: Vec<usize> = active.filter(|&robot| is_asked(cx.io.fleet.robot(robot))).collect();
     for &robot in &robots {
         let known = cx.io.fleet.robot(robot);
         let command = if known.is_original() { Command::Uuid } else { Command::Status };
