@@ -53,14 +53,16 @@ pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
 /// Returns samples of a picture. The density of relaxed points grows with the square root of the mass (Gersho 1979).
 /// Therefore the mass is the square of the weight, and the density grows with the weight.
 fn of_raster(raster: &Raster, pitch: f64) -> Vec<Sample> {
-    let size = raster.max - raster.min;
-    let columns = (size.x / pitch).ceil().max(1.0) as usize;
-    let rows = (size.y / pitch).ceil().max(1.0) as usize;
+    let [_, _, _, top_left] = raster.corners;
+    let [across, down] = raster.sides();
+    let columns = (across.length() / pitch).ceil().max(1.0) as usize;
+    let rows = (down.length() / pitch).ceil().max(1.0) as usize;
     let mut samples = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
-            let share = Vec2::new((column as f64 + 0.5) / columns as f64, (row as f64 + 0.5) / rows as f64);
-            let at = Vec2::new(raster.min.x + size.x * share.x, raster.min.y + size.y * share.y);
+            let at = top_left
+                + across * ((column as f64 + 0.5) / columns as f64)
+                + down * ((row as f64 + 0.5) / rows as f64);
             let weight =
                 raster.cell(at).and_then(|cell| raster.weights.get(cell)).map_or(0.0, |w| f64::from(*w));
             if weight > 0.0 {

@@ -59,13 +59,12 @@ pub struct Stroke {
     pub weight: f64,
 }
 
-/// A picture as a grid of cells, row by row from the top left.
+/// A picture as a grid of cells, row by row from the picture's top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
-    /// Corner with the smaller x and y.
-    pub min: Vec2,
-    /// Corner with the larger x and y.
-    pub max: Vec2,
+    /// Corners of the rectangle that the picture covers, in this order of the picture's own corners: bottom left, bottom
+    /// right, top right, top left. The rectangle may be turned.
+    pub corners: [Vec2; 4],
     /// Number of cells in a row.
     pub columns: usize,
     /// Colours of the cells, `columns` of them for each row.
@@ -80,6 +79,12 @@ impl Raster {
         self.colors.len().checked_div(self.columns).unwrap_or(0)
     }
 
+    /// The two sides of the picture from its top left corner: along its top, and along its left edge.
+    pub fn sides(&self) -> [Vec2; 2] {
+        let [bottom_left, _, top_right, top_left] = self.corners;
+        [top_right - top_left, bottom_left - top_left]
+    }
+
     /// Returns the index of the cell at a place, or of the nearest cell if the place is outside the picture. `None` for
     /// an empty picture.
     pub fn cell(&self, at: Vec2) -> Option<usize> {
@@ -87,19 +92,21 @@ impl Raster {
         if rows == 0 {
             return None;
         }
-        let share = |value: f64, from: f64, to: f64| ((value - from) / (to - from)).clamp(0.0, 1.0);
-        let column = (share(at.x, self.min.x, self.max.x) * self.columns as f64) as usize;
-        let row = (share(at.y, self.max.y, self.min.y) * rows as f64) as usize;
+        let [_, _, _, top_left] = self.corners;
+        let [across, down] = self.sides();
+        let share = |side: Vec2| ((at - top_left).dot(side) / side.dot(side)).clamp(0.0, 1.0);
+        let column = (share(across) * self.columns as f64) as usize;
+        let row = (share(down) * rows as f64) as usize;
         Some(row.min(rows - 1) * self.columns + column.min(self.columns - 1))
     }
 }
 
 impl DrawingPart {
-    /// All points of the part's lines and areas, and two opposite corners of its picture.
+    /// All points of the part's lines and areas, and the corners of its picture.
     pub fn points(&self) -> impl Iterator<Item = &Vec2> {
         let areas = self.areas.iter().flat_map(|area| area.rings.iter().flatten());
         let strokes = self.strokes.iter().chain(&self.spine).flat_map(|stroke| &stroke.points);
-        let corners = self.raster.iter().flat_map(|raster| [&raster.min, &raster.max]);
+        let corners = self.raster.iter().flat_map(|raster| &raster.corners);
         areas.chain(strokes).chain(corners)
     }
 }

@@ -169,7 +169,7 @@ impl Placement {
         self.center + Vec2::new(point.x * cos - point.y * sin, point.x * sin + point.y * cos)
     }
 
-    /// Returns the drawing in stage metres. Of a picture, only the two corners are mapped: its cells are not turned.
+    /// Returns the drawing in stage metres.
     pub fn apply(&self, drawing: &Drawing) -> Drawing {
         Drawing { parts: drawing.parts.iter().map(|part| self.part(part)).collect() }
     }
@@ -188,7 +188,7 @@ impl Placement {
         mapped.strokes = part.strokes.iter().map(stroke).collect();
         mapped.spine = part.spine.iter().map(stroke).collect();
         if let Some(raster) = &mut mapped.raster {
-            (raster.min, raster.max) = (self.map(raster.min), self.map(raster.max));
+            raster.corners = raster.corners.map(|corner| self.map(corner));
         }
         mapped
     }

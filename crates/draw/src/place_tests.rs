@@ -2,7 +2,7 @@
 
 use lightbots_base::{Rgb, Vec2};
 
-use crate::drawing::{Area, Drawing, DrawingPart, FillRule, Stroke};
+use crate::drawing::{Area, Drawing, DrawingPart, FillRule, Raster, Stroke};
 use crate::fit::{NoGo, PictureFloor};
 use crate::ground::Quality;
 use crate::layout::Style;
@@ -260,5 +260,33 @@ fn lights_of_a_line_behind_an_area_keep_apart_from_those_of_the_area() {
         distances.sort_by(f64::total_cmp);
         let share = distances[0] / distances[robots / 2];
         assert!(share > 0.6, "{robots} robots: the closest pair at {share} of the usual distance");
+    }
+}
+
+/// A picture three times as wide as high: its left third is red, the rest is dark.
+fn picture() -> Drawing {
+    let (columns, rows) = (30, 10);
+    let is_red = |index: usize| index % columns < 10;
+    let cells = 0..columns * rows;
+    let raster = Raster {
+        corners: [(0.0, 0.0), (30.0, 0.0), (30.0, 10.0), (0.0, 10.0)].map(|(x, y)| Vec2::new(x, y)),
+        columns,
+        colors: cells.clone().map(|index| if is_red(index) { Rgb::new(255, 0, 0) } else { ORANGE }).collect(),
+        weights: cells.map(|index| if is_red(index) { 1.0 } else { 0.0 }).collect(),
+    };
+    Drawing { parts: vec![DrawingPart { raster: Some(raster), ..DrawingPart::default() }] }
+}
+
+#[test]
+fn a_picture_is_turned_with_its_cells() {
+    let floor = PictureFloor::new(4.0, 4.0, 0.05);
+    for turn in [0.0, 0.5, core::f64::consts::FRAC_PI_2, 2.5, -1.0] {
+        let settings = PlaceSettings { robots: 16, size_m: Some(2.4), turn, ..PlaceSettings::default() };
+        let placed = made(&picture(), &floor, &settings);
+        let red = Vec2::new(-0.8 * libm::cos(turn), -0.8 * libm::sin(turn));
+        for light in &placed.lights {
+            assert!(light.at.distance(red) < 0.6, "turn {turn}: {light:?} is not in the red third at {red:?}");
+            assert_eq!(light.color, Rgb::new(255, 0, 0), "turn {turn}");
+        }
     }
 }

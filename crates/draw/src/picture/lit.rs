@@ -61,8 +61,9 @@ pub fn tones(bitmap: &Bitmap, inverted: bool) -> Raster {
 }
 
 fn raster(bitmap: &Bitmap, colors: Vec<Rgb>, weights: Vec<f32>) -> Raster {
-    let max = Vec2::new(bitmap.columns as f64, bitmap.rows as f64);
-    Raster { min: Vec2::ZERO, max, columns: bitmap.columns, colors, weights }
+    let (width, height) = (bitmap.columns as f64, bitmap.rows as f64);
+    let corners = [Vec2::ZERO, Vec2::new(width, 0.0), Vec2::new(width, height), Vec2::new(0.0, height)];
+    Raster { corners, columns: bitmap.columns, colors, weights }
 }
 
 /// Returns the two values below which the shares in [`ENDS`] of all values lie.
