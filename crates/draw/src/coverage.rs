@@ -35,11 +35,13 @@ struct Grid {
     cells: Vec<Cell>,
 }
 
-/// Returns samples of a part's areas, or of its picture if it has no areas, one for each drawn cell of side `pitch`.
-/// Where areas overlap, the later area counts.
+/// Returns samples of a part's areas, or of its picture if it has neither areas nor strokes, one for each drawn cell of
+/// side `pitch`. Where areas overlap, the later area counts.
 pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     if part.areas.is_empty() {
-        return part.raster.as_ref().map_or_else(Vec::new, |raster| of_raster(raster, pitch));
+        // Strokes with a picture are the outline of the thing in it, which is not to be filled.
+        let picture = part.raster.as_ref().filter(|_| part.strokes.is_empty());
+        return picture.map_or_else(Vec::new, |raster| of_raster(raster, pitch));
     }
     let points = part.areas.iter().flat_map(|area| area.rings.iter().flatten());
     let Some((min, max)) = bounds(points) else { return Vec::new() };

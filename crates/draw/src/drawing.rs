@@ -29,7 +29,7 @@ pub struct DrawingPart {
     /// there are none.
     pub spine: Vec<Stroke>,
     /// Colours and weights of a picture. If present, areas and strokes take their colours from the picture. In a part
-    /// without areas, its weights set how densely robots stand, even if the part has strokes.
+    /// without areas and strokes, its weights set how densely robots stand.
     pub raster: Option<Raster>,
 }
 

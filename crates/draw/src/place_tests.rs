@@ -285,8 +285,28 @@ fn a_picture_is_turned_with_its_cells() {
         let placed = made(&picture(), &floor, &settings);
         let red = Vec2::new(-0.8 * libm::cos(turn), -0.8 * libm::sin(turn));
         for light in &placed.lights {
-            assert!(light.at.distance(red) < 0.6, "turn {turn}: {light:?} is not in the red third at {red:?}");
+            assert!(
+                light.at.distance(red) < 0.6,
+                "turn {turn}: {light:?} is not in the red third at {red:?}"
+            );
             assert_eq!(light.color, Rgb::new(255, 0, 0), "turn {turn}");
+        }
+    }
+}
+
+#[test]
+fn the_outline_of_a_thing_in_a_picture_is_not_filled() {
+    let mut drawing = picture();
+    let points = points(&[(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]);
+    drawing.parts[0].strokes = vec![Stroke { points, closed: true, ink: ORANGE.into(), weight: 1.0 }];
+    let floor = PictureFloor::new(6.0, 6.0, 0.05);
+    for style in [Style::Auto, Style::Outline, Style::Filled, Style::Both, Style::Lines] {
+        let settings = PlaceSettings { robots: 40, size_m: Some(3.0), style, ..PlaceSettings::default() };
+        let view = Some((Vec2::ZERO, Vec2::new(10.0, 10.0)));
+        let placed = made(&drawing, &floor, &PlaceSettings { view, ..settings });
+        for light in &placed.lights {
+            let from_edge = 1.5 - light.at.x.abs().max(light.at.y.abs());
+            assert!(from_edge.abs() < 0.1, "{style:?}: {light:?} is {from_edge} m inside the outline");
         }
     }
 }
