@@ -73,8 +73,7 @@ impl Exam {
         self.session.next_event()
     }
 
-    /// Aborts the exam and commands the robot to stand; all robots on the broker if none is chosen yet. Publish the
-    /// remaining messages afterwards.
+    /// Aborts the exam and commands the robot to stand, if one is chosen. Publish the remaining messages afterwards.
     pub fn give_up(&mut self) {
         self.script = None;
         self.session.make_stand();

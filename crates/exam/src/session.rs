@@ -145,8 +145,11 @@ impl Session {
     }
 
     /// Commands the robot to stand: a robot with routes by `STOP`, an original robot by a target at its last position.
-    /// Before a robot is chosen, stops all robots.
+    /// Does nothing before a robot is chosen: no robot was told to move, and others may play a show.
     pub fn make_stand(&self) {
+        if self.subject().is_none() {
+            return;
+        }
         let place = self.last_place();
         let stay = place.map_or_else(String::new, |at| format!("|TARGET {:.6} {:.6}|", at.x, at.y));
         self.send(Addressee::Robot, format!("{stay}|STOP|"));

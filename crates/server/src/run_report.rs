@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::numbers::rounded_spread;
 use crate::{commands, say};
 
-/// Number of issues from which on events of the run add no further issues. Warnings are added in any case.
+/// Number of issues from which on events and warnings of the run add no further issues.
 const ISSUES_MAX: usize = 500;
 
 /// Report of a run, made from the run's events.
@@ -96,9 +96,12 @@ impl RunReport {
         self.issues.splice(0..0, issues.iter().cloned());
     }
 
-    /// Adds a warning of the conductor as an issue with the code `broker`, whatever the warning is about.
+    /// Adds a warning of the conductor as an issue with the code `warning`: of a second controller, of a GO that was
+    /// refused, or of the recording of the run.
     pub fn warn(&mut self, line: String) {
-        self.issues.push(Issue::warning("broker", line));
+        if self.issues.len() < ISSUES_MAX {
+            self.issues.push(Issue::warning("warning", line));
+        }
     }
 
     /// Whether the run has begun, with at least one robot.

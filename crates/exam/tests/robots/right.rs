@@ -1,6 +1,7 @@
 //! Robots that keep all rules of the protocol that they implement.
 
-use lightbots_exam::{Ending, Options, RuleVerdict};
+use lightbots_base::Instant;
+use lightbots_exam::{Ending, Exam, Options, RuleVerdict};
 
 use crate::bench::Bench;
 use crate::flaws::{Original, Right};
@@ -44,4 +45,13 @@ fn no_robot_and_an_unknown_name_are_reported() {
     let robot = lightbots_base::RobotId::new("another-robot");
     let outcome = Bench::new(1, Right, Options { robot, ..Options::default() }).run();
     assert_eq!(outcome.ending, Some(Ending::NoRobot));
+}
+
+#[test]
+fn an_exam_that_is_given_up_before_a_robot_is_chosen_stops_no_robot() {
+    let mut exam = Exam::new(Options::default());
+    exam.connected(Instant::ZERO);
+    while exam.next_publish().is_some() {}
+    exam.give_up();
+    assert_eq!(exam.next_publish(), None, "other robots on the broker may play a show");
 }

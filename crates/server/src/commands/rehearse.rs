@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use clap::ValueEnum;
 use lightbots_api::{self as api, rounded};
 use lightbots_base::{Instant, RobotId, Vec2};
 use lightbots_report::{ReportedEvent, RunKind, Scrub, ShowReport, Truth, page, report_with_truth};
@@ -146,7 +147,7 @@ fn step_row(at: Instant, name: RobotId, place: Vec2) -> Vec<u8> {
     format!("{:.3},\"{quoted}\",{:.5},{:.5}\n", at.as_secs(), place.x, place.y).into_bytes()
 }
 
-/// Returns notes for the log: the arguments of the rehearsal, except `--floor` and `--identity`.
+/// Returns notes for the log: the arguments that decide how the rehearsal goes.
 fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
     let mut notes = vec![
         ("command", "rehearse".to_owned()),
@@ -156,6 +157,10 @@ fn notes(arguments: &RehearseArguments) -> Vec<(String, String)> {
         ("speed", arguments.speed.to_string()),
     ];
     notes.extend(arguments.faults.clone().map(|faults| ("faults", faults)));
+    let reading = &arguments.reading;
+    notes.extend(reading.floor.map(|(width, depth)| ("floor", format!("{width}x{depth}"))));
+    let identity = reading.identity.and_then(|identity| identity.to_possible_value());
+    notes.extend(identity.map(|identity| ("identity", identity.get_name().to_owned())));
     notes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 

@@ -228,11 +228,15 @@ impl Painter {
 
     /// Returns the planned time to the end of the show, seconds. This is the rest of the present drive or air time, and all
     /// later drives and air times. `None` without a run, for a preview, a preflight, or a loop that waits for GO. On the
-    /// drive to the starting places: the rest of that drive and the air time of the show's first frame.
+    /// drive to the starting places: the rest of that drive.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
         let is_of_show =
             |run: &&RunView| snapshot.state != ControllerState::Preview && run.preflight.is_none();
         let run = snapshot.run.as_ref().filter(is_of_show)?;
+        let share_left = 1.0 - run.progress.share.clamp(0.0, 1.0);
+        if run.home {
+            return Some(rounded(run.progress.drive_s * share_left, 2));
+        }
         let (shown, plan) = (self.desk.shown(), self.desk.plan());
         let frames = &shown.show.frames;
         let air_s = frames.get(run.frame)?.air_time_s;
@@ -248,7 +252,7 @@ impl Painter {
         // The plan on the screen is that of the usual speed.
         let slower = 100.0 / f64::from(snapshot.speed_percent.max(1));
         let rest_s: f64 = rest.map(|(frame, way)| frame.air_time_s + way.duration_s * slower).sum();
-        Some(rounded(now_s * (1.0 - run.progress.share.clamp(0.0, 1.0)) + then_s + rest_s, 2))
+        Some(rounded(now_s * share_left + then_s + rest_s, 2))
     }
 }
 

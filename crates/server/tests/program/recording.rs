@@ -25,12 +25,14 @@ fn a_recorded_rehearsal_is_replayed_to_the_bit() {
     let file = recorded_file("rehearsal.lblog");
     let faults = ["--faults", "loss=5%,kill=2@1s", "--seed", "4"];
     let show = shows::row_file(6, &[0.5, 0.5]);
-    run(&[&["rehearse", &show, "--record", &file], &faults[..]].concat());
+    let reading = ["--floor", "4x3.5", "--identity", "fixed"];
+    run(&[&["rehearse", &show, "--record", &file], &faults[..], &reading[..]].concat());
     let (code, report) = replay(&[&file]);
     assert_eq!((code, &report["ok"], &report["complete"]), (0, &json!(true), &json!(true)), "{report}");
     assert_eq!(report["difference"], Value::Null);
     let notes = json!({
-        "command": "rehearse", "show": show, "seed": "4", "faults": faults[1], "ideal": "false", "speed": "100"
+        "command": "rehearse", "show": show, "seed": "4", "faults": faults[1], "ideal": "false", "speed": "100",
+        "floor": "4x3.5", "identity": "fixed"
     });
     assert_eq!((&report["notes"], &report["robots"]), (&notes, &json!(6)));
     let (code, text, _) = run(&["replay", &file]);
