@@ -21,7 +21,7 @@ pub struct Desk {
     handle: Handle,
     shown: watch::Sender<Arc<Shown>>,
     plan: watch::Sender<Arc<api::Plan>>,
-    /// Cancels the running plan as soon as another value replaces this one.
+    /// Cancels the running plan as soon as another value replaces this one. Locked while another show replaces the open one.
     planning: Arc<std::sync::Mutex<GiveUp>>,
     last_plan: Arc<show_plan::LastPlan>,
     /// Revision of the show that this value gave to the controller last; 0 if none. Locked while the controller gets another
@@ -63,22 +63,14 @@ impl Desk {
     /// Opens a show on every screen and in the controller, and begins to plan it. During a run, the controller gets the show
     /// when the run is over.
     pub async fn open(&self, name: String, kept: Kept) {
-        let mut message = api::OpenShow {
+        let message = api::OpenShow {
             revision: 0,
             name: Some(name),
             etag: Some(kept.etag),
             read_only: kept.read_only,
             document: serde_json::from_slice(&kept.bytes).unwrap_or_default(),
         };
-        let show = Arc::new(kept.show);
-        let mut revision = 0;
-        self.shown.send_modify(|shown| {
-            revision = shown.revision + 1;
-            message.revision = revision;
-            *shown = Arc::new(Shown::new(message, show.clone()));
-        });
-        self.plan.send_replace(Arc::new(api::Plan { revision, planning: true, ..api::Plan::default() }));
-        self.begin_plan(revision, show, kept.issues);
+        self.show_and_plan(message, Arc::new(kept.show), kept.issues);
         // During a run the controller keeps its show and gets this one when the run is over.
         let _ = self.hand_over().await;
     }
@@ -128,12 +120,22 @@ impl Desk {
         }
     }
 
-    fn begin_plan(&self, revision: u32, show: Arc<Show>, found: Issues) {
+    /// Shows the document on every screen, and begins to plan it. Of two calls at once, all of one comes first, so that the
+    /// plan is that of the show on the screens.
+    fn show_and_plan(&self, mut message: api::OpenShow, show: Arc<Show>, found: Issues) {
+        let mut planning = self.planning.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut revision = 0;
+        self.shown.send_modify(|shown| {
+            revision = shown.revision + 1;
+            message.revision = revision;
+            *shown = Arc::new(Shown::new(message, show.clone()));
+        });
+        self.plan.send_replace(Arc::new(api::Plan { revision, planning: true, ..api::Plan::default() }));
         let (sender, last_plan) = (self.plan.clone(), self.last_plan.clone());
         let give_up = GiveUp::default();
         let is_given_up = give_up.asked();
         // Cancels the plan of the previous show, which nothing needs.
-        *self.planning.lock().unwrap_or_else(PoisonError::into_inner) = give_up;
+        *planning = give_up;
         let shown = self.shown();
         tokio::task::spawn_blocking(move || {
             shown.drives();
@@ -196,21 +198,48 @@ mod tests {
         assert_eq!((&*shown("").name, &*shown("Heart").name), ("heart 2", "Heart"));
     }
 
-    #[tokio::test]
-    async fn the_plan_of_a_show_that_was_replaced_is_given_up() {
-        let (handle, _conductor) = Handle::start(
+    fn desk() -> (Desk, impl Sized) {
+        let (handle, conductor) = Handle::start(
             RecordingTarget::Off,
             (Clock::start(), Default::default()),
             crate::stop::Stop::install(),
         );
-        let desk = Desk::new(handle);
-        let kept = || Kept {
+        (Desk::new(handle), conductor)
+    }
+
+    fn kept() -> Kept {
+        Kept {
             bytes: b"{}".to_vec(),
             show: Show::default(),
             etag: String::new(),
             read_only: None,
             issues: Issues::new(),
-        };
+        }
+    }
+
+    #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+    async fn of_shows_that_are_opened_at_once_the_last_one_is_planned() {
+        let (desk, _conductor) = desk();
+        let runtime = tokio::runtime::Handle::current();
+        for round in 1..=300 {
+            let at_once = std::sync::Barrier::new(4);
+            std::thread::scope(|threads| {
+                for _ in 0..4 {
+                    threads.spawn(|| {
+                        let _entered = runtime.enter();
+                        at_once.wait();
+                        desk.show_and_plan(api::OpenShow::default(), Arc::default(), Issues::new());
+                    });
+                }
+            });
+            let revision = desk.shown().revision;
+            assert_eq!((revision, desk.plan().revision), (4 * round, 4 * round));
+        }
+    }
+
+    #[tokio::test]
+    async fn the_plan_of_a_show_that_was_replaced_is_given_up() {
+        let (desk, _conductor) = desk();
         let is_given_up = || desk.planning.lock().unwrap().asked();
         desk.open("one".into(), kept()).await;
         let of_first = is_given_up();
