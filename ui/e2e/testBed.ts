@@ -16,6 +16,16 @@ export interface TestBed {
   open(view?: View, options?: Options): Promise<Page>;
 }
 
+/** What a failed test left: the text of its pages, and what the server said last. */
+async function remains(pages: readonly Page[], server: Server): Promise<string> {
+  const shows = async (page: Page) => {
+    const text = await page.evaluate(() => document.body.innerText).catch(String);
+    return `${page.url()} shows:\n${text.slice(0, 4_000)}`;
+  };
+  const said = `The server said last:\n${server.said().slice(-2_000)}`;
+  return [...(await Promise.all(pages.map(shows))), said].join('\n');
+}
+
 /** Starts `lightbots run` with these arguments and a browser before the tests of a file, and ends both after them. */
 export function createTestBed(...serverArguments: string[]): TestBed {
   let browser: Browser | undefined;
@@ -28,8 +38,12 @@ export function createTestBed(...serverArguments: string[]): TestBed {
   beforeAll(async () => {
     [server, browser] = await Promise.all([startServer(...serverArguments), launchBrowser()]);
   });
-  afterEach(async () => {
-    await Promise.all(pages.splice(0).map((page) => page.close()));
+  afterEach(async ({ task }) => {
+    const open = pages.splice(0);
+    // The message of the error stands in the summary, which comes last.
+    const error = task.result?.errors?.[0];
+    if (error) error.message += `\n${await remains(open, there(server))}`;
+    await Promise.all(open.map((page) => page.close()));
   });
   afterAll(async () => {
     await browser?.close();
