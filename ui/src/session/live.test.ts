@@ -22,3 +22,31 @@ test('a line of the log that grows stays where it is, and the log does not grow 
     'A show is open.',
   ]);
 });
+
+test('a finished plan that comes before its show is the plan of that show', () => {
+  const live = createLive();
+  const plan = {
+    ok: true,
+    duration_s: 1,
+    lower_bound_s: 1,
+    closest_m: 0.1,
+    stop_safe: 1,
+    plan_ms: 1,
+  };
+  const planned = (revision: number) =>
+    receive(live, {
+      type: 'plan',
+      ...plan,
+      revision,
+      planning: false,
+      issues: [],
+      transitions: [],
+    });
+  const open = (revision: number, name: string) =>
+    receive(live, { type: 'show', revision, name, etag: '"1"', read_only: null, document: {} });
+  planned(1);
+  open(1, 'A');
+  expect(live.settled.get()?.revision).toBe(1);
+  open(2, 'B');
+  expect(live.settled.get()).toBeNull();
+});

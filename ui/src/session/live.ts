@@ -111,7 +111,9 @@ export function receive(live: Live, message: ToScreen) {
       live.log.set([]);
       break;
     case 'show':
-      if (message.name !== live.opened.get().name) live.settled.set(null);
+      // The plan of a show may be here before the show itself.
+      if (message.name !== live.opened.get().name)
+        live.settled.set(finishedPlan(live, message.revision));
       live.opened.set({
         revision: message.revision,
         name: message.name,
@@ -140,6 +142,11 @@ export function receive(live: Live, message: ToScreen) {
     case 'answer':
       break;
   }
+}
+
+function finishedPlan({ plan }: Live, revision: number): Plan | null {
+  const here = plan.get();
+  return here?.revision === revision && !here.planning ? here : null;
 }
 
 /** Takes what is heard of a state, whether the page is seen or not. */
