@@ -18,13 +18,22 @@ impl Findings {
     /// is broken everywhere.
     const MOST: usize = 1_000;
 
-    /// Adds an issue. If there are [`Self::MOST`] already, adds one error that says so instead, and from then on
-    /// nothing.
+    /// Adds an issue. If there are [`Self::MOST`] already, one issue says that there are more. It is an error if one of
+    /// those left out is an error.
     pub fn add(&mut self, issue: Issue) {
         if self.issues.len() < Self::MOST {
             self.issues.push(issue);
-        } else if self.issues.len() == Self::MOST {
-            self.issues.push(Issue::error("more-issues", "there are more issues; mend these first"));
+            return;
+        }
+        let more = if issue.is_error() {
+            Issue::error("more-issues", "there are more issues; mend these first")
+        } else {
+            Issue::warning("more-issues", "there are more warnings; look at these first")
+        };
+        match self.issues.get_mut(Self::MOST) {
+            Some(last) if issue.is_error() => *last = more,
+            Some(_) => {}
+            None => self.issues.push(more),
         }
     }
 
@@ -58,4 +67,21 @@ impl Findings {
 
 fn label(show: &Show, frame: usize) -> String {
     frame_label(frame, &show.frames[frame].name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_show_with_very_many_warnings_is_valid_and_one_error_among_those_left_out_is_not_lost() {
+        let mut findings = Findings::default();
+        (0..1_500).for_each(|_| findings.add(Issue::warning("odd", "odd")));
+        assert_eq!(findings.issues.len(), 1_001);
+        assert!(!findings.issues.iter().any(Issue::is_error));
+        findings.show("wrong", "wrong");
+        (0..9).for_each(|_| findings.add(Issue::warning("odd", "odd")));
+        assert_eq!(findings.issues.len(), 1_001);
+        assert!(findings.issues.last().is_some_and(|last| last.is_error() && last.code == "more-issues"));
+    }
 }
