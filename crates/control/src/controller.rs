@@ -1,6 +1,7 @@
 //! The inputs and outputs of the controller.
 
 use crate::clock;
+use crate::computer_time::ComputerTime;
 use crate::config::Config;
 use crate::context::Context;
 use crate::event::{Event, EventKind, RunOutcome};
@@ -304,10 +305,10 @@ impl Controller {
         self.journal.keep();
     }
 
-    /// Returns the next piece for the journal's file; `None` if there is nothing to write. `wall_us`: the time of day,
-    /// microseconds since 1970.
-    pub fn take_journal(&mut self, wall_us: u64) -> Option<JournalPiece> {
-        self.journal.take(wall_us)
+    /// Returns the next piece for the journal's file; `None` if there is nothing to write. `clocks`: what the clocks
+    /// of the controller's computer read now.
+    pub fn take_journal(&mut self, clocks: ComputerTime) -> Option<JournalPiece> {
+        self.journal.take(clocks)
     }
 
     /// Makes the next piece of the journal a whole journal. Call this if an earlier piece was lost.

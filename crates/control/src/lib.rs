@@ -20,6 +20,7 @@ mod block;
 mod charge;
 mod checkpoint;
 mod clock;
+mod computer_time;
 mod config;
 mod context;
 mod controller;
@@ -54,6 +55,7 @@ mod surroundings;
 mod unsure_places;
 mod view;
 
+pub use computer_time::{ComputerTime, Uptime};
 pub use config::{Ageing, Config, LateBounds, UploadLimits, WaitBounds};
 pub use controller::Controller;
 pub use event::{Event, EventKind, RunOutcome, Trouble};

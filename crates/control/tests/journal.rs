@@ -45,7 +45,7 @@ fn a_journal_says_where_the_run_is() {
     assert!(runs.windows(2).all(|pair| pair[0].frames_played() <= pair[1].frames_played()));
     assert_eq!(runs.iter().map(|run| run.frames_played()).max(), Some(3));
     assert!(runs.iter().all(|run| run.show().frames.len() == 3 && run.frame() < 3));
-    let longest = runs.windows(2).map(|pair| pair[1].last_written().0 - pair[0].last_written().0).max();
+    let longest = runs.windows(2).map(|pair| pair[1].last_change() - pair[0].last_change()).max();
     assert!(longest.unwrap() < Span::from_millis(2_300), "{longest:?}");
 }
 

@@ -1,7 +1,7 @@
-//! The clocks of the controller's computer: the show clock, and the time of day.
+//! The clocks of the controller's computer: the show clock, the time of day, and for how long it has been on.
 
 use lightbots_base::{Instant, Span};
-use lightbots_control::{Event, EventKind, UnfinishedRun};
+use lightbots_control::{ComputerTime, Event, EventKind, UnfinishedRun, Uptime};
 
 /// Time of day when a rehearsal begins, microseconds since 1970. The value is arbitrary, but must stay positive when
 /// the clock is set back by hours.
@@ -14,11 +14,18 @@ pub(crate) struct ControllerClock {
     ahead: Span,
     /// Sum of the changes that were made to the time of day; negative: it was set back.
     day_ahead: Span,
+    /// Whether the computer tells for how long it has been on, as Linux does. It is never switched off.
+    tells_uptime: bool,
     /// Time at which the computer wakes up. Until then it sleeps.
     asleep_until: Instant,
 }
 
 impl ControllerClock {
+    /// Clocks that agree with virtual time. `tells_uptime`: whether the computer tells for how long it has been on.
+    pub fn new(tells_uptime: bool) -> Self {
+        Self { tells_uptime, ..Self::default() }
+    }
+
     /// Time on the show clock at the virtual time `now`.
     #[inline]
     pub fn shows(&self, now: Instant) -> Instant {
@@ -40,9 +47,10 @@ impl ControllerClock {
         Event { at: self.when(at), kind }
     }
 
-    /// The time of day at the virtual time `now`, microseconds since 1970.
-    pub fn time_of_day_us(&self, now: Instant) -> u64 {
-        (Instant(BEGINS_US + now.0) + self.day_ahead).0
+    /// What the computer's clocks read at the virtual time `now`.
+    pub fn computer_time(&self, now: Instant) -> ComputerTime {
+        let wall_us = (Instant(BEGINS_US + now.0) + self.day_ahead).0;
+        ComputerTime { wall_us, uptime: self.tells_uptime.then_some(Uptime { boot: 1, us: now.0 }) }
     }
 
     /// Sets the time of day forwards by a span; a negative span sets it back. The show clock of a running controller
@@ -64,7 +72,7 @@ impl ControllerClock {
 
     /// Sets the show clock of a new controller that continues `run`: it goes on from the show clock of that run.
     pub fn go_on(&mut self, now: Instant, run: &UnfinishedRun) {
-        self.ahead = run.show_clock_at(self.time_of_day_us(now)) - now;
+        self.ahead = run.show_clock_at(&self.computer_time(now)) - now;
     }
 }
 
@@ -83,9 +91,9 @@ mod tests {
     #[test]
     fn the_time_of_day_is_set_alone() {
         let mut clock = ControllerClock::default();
-        let before_us = clock.time_of_day_us(Instant(5));
+        let before_us = clock.computer_time(Instant(5)).wall_us;
         clock.set(Span(-3_600_000_000));
-        assert_eq!(clock.time_of_day_us(Instant(5)), before_us - 3_600_000_000);
+        assert_eq!(clock.computer_time(Instant(5)).wall_us, before_us - 3_600_000_000);
         assert_eq!(clock.shows(Instant(5)), Instant(5));
     }
 }

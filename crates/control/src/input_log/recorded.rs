@@ -2,6 +2,7 @@
 
 use super::record::{OutputKinds, Record};
 use super::recording::Recording;
+use crate::computer_time::ComputerTime;
 use crate::controller::Controller;
 use crate::event::Event;
 use crate::journal::{JournalPiece, OnReturn, UnfinishedRun};
@@ -64,8 +65,8 @@ impl RecordedController {
     }
 
     /// [`Controller::take_journal`]
-    pub fn take_journal(&mut self, wall_us: u64) -> Option<JournalPiece> {
-        self.controller.take_journal(wall_us)
+    pub fn take_journal(&mut self, clocks: ComputerTime) -> Option<JournalPiece> {
+        self.controller.take_journal(clocks)
     }
 
     /// [`Controller::begin_journal_again`]

@@ -29,4 +29,4 @@ pub(crate) use writing::Journal;
 const MAGIC: &[u8; 8] = b"LBotsJrn";
 /// Version of the journal format. Raise it with every change of a type that is written: `Entry`, `JournalState`,
 /// `Show`.
-pub(crate) const VERSION: u16 = 11;
+pub(crate) const VERSION: u16 = 12;

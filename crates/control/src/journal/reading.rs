@@ -2,6 +2,7 @@
 
 use super::{Change, Entry, JournalState, MAGIC, VERSION};
 use crate::block::Blocks;
+use crate::computer_time::ComputerTime;
 use core::fmt;
 use lightbots_base::Instant;
 use lightbots_show::Show;
@@ -26,8 +27,8 @@ pub enum JournalError {
 pub struct UnfinishedRun {
     /// When the last of the changes that were read was made, show clock.
     pub(crate) at: Instant,
-    /// Time of day when the last entry was written, microseconds since 1970.
-    wall_us: u64,
+    /// The computer's clocks when the last entry was written.
+    clocks: ComputerTime,
     pub(crate) state: JournalState,
 }
 
@@ -55,7 +56,7 @@ impl UnfinishedRun {
 
     /// Applies an entry to the run before it; `None` if the entry does not fit that run.
     fn after(before: Option<Self>, entry: Entry) -> Option<Self> {
-        let Entry { at, wall_us, changes } = entry;
+        let Entry { at, clocks, changes } = entry;
         let mut changes = changes.into_iter();
         let mut state = match before {
             Some(run) => run.state,
@@ -67,7 +68,7 @@ impl UnfinishedRun {
         for change in changes {
             state.apply(change)?;
         }
-        Some(Self { at, wall_us, state })
+        Some(Self { at, clocks, state })
     }
 
     /// Whether the values of the state are plausible and fit together, so that a controller can go on with the run.
@@ -90,17 +91,16 @@ impl UnfinishedRun {
         self.state.progress.frames_played as usize
     }
 
-    /// Returns when the last change was made (show clock), and when its entry was written (time of day, microseconds
-    /// since 1970).
-    pub fn last_written(&self) -> (Instant, u64) {
-        (self.at, self.wall_us)
+    /// Returns when the last change was made, show clock.
+    pub fn last_change(&self) -> Instant {
+        self.at
     }
 
-    /// Returns the show clock of the run at the time of day `wall_us`, microseconds since 1970. Robots may still drive
-    /// by this show clock, so a new controller must continue it. If the time of day was set back, no time counts as
-    /// passed.
-    pub fn show_clock_at(&self, wall_us: u64) -> Instant {
-        Instant(self.at.0.saturating_add(wall_us.saturating_sub(self.wall_us)))
+    /// Returns the show clock of the run at the time when the computer's clocks read `now`. Robots may still drive by
+    /// this show clock, so a new controller must continue it. If only the time of day is known and was set back, no time
+    /// counts as passed.
+    pub fn show_clock_at(&self, now: &ComputerTime) -> Instant {
+        Instant(self.at.0.saturating_add(now.us_since(&self.clocks)))
     }
 }
 

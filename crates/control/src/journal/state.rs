@@ -1,6 +1,7 @@
 //! The state of a run in a journal, and the changes of that state.
 
 use super::LegEntry;
+use crate::computer_time::ComputerTime;
 use crate::frame_cursor::FrameCursor;
 use crate::operation::MissingPolicy;
 use crate::run::{AirTime, Membership, PathClock, Probation, RunPurpose, StopTimes, Whereabouts};
@@ -15,9 +16,9 @@ use std::sync::Arc;
 pub(crate) struct Entry {
     /// When the last of `changes` was made, show clock.
     pub at: Instant,
-    /// Time of day when the entry was written, microseconds since 1970. A later controller computes from it for how
-    /// long there was no controller.
-    pub wall_us: u64,
+    /// The computer's clocks when the entry was written. A later controller computes from them for how long there was
+    /// no controller.
+    pub clocks: ComputerTime,
     /// Changes in the order in which they were made.
     pub changes: Vec<Change>,
 }

@@ -4,6 +4,7 @@ use super::{
     Change, Entry, JournalState, LegEntry, MAGIC, ParticipantEntry, Position, RunBegun, RunProgress, VERSION,
 };
 use crate::block::append_block;
+use crate::computer_time::ComputerTime;
 use crate::context::Context;
 use crate::mutant::Mutant;
 use crate::run::Run;
@@ -98,9 +99,9 @@ impl Journal {
         }
     }
 
-    /// Takes the next piece for the journal's file; `None` if there is nothing to write. `wall_us`: the time of day,
-    /// microseconds since 1970.
-    pub fn take(&mut self, wall_us: u64) -> Option<JournalPiece> {
+    /// Takes the next piece for the journal's file; `None` if there is nothing to write. `clocks`: what the clocks
+    /// of the controller's computer read now.
+    pub fn take(&mut self, clocks: ComputerTime) -> Option<JournalPiece> {
         let state = self.state.as_ref()?;
         if self.pending.is_empty() && !self.begins {
             return None;
@@ -117,7 +118,7 @@ impl Journal {
             changes = vec![Change::State(Box::new(state.clone()))];
         }
         // Cannot fail: all types of an entry can be written as bytes.
-        let entry = postcard::to_allocvec(&Entry { at: self.at, wall_us, changes }).unwrap_or_default();
+        let entry = postcard::to_allocvec(&Entry { at: self.at, clocks, changes }).unwrap_or_default();
         append_block(&mut bytes, &entry);
         self.count(begins, bytes.len());
         if ends {

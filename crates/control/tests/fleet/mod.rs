@@ -5,8 +5,8 @@ pub mod robot;
 
 use lightbots_base::{Instant, Rgb, Span, Vec2};
 use lightbots_control::{
-    Config, Controller, Event, EventKind, MissingPolicy, OnReturn, Operation, Refusal, RunOutcome,
-    UnfinishedRun,
+    ComputerTime, Config, Controller, Event, EventKind, MissingPolicy, OnReturn, Operation, Refusal,
+    RunOutcome, UnfinishedRun,
 };
 use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
 use lightbots_wire::Topic;
@@ -204,7 +204,10 @@ impl World {
     }
 
     fn write_journal(&mut self) {
-        let Some(piece) = self.controller.take_journal(self.now.0) else { return };
+        let Some(piece) = self.controller.take_journal(ComputerTime { wall_us: self.now.0, uptime: None })
+        else {
+            return;
+        };
         if piece.begins {
             self.journal.clear();
             self.journal_ends.clear();

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use lightbots_base::Instant;
+use lightbots_control::{ComputerTime, Uptime};
 
 /// The show clock. A new clock begins with the microseconds since 1970, or continues the clock of a run that was cut off. It
 /// never goes back, and runs while the computer sleeps, as robots' clocks do. The clock of a restarted controller thus
@@ -95,6 +96,22 @@ fn uptime() -> Duration {
     FIRST.get_or_init(std::time::Instant::now).elapsed()
 }
 
+/// Reads the clocks by which a restarted program continues the show clock of a run that was cut off.
+pub fn computer_time() -> ComputerTime {
+    let us = uptime().as_micros() as u64;
+    ComputerTime { wall_us: unix_us(), uptime: boot().map(|boot| Uptime { boot, us }) }
+}
+
+/// Returns the number that Linux draws at random when the computer starts; `None` on other systems.
+fn boot() -> Option<u128> {
+    static BOOT: std::sync::OnceLock<Option<u128>> = std::sync::OnceLock::new();
+    let read = || {
+        let text = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
+        u128::from_str_radix(&text.trim().replace('-', ""), 16).ok()
+    };
+    *BOOT.get_or_init(read)
+}
+
 /// Returns the number for a controller's first route: eight times the seconds since 1970, modulo 2³². A controller that
 /// started earlier on this machine has not reached that number, unless it used more than eight numbers a second.
 pub fn seq_base() -> u32 {
@@ -114,6 +131,17 @@ pub fn unix_us() -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn this_computer_tells_the_time_that_passed() {
+        let before = computer_time();
+        std::thread::sleep(Duration::from_millis(2));
+        let after = computer_time();
+        assert!(after.us_since(&before) >= 2_000);
+        // A time of day that is set does not count where the system says which start of the computer it was.
+        let set_back = ComputerTime { wall_us: 0, ..after };
+        assert_eq!(set_back.us_since(&before) > 0, cfg!(target_os = "linux"));
+    }
 
     #[test]
     fn deadlines_are_moments_of_the_same_clock() {

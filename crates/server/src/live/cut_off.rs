@@ -7,7 +7,7 @@ use lightbots_base::Instant;
 use lightbots_control::{Config, OnReturn, UnfinishedRun};
 use lightbots_show::Show;
 
-use super::clock::{Clock, unix_us};
+use super::clock::{Clock, computer_time};
 use super::journal;
 use crate::cli::OnReturnArgument;
 use crate::library::Library;
@@ -34,7 +34,7 @@ impl CutOffRun {
 
     /// Returns a show clock that continues the clock of the run.
     pub fn clock(&self) -> Clock {
-        Clock::starting_at(self.unfinished.show_clock_at(unix_us()).0)
+        Clock::starting_at(self.unfinished.show_clock_at(&computer_time()).0)
     }
 
     /// Returns the run's show, for screens, with its name in the library. `first` is the name and the show that would be
@@ -54,7 +54,7 @@ impl CutOffRun {
 
     /// Prints that the run was cut off and what follows. `now` is the present time of the run's show clock.
     pub fn tell(&self, now: Instant) {
-        let (run, (last, _)) = (&self.unfinished, self.unfinished.last_written());
+        let (run, last) = (&self.unfinished, self.unfinished.last_change());
         let goes_on = "it goes on from where the robots stand";
         let asks = "press Go on or Stop on the screen";
         let then = match self.on_return {

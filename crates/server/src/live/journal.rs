@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use lightbots_control::{JournalPiece, RecordedController, UnfinishedRun};
 
-use super::clock::unix_us;
+use super::clock::computer_time;
 use crate::disk::{self, Readers};
 
 /// Path of the journal of the present run in the data folder. The file is removed when the run has ended.
@@ -97,7 +97,7 @@ impl JournalFile {
     }
 
     fn send(&mut self, controller: &mut RecordedController) {
-        let Some(piece) = controller.take_journal(unix_us()) else { return };
+        let Some(piece) = controller.take_journal(computer_time()) else { return };
         self.shared.waiting.fetch_add(1, Ordering::Relaxed);
         if self.pieces.try_send(piece).is_err() {
             self.shared.waiting.fetch_sub(1, Ordering::Relaxed);

@@ -54,7 +54,7 @@ impl Play {
             self.controller.begin_journal_again();
         }
         if self.crashes.disk.is_ready()
-            && let Some(piece) = self.controller.take_journal(self.clock.time_of_day_us(self.now))
+            && let Some(piece) = self.controller.take_journal(self.clock.computer_time(self.now))
         {
             self.crashes.disk.write(self.now, piece);
         }

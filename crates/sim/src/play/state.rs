@@ -85,7 +85,8 @@ impl Play {
             breakdowns: Breakdowns::new(conditions, starts.len(), planned_s, *seed),
             broker: BrokerOutages::new(conditions, starts.len(), *seed),
             crashes: ControllerCrashes::new(&conditions.crashed),
-            clock: ControllerClock::default(),
+            // Both kinds of computers have to be tested.
+            clock: ControllerClock::new(seed.is_multiple_of(2)),
             controllers: 0,
             operator: Operator::new(conditions.go_after),
             mishaps: Timetable::new(conditions.mishaps.clone()),
