@@ -162,6 +162,16 @@ export const pixelsAre = (page: Page, wanted?: number) =>
     `there are ${wanted ?? 'some'} pixels`,
   );
 
+/** Waits until the stage keeps its place: while a page is loaded, panels still move it under the pointer. */
+export const stageStands = (page: Page) => {
+  let before = '';
+  return eventually(
+    async () => JSON.stringify(await page.getByTestId('stage').boundingBox()),
+    (box) => box === before || ((before = box), false),
+    'the stage keeps its place',
+  );
+};
+
 /** Waits until these pixels are chosen, by their order in the list. */
 export const chosenAre = (page: Page, wanted: number[]) =>
   eventually(

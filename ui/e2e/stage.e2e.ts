@@ -8,6 +8,7 @@ import {
   onScreen,
   pixels,
   pixelsAre,
+  stageStands,
   saved,
   smallShow,
   stored,
@@ -121,6 +122,7 @@ test('a group is chosen and dragged as one, is saved, and lets go of one pixel',
   );
   await page.reload();
   await pixelsAre(page, 12);
+  await stageStands(page);
   await page.mouse.click(two.x, two.y);
   await chosenAre(page, [0, 2]);
   await page.mouse.dblclick(two.x, two.y);
