@@ -2,6 +2,7 @@ import { expect, test } from 'vitest';
 import {
   button,
   countIs,
+  dialogHasKeys,
   phaseIs,
   pixelsAre,
   saved,
@@ -77,6 +78,7 @@ test('the list of cues says what is next, goes to a frame after one question, an
   await button(page, 'Go to frame 1').click();
   const dialog = page.getByRole('dialog');
   await dialog.getByText('Play from frame 1, One?').waitFor();
+  await dialogHasKeys(page);
   await page.keyboard.press('Enter');
   await page.getByText('Waiting for GO, frame 1 of 3').waitFor();
   await head.getByText('1 One').waitFor();
@@ -111,6 +113,7 @@ test('the list of cues says what is next, goes to a frame after one question, an
   await page.keyboard.press('Home');
   await page.keyboard.press('j');
   await dialog.getByText('Go to frame 1, One?').waitFor();
+  await dialogHasKeys(page);
   await page.keyboard.press('Enter');
   await page.getByText('Waiting for GO, frame 1 of 3').waitFor();
   await page.keyboard.press('Escape');

@@ -162,6 +162,14 @@ export const pixelsAre = (page: Page, wanted?: number) =>
     `there are ${wanted ?? 'some'} pixels`,
   );
 
+/** Waits until keys go to the dialog: it takes the focus a little later than it is seen. */
+export const dialogHasKeys = (page: Page) =>
+  eventually(
+    () => page.evaluate(() => document.activeElement?.closest('[role=dialog]') !== null),
+    (has) => has,
+    'the dialog has the focus',
+  );
+
 /** Waits until the stage keeps its place: while a page is loaded, panels still move it under the pointer. */
 export const stageStands = (page: Page) => {
   let before = '';
