@@ -172,7 +172,9 @@ function launch(args: string[]): Promise<[ChildProcess, string, () => string]> {
       PATIENCE_MS,
     );
     const read = (bytes: Buffer) => {
-      if (said.length < 20_000) said += bytes.toString();
+      said += bytes.toString();
+      // The first lines have addresses, and the last ones say what went wrong.
+      if (said.length > 40_000) said = said.slice(0, 20_000) + said.slice(-10_000);
       const url = /https?:\/\/[\d.]+:\d+/.exec(said)?.[0];
       if (!url) return;
       clearTimeout(timer);

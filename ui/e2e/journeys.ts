@@ -165,7 +165,7 @@ export const pixelsAre = (page: Page, wanted?: number) =>
 /** Waits until keys go to the dialog: it takes the focus a little later than it is seen. */
 export const dialogHasKeys = (page: Page) =>
   eventually(
-    () => page.evaluate(() => document.activeElement?.closest('[role=dialog]') !== null),
+    () => page.evaluate(() => !!document.activeElement?.closest('[role=dialog]')),
     (has) => has,
     'the dialog has the focus',
   );
@@ -175,7 +175,7 @@ export const stageStands = (page: Page) => {
   let before = '';
   return eventually(
     async () => JSON.stringify(await page.getByTestId('stage').boundingBox()),
-    (box) => box === before || ((before = box), false),
+    (box) => (box === before && box !== 'null') || ((before = box), false),
     'the stage keeps its place',
   );
 };

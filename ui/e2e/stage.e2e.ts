@@ -8,12 +8,12 @@ import {
   onScreen,
   pixels,
   pixelsAre,
-  stageStands,
   saved,
   smallShow,
   stored,
   tabTo,
   uploadText,
+  stageStands,
 } from './journeys';
 import { createTestBed } from './testBed';
 

@@ -19,7 +19,7 @@ export interface TestBed {
 /** What a failed test left: the text of its pages, and what the server said last. */
 async function remains(pages: readonly Page[], server: Server): Promise<string> {
   const shows = async (page: Page) => {
-    const text = await page.evaluate(() => document.body.innerText).catch(String);
+    const text = await page.locator('body').innerText({ timeout: 5_000 }).catch(String);
     return `${page.url()} shows:\n${text.slice(0, 4_000)}`;
   };
   const said = `The server said last:\n${server.said().slice(-2_000)}`;

@@ -22,7 +22,7 @@ pub struct Uptime {
 
 impl ComputerTime {
     /// Microseconds from an earlier reading to this one: by the uptime, or by the time of day if the computer was started
-    /// anew in between or does not tell. 0 if that clock shows less than before.
+    /// anew in between, does not tell, or its uptime went back. 0 if the time of day counts and shows less than before.
     pub fn us_since(&self, earlier: &Self) -> u64 {
         match (self.uptime, earlier.uptime) {
             (Some(now), Some(then)) if now.boot == then.boot && now.us >= then.us => now.us - then.us,
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn the_time_of_day_counts_after_another_start_of_the_computer_and_where_none_is_known() {
+    fn the_time_of_day_counts_where_the_uptimes_cannot_be_compared() {
         let others = [None, Some(Uptime { boot: 8, us: 9_000 }), Some(Uptime { boot: 7, us: 4_000 })];
         for uptime in others {
             let later = ComputerTime { wall_us: 1_400_000, uptime };

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::numbers::rounded_spread;
 use crate::{commands, say};
 
-/// Number of issues from which on events and warnings of the run add no further issues.
+/// Number of issues from which on events and warnings of the run add no further issues, except for the run's end.
 const ISSUES_MAX: usize = 500;
 
 /// Report of a run, made from the run's events.
@@ -86,7 +86,8 @@ impl RunReport {
             }
             _ => {}
         }
-        if let (Some(issue), true) = (issue(&event.kind), self.issues.len() < ISSUES_MAX) {
+        let counts = self.issues.len() < ISSUES_MAX || matches!(event.kind, EventKind::RunEnded { .. });
+        if let (Some(issue), true) = (issue(&event.kind), counts) {
             self.issues.push(issue);
         }
     }

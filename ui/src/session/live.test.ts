@@ -49,4 +49,8 @@ test('a finished plan that comes before its show is the plan of that show', () =
   expect(live.settled.get()?.revision).toBe(1);
   open(2, 'B');
   expect(live.settled.get()).toBeNull();
+  const hello = { version: '1', screen: 1, simulated: 0, plain_http: false };
+  receive(live, { type: 'hello', ...hello });
+  open(1, 'C');
+  expect(live.settled.get()).toBeNull();
 });

@@ -108,6 +108,8 @@ export function receive(live: Live, message: ToScreen) {
   switch (message.type) {
     case 'hello':
       live.hello.set(message);
+      // A server that was started again counts revisions anew.
+      live.plan.set(null);
       live.log.set([]);
       break;
     case 'show':

@@ -235,7 +235,8 @@ impl Painter {
         let run = snapshot.run.as_ref().filter(is_of_show)?;
         let share_left = 1.0 - run.progress.share.clamp(0.0, 1.0);
         if run.home {
-            return Some(rounded(run.progress.drive_s * share_left, 2));
+            // Before the drive begins, its duration is not known.
+            return (run.progress.drive_s > 0.0).then(|| rounded(run.progress.drive_s * share_left, 2));
         }
         let (shown, plan) = (self.desk.shown(), self.desk.plan());
         let frames = &shown.show.frames;
