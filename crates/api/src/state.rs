@@ -80,8 +80,8 @@ pub struct Playback {
     /// Progress of the drive under way, 0 to 1; 1 during the air time and while the show waits for `go`, 0 without a
     /// run.
     pub progress: f64,
-    /// Planned time to the end of the show, or of its present pass if it begins again, seconds. null: no show is
-    /// played, or frames repeat until `go`.
+    /// Planned time to the end of the show, or of its present pass if it begins again, seconds. On the drive
+    /// to the starting places: to the end of that drive. null: robots do neither, or frames repeat until `go`.
     pub left_s: Option<f64>,
     /// Why and where the last run failed, a sentence for people; null: no failure since the last run began, or
     /// dismissed.

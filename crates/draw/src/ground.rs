@@ -54,7 +54,7 @@ impl Quality {
 
 /// A part of a drawing, with all data that its places depend on.
 pub(crate) struct Ground {
-    /// Samples of the areas or of the picture.
+    /// Samples of the areas, or of the picture in a part that has neither areas nor strokes.
     pub samples: Vec<Sample>,
     /// Positions of the samples, in the same order.
     pub inside: Vec<Vec2>,

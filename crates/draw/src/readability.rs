@@ -80,7 +80,7 @@ pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readabilit
     Some(Readability { correlation, symmetry })
 }
 
-/// Returns samples of what a part draws: its areas, or a picture's weights if there are no areas, and its strokes.
+/// Returns samples of what a part draws: its areas, its strokes, and a picture's weights if it has neither.
 pub(crate) fn drawn(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
     let mut drawn = samples(part, pitch);
     drawn.extend(along(&part.strokes, pitch));

@@ -516,8 +516,8 @@ frames: number,
  */
 progress: number, 
 /**
- * Planned time to the end of the show, or of its present pass if it begins again, seconds. null: no show is
- * played, or frames repeat until `go`.
+ * Planned time to the end of the show, or of its present pass if it begins again, seconds. On the drive
+ * to the starting places: to the end of that drive. null: robots do neither, or frames repeat until `go`.
  */
 left_s: number | null, 
 /**
