@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import {
   button,
   countIs,
-  dialogHasKeys,
+  hasKeys,
   phaseIs,
   pixelsAre,
   saved,
@@ -78,7 +78,7 @@ test('the list of cues says what is next, goes to a frame after one question, an
   await button(page, 'Go to frame 1').click();
   const dialog = page.getByRole('dialog');
   await dialog.getByText('Play from frame 1, One?').waitFor();
-  await dialogHasKeys(page);
+  await hasKeys(page, 'dialog');
   await page.keyboard.press('Enter');
   await page.getByText('Waiting for GO, frame 1 of 3').waitFor();
   await head.getByText('1 One').waitFor();
@@ -113,7 +113,7 @@ test('the list of cues says what is next, goes to a frame after one question, an
   await page.keyboard.press('Home');
   await page.keyboard.press('j');
   await dialog.getByText('Go to frame 1, One?').waitFor();
-  await dialogHasKeys(page);
+  await hasKeys(page, 'dialog');
   await page.keyboard.press('Enter');
   await page.getByText('Waiting for GO, frame 1 of 3').waitFor();
   await page.keyboard.press('Escape');

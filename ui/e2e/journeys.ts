@@ -162,12 +162,12 @@ export const pixelsAre = (page: Page, wanted?: number) =>
     `there are ${wanted ?? 'some'} pixels`,
   );
 
-/** Waits until keys go to the dialog: it takes the focus a little later than it is seen. */
-export const dialogHasKeys = (page: Page) =>
+/** Waits until keys go to the dialog or menu: it takes the focus a little later than it is seen. */
+export const hasKeys = (page: Page, role: 'dialog' | 'menu') =>
   eventually(
-    () => page.evaluate(() => !!document.activeElement?.closest('[role=dialog]')),
+    () => page.evaluate((r) => !!document.activeElement?.closest(`[role=${r}]`), role),
     (has) => has,
-    'the dialog has the focus',
+    `the ${role} has the focus`,
   );
 
 /** Waits until the stage keeps its place: while a page is loaded, panels still move it under the pointer. */

@@ -5,15 +5,16 @@ import {
   button,
   chosenAre,
   countIs,
+  hasKeys,
   onScreen,
   pixels,
   pixelsAre,
   saved,
   smallShow,
+  stageStands,
   stored,
   tabTo,
   uploadText,
-  stageStands,
 } from './journeys';
 import { createTestBed } from './testBed';
 
@@ -94,9 +95,7 @@ test('the menu of pixels and of the floor, by the second button and by keyboard'
   await page.mouse.click(one.x, one.y);
   await chosenAre(page, [1]);
   await page.keyboard.press('Shift+F10');
-  // The menu takes the keyboard a moment after it is there.
-  const inMenu = () => page.evaluate(() => document.activeElement?.closest('[role=menu]') !== null);
-  await eventually(inMenu, (is) => is, 'the menu has the keyboard');
+  await hasKeys(page, 'menu');
   const focused = () => page.evaluate(() => document.activeElement?.textContent ?? '');
   for (let i = 0; i < 20 && !(await focused()).startsWith('Select same'); i++)
     await page.keyboard.press('ArrowDown');

@@ -55,8 +55,7 @@ pub(crate) fn samples(part: &DrawingPart, pitch: f64) -> Vec<Sample> {
 /// Returns samples of a picture. The density of relaxed points grows with the square root of the mass (Gersho 1979).
 /// Therefore the mass is the square of the weight, and the density grows with the weight.
 fn of_raster(raster: &Raster, pitch: f64) -> Vec<Sample> {
-    let [_, _, _, top_left] = raster.corners;
-    let [across, down] = raster.sides();
+    let [top_left, across, down] = raster.axes();
     let columns = (across.length() / pitch).ceil().max(1.0) as usize;
     let rows = (down.length() / pitch).ceil().max(1.0) as usize;
     let mut samples = Vec::new();

@@ -79,10 +79,10 @@ impl Raster {
         self.colors.len().checked_div(self.columns).unwrap_or(0)
     }
 
-    /// The two sides of the picture from its top left corner: along its top, and along its left edge.
-    pub fn sides(&self) -> [Vec2; 2] {
+    /// The picture's top left corner, and the two sides from there: along the top, and along the left edge.
+    pub fn axes(&self) -> [Vec2; 3] {
         let [bottom_left, _, top_right, top_left] = self.corners;
-        [top_right - top_left, bottom_left - top_left]
+        [top_left, top_right - top_left, bottom_left - top_left]
     }
 
     /// Returns the index of the cell at a place, or of the nearest cell if the place is outside the picture. `None` for
@@ -92,8 +92,7 @@ impl Raster {
         if rows == 0 {
             return None;
         }
-        let [_, _, _, top_left] = self.corners;
-        let [across, down] = self.sides();
+        let [top_left, across, down] = self.axes();
         let share = |side: Vec2| ((at - top_left).dot(side) / side.dot(side)).clamp(0.0, 1.0);
         let column = (share(across) * self.columns as f64) as usize;
         let row = (share(down) * rows as f64) as usize;

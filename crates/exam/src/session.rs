@@ -147,9 +147,6 @@ impl Session {
     /// Commands the robot to stand: a robot with routes by `STOP`, an original robot by a target at its last position.
     /// Does nothing before a robot is chosen: no robot was told to move, and others may play a show.
     pub fn make_stand(&self) {
-        if self.subject().is_none() {
-            return;
-        }
         let place = self.last_place();
         let stay = place.map_or_else(String::new, |at| format!("|TARGET {:.6} {:.6}|", at.x, at.y));
         self.send(Addressee::Robot, format!("{stay}|STOP|"));
@@ -212,12 +209,15 @@ impl Session {
         self.send_bytes(to, text.into().into_bytes());
     }
 
+    /// Publishes a message. Does nothing if it is for the robot under test and none is chosen, because on `Broadcast` it
+    /// would be for all robots.
     pub fn send_bytes(&self, to: Addressee, payload: Vec<u8>) {
         let mut state = self.state.borrow_mut();
         let topic = match (to, state.subject) {
             (Addressee::Robot, Some(id)) => Topic::Robot(id).write().to_string(),
             (Addressee::AbsentRobot, Some(id)) => absent_topic(&id),
-            _ => Topic::Broadcast.write().to_string(),
+            (Addressee::AllRobots, _) => Topic::Broadcast.write().to_string(),
+            (Addressee::Robot | Addressee::AbsentRobot, None) => return,
         };
         state.publishes.push_back(Publish { topic, payload });
     }

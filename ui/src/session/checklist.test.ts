@@ -4,21 +4,11 @@ import { pinPixel, setSpares } from '../model/commands';
 import { newShow } from '../model/show';
 import { robotRow } from './robots.testing';
 import { canGoOn, checklistOf, isReady, type Check, type Situation } from './checklist';
+import { planOf } from './plan.testing';
 
 const row = (id: string, over: Partial<FleetRow> = {}): FleetRow =>
   robotRow({ id, simulated: false, ...over });
-const plan: Plan = {
-  revision: 1,
-  planning: false,
-  ok: true,
-  duration_s: 9,
-  lower_bound_s: 8,
-  closest_m: 0.08,
-  stop_safe: 1,
-  plan_ms: 1,
-  issues: [],
-  transitions: [],
-};
+const plan: Plan = { ...planOf(1), duration_s: 9, lower_bound_s: 8, closest_m: 0.08 };
 const HERE: Broker = {
   address: 'mqtt://here',
   phase: 'connected',

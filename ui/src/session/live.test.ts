@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import type { LogLine } from '../api/types.gen';
 import { createLive, receive } from './live';
+import { planOf } from './plan.testing';
 
 const line = (id: number, text: string): LogLine => ({
   id,
@@ -25,26 +26,9 @@ test('a line of the log that grows stays where it is, and the log does not grow 
 
 test('a finished plan that comes before its show is the plan of that show', () => {
   const live = createLive();
-  const plan = {
-    ok: true,
-    duration_s: 1,
-    lower_bound_s: 1,
-    closest_m: 0.1,
-    stop_safe: 1,
-    plan_ms: 1,
-  };
-  const planned = (revision: number) =>
-    receive(live, {
-      type: 'plan',
-      ...plan,
-      revision,
-      planning: false,
-      issues: [],
-      transitions: [],
-    });
   const open = (revision: number, name: string) =>
     receive(live, { type: 'show', revision, name, etag: '"1"', read_only: null, document: {} });
-  planned(1);
+  receive(live, { type: 'plan', ...planOf(1) });
   open(1, 'A');
   expect(live.settled.get()?.revision).toBe(1);
   open(2, 'B');

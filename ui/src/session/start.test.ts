@@ -9,17 +9,7 @@ import { stubAddress } from './address.testing';
 import { copyText, followCopy } from './copies';
 import { followPlan, whenPlanned } from './start';
 import { createLive, receive } from './live';
-
-const PLAN = {
-  ok: true,
-  duration_s: 1,
-  lower_bound_s: 1,
-  closest_m: 0.1,
-  stop_safe: 1,
-  plan_ms: 1,
-  issues: [],
-  transitions: [],
-};
+import { planOf } from './plan.testing';
 
 function setup() {
   const live = createLive();
@@ -33,7 +23,7 @@ function setup() {
   const open = (revision: number, name = 'A') =>
     receive(live, { type: 'show', revision, name, etag: '"1"', read_only: null, document: {} });
   const plan = (revision: number, planning = false) =>
-    receive(live, { type: 'plan', ...PLAN, revision, planning });
+    receive(live, { type: 'plan', ...planOf(revision, planning) });
   const act = vi.fn();
   open(1);
   return { ...session, open, plan, stop, act, pending: () => whenPlanned(session, act) };

@@ -92,7 +92,7 @@ impl Examination {
             }
             let alarm = self.exam.wake_at().map(|at| self.clock.deadline(at));
             tokio::select! {
-                () = stop.wait() => break Err(Failure::problem("stopped before the end; the robot was told to stand")),
+                () = stop.wait() => break Err(self.stopped()),
                 event = self.link.next() => match event {
                     Some(LinkEvent::Message { topic, payload, .. }) => {
                         self.exam.message(self.clock.now(), &topic, &payload);
@@ -112,6 +112,13 @@ impl Examination {
         self.drain();
         self.link.close().await;
         ended.and_then(|()| named(self.exam))
+    }
+
+    fn stopped(&self) -> Failure {
+        Failure::problem(match self.exam.robot() {
+            Some(_) => "stopped before the end; the robot was told to stand",
+            None => "stopped before a robot was found",
+        })
     }
 
     /// Sends the exam's messages and prints its notices.

@@ -25,16 +25,16 @@ impl Findings {
             self.issues.push(issue);
             return;
         }
-        let more = if issue.is_error() {
+        let is_said = self.issues.len() > Self::MOST;
+        if is_said && !issue.is_error() {
+            return;
+        }
+        self.issues.truncate(Self::MOST);
+        self.issues.push(if issue.is_error() {
             Issue::error("more-issues", "there are more issues; mend these first")
         } else {
             Issue::warning("more-issues", "there are more warnings; look at these first")
-        };
-        match self.issues.get_mut(Self::MOST) {
-            Some(last) if issue.is_error() => *last = more,
-            Some(_) => {}
-            None => self.issues.push(more),
-        }
+        });
     }
 
     /// Adds an error of the whole show.
