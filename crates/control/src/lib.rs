@@ -63,7 +63,7 @@ pub use input_log::{
     Difference, GrowingReplay, HEAD_BYTES, LogEnd, LogError, RecordedController, ReplayObserver,
     ReplayReport, ReplayStep, check_head, replay, replay_observed,
 };
-pub use journal::{JournalError, JournalPiece, OnReturn, UnfinishedRun};
+pub use journal::{JournalError, JournalPiece, OUTDATED as JOURNAL_OUTDATED, OnReturn, UnfinishedRun};
 pub use mutant::Mutant;
 pub use operation::{ControllerState, MissingPolicy, Operation, Refusal};
 pub use outbox::Send;

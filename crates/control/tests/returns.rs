@@ -4,7 +4,7 @@ mod fleet;
 
 use fleet::{Dice, World, reached, show, started};
 use lightbots_base::{RobotId, Span};
-use lightbots_control::{ControllerState, EventKind, OnReturn, Operation, RunOutcome};
+use lightbots_control::{ControllerState, EventKind, JOURNAL_OUTDATED, OnReturn, Operation, RunOutcome};
 use lightbots_show::{Identity, Show};
 
 const CONTACT_M: f64 = 0.054;
@@ -93,6 +93,22 @@ fn the_operator_is_asked_after_a_long_time_or_where_that_is_wanted() {
     let mut world = killed(show(3, 6, 0.5), 3.0, 40.0);
     assert!(world.return_controller(OnReturn::Go));
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+}
+
+#[test]
+fn the_operator_is_asked_if_entries_of_the_journal_were_lost() {
+    for (on_return, asks) in [(OnReturn::GoOrAsk, true), (OnReturn::Go, false)] {
+        let mut world = killed(show(3, 6, 0.5), 3.0, 1.0);
+        let (at, mark) = JOURNAL_OUTDATED;
+        world.journal[at] = mark;
+        assert!(world.return_controller(on_return));
+        world.run_for(20.0);
+        assert_eq!(world.controller.state() == ControllerState::LinkLost, asks, "{}", world.story());
+        if asks {
+            world.operate(Operation::GoOn).unwrap();
+        }
+        assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 3, 0), "{}", world.story());
+    }
 }
 
 #[test]

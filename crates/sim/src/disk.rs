@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use lightbots_base::{Instant, Span};
-use lightbots_control::JournalPiece;
+use lightbots_control::{JOURNAL_OUTDATED, JournalPiece};
 
 /// Time after a failure until the journal is begun again, as in the server.
 const TRY_AGAIN: Span = Span::from_millis(10_000);
@@ -33,21 +33,20 @@ impl Disk {
         (self.slow_until, self.takes) = (until, takes);
     }
 
-    /// Whether the next piece may be written. After a failure none may be written until the journal is begun again.
-    pub fn is_ready(&self) -> bool {
-        self.failed.is_none()
-    }
-
     /// Whether the journal must be begun again now, because a failure is [`TRY_AGAIN`] ago. Returns true once for each
     /// failure.
     pub fn begins_again(&mut self, now: Instant) -> bool {
         self.failed.take_if(|failed| now - *failed > TRY_AGAIN).is_some()
     }
 
-    /// Begins to write a piece. If the disk is full, the piece is lost and the disk has failed.
+    /// Begins to write a piece. If the disk is full, the piece is lost and the disk has failed. The end of a run is no piece
+    /// that is written: it removes the file, which needs no room.
     pub fn write(&mut self, now: Instant, piece: JournalPiece) {
-        if now < self.full_until {
-            self.failed = Some(now);
+        if !piece.ends && (self.failed.is_some() || now < self.full_until) {
+            self.failed.get_or_insert(now);
+            if let Some(mark) = self.file.get_mut(JOURNAL_OUTDATED.0) {
+                *mark = JOURNAL_OUTDATED.1;
+            }
             return;
         }
         let takes = if now < self.slow_until { self.takes } else { Span::ZERO };
@@ -61,10 +60,12 @@ impl Disk {
         while self.pending.front().is_some_and(|(at, _)| *at <= now)
             && let Some((_, piece)) = self.pending.pop_front()
         {
-            if piece.begins {
+            if piece.begins || piece.ends {
                 self.file.clear();
             }
-            self.file.extend(piece.bytes);
+            if !piece.ends {
+                self.file.extend(piece.bytes);
+            }
         }
     }
 
@@ -72,7 +73,7 @@ impl Disk {
     /// disk. If it replaces the file, the old file stays. All later pieces are lost. The disk is then ready again.
     pub fn crash(&mut self, now: Instant) {
         self.settle(now);
-        if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins) {
+        if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins && !piece.ends) {
             self.file.extend(&torn.bytes[..torn.bytes.len() / 2]);
         }
         self.pending.clear();
@@ -88,6 +89,8 @@ impl Disk {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const END: JournalPiece = JournalPiece { begins: false, ends: true, bytes: Vec::new() };
 
     fn piece(begins: bool, bytes: &[u8]) -> JournalPiece {
         JournalPiece { begins, ends: false, bytes: bytes.to_vec() }
@@ -113,9 +116,22 @@ mod tests {
         disk.write(Instant(0), piece(true, b"ab"));
         disk.fill(Instant(10));
         disk.write(Instant(1), piece(false, b"c"));
-        assert!(!disk.is_ready() && !disk.begins_again(Instant(9_000_000)));
-        assert!(disk.begins_again(Instant(10_000_002)) && disk.is_ready());
+        assert!(!disk.begins_again(Instant(9_000_000)));
+        disk.write(Instant(9_000_001), piece(false, b"c"));
+        assert_eq!(disk.file(), b"ab");
+        assert!(disk.begins_again(Instant(10_000_002)));
         disk.write(Instant(10_000_003), piece(true, b"d"));
         assert_eq!(disk.file(), b"d");
+    }
+
+    #[test]
+    fn a_full_disk_marks_the_journal_and_keeps_no_run_that_has_ended() {
+        let mut disk = Disk::default();
+        disk.write(Instant(0), piece(true, &[0; 12]));
+        disk.fill(Instant(10));
+        disk.write(Instant(1), piece(false, b"c"));
+        assert_eq!(disk.file()[JOURNAL_OUTDATED.0], JOURNAL_OUTDATED.1);
+        disk.write(Instant(2), END);
+        assert!(disk.file().is_empty());
     }
 }

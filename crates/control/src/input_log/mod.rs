@@ -31,7 +31,7 @@ use serde::{Deserialize, Serialize};
 const MAGIC: &[u8; 8] = b"LBotsLog";
 /// Version of the log format. Raise it with every change of a type that is written: `Controller`, `Show`, `Record`.
 /// Raise it with the version of journals, too, because a log can hold an `UnfinishedRun`.
-const VERSION: u16 = 27;
+const VERSION: u16 = 28;
 
 /// The first block of a log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

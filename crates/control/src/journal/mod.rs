@@ -1,7 +1,7 @@
 //! The journal of a run: all that a new controller needs to go on with the run after the controller was killed.
 //!
-//! A journal is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]).
-//! Each block is an [`Entry`] with changes of the [`JournalState`]. The first entry holds the whole state, the show
+//! A journal is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian), the byte [`OUTDATED`] and blocks
+//! ([`crate::block`]). Each block is an [`Entry`] with changes of the [`JournalState`]. The first entry holds the whole state, the show
 //! included. A journal that was cut anywhere ends with its last whole entry. A journal that has become long is replaced
 //! by a new one that begins with the present state.
 //!
@@ -29,4 +29,8 @@ pub(crate) use writing::Journal;
 const MAGIC: &[u8; 8] = b"LBotsJrn";
 /// Version of the journal format. Raise it with every change of a type that is written: `Entry`, `JournalState`,
 /// `Show`.
-pub(crate) const VERSION: u16 = 12;
+pub(crate) const VERSION: u16 = 13;
+
+/// Place and value of the byte that says that entries after the last one are missing. A shell writes it when a piece could
+/// not be written: also on a full disk a byte can be replaced. The byte is 0 before.
+pub const OUTDATED: (usize, u8) = (MAGIC.len() + size_of::<u16>(), 1);

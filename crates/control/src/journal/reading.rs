@@ -1,6 +1,6 @@
 //! Reads the run of a journal.
 
-use super::{Change, Entry, JournalState, MAGIC, VERSION};
+use super::{Change, Entry, JournalState, MAGIC, OUTDATED, VERSION};
 use crate::block::Blocks;
 use crate::computer_time::ComputerTime;
 use core::fmt;
@@ -30,6 +30,8 @@ pub struct UnfinishedRun {
     /// The computer's clocks when the last entry was written.
     clocks: ComputerTime,
     pub(crate) state: JournalState,
+    /// Whether later entries were lost. The operator may have paused the run since.
+    pub(crate) is_outdated: bool,
 }
 
 impl UnfinishedRun {
@@ -37,17 +39,18 @@ impl UnfinishedRun {
     /// anything: this is checked.
     pub fn read(bytes: &[u8]) -> Result<Option<Self>, JournalError> {
         let rest = bytes.strip_prefix(MAGIC).ok_or(JournalError::NoJournal)?;
-        let (version, _) = rest.split_first_chunk::<2>().ok_or(JournalError::NoEntry)?;
+        let (version, rest) = rest.split_first_chunk::<2>().ok_or(JournalError::NoEntry)?;
         let version = u16::from_le_bytes(*version);
         if version != VERSION {
             return Err(JournalError::OtherVersion(version));
         }
+        let mark = rest.first().ok_or(JournalError::NoEntry)?;
         let mut run: Option<Self> = None;
-        for block in Blocks::new(bytes, MAGIC.len() + size_of_val(&version)) {
+        for block in Blocks::new(bytes, OUTDATED.0 + 1) {
             let entry: Entry = postcard::from_bytes(block).map_err(|_| JournalError::BadEntry)?;
             run = Some(Self::after(run, entry).ok_or(JournalError::BadEntry)?);
         }
-        let run = run.ok_or(JournalError::NoEntry)?;
+        let run = Self { is_outdated: *mark != 0, ..run.ok_or(JournalError::NoEntry)? };
         if !run.is_sound() {
             return Err(JournalError::BadEntry);
         }
@@ -68,7 +71,7 @@ impl UnfinishedRun {
         for change in changes {
             state.apply(change)?;
         }
-        Some(Self { at, clocks, state })
+        Some(Self { at, clocks, state, is_outdated: false })
     }
 
     /// Whether the values of the state are plausible and fit together, so that a controller can go on with the run.

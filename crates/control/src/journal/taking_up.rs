@@ -1,6 +1,7 @@
 //! Takes up a run from its journal: this controller goes on with the run, from where its robots stand.
 
 use super::{JournalState, ParticipantEntry, Position, UnfinishedRun};
+use crate::config::WaitBounds;
 use crate::context::Context;
 use crate::controller::Controller;
 use crate::event::EventKind;
@@ -23,8 +24,8 @@ const FOR_EVER: Span = Span::from_millis(86_400_000_000);
 /// What a new controller does with a run that was cut off. A preflight never goes on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OnReturn {
-    /// The run goes on by itself if its robots report within `WaitBounds::goes_on_within` of the journal's last entry.
-    /// Otherwise the operator is asked.
+    /// The run goes on by itself if its robots report within `WaitBounds::goes_on_within` of the journal's last entry, and
+    /// no later entry was lost. Otherwise the operator is asked.
     #[default]
     GoOrAsk,
     /// The run goes on by itself.
@@ -60,17 +61,25 @@ impl Controller {
         let frame = unfinished.frame();
         self.context.log.record(now, EventKind::TakenUp { frame, robots, away, goes_on });
         if goes_on {
-            let by_itself = match on_return {
-                OnReturn::Go => FOR_EVER,
-                OnReturn::GoOrAsk => self.context.config.waits.goes_on_within - away,
-                OnReturn::Ask | OnReturn::Stop => Span::ZERO,
-            };
-            self.run = Some(Run::take_up(&mut self.context, now, unfinished, by_itself.max(Span::ZERO)));
+            let by_itself = unfinished.goes_on_within(now, on_return, &self.context.config.waits);
+            self.run = Some(Run::take_up(&mut self.context, now, unfinished, by_itself));
         } else {
             self.stops_when_connected = true;
         }
         self.conclude(now);
         Ok(())
+    }
+}
+
+impl UnfinishedRun {
+    /// Returns the longest time from `now` on until the robots report after which the run goes on without the operator. Zero:
+    /// the operator is asked in any case. `now`: see [`show_clock_at`](Self::show_clock_at).
+    pub fn goes_on_within(&self, now: Instant, on_return: OnReturn, waits: &WaitBounds) -> Span {
+        match on_return {
+            OnReturn::Go => FOR_EVER,
+            OnReturn::GoOrAsk if !self.is_outdated => (waits.goes_on_within - (now - self.at)).max(Span::ZERO),
+            OnReturn::GoOrAsk | OnReturn::Ask | OnReturn::Stop => Span::ZERO,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Writes the journal of a run.
 
 use super::{
-    Change, Entry, JournalState, LegEntry, MAGIC, ParticipantEntry, Position, RunBegun, RunProgress, VERSION,
+    Change, Entry, JournalState, LegEntry, MAGIC, OUTDATED, ParticipantEntry, Position, RunBegun, RunProgress, VERSION,
 };
 use crate::block::append_block;
 use crate::computer_time::ComputerTime;
@@ -115,6 +115,7 @@ impl Journal {
         if begins {
             bytes.extend_from_slice(MAGIC);
             bytes.extend_from_slice(&VERSION.to_le_bytes());
+            bytes.resize(OUTDATED.0 + 1, 0);
             changes = vec![Change::State(Box::new(state.clone()))];
         }
         // Cannot fail: all types of an entry can be written as bytes.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lightbots_api::ShowOrigin;
-use lightbots_base::Instant;
+use lightbots_base::{Instant, Span};
 use lightbots_control::{Config, OnReturn, UnfinishedRun};
 use lightbots_show::Show;
 
@@ -57,12 +57,11 @@ impl CutOffRun {
         let (run, last) = (&self.unfinished, self.unfinished.last_change());
         let goes_on = "it goes on from where the robots stand";
         let asks = "press Go on or Stop on the screen";
+        let within = run.goes_on_within(now, self.on_return, &Config::default().waits);
         let then = match self.on_return {
-            OnReturn::Go => goes_on,
-            OnReturn::Ask => asks,
             OnReturn::Stop => "the robots are told to stop, and it is over",
-            OnReturn::GoOrAsk if now - last <= Config::default().waits.goes_on_within => goes_on,
-            OnReturn::GoOrAsk => asks,
+            _ if within > Span::ZERO => goes_on,
+            _ => asks,
         };
         say::line(&format!(
             "The show \"{}\" was cut off {:.0} s ago on the way to frame {} of {}: {then}",

@@ -1,7 +1,7 @@
 //! The file of the journal of a run. A thread of its own writes it, so that a slow disk never delays a show.
 
 use std::fs::{File, OpenOptions};
-use std::io::Write;
+use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use lightbots_control::{JournalPiece, RecordedController, UnfinishedRun};
+use lightbots_control::{JOURNAL_OUTDATED, JournalPiece, RecordedController, UnfinishedRun};
 
 use super::clock::computer_time;
 use crate::disk::{self, Readers};
@@ -85,7 +85,7 @@ impl JournalFile {
             self.tried = failure.is_some().then(Instant::now);
             controller.begin_journal_again();
         }
-        if self.tried.is_none() && self.shared.waiting.load(Ordering::Relaxed) < WAITING_MAX {
+        if self.shared.waiting.load(Ordering::Relaxed) < WAITING_MAX {
             self.send(controller);
         }
         let line = |why| {
@@ -98,6 +98,10 @@ impl JournalFile {
 
     fn send(&mut self, controller: &mut RecordedController) {
         let Some(piece) = controller.take_journal(computer_time()) else { return };
+        // A file can be removed from a disk that cannot be written.
+        if self.tried.is_some() && !piece.ends {
+            return;
+        }
         self.shared.waiting.fetch_add(1, Ordering::Relaxed);
         if self.pieces.try_send(piece).is_err() {
             self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
@@ -135,35 +139,50 @@ impl Written {
         while let Ok(first) = inbox.recv() {
             let pieces: Vec<JournalPiece> = std::iter::once(first).chain(inbox.try_iter()).collect();
             shared.waiting.fetch_sub(pieces.len(), Ordering::Relaxed);
-            if let Err(error) = self.write(&pieces) {
-                self.file = None;
-                *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(error.to_string());
+            for piece in &pieces {
+                self.write(piece).unwrap_or_else(|error| self.fail(&error, shared));
             }
+            let synced = self.file.as_ref().map_or(Ok(()), File::sync_data);
+            synced.unwrap_or_else(|error| self.fail(&error, shared));
         }
     }
 
-    fn write(&mut self, pieces: &[JournalPiece]) -> std::io::Result<()> {
-        for piece in pieces {
-            if piece.begins {
-                disk::replace(&self.path, &piece.bytes, Readers::All)?;
-                self.file = Some(OpenOptions::new().append(true).open(&self.path)?);
-            } else if let Some(file) = &mut self.file {
-                file.write_all(&piece.bytes)?;
-            }
-            if piece.ends {
-                self.file = None;
-                disk::remove(&self.path)?;
-            }
+    fn write(&mut self, piece: &JournalPiece) -> std::io::Result<()> {
+        if piece.ends {
+            self.file = None;
+            disk::remove(&self.path)?;
+        } else if piece.begins {
+            disk::replace(&self.path, &piece.bytes, Readers::All)?;
+            self.file = Some(OpenOptions::new().append(true).open(&self.path)?);
+        } else if let Some(file) = &mut self.file {
+            file.write_all(&piece.bytes)?;
         }
-        self.file.as_ref().map_or(Ok(()), File::sync_data)
+        Ok(())
+    }
+
+    /// Reports a failure, and marks the journal on the disk as outdated.
+    fn fail(&mut self, error: &std::io::Error, shared: &Shared) {
+        self.file = None;
+        if let Err(error) = self.mark_outdated() {
+            tracing::debug!("the journal could not be marked as outdated: {error}");
+        }
+        *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(error.to_string());
+    }
+
+    fn mark_outdated(&self) -> std::io::Result<()> {
+        let (at, mark) = JOURNAL_OUTDATED;
+        let mut file = OpenOptions::new().write(true).open(&self.path)?;
+        file.seek(SeekFrom::Start(at as u64))?;
+        file.write_all(&[mark])?;
+        file.sync_data()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lightbots_base::Instant;
-    use lightbots_control::{Config, Controller, MissingPolicy, Operation};
+    use lightbots_base::{Instant, Span};
+    use lightbots_control::{Config, Controller, MissingPolicy, OnReturn, Operation};
     use lightbots_show::{Frame, Pixel, Show};
 
     /// A controller in a run of one robot, whose journal is written.
@@ -226,7 +245,37 @@ mod tests {
         assert!(told[0].contains("journal is not written"), "{told:?}");
         controller.operate(Instant(5), Operation::Pause).unwrap();
         assert_eq!(journal.keep(&mut controller), None);
+
+        // The end of the run removes an older journal, although none can be written.
+        std::fs::remove_file(&data).unwrap();
+        std::fs::create_dir_all(data.join("runs")).unwrap();
+        std::fs::write(data.join(FILE), b"an older journal").unwrap();
+        controller.operate(Instant(6), Operation::Abort).unwrap();
         journal.finish(&mut controller);
-        std::fs::remove_file(data).unwrap();
+        assert!(!data.join(FILE).exists());
+        std::fs::remove_dir_all(data).unwrap();
+    }
+
+    #[test]
+    fn a_journal_that_lacks_an_entry_says_so() {
+        let data = std::env::temp_dir().join(format!("lightbots-outdated-journal-{}", std::process::id()));
+        let mut controller = playing();
+        controller.keep_journal();
+        begin(&mut controller, Instant(4));
+        let mut written = Written { path: data.join(FILE), file: None };
+        written.write(&controller.take_journal(computer_time()).unwrap()).unwrap();
+        let may_go_on = || {
+            let run = unfinished_run(&data).unwrap().unwrap();
+            run.goes_on_within(run.last_change(), OnReturn::GoOrAsk, &Config::default().waits) > Span::ZERO
+        };
+        assert!(may_go_on());
+
+        // A file that is open for reading alone cannot be appended to.
+        written.file = Some(File::open(data.join(FILE)).unwrap());
+        controller.operate(Instant(5), Operation::Pause).unwrap();
+        let error = written.write(&controller.take_journal(computer_time()).unwrap()).unwrap_err();
+        written.fail(&error, &Shared::default());
+        assert!(!may_go_on());
+        std::fs::remove_dir_all(data).unwrap();
     }
 }

@@ -48,14 +48,12 @@ impl Play {
         self.write_journal();
     }
 
-    /// Writes the new piece of the journal, if there is one and the disk is ready.
+    /// Writes the new piece of the journal, if there is one.
     fn write_journal(&mut self) {
         if self.crashes.disk.begins_again(self.now) {
             self.controller.begin_journal_again();
         }
-        if self.crashes.disk.is_ready()
-            && let Some(piece) = self.controller.take_journal(self.clock.computer_time(self.now))
-        {
+        if let Some(piece) = self.controller.take_journal(self.clock.computer_time(self.now)) {
             self.crashes.disk.write(self.now, piece);
         }
     }
