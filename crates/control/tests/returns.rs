@@ -102,7 +102,7 @@ fn the_operator_is_asked_if_entries_of_the_journal_were_lost() {
         let (at, mark) = JOURNAL_OUTDATED;
         world.journal[at] = mark;
         assert!(world.return_controller(on_return));
-        world.run_for(20.0);
+        world.run_for(5.0);
         assert_eq!(world.controller.state() == ControllerState::LinkLost, asks, "{}", world.story());
         if asks {
             world.operate(Operation::GoOn).unwrap();

@@ -77,7 +77,9 @@ impl UnfinishedRun {
     pub fn goes_on_within(&self, now: Instant, on_return: OnReturn, waits: &WaitBounds) -> Span {
         match on_return {
             OnReturn::Go => FOR_EVER,
-            OnReturn::GoOrAsk if !self.is_outdated => (waits.goes_on_within - (now - self.at)).max(Span::ZERO),
+            OnReturn::GoOrAsk if !self.is_outdated => {
+                (waits.goes_on_within - (now - self.at)).max(Span::ZERO)
+            }
             OnReturn::GoOrAsk | OnReturn::Ask | OnReturn::Stop => Span::ZERO,
         }
     }

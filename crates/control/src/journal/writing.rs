@@ -1,7 +1,8 @@
 //! Writes the journal of a run.
 
 use super::{
-    Change, Entry, JournalState, LegEntry, MAGIC, OUTDATED, ParticipantEntry, Position, RunBegun, RunProgress, VERSION,
+    Change, Entry, JournalState, LegEntry, MAGIC, OUTDATED, ParticipantEntry, Position, RunBegun,
+    RunProgress, VERSION,
 };
 use crate::block::append_block;
 use crate::computer_time::ComputerTime;

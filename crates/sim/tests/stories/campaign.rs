@@ -84,6 +84,10 @@ const FAILED: [(u64, Option<usize>); 49] = [
     (3_519, None),
     // A robot got its fixes back after the end of a run, and turned towards a route that it kept.
     (1_741, None),
+    // The disk was full when the operator stopped all robots, so that the journal's run went on after a restart.
+    (4_878, None),
+    // There was no plan around a dead robot, and a robot on the way to a TARGET drove into it.
+    (6_184, None),
     // Robots that lacked a clock when the broker froze, or whose clock was set anew, dropped out.
     (4_368, None),
     (5_545, None),
