@@ -5,6 +5,7 @@ use crate::controller::Controller;
 use crate::event::EventKind;
 use crate::frame_cursor::FrameCursor;
 use crate::home;
+use crate::mapping::Mapping;
 use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
 use crate::preflight::{self, TestedRobot};
 use crate::robot::KnownRobot;
@@ -99,9 +100,10 @@ impl Controller {
         self.context
             .log
             .record(now, EventKind::ShowOpened { name: show.name.clone(), frames: show.frames.len() });
-        // A show with another name has other frames.
-        if self.show.as_ref().is_none_or(|before| before.name != show.name) {
+        // A show with another name has other frames and pixels.
+        if self.show.as_ref().is_some_and(|before| before.name != show.name) {
             self.stopped_in = None;
+            self.context.mapping = Mapping::default();
         }
         self.show = Some(show);
         Ok(())

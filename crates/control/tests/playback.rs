@@ -5,7 +5,8 @@ mod fleet;
 use fleet::{World, show};
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_control::{ControllerState, EventKind, MissingPolicy, Operation, Refusal, RunOutcome};
-use lightbots_show::Identity;
+use lightbots_show::{Identity, Show};
+use std::sync::Arc;
 
 const CONTACT_M: f64 = 0.054;
 
@@ -337,6 +338,9 @@ fn a_pin_binds_a_pixel_to_a_robot() {
     world.operate(Operation::Pin { pixel: 1, robot: away }).unwrap();
     let refused = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse });
     assert_eq!(refused, Err(Refusal::PinnedMissing { pixels: vec![1] }));
+    // Pixels of another show have no pins.
+    world.operate(Operation::Open(Arc::new(Show { name: "other".into(), ..show }))).unwrap();
+    world.play();
 }
 
 #[test]

@@ -76,9 +76,12 @@ impl BrokerArguments {
             let kept = self.broker_password_file.as_deref().map(read_password).transpose()?;
             broker.password = kept.or(password);
         }
-        if broker.user.is_none() && self.broker_password_file.is_some() {
-            let why = "the user is missing: state --broker-user, or mqtt://USER@HOST";
-            return Err(wrong("--broker-password-file", &why));
+        if broker.user.is_none() && broker.password.is_some() {
+            // An address never has a password without a user.
+            let source =
+                if self.broker_password_file.is_some() { "--broker-password-file" } else { PASSWORD };
+            let why = format!("the user is missing: state --broker-user, {USER} or mqtt://USER@HOST");
+            return Err(wrong(source, &why));
         }
         Ok(broker.with_trust(self.trust()?))
     }
@@ -123,6 +126,13 @@ mod tests {
         assert_eq!(of(&options, &["mqtt://u:p@a"]), ("u".into(), "p".into()));
         assert_eq!(of(&options, &["a", "b"]), ("option".into(), "secret".into()));
         assert_eq!(of(&BrokerArguments::default(), &["a"]), ("env".into(), "secret".into()));
+    }
+
+    #[test]
+    fn a_password_without_a_user_is_an_error() {
+        let given = BrokerArguments::default().broker_given(&urls(&["a"]), None, Some("secret".into()));
+        let line = given.unwrap_err().to_string();
+        assert!(line.starts_with("LIGHTBOTS_BROKER_PASSWORD: the user is missing"), "{line}");
     }
 
     #[test]
