@@ -342,7 +342,9 @@ impl Controller {
     }
 
     fn stop_all(&mut self, now: Instant) -> Result<(), Refusal> {
-        self.linked()?;
+        if self.run.is_none() {
+            self.linked()?;
+        }
         let mut held_from = None;
         if let Some(run) = &mut self.run {
             held_from = run.holds_before_stop(&mut self.context, now);
@@ -353,9 +355,12 @@ impl Controller {
         Ok(())
     }
 
+    /// Tells all robots to stop: now, or when the broker is connected again.
     fn halt(&mut self, now: Instant, held_from: Option<Instant>) {
         if self.context.outbox.linked() {
             self.stopping = Some(Stopping::begin(&mut self.context, now, held_from));
+        } else {
+            self.stops_when_connected = true;
         }
     }
 

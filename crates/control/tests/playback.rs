@@ -212,14 +212,19 @@ fn stop_does_not_wait_for_robots_that_are_about_to_go_on() {
 
 #[test]
 fn robots_are_stopped_before_they_are_asked_anything_where_the_broker_was_gone() {
-    let mut world = World::under_way(6);
-    world.operate(Operation::StopAll).unwrap();
-    world.link(false);
-    world.run_for(0.5);
-    world.link(true);
-    assert_eq!(world.to_robots().first().map(String::as_str), Some("|STOP|"), "{:?}", world.to_robots());
-    world.run_for(0.5);
-    assert!(world.robots.iter().all(|robot| robot.stops > 0));
+    for (before, meanwhile) in
+        [(Some(Operation::StopAll), None), (None, Some(Operation::StopAll)), (None, Some(Operation::Abort))]
+    {
+        let mut world = World::under_way(6);
+        before.map(|operation| world.operate(operation).unwrap());
+        world.link(false);
+        meanwhile.map(|operation| world.operate(operation).unwrap());
+        world.run_for(0.5);
+        world.link(true);
+        assert_eq!(world.to_robots().first().map(String::as_str), Some("|STOP|"), "{:?}", world.to_robots());
+        world.run_for(0.5);
+        assert!(world.robots.iter().all(|robot| robot.stops > 0));
+    }
 }
 
 #[test]

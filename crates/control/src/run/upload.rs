@@ -127,7 +127,9 @@ impl Upload {
             delivery.first_sent = now;
         }
         delivery.tries += 1;
-        self.sent.push_back((due, participant));
+        // A message that was tried often may wait for longer than those that are sent after it.
+        let place = self.sent.partition_point(|&(before, _)| before <= due);
+        self.sent.insert(place, (due, participant));
     }
 
     /// Measures the answer time of a participant from `now` on, because its wait until now says nothing about the link.
@@ -205,6 +207,15 @@ mod tests {
         upload.record_sent(Instant(100), 0, Instant(200));
         assert_eq!((upload.tries(0), upload.next_overdue(Instant(100), |one| one == 1)), (2, None));
         assert_eq!(upload.due(), Some(Instant(200)), "the second needs none");
+    }
+
+    #[test]
+    fn a_message_with_a_long_wait_does_not_delay_the_others() {
+        let mut upload = Upload::new(7, Instant(0), 2);
+        upload.record_sent(Instant(0), 0, Instant(400));
+        upload.record_sent(Instant(10), 1, Instant(110));
+        assert_eq!(upload.next_overdue(Instant(110), |_| false), Some(1));
+        assert_eq!(upload.due(), Some(Instant(400)));
     }
 
     #[test]
