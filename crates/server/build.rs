@@ -69,7 +69,7 @@ fn examples(shows: &Path, out: &Path) -> io::Result<()> {
     fs::write(out.join("examples.rs"), code)
 }
 
-/// Every file below a folder; none where it is not there.
+/// Adds every file below a folder to `files`; none if the folder is missing.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     if !folder.is_dir() {
         return Ok(());

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-/// Normalises an angle to (−π, π]. NaN and infinity are returned unchanged.
+/// Normalises an angle to (−π, π]. NaN and infinities give NaN.
 pub fn wrap(angle: f64) -> f64 {
     if angle > -PI && angle <= PI {
         return angle;
@@ -17,7 +17,7 @@ pub fn wrap(angle: f64) -> f64 {
     }
 }
 
-/// The shortest turn that leads from the angle `from` to the angle `to`, in (−π, π]; positive is counter-clockwise.
+/// The shortest turn from the angle `from` to the angle `to`, in (−π, π]; positive is counter-clockwise.
 pub fn difference(to: f64, from: f64) -> f64 {
     wrap(to - from)
 }

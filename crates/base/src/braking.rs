@@ -12,7 +12,8 @@ pub const DETECTION_S: f64 = 0.048;
 pub const ACTUATION_S: f64 = 0.016;
 /// Time from the moment a robot stops dead until the wheels of the robot behind it begin to brake.
 pub const REACTION_S: f64 = DETECTION_S + ACTUATION_S;
-/// Grip limit of the tyres: the Elisa-3 loses 0.188 m/s in a step of 16 ms, measured in Webots R2023b on 2026-11-21.
+/// Greatest deceleration that the tyres' grip allows, m/s²: the Elisa-3 loses 0.188 m/s in a step of 16 ms, measured in
+/// Webots R2023b on 2026-11-21. With a larger value, robots are expected to stop sooner.
 pub const GRIP_MPS2: f64 = 11.75;
 
 /// Distance in metres that a robot at `speed_mps` drives while its wheels brake at the grip limit. This is an upper
@@ -23,13 +24,13 @@ pub const fn braking_m(speed_mps: f64) -> f64 {
 }
 
 /// Distance in metres that a robot at `speed_mps` drives from the moment something ahead of it stops dead until it
-/// stands.
+/// stands. It drives on for [`REACTION_S`], then brakes. The sign of the speed does not matter.
 pub const fn stopping_m(speed_mps: f64) -> f64 {
     speed_mps.abs() * REACTION_S + braking_m(speed_mps)
 }
 
 /// The highest speed in m/s from which a robot stands within `distance_m` if its wheels begin to brake after
-/// `delay_s`. This is the inverse of `speed · delay_s + braking_m(speed)`. Zero if no distance is left.
+/// `delay_s`. This is the inverse of `speed · delay_s + braking_m(speed)`. Zero if `distance_m` is not positive or NaN.
 pub fn speed_within_mps(distance_m: f64, delay_s: f64) -> f64 {
     if distance_m.is_nan() || distance_m <= 0.0 {
         return 0.0;

@@ -36,7 +36,7 @@ impl Rgb {
         (self.r as u32) << 16 | (self.g as u32) << 8 | self.b as u32
     }
 
-    /// The colour in a text like `#ffa500`; `None` for any other text.
+    /// The colour in a text of `#` and six hexadecimal digits, such as `#ffa500`; `None` for any other text.
     pub fn from_hex(text: &str) -> Option<Self> {
         let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && !digits.starts_with('+'))?;
         Self::from_number(u32::from_str_radix(digits, 16).ok()?)

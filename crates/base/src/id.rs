@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// A robot's name on the wire, usually a UUID: 1 to 36 bytes of printable ASCII without space, `/`, `+`, `#` and `|`.
-/// The name is a topic level and a field of reports (R3).
+/// A robot's name on the wire, usually a UUID: 1 to 36 bytes of printable ASCII without space, `/`, `+`, `#` and `|`
+/// (docs/protocol.md, R3). The name is a topic level and a field of reports.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RobotId {
     bytes: [u8; Self::MAX_LEN],
@@ -11,7 +11,7 @@ pub struct RobotId {
 }
 
 impl RobotId {
-    /// Longest name, bytes: that of a UUID (R3).
+    /// Longest name, bytes: the length of a UUID (docs/protocol.md, R3).
     pub const MAX_LEN: usize = 36;
 
     /// A name from text; `None` if the text is not a valid name.
@@ -20,7 +20,8 @@ impl RobotId {
         if !fits {
             return None;
         }
-        // Padded with a valid byte to the longest name, because the compiler checks a fixed number of bytes at once.
+        // Padded with a valid byte to the longest name. A loop over a fixed number of bytes is faster, because the
+        // compiler can check several bytes at once.
         let mut bytes = [b'-'; Self::MAX_LEN];
         bytes[..text.len()].copy_from_slice(text.as_bytes());
         if !bytes.iter().fold(true, |all, &byte| all & Self::may_hold(byte)) {
@@ -30,8 +31,8 @@ impl RobotId {
         Some(Self { bytes, len: text.len() as u8 })
     }
 
-    /// A name in the form of a random (version 4) UUID, made of 128 random bits. Six of these bits are replaced by
-    /// those that mark version 4.
+    /// A name in the form of a random (version 4) UUID, made of 128 random bits. Six of these bits are overwritten with
+    /// the marks of the version and the variant.
     pub fn from_random(bits: u128) -> Self {
         let bits = bits & !(0xf000 << 64) & !(0xc << 60) | 0x4000 << 64 | 0x8 << 60;
         let mut bytes = [b'-'; Self::MAX_LEN];
@@ -80,7 +81,8 @@ impl serde::Serialize for RobotId {
     }
 }
 
-/// Text that is not a valid name is an error.
+/// Reads borrowed text only. Text that is not a valid name is an error, and so is text that the deserialiser cannot
+/// lend, for example JSON with escapes.
 #[cfg(feature = "serde")]
 impl<'de> serde::Deserialize<'de> for RobotId {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -1,5 +1,5 @@
-//! The types that all other crates share: vectors, poses, angles, instants, ids, colours, limits, braking, timed paths
-//! and light tracks.
+//! Types and functions that other crates share: vectors, poses, angles, instants, ids, colours, limits, braking, timed
+//! paths, light tracks, random numbers, percentiles and hashes.
 //!
 //! The crate depends on no other of our crates, allocates nothing and reads no clock. Lengths are metres and angles are
 //! radians counter-clockwise. [`Instant`] and [`Span`] count microseconds.

@@ -3,12 +3,12 @@
 use crate::light_track::{LightRecord, LightTrack};
 use crate::{Rgb, Span};
 
-/// A position in a light track. It remembers the current record, so that a step takes the same time in long and short
-/// tracks.
+/// A position in a light track. It remembers the current record, so that a small step forward takes the same time in
+/// long and short tracks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightCursor {
     record: usize,
-    /// How many repetitions of the current block of records have begun; 0 if no repeat is under way.
+    /// How many repetitions of the current block of records have begun; 0 if no repeat is in progress.
     repeats: u32,
     /// Beginning of the current record, microseconds after the start of the track.
     began_us: u64,
@@ -18,16 +18,17 @@ pub struct LightCursor {
 }
 
 impl LightCursor {
-    /// Returns the colour at `elapsed` after the start of the track; after the track's end, its last colour. For a time
-    /// before the current record, the search begins again at the start of the track. A repeat of more records than
-    /// precede it is skipped.
+    /// Returns the colour at `elapsed` after the start of the track: its start colour for negative times, its last
+    /// colour after its end. For a time before the current record, the search begins again at the start of the track. A
+    /// repeat of more records than precede it is skipped.
     pub fn at(&mut self, track: LightTrack<'_>, elapsed: Span) -> Rgb {
         let elapsed_us = self.seek(track, elapsed);
         let Some(&record) = track.records.get(self.record) else { return self.before };
         record.within(self.before, (elapsed_us - self.began_us) as f64 / record.duration_us() as f64)
     }
 
-    /// Moves to the record at `elapsed` after the start of the track. Returns `elapsed` in microseconds, at least 0.
+    /// Moves to the record at `elapsed` after the start of the track, or behind the last record if the track is over.
+    /// Returns `elapsed` in microseconds, at least 0.
     #[inline]
     pub fn seek(&mut self, track: LightTrack<'_>, elapsed: Span) -> u64 {
         let elapsed_us = u64::try_from(elapsed.0).unwrap_or(0);
@@ -50,8 +51,9 @@ impl LightCursor {
         elapsed_us
     }
 
-    /// Returns the current record as a straight line in sRGB codes. The result is its beginning after the start of the
-    /// track, its duration, and its first and last colour. `None` if the track is over.
+    /// Returns the record that [`LightCursor::seek`] found, as a straight line in sRGB codes. A step is a line of one
+    /// colour. The result is its beginning after the start of the track, its duration, and its first and last colour.
+    /// `None` if the track is over.
     #[inline]
     pub fn line(&self, track: LightTrack<'_>) -> Option<(Span, Span, (Rgb, Rgb))> {
         let record = *track.records.get(self.record)?;
@@ -70,7 +72,7 @@ impl LightCursor {
 
     /// At a repeat, goes back to the beginning of the repeated records, or on to the record behind the repeat.
     /// Repetitions that are already over at `elapsed_us` are skipped in one step, because a repeat may stand for
-    /// millions.
+    /// millions. A repeat of more records than precede it, or of records without duration, is passed.
     fn repeat(&mut self, track: LightTrack<'_>, (records, times): (usize, u32), elapsed_us: u64) {
         let block_us = match self.record.checked_sub(records) {
             Some(first) => track.records[first..self.record].iter().map(|record| record.duration_us()).sum(),

@@ -69,7 +69,7 @@ pub struct LightTrack<'a> {
 }
 
 impl LightRecord {
-    /// Microseconds that the record lasts; 0 for a repeat.
+    /// Microseconds that the record itself lasts; 0 for a repeat.
     pub(crate) fn duration_us(self) -> u64 {
         match self {
             Self::Line { ticks, .. } | Self::Step { ticks, .. } => u64::from(ticks) * TICK.0 as u64,
@@ -86,7 +86,7 @@ impl LightRecord {
         }
     }
 
-    /// The colour at its end.
+    /// The colour at the record's end. `before`: the colour with which the record begins.
     pub(crate) fn end(self, before: Rgb) -> Rgb {
         match self {
             Self::Line { to, .. } | Self::Step { to, .. } => to,
@@ -96,7 +96,7 @@ impl LightRecord {
 }
 
 impl LightTrack<'_> {
-    /// Duration of the whole track, with repetitions.
+    /// Duration of the whole track, with repetitions. Saturates at the longest span.
     pub fn duration(&self) -> Span {
         let total_us = (0..self.records.len()).fold(0u64, |sum_us, index| {
             let own_us = match self.repeated(index) {
@@ -118,7 +118,7 @@ impl LightTrack<'_> {
 
     /// Encodes the track: the three bytes of the start colour, then the records. A line or step is the varint of
     /// 2·ticks + kind (0 for a line, 1 for a step) and three bytes of colour. A repeat is the byte 1, as for a step of
-    /// 0 ticks, then the varints of `records` and `times`.
+    /// 0 ticks, then the varints of `records` and `times`. Numbers must be in their legal ranges, which is not checked.
     pub fn encode(&self, mut write: impl FnMut(u8)) {
         colour_bytes(self.start).into_iter().for_each(&mut write);
         for &record in self.records {

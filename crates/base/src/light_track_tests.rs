@@ -34,7 +34,8 @@ impl LightTrack<'_> {
     }
 }
 
-/// The colour `left_us` microseconds after the begin of records that begin with `colour`; `None` after their end.
+/// The colour `left_us` microseconds after the beginning of `records`, which begin with `colour`; `None` after their
+/// end.
 fn walked(records: &[LightRecord], mut colour: Rgb, mut left_us: u64) -> Option<Rgb> {
     for &record in records {
         let whole_us = record.duration_us();
@@ -69,7 +70,7 @@ fn lines_steps_and_repeats_are_played() {
     let track = LightTrack { start: GREY(0), records: &records };
     let at = |ticks: i64| track.at(TICK * ticks).r;
     assert_eq!([at(-9), at(0), at(5), at(10), at(14)], [0, 0, 50, 100, 100]);
-    // Each repetition begins with the colour at its end: 20.
+    // Each repetition begins with the colour with which the one before it ended: 20.
     assert_eq!([at(15), at(20), at(25), at(30), at(59)], [20, 60, 100, 20, 100]);
     assert_eq!([at(60), at(95), at(130)], [20, 10, 0]);
     assert_eq!([at(129 + i64::from(TICKS_MAX)), at(130 + i64::from(TICKS_MAX))], [0, 255]);

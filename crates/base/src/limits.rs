@@ -9,7 +9,7 @@ pub struct Limits {
     pub radius_m: f64,
     /// Highest planned speed, m/s.
     pub speed_mps: f64,
-    /// Highest planned acceleration along and across the path, m/s².
+    /// Highest planned acceleration, m/s²: the length of the vector, with its parts along and across the path.
     pub accel_mps2: f64,
     /// Highest planned turning rate, rad/s.
     pub turn_radps: f64,
@@ -33,7 +33,7 @@ impl Limits {
         track_m: 0.0402,
     };
 
-    /// Distance between the centres of two robots below which their rims touch, metres.
+    /// Distance between the centres of two robots at which their rims touch, metres: twice the radius.
     pub const fn contact_m(&self) -> f64 {
         2.0 * self.radius_m
     }

@@ -2,8 +2,8 @@
 
 use crate::{Instant, Span, Vec2};
 
-/// One piece of a path: a cubic Bézier curve whose parameter is proportional to time. It starts at the end of the previous
-/// piece. A piece whose points are all equal is a rest.
+/// One piece of a path: a cubic Bézier curve whose parameter is proportional to time. It starts at the end of the
+/// previous piece, or at the start of the path. A piece that has all its points at its start is a rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// Duration of the piece; positive.
@@ -27,13 +27,13 @@ pub struct Motion {
     pub acceleration: Vec2,
 }
 
-/// A path: its start and its pieces in order. The robot rests at `start` before the path begins, and at the path's end
-/// afterwards.
+/// A path: its start and its pieces in order. Before the path begins, the robot rests at `start`. After the path, it
+/// rests at the path's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathRef<'a> {
     /// First place, stage metres.
     pub start: Vec2,
-    /// Its pieces in order of time; may be empty.
+    /// The pieces in order of time; may be empty.
     pub pieces: &'a [Piece],
 }
 
@@ -54,7 +54,8 @@ impl Piece {
         Self { duration, c1: start + v0 * third, c2: end - v1 * third, end }
     }
 
-    /// The motion at `t` after the beginning of the piece, which begins at the place `start`. `t` is in 0..=duration.
+    /// The motion at the time `t` after the beginning of the piece, 0 to `duration`. `start`: place where the piece
+    /// begins, stage metres. A piece without duration gives its end, at rest.
     pub fn at(&self, start: Vec2, t: Span) -> Motion {
         let seconds = self.duration.as_secs();
         if seconds <= 0.0 {
@@ -100,7 +101,8 @@ impl<'a> PathRef<'a> {
         self.timed().all(|(_, _, piece)| piece.is_rest(self.start))
     }
 
-    /// The motion at `t` after the beginning of the path. Takes time linear in the number of pieces.
+    /// The motion at the time `t` after the beginning of the path. At rest before the path begins, and from its end on.
+    /// Takes time linear in the number of pieces.
     pub fn at(&self, t: Span) -> Motion {
         let mut start = self.start;
         let mut left = t;
@@ -139,6 +141,7 @@ impl<'a> PathRef<'a> {
 mod tests {
     use super::*;
 
+    /// One second, in microseconds.
     const SECOND: Span = Span(1_000_000);
 
     #[test]

@@ -1,7 +1,7 @@
 //! Repeatable numbers that look random: the same on every machine, from a state that the caller keeps.
 
 /// The next number of the generator SplitMix64 (Steele, Lea and Flood 2014). Its numbers pass statistical tests, even
-/// if seeds differ in one bit only. The simulator draws its noise from it.
+/// if seeds differ in one bit only.
 #[inline]
 pub fn split_mix(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -2,7 +2,7 @@
 
 use crate::Vec2;
 
-/// The point of a rectangle that is nearest to `point`, which is `point` itself if it lies inside.
+/// The point of a rectangle that is nearest to `point`; `point` itself if it lies inside.
 #[inline]
 pub fn nearest_in_rect(point: Vec2, min: Vec2, max: Vec2) -> Vec2 {
     Vec2::new(point.x.max(min.x).min(max.x), point.y.max(min.y).min(max.y))
@@ -23,7 +23,7 @@ pub fn point_to_segment_squared(point: Vec2, a: Vec2, b: Vec2) -> f64 {
     (a + along * share - point).length_squared()
 }
 
-/// Distance of two segments; 0 where they cross.
+/// Distance of two segments; 0 where they cross or touch.
 pub fn segment_to_segment(a: (Vec2, Vec2), b: (Vec2, Vec2)) -> f64 {
     let side = |segment: (Vec2, Vec2), point: Vec2| (segment.1 - segment.0).cross(point - segment.0);
     let crosses = side(a, b.0) * side(a, b.1) < 0.0 && side(b, a.0) * side(b, a.1) < 0.0;

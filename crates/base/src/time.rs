@@ -1,4 +1,5 @@
-//! Instants and spans, in whole microseconds: exact, ordered, the same on every machine.
+//! Instants and spans, in whole microseconds: exact, ordered, the same on every machine. Sums, differences and products
+//! saturate instead of wrapping.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -15,7 +16,7 @@ pub struct Span(pub i64);
 impl Instant {
     /// The start of the count.
     pub const ZERO: Self = Self(0);
-    /// Later than anything that happens.
+    /// The latest instant, for what never happens.
     pub const FAR: Self = Self(u64::MAX);
 
     /// Seconds since the start.
@@ -28,7 +29,7 @@ impl Instant {
         Self(libm::round(seconds * 1e6) as u64)
     }
 
-    /// Time from `earlier` to this instant; negative if `earlier` is later. Saturates at the longest [`Span`].
+    /// Time from `earlier` to this instant; negative if `earlier` is later. Saturates if a [`Span`] cannot hold it.
     pub const fn since(self, earlier: Self) -> Span {
         let (apart, is_ahead) = self.0.overflowing_sub(earlier.0);
         let apart = apart as i64;

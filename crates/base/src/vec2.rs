@@ -2,8 +2,8 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A place or direction, metres. In `stage` space unless a name says otherwise: origin at the centre of the floor, x
-/// to the right, y up (away from the viewer).
+/// A place or a vector on the floor, in metres and in stage space unless a name or comment says otherwise. The origin
+/// of stage space is the centre of the floor, x points to the right, y up (away from the viewer).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vec2 {
@@ -31,7 +31,7 @@ impl Vec2 {
         Self { x, y }
     }
 
-    /// The unit vector in direction `angle`, radians.
+    /// The unit vector in direction `angle`, radians counter-clockwise from +x.
     pub fn unit(angle: f64) -> Self {
         Self::new(libm::cos(angle), libm::sin(angle))
     }
@@ -61,7 +61,7 @@ impl Vec2 {
         (self - other).length()
     }
 
-    /// The vector's angle from +x, in (−π, π]; 0 for the zero vector.
+    /// The vector's angle, radians counter-clockwise from +x, in [−π, π]; 0 for [`Vec2::ZERO`].
     pub fn angle(self) -> f64 {
         libm::atan2(self.y, self.x)
     }
@@ -76,7 +76,7 @@ impl Vec2 {
         self + (other - self) * share
     }
 
-    /// The vector scaled to length 1; `None` if its length is below 1e-12 or not finite.
+    /// The vector scaled to length 1; `None` if its length is at most 1e-12 or not finite.
     pub fn normalized(self) -> Option<Self> {
         let length = self.length();
         (length > 1e-12 && length.is_finite()).then(|| self / length)

@@ -6,8 +6,8 @@
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// Number of falls of the charge (by 1 % each) that are kept: a quarter of a battery. With more, a change of the slope
-/// is noticed late. With fewer, the slope is less certain.
+/// Largest number of falls of the charge (mostly by 1 %) that are kept: about a quarter of a battery. With more, a
+/// change of the slope is noticed late. With fewer, the slope is less certain.
 const FALLS: usize = 24;
 /// Least number of falls from which a slope is computed.
 const FALLS_LEAST: usize = 3;
@@ -70,8 +70,8 @@ mod tests {
     use super::*;
     use lightbots_base::random::split_mix;
 
-    /// Returns the relative error of the remaining time after ten minutes. The battery lasts `life_s`; its reports,
-    /// each two seconds, are off by up to `noise` percent.
+    /// Returns the relative error of the remaining time after ten minutes; `None` if that time is not known. The
+    /// battery lasts `life_s`; its reports, each two seconds, are off by up to `noise` percent.
     fn error_after_ten_minutes(life_s: f64, noise: f64, seed: u64) -> Option<f64> {
         let mut state = seed;
         let mut unit = || (split_mix(&mut state) >> 11) as f64 / (1u64 << 53) as f64;

@@ -1,6 +1,7 @@
-//! A checkpoint: a controller at rest as bytes. At rest there is no run, and all outputs were taken.
+//! A checkpoint: a controller at rest as bytes. At rest there is no run, robots are not being stopped, and all outputs
+//! were taken.
 //!
-//! An input log begins with these bytes, so that a run is replayed without the hours before it.
+//! An input log holds these bytes in its header, so that a run is replayed without the hours before it.
 
 use crate::controller::Controller;
 use crate::robot::KnownRobot;

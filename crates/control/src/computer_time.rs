@@ -1,4 +1,5 @@
-//! The clocks of the controller's computer, by which a controller continues the show clock of one before it.
+//! The clocks of the controller's computer. By them a new controller continues the show clock of the controller before
+//! it.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,8 +22,9 @@ pub struct Uptime {
 }
 
 impl ComputerTime {
-    /// Microseconds from an earlier reading to this one: by the uptime, or by the time of day if the computer was started
-    /// anew in between, does not tell, or its uptime went back. 0 if the time of day counts and shows less than before.
+    /// Microseconds from an earlier reading to this one. The uptime counts if both readings have one of the same start
+    /// of the computer and it did not go back. Otherwise the time of day counts; then the result is 0 if that was set
+    /// back.
     pub fn us_since(&self, earlier: &Self) -> u64 {
         match (self.uptime, earlier.uptime) {
             (Some(now), Some(then)) if now.boot == then.boot && now.us >= then.us => now.us - then.us,

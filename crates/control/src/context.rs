@@ -25,15 +25,15 @@ pub(crate) struct Context {
     pub log: EventQueue,
     /// Which robot shows which pixel.
     pub mapping: Mapping,
-    /// The plan request that the caller has not taken yet. A newer request replaces it.
+    /// The plan request that was not taken yet; `None` if there is none. A newer request replaces it.
     #[serde(skip)]
     pub plan_request: Option<PlanRequest>,
     /// Number of the last plan request.
     pub plan_number: u64,
     /// Number of the next route or stretch of light.
     next_route: u32,
-    /// Number of arrivals reported by robots that were sent nowhere, and of robots found standing away from their
-    /// planned places.
+    /// Number of arrivals that were reported by robots that were sent nowhere, or by unknown ones. Also counts how many
+    /// times a robot was found standing away from its planned place.
     pub unexpected: u64,
     /// Number of times that a route was sent again.
     pub resent: u64,
@@ -64,13 +64,13 @@ impl Context {
         number
     }
 
-    /// Sends commands in one message to a robot. `robot`: index into the fleet.
+    /// Queues commands as one message to a robot. `robot`: index into the fleet.
     pub fn send(&mut self, robot: usize, commands: &[Command]) {
         self.outbox.send(Topic::Robot(self.fleet.robot(robot).id), commands);
     }
 
     /// Notes the colour that a robot is told to show from now on. `robot`: index into the fleet. Returns `false` if the
-    /// robot was told this colour before, so that no command is needed.
+    /// robot is known to show this colour already, so that no command is needed.
     pub fn set_light(&mut self, robot: usize, color: Rgb) -> bool {
         let robot = self.fleet.robot_mut(robot);
         let is_other = !robot.shows(color);

@@ -25,7 +25,7 @@ const PATROL: Span = Span::from_millis(250);
 /// 2 s.
 const ROUNDS: usize = 8;
 /// Least time between two requests to all robots to report, between runs, if some robots have the original firmware.
-/// Without repeated requests a robot whose first report is lost stays unknown, and others would drive into it.
+/// Without repeated requests a robot stays unknown if its first report is lost, and others would drive into it.
 const ASK_ALL: Span = Span::from_millis(600);
 /// Time added to [`ASK_ALL`] for each robot, because all answers share one link.
 const ASK_ALL_PER_ROBOT: Span = Span::from_millis(1);
@@ -60,7 +60,7 @@ pub struct Controller {
     /// Whether all robots are to be stopped once the broker is connected. Either the broker was lost while robots were
     /// being stopped, or the run of a journal does not go on.
     pub(crate) stops_when_connected: bool,
-    /// What the last preflight found.
+    /// What the last preflight found; `None` if there was none, or one is under way.
     #[serde(skip)]
     pub(crate) preflight: Option<Arc<PreflightReport>>,
     #[serde(skip)]
@@ -114,7 +114,7 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// Handles that the connection to the broker is lost.
+    /// Handles that the connection to the broker is lost. Does nothing if the broker is not connected.
     pub fn disconnected(&mut self, now: Instant) {
         if !self.context.outbox.linked() {
             return;
@@ -129,7 +129,8 @@ impl Controller {
         self.conclude(now);
     }
 
-    /// Handles a message. A message that cannot be read is counted and dropped.
+    /// Handles a message. A message that cannot be read is counted and dropped, and so is one of a robot that sends too
+    /// many.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         self.received += 1;
         match Topic::parse(topic) {
@@ -178,7 +179,7 @@ impl Controller {
         }
     }
 
-    /// Asks all robots to report.
+    /// Asks all robots to report, by a broadcast that is sent twice.
     pub(crate) fn refresh(&mut self, now: Instant) {
         let every = Span::from_millis(500);
         self.context.outbox.broadcast(now, Command::Uuid, 2, every);
@@ -205,7 +206,8 @@ impl Controller {
     }
 
     /// Updates the report ages of the next slice of the fleet. Asks silent robots with the original firmware to report,
-    /// because they do not report by themselves.
+    /// because they do not report by themselves. Between runs, if the slice has such a robot, also asks all robots now
+    /// and then.
     fn patrol(&mut self, now: Instant) {
         let context = &mut self.context;
         let slice = context.fleet.patrol(now, ROUNDS, &context.config, &mut context.log);
@@ -321,7 +323,7 @@ impl Controller {
         self.context.outbox.next()
     }
 
-    /// Returns the next event.
+    /// Takes the next event; `None` if none waits.
     pub fn next_event(&mut self) -> Option<Event> {
         self.context.log.next()
     }
@@ -332,7 +334,8 @@ impl Controller {
         self.context.plan_request.take()
     }
 
-    /// Returns when to call [`wake`](Self::wake) next, show clock; always later than the last call of `wake`.
+    /// Returns when to call [`wake`](Self::wake) next, show clock; always `Some`, and later than the last call of
+    /// `wake`.
     pub fn wake_at(&self) -> Option<Instant> {
         let run = self.run.as_ref().map(|run| run.due(&self.context, self.woken));
         let stopping = self.stopping.as_ref().map(Stopping::due);
@@ -356,12 +359,12 @@ impl Controller {
         self.run.as_ref().is_some_and(|run| run.may_go_on(&self.context))
     }
 
-    /// The open show.
+    /// The open show; `None` if no show is open.
     pub fn show(&self) -> Option<&Arc<Show>> {
         self.show.as_ref()
     }
 
-    /// Returns the number of robots that are remembered.
+    /// Returns the number of known robots, stale and gone ones included.
     pub fn robots(&self) -> usize {
         self.context.fleet.robots().len()
     }

@@ -40,7 +40,7 @@ pub enum EventKind {
     NameShared {
         /// The name.
         robot: RobotId,
-        /// Places from which robots of this name reported last, stage metres.
+        /// Up to two places from which robots of this name reported lately, stage metres.
         places: Vec<Vec2>,
     },
     /// A name that two robots shared belongs to one robot again.
@@ -65,7 +65,7 @@ pub enum EventKind {
     },
     /// A plan was made.
     Planned {
-        /// Number of frames that the plan leads to.
+        /// Number of frames that the plan leads to; 0 if planning the first one failed.
         frames: usize,
     },
     /// Planning the drive to a frame failed, or the planned drive would take too long.
@@ -84,23 +84,23 @@ pub enum EventKind {
         /// Number of all dark pixels.
         count: usize,
     },
-    /// Robots leave for a frame.
+    /// Robots leave for a frame. If several drives lead there in turn, each has its own event.
     TransitionStarted {
         /// Counted from 0.
         frame: usize,
         /// When robots leave, show clock.
         starts: Instant,
-        /// How long the drive is planned to take.
+        /// How long this drive is planned to take.
         duration: Span,
     },
     /// Robots have reached a frame.
     FrameReached {
         /// Counted from 0.
         frame: usize,
-        /// Time from the first to the last arrival of a robot at its place in this frame.
+        /// Time from the first to the last arrival of a robot at its place in this frame; 0 if no robot had to arrive.
         spread: Span,
-        /// Time by which the frame was reached after the planned end of the drive, holds included; 0 if it was reached
-        /// earlier.
+        /// Time from the planned end of the drive, which holds put off, until the frame was reached; 0 if it was
+        /// reached earlier.
         wait: Span,
     },
     /// The preparation of the drive to the starting places began.
@@ -137,28 +137,28 @@ pub enum EventKind {
         late: Span,
     },
     /// No plan leads to the frame that a GoTo, a Skip or a left-out frame made the next frame. The change is undone:
-    /// the run goes on to the frame that was next before.
+    /// the frame that was next before is next again.
     JumpGivenUp {
         /// Counted from 0.
         frame: usize,
     },
-    /// All robots wait for one robot.
+    /// All robots wait or stop because of one robot.
     Waiting {
-        /// The robot they wait for.
+        /// The robot that the others wait or stop for.
         robot: RobotId,
         /// Why.
         why: Trouble,
     },
     /// Robots report, but none acknowledges its route: messages do not reach them.
     Undelivered,
-    /// Many robots of a run fell silent at once: the run stands still until these robots report again.
+    /// Many robots of a run fell silent at once: the run stands still until enough robots report again.
     LinkLost {
         /// Number of silent robots.
         silent: usize,
         /// Number of robots of the run.
         robots: usize,
     },
-    /// Robots of an interrupted run report again.
+    /// Enough robots of an interrupted run report again.
     LinkBack {
         /// Number of robots that report again.
         reported: usize,
@@ -177,7 +177,8 @@ pub enum EventKind {
         robots: usize,
         /// Time from the last journal entry of the former controller until now.
         away: Span,
-        /// Whether the run is to go on once its robots report. Otherwise robots are told to stop, and the run is over.
+        /// Whether the run is to go on once its robots report, if need be after the operator agrees. Otherwise robots
+        /// are told to stop, and the run is over.
         goes_on: bool,
     },
     /// The drive goes on after a hold.
@@ -207,7 +208,7 @@ pub enum EventKind {
     UnexpectedArrival(RobotId),
     /// Too many events came at once; this number of them was not recorded.
     Suppressed(u64),
-    /// Every robot was told to stop, because the operator requested StopAll.
+    /// Every robot is being stopped, because the operator requested StopAll.
     StoppedAll,
     /// A run is over.
     RunEnded {
@@ -252,7 +253,7 @@ pub enum Trouble {
     Late,
     /// It is silent.
     Silent,
-    /// It did not acknowledge its route or its START, or it still drives after STOP.
+    /// It did not acknowledge its route or its START, or it is not known to stand after STOP.
     Deaf,
     /// It does not know where it is.
     Lost,
@@ -260,9 +261,9 @@ pub enum Trouble {
     Unsure,
     /// It reports a fault.
     Faulty,
-    /// It stands, because it lost its link on a drive or was restarted.
+    /// It lost its link on a drive, its route or its clock, began its route alone, or was restarted.
     Cut,
-    /// It did not reach its goal in time, or does not stand where it should by plan.
+    /// It did not reach its goal in time, left its straight drive, or does not stand where it should by plan.
     Missed,
     /// An obstacle is in its path.
     Blocked,
@@ -275,7 +276,7 @@ pub enum Trouble {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RunOutcome {
-    /// All frames were played.
+    /// The run reached all its frames.
     Finished,
     /// The operator ended it.
     Aborted,

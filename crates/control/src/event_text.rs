@@ -48,7 +48,8 @@ fn write_dark(f: &mut fmt::Formatter<'_>, (frame, count): (usize, usize), pixels
 }
 
 impl EventKind {
-    /// Returns the text that follows the robot's name, if the event is only about one robot; otherwise an empty text.
+    /// Returns the text that follows the robot's name in lines of the form "Robot NAME TEXT."; empty for events whose
+    /// lines have another form.
     fn of_robot(&self) -> &'static str {
         match self {
             Self::RobotFound(_) => "is here",
@@ -62,7 +63,7 @@ impl EventKind {
         }
     }
 
-    /// Writes the line for people if the event is about a preflight.
+    /// Writes the line for people if the event is about a preflight; otherwise writes nothing.
     fn write_preflight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::PreflightBegun { robots } => write!(f, "Preflight of {}.", Count(*robots, "robot")),
@@ -73,8 +74,8 @@ impl EventKind {
         }
     }
 
-    /// Writes the line for people if the event is about the drive to the starting places, or about a frame that waits
-    /// for GO.
+    /// Writes the line for people of an event about the drive to the starting places, or about a frame that waits for
+    /// GO. Any other event gets the line of `AtHome`.
     fn write_stand(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GoingHome { robots } => write!(f, "{} to the starting places.", Count(*robots, "robot")),
@@ -87,7 +88,8 @@ impl EventKind {
         }
     }
 
-    /// Writes the line for people if the event is about another frame than the next one, a skipped frame, or a loop.
+    /// Writes the line for people if the event is about a jump to a frame, a frame that is left out, or a loop;
+    /// otherwise writes nothing.
     fn write_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GoesTo { frame } => write!(f, "Going to frame {}.", frame + 1),
@@ -116,7 +118,8 @@ impl EventKind {
         }
     }
 
-    /// Writes the line for people if the event is about a link that is lost or back, or about a run that was taken up.
+    /// Writes the line for people if the event is about a link that is lost or back, or about a run that was taken up;
+    /// otherwise writes nothing.
     fn write_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::LinkLost { silent, robots } => write!(

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
-/// A reported position is implausible and ignored from this distance on from the stage's centre, along x or along y,
-/// metres.
+/// A reported position is ignored as implausible if it is this far or farther from the stage's centre, along x or along
+/// y, metres.
 const PLACE_MAX_M: f64 = 1_000.0;
 
 /// What a report changed.
@@ -27,8 +27,8 @@ pub(crate) struct FleetUpdate {
     pub restarted: bool,
 }
 
-/// All known robots. Indices into the fleet are stable until a robot is forgotten, which is refused during a run, and while
-/// robots are being stopped.
+/// All known robots. Indices into the fleet are stable until a robot is forgotten, which is refused during a run, and
+/// while robots are being stopped.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct KnownRobots {
     robots: Vec<KnownRobot>,
@@ -66,7 +66,7 @@ impl KnownRobots {
     }
 
     /// Counts a message of a robot, and returns whether the message is within the allowed rate. An event names a robot
-    /// that sends too many. A message of an unknown robot is always within the rate.
+    /// that sends too many, at a bounded rate. A message of an unknown robot is always within the rate.
     pub fn counts(&mut self, now: Instant, id: RobotId, log: &mut EventQueue) -> bool {
         let Some(index) = self.find(id) else { return true };
         let counted = self.robots[index].rate.count(now);
@@ -107,7 +107,7 @@ impl KnownRobots {
     }
 
     /// Checks by a time question, which holds the robot's own clock, whether two robots share the name. Records an
-    /// event at the first sign.
+    /// event once this is found. Ignores unknown robots.
     pub fn observe_clock(&mut self, now: Instant, question: TimeQuestion, log: &mut EventQueue) {
         if let Some(index) = self.find(question.id) {
             let robot = &mut self.robots[index];
@@ -143,8 +143,8 @@ impl KnownRobots {
         }
     }
 
-    /// Returns the index of a robot of a run that is taken up. An unknown robot is added, as if its last report came at
-    /// `heard` (show clock).
+    /// Returns the index of a robot of a run that is taken up. An unknown robot is added even to a full fleet, as if
+    /// its last report came at `heard` (show clock).
     pub fn expect(&mut self, id: RobotId, heard: Instant, config: &Config) -> usize {
         if let Some(index) = self.find(id) {
             return index;
@@ -175,8 +175,9 @@ impl KnownRobots {
         }
     }
 
-    /// Updates the report ages of the next slice of robots, and returns their indices. At most `rounds` calls cover the
-    /// whole fleet.
+    /// Updates the report ages of the next slice of robots, and returns their indices. Events name robots that became
+    /// stale or gone, and names that belong to one robot again. From the first robot on, `rounds` calls cover the whole
+    /// fleet.
     pub fn patrol(
         &mut self,
         now: Instant,

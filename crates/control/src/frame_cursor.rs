@@ -10,7 +10,8 @@ pub(crate) struct FrameCursor {
     pub frame: usize,
     /// How many times the whole show started again before this frame.
     pub round: u32,
-    /// How many times the loop that contains the frame was played before; 0 if no loop contains the frame.
+    /// How many times the show has repeated the loop that contains the frame, since it entered that loop; 0 if no loop
+    /// contains the frame. A jump within the loop does not count.
     pub pass: u32,
 }
 

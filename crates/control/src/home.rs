@@ -3,14 +3,14 @@
 use lightbots_base::Rgb;
 use lightbots_show::{Frame, Pixel, Show, front_rows, starting_places};
 
-/// Id of the first pixel of the starting places. Pixels of shows count from 0, so no binding by the operator concerns
-/// these pixels.
+/// Id of the first pixel of the starting places. It is far above the ids of shows, so that no binding by the operator
+/// concerns these pixels.
 const FIRST_ID: u32 = 4_000_000_000;
 /// Colour of robots on the drive to their starting places: dim, but visible.
 const LIGHT: Rgb = Rgb::new(0x40, 0x32, 0x1e);
 
-/// Returns a show whose only frame has a place for each of this number of robots. The places are the starting places of
-/// `show`. If they are too few: rows along the front edge of the floor.
+/// Returns a show whose only frame has a pixel at each starting place of `show`. If these are fewer than `robots`, it
+/// has that number of places in rows along the front edge of the floor.
 pub(crate) fn show(show: &Show, robots: usize) -> Show {
     let mut places = starting_places(show);
     if places.len() < robots {

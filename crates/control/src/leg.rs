@@ -17,24 +17,28 @@ pub(crate) struct Leg {
     pub frame: usize,
     /// How many times the whole show started again before that frame.
     pub round: u32,
-    /// How many times the loop that contains the frame was played before; 0 if no loop contains the frame.
+    /// How many times the show has repeated the loop that contains the frame, since it entered that loop; 0 if no loop
+    /// contains the frame. A jump within the loop does not count.
     pub pass: u32,
-    /// Route number of this leg, which all its routes have; 0 until the leg is queued.
+    /// Number of this leg, which all its routes have; 0 until the leg is queued.
     pub seq: u32,
     /// Whether robots drive routes or by TARGET.
     pub kind: LegKind,
-    /// What each robot does, by participant number; participants that joined later have no entry.
+    /// What each robot does, by participant number. Participants that joined later have no entry. Those that had
+    /// dropped out before stand, with the stage's origin as a goal without meaning.
     pub robots: Vec<RobotLeg>,
     /// The straight drives of TARGET-only robots. A drive yields only to drives that are earlier in the list; see
     /// [`StraightDrive`].
     pub drives: Vec<StraightDrive>,
-    /// Number of robots that drive in this leg, and have to arrive before it ends.
+    /// Number of robots that drive in this leg, and have to arrive before it ends. A path may also keep its robot in
+    /// place.
     pub drivers: usize,
     /// Planned time from the start of the drive to its end.
     pub duration: Span,
     /// Whether robots have reached the frame at the end of this leg; `false` if a further leg to it follows.
     pub reaches_frame: bool,
-    /// Least planned clearance between any two robots in this leg, metres; 0 if it is not known.
+    /// Least planned clearance between any two robots, or a robot and a disc that stands, in this leg, metres; 0 if it
+    /// is not known.
     pub room_m: f64,
     /// Places at which the plan had robots that dropped out, stage metres.
     pub around: Arc<[Vec2]>,
@@ -54,26 +58,27 @@ pub(crate) enum LegKind {
 pub(crate) struct RobotLeg {
     /// What the robot does.
     pub task: Task,
-    /// Least planned clearance of the robot to others, metres; infinite if none comes near.
+    /// Least planned clearance of the robot to others, metres. Infinite if none comes near, or if the robot drives no
+    /// path. In very large plans: that of the whole plan, or 0 if not known.
     pub room_m: f64,
     /// The neighbours that come into sight on the robot's path; `None` if they were not computed.
     pub neighbours: Option<Arc<Neighbours>>,
-    /// Where the robot stands after the leg, stage metres.
+    /// Where the robot stands after the leg by plan, stage metres.
     pub goal: Vec2,
     /// Whether `goal` is the robot's place in the frame. `false` if a later leg takes the robot to that place.
     pub settles: bool,
-    /// Id of the pixel that the robot shows in the leg's frame; `None` for a spare robot.
+    /// Id of the pixel that the robot shows in the leg's frame; `None` if it shows none.
     pub pixel: Option<u32>,
-    /// The colour of that pixel; black for a spare robot.
+    /// The colour of that pixel; black if the robot shows none.
     pub color: Rgb,
 }
 
 /// What a robot does in a leg.
 #[derive(Clone, Debug)]
 pub(crate) enum Task {
-    /// It stands.
+    /// It stands, and has no path.
     Stay,
-    /// It drives a timed path.
+    /// It has a timed path, which may also keep it in place.
     Path(Path),
     /// It drives the entries of [`Leg::drives`] that have its participant number.
     Drives,
@@ -108,12 +113,13 @@ impl Leg {
         }
     }
 
-    /// Whether a participant drives in this leg and has to arrive.
+    /// Whether a participant has a path or a straight drive in this leg, and so has to arrive.
     pub fn is_driven_by(&self, participant: usize) -> bool {
         self.robots.get(participant).is_some_and(|robot| !matches!(robot.task, Task::Stay))
     }
 
-    /// Returns where a participant stands when the leg begins, stage metres; `None` if it joined later.
+    /// Returns where a participant stands by plan when the leg begins, stage metres; `None` if it joined later. Without
+    /// meaning for one that had dropped out before.
     pub fn begin(&self, participant: usize) -> Option<Vec2> {
         let robot = self.robots.get(participant)?;
         match &robot.task {
@@ -125,7 +131,8 @@ impl Leg {
         }
     }
 
-    /// Returns where a participant stands when the leg ends, stage metres; `None` if it joined later.
+    /// Returns where a participant stands by plan when the leg ends, stage metres; `None` if it joined later. Without
+    /// meaning for one that had dropped out before.
     pub fn goal(&self, participant: usize) -> Option<Vec2> {
         self.robots.get(participant).map(|robot| robot.goal)
     }

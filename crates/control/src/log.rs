@@ -45,7 +45,7 @@ impl EventQueue {
         }
     }
 
-    /// Once the period is over, begins the next period and records how many events were suppressed.
+    /// Once the period is over, begins the next period, and records how many events were suppressed, if any were.
     pub fn tick(&mut self, now: Instant) {
         if now - self.period_began < PERIOD {
             return;

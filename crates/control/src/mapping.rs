@@ -11,12 +11,12 @@ use std::collections::BTreeMap;
 pub(crate) struct Mapping {
     /// Pixels that the operator bound to robots.
     pub pins: BTreeMap<u32, RobotId>,
-    /// Which robot showed a pixel in frames with fixed identity. The robot shows the pixel in later frames with fixed
-    /// identity, too.
+    /// Which robot last showed a pixel in frames with fixed identity. In later frames with fixed identity that robot
+    /// shows the pixel again, if it takes part.
     #[serde(with = "claims")]
     pub owners: Claims<RobotId>,
     /// Which robot was last to show a pixel in the planned frames of this run, whether with fixed identity or not. A
-    /// frame with fixed identity keeps these robots.
+    /// frame with fixed identity keeps these robots on their pixels.
     #[serde(with = "claims")]
     pub shown: Claims<RobotId>,
 }

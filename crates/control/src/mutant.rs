@@ -1,11 +1,11 @@
-//! Mutants for mutation testing: mistakes made on purpose, to see whether the fault campaign (`cargo xtask simulate`) finds
-//! them. Without the feature `mutants` no mistake is made.
+//! Mutants for mutation testing: mistakes made on purpose, to see whether the fault campaign (`cargo xtask simulate`)
+//! finds them. Without the feature `mutants` no mistake is made.
 
 /// A mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Mutant {
-    /// HOLD is never sent.
+    /// HOLD is not sent to robots on routes when all are to wait on a drive.
     SkipHold = 1,
     /// The acknowledgement of the seventh participant is overlooked.
     DropAcknowledgement,
@@ -28,7 +28,7 @@ pub enum Mutant {
 }
 
 impl Mutant {
-    /// All of them, with their names.
+    /// All mistakes, each with its name.
     pub const ALL: [(&'static str, Self); 10] = [
         ("skip-hold", Self::SkipHold),
         ("drop-acknowledgement", Self::DropAcknowledgement),

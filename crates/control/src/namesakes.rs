@@ -20,7 +20,7 @@ const WITHIN: Span = Span::from_millis(10_000);
 /// came.
 const CLEAR_AFTER: Span = Span::from_millis(30_000);
 /// Number of messages since the last sign of two robots that must have come before the name counts as unique again.
-/// Each robot asks for the time every 3 s (R28 of docs/protocol.md).
+/// Each robot asks for the time at least every 3 s (R28 of docs/protocol.md).
 const CLEAR_MESSAGES: u32 = 12;
 /// Two reported places closer than this are of one standing robot, metres: noise of position fixes.
 const SAME_PLACE_M: f64 = 0.03;
@@ -41,7 +41,7 @@ pub(crate) struct Namesakes {
     first_jump: Instant,
     last_jump: Instant,
     clocks: OwnClocks,
-    /// The last two distinct places that were reported under the name: where its robots stand.
+    /// The two distinct places that were reported last under the name, each with the moment of its last report.
     standing: [Option<Sighting>; 2],
     /// Number of messages since the last sign of two robots.
     messages: u32,
@@ -54,7 +54,7 @@ impl Namesakes {
         self.are_there
     }
 
-    /// Returns the one or two places from which robots of this name reported lately, stage metres.
+    /// Returns up to two places from which robots of this name reported lately, stage metres.
     pub fn places(&self) -> Vec<Vec2> {
         let newest = self.standing.iter().flatten().map(|(at, _)| *at).max();
         let is_recent = |at: Instant| newest.is_some_and(|newest| newest - at < REPORTED_WITHIN);
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn a_robot_that_is_put_elsewhere_and_back_is_one() {
         assert_eq!(found(&[(0.0, -1.0), (0.2, 1.0), (0.5, 1.0), (0.7, -1.0), (0.9, -1.0)]), None);
-        // Nor is one whose place is wrong in a new way each time.
+        // Nor do two robots share the name if the reported place is wrong in a new way each time.
         assert_eq!(found(&[(0.0, 0.0), (0.2, 9.0), (0.4, 4.0), (0.6, 20.0), (0.8, 0.0), (1.0, 30.0)]), None);
     }
 

@@ -157,7 +157,7 @@ impl Controller {
             return Err(Refusal::NotDismissed);
         }
         let show = self.show.clone().ok_or(Refusal::NoShow)?;
-        // In the order in which a run numbers its participants.
+        // A run numbers its participants in this order.
         let fleet = self.context.fleet.robots();
         let takes_part = |robot: &&KnownRobot| robot.can_take_part();
         let (mut robots, mut candidates): (Vec<(RobotId, Vec2)>, Vec<TestedRobot>) = Default::default();
@@ -277,8 +277,9 @@ impl Controller {
         if run.go_on(&mut self.context, now) { Ok(()) } else { Err(Refusal::NothingToGoOn) }
     }
 
-    /// Returns the run, if it plays a show and its robots stand or are held. Otherwise returns the reason why the
-    /// operation is refused.
+    /// Returns the run, if it plays a show and the operator may choose its next frame now. That is so if robots stand,
+    /// are being stopped, or are held, or if the run is paused. Otherwise returns the reason why the operation is
+    /// refused.
     fn standing_show(&mut self) -> Result<(&mut Run, &mut Context), Refusal> {
         self.linked()?;
         let state = self.state();

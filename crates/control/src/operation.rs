@@ -35,10 +35,10 @@ pub enum Operation {
     /// Go on after a pause, and pause again when the next frame is reached. Robots that stand leave at once, also from
     /// a frame that waits for GO.
     Step,
-    /// End the run. Robots on a drive come to rest together, then all wheels stop. A second Abort stops them at once.
+    /// End the run. Robots on routes come to rest together, then all wheels stop. A second Abort stops them at once.
     Abort,
-    /// Stop every robot, also robots that take no part in the run. Robots on a drive first come to rest together; a
-    /// second StopAll stops them at once. Refused only without a broker.
+    /// Stop every robot, also robots that take no part in the run, and end the run. Robots on routes first come to rest
+    /// together; a second StopAll stops them at once. Refused only without a broker.
     StopAll,
     /// Remove the message that the last run failed or was stopped, because the operator has read it.
     DismissFailure,
@@ -46,8 +46,8 @@ pub enum Operation {
     Refresh,
     /// Make a robot flash for five seconds. A robot that does not support BLINK is asked to report.
     Identify(RobotId),
-    /// Remove a robot from the fleet, with its pixel bindings, until it reports again. Refused during a run, and while
-    /// robots are being stopped.
+    /// Remove a robot from the fleet, and its pixel bindings. If it reports again, it is added as a new robot. Refused
+    /// during a run, and while robots are being stopped.
     Forget(RobotId),
     /// Set whether the show starts again after its last frame.
     Loop(bool),
@@ -74,8 +74,8 @@ pub enum Operation {
     /// Drive to this frame (counted from 0) instead of the next one, and play on from it. Ends a pause or a wait for
     /// GO. Refused while robots drive and are neither held nor paused, and while the run is interrupted.
     GoTo(usize),
-    /// Leave out the frame that comes next. Robots stay where they are until the usual time, and then drive to the
-    /// frame after the one that is left out. Refused like [`GoTo`](Self::GoTo).
+    /// Leave out the frame that comes next. Robots that stand in a frame leave it at the usual time, but for the frame
+    /// after the one that is left out. Refused like [`GoTo`](Self::GoTo).
     Skip,
     /// Put a layer of live light over the light of the show that plays. The new layer replaces the live layer of the
     /// same name.
@@ -85,16 +85,17 @@ pub enum Operation {
         /// The layer, whose span is ignored; `None` takes the layer of this name off.
         layer: Option<Layer>,
     },
-    /// Test all robots that can take part: each drives 50 mm out and back, is stopped on its way, and blinks. Refused
-    /// during a run and while robots are being stopped. Also refused until the operator dismisses the message about a
-    /// failed or stopped run.
+    /// Test all robots that can take part and have room: each drives 50 mm out and back, is stopped on its way, and
+    /// blinks. Refused during a run and while robots are being stopped. Also refused until the operator dismisses the
+    /// message about a failed or stopped run.
     Preflight,
 }
 
 /// What happens to pixels that no robot can show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MissingPolicy {
-    /// The run does not begin.
+    /// The run does not begin, or fails before its first drive. Once robots have driven, pixels stay dark all the same
+    /// if robots drop out.
     #[default]
     Refuse,
     /// They stay dark.
@@ -104,7 +105,7 @@ pub enum MissingPolicy {
 /// What the controller is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ControllerState {
-    /// There is no broker.
+    /// There is no broker and no run.
     #[default]
     Idle,
     /// There is a broker and no run.
@@ -115,7 +116,7 @@ pub enum ControllerState {
     Playing,
     /// A run is paused until the operator resumes it.
     Paused,
-    /// A preview, the drive to the starting places, or a preflight is under way.
+    /// A preview, the drive to the starting places, or a preflight has begun its first drive.
     Preview,
     /// Robots are being stopped.
     Aborting,
@@ -130,7 +131,7 @@ pub enum Refusal {
     NotConnected,
     /// No show is open.
     NoShow,
-    /// The show cannot be played.
+    /// The show has an error, so that it cannot be played.
     Unfit {
         /// What is wrong with the show and what to do: the first error that validation finds, one line.
         issue: String,
@@ -158,11 +159,11 @@ pub enum Refusal {
     Paused,
     /// The run is not interrupted, or none of its robots has reported since the interruption.
     NothingToGoOn,
-    /// Robots drive. They can be sent to another frame once they stand or are held.
+    /// Robots drive. They can be sent to another frame once they stand or are held, or the run is paused.
     Driving,
     /// No frame comes next.
     NothingToSkip,
-    /// No show is being played, so that live light has nothing to cover.
+    /// No show is being played, so that there is no light to put live light over.
     NoShowPlays,
     /// The layer of live light is wrong.
     WrongLayer {

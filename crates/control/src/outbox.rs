@@ -37,7 +37,7 @@ pub(crate) struct SendQueue {
     #[serde(skip)]
     waiting: VecDeque<Send>,
     repeats: Vec<Repeat>,
-    /// Latest moment of the show clock that a HOLD was sent for.
+    /// Latest moment that a HOLD broadcast has named, show clock.
     last_hold: Instant,
     #[serde(skip)]
     text: String,
@@ -75,8 +75,9 @@ impl SendQueue {
         self.waiting.is_empty()
     }
 
-    /// Queues commands as one message on one topic. Corrects the colours of COLOR and FADE for the lamps. The colours
-    /// in LIGHT commands are corrected earlier, before stretches of light are fitted.
+    /// Queues commands as one message on one topic. Without a broker or with a full queue, only counts the message as
+    /// unsent. Corrects the colours of COLOR and FADE for the lamps. The colours in LIGHT commands are corrected
+    /// earlier, before stretches of light are fitted.
     pub fn send(&mut self, topic: Topic, commands: &[Command]) {
         if self.linked && self.write(commands).is_err() {
             self.unsent += 1;
@@ -104,7 +105,8 @@ impl SendQueue {
         self.waiting.push_back(Send { topic, payload });
     }
 
-    /// Queues a broadcast `times` times in all: now, and then at intervals of `every`.
+    /// Queues a broadcast `times` times in all: now, and then at intervals of `every`. If [`REPEATS_MAX`] broadcasts
+    /// are being repeated, or without a broker, it is not repeated.
     pub fn broadcast(&mut self, now: Instant, command: Command, times: u32, every: Span) {
         if let Command::Hold { at } = command {
             self.last_hold = self.last_hold.max(at);

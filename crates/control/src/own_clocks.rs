@@ -1,22 +1,22 @@
-//! Detects by robots' own clocks that two robots share a name. A robot reads its own clock into each time question (R25 of
-//! docs/protocol.md). The questions of one robot follow one clock.
+//! Detects by robots' own clocks that two robots share a name. A robot reads its own clock into each time question (R25
+//! of docs/protocol.md). The questions of one robot follow one clock.
 //!
-//! The clock of a robot that restarts goes back once. If two robots ask in turn, the clock in the questions goes back and
-//! forward. After each step back it follows the lower clock. Reported places reveal two robots later than this, or never on
-//! a small floor.
+//! The clock of a robot that restarts goes back once. If two robots ask in turn, the clock in the questions goes back
+//! and forward. After each step back it follows the lower clock. Reported places reveal two robots later than this, or
+//! never on a small floor.
 
 use lightbots_base::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// Largest step back of the clock between two questions of one robot, if one message overtook the other. Two robots that
-/// were switched on within this time of each other are not told apart.
+/// Largest step back of the clock between two questions of one robot, if one message overtook the other. Two robots
+/// that were switched on within this time of each other are not told apart.
 const OVERTAKEN: Span = Span::from_millis(500);
-/// Largest difference between the delays of two questions of one robot. A robot that restarts repeatedly differs by more:
-/// its clock begins low each time, and lags by the time between two starts.
+/// Largest difference between the delays of two questions of one robot. A robot that restarts repeatedly differs by
+/// more: its clock begins low each time, and lags by the time between two starts.
 const LATE: Span = Span::from_millis(1_000);
 /// Number of steps back to the same lower clock that show two robots. A single step back can be a robot that restarted.
 const STEPS_BACK: u8 = 2;
-/// Time within which the steps back must come to show two robots. A robot asks every 3 s (R28).
+/// Time within which the steps back must come to show two robots. A robot asks at least every 3 s (R28).
 const WITHIN: Span = Span::from_millis(15_000);
 
 /// A time question: when it was received (show clock), and when it was sent (the robot's own clock).
@@ -87,7 +87,8 @@ mod tests {
 
     #[test]
     fn a_robot_whose_questions_come_late_together_or_overtaken_is_one() {
-        // Every 0.2 s; for 4 s of each 5 s the broker passes nothing on, and each fifth question overtakes the one before.
+        // Every 0.2 s; for 4 s of each 5 s the broker passes nothing on, and each fifth question overtakes the one
+        // before.
         let received = |ms: u64| if ms % 5_000 < 4_000 { ms / 5_000 * 5_000 + 4_000 } else { ms };
         let order = |step: u64| match step % 5 {
             3 => step + 1,

@@ -18,15 +18,15 @@ use lightbots_wire::MAX_PIECES;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Least clearance between a pixel and a disc whose place is inferred, metres; otherwise the pixel stays dark.
+/// Least clearance between a robot on a pixel and a disc whose place is inferred, metres; with less, the pixel stays
+/// dark.
 const INFERRED_MARGIN_M: f64 = unsure_places::OFF_M + REST_CLEARANCE_M;
 /// Largest number of attempts to plan a frame, each with fewer pixels than the attempt before. If all fail, planning of
 /// the frame fails.
 const LENIENT_TRIES: usize = 8;
 
 impl PlanRequest {
-    /// Makes the plan, however long planning takes: milliseconds for small fleets, seconds for the largest. It never
-    /// panics.
+    /// Makes the plan, however long planning takes: milliseconds for small fleets, seconds for the largest.
     pub fn run(self) -> PlanResult {
         self.run_unless(&|| false)
     }
@@ -139,8 +139,9 @@ impl<'a> PlanBuilder<'a> {
         Ok(())
     }
 
-    /// Plans a drive that moves robots apart which were stopped too close to each other. `None` if no drive is needed
-    /// or possible. After this drive, the frame is planned from the goals of the drive.
+    /// Plans a drive that moves robots apart that were stopped too close to each other. The frame is then planned from
+    /// where this drive ends. `None` if no drive is needed or possible. Only the first frame of a plan for stopped
+    /// robots can have one, and only without TARGET-only robots.
     fn separate(&mut self) -> Option<Transition> {
         let PlanProblem { standing, stopped, .. } = self.problem;
         let problem = TransitionProblem::on_stage(&self.problem.show.stage);
@@ -168,8 +169,8 @@ impl<'a> PlanBuilder<'a> {
         Some(apart)
     }
 
-    /// Plans the transition to the frame at `index`. If [`PlanProblem::lenient`] is set, removes pixels from `bound`
-    /// that make the transition infeasible.
+    /// Plans the transition to the frame at `index`. If [`PlanProblem::lenient`] is set, pixels of `bound` that make
+    /// the transition infeasible become dark.
     fn solve(&self, index: usize, bound: &mut BoundFrame<'_>) -> Result<Transition, String> {
         let mut tries = LENIENT_TRIES;
         loop {
@@ -224,7 +225,8 @@ impl<'a> PlanBuilder<'a> {
         planned_unless(&ordinary, self.is_over).map_err(given_up)
     }
 
-    /// Returns for each robot of the plan where it stands when the frame is reached, and its pixel and light.
+    /// Returns for each robot of the plan where it stands when the frame is reached, and its pixel and colour, if it
+    /// has one.
     fn rests(&self, bound: &BoundFrame<'_>, plan: &Transition) -> Vec<RobotLeg> {
         let rest = |robot: usize| match plan.goal_of.get(robot).copied().flatten() {
             Some(goal) => {
@@ -353,7 +355,7 @@ impl<'a> PlanBuilder<'a> {
         Leg { drives, ..leg }
     }
 
-    /// Returns a leg in which no robot moves yet.
+    /// Returns a leg in which all robots stand; the caller adds paths or straight drives.
     fn leg(&self, kind: LegKind, rests: &[RobotLeg], drivers: usize, duration: Span, room_m: f64) -> Leg {
         let mut robots = vec![RobotLeg::stay(Vec2::ZERO); self.problem.participants];
         for (robot, rest) in self.problem.robots.iter().zip(rests) {

@@ -38,8 +38,8 @@ pub(crate) struct PlanProblem {
     pub mapping: Mapping,
     /// Whether pixels that make a frame infeasible may be left out. Otherwise planning of the frame fails.
     pub lenient: bool,
-    /// Whether all plans were dropped before, so that robots wait for this plan. The plan begins where robots stand,
-    /// perhaps stopped on their paths and closer to each other than any plan has them.
+    /// Whether all plans were dropped before, so that robots wait for this plan. It begins where robots stand. They may
+    /// have been stopped on their paths, closer to each other than plans have them.
     pub stopped: bool,
 }
 
@@ -70,7 +70,7 @@ pub struct PlanResult {
     pub(crate) legs: Vec<Leg>,
     /// Whether all plans were dropped before this one, and robots wait for it.
     pub(crate) stopped: bool,
-    /// Number of planned frames.
+    /// Number of frames that were planned.
     pub(crate) frames: usize,
     /// Frames, counted from 0, with the ids of their pixels that no robot shows.
     pub(crate) dark: Vec<(usize, Vec<u32>)>,
@@ -123,8 +123,8 @@ impl PlanRequest {
     }
 
     /// Returns the longest time that planning may take while robots wait for it, because all plans were dropped before.
-    /// `None` if they were not. The caller measures the time, because this crate reads no clock. After it, the caller
-    /// cancels planning by [`run_unless`](Self::run_unless).
+    /// `None` if they were not dropped. The caller measures the time, because this crate reads no clock. After it, the
+    /// caller cancels planning by [`run_unless`](Self::run_unless).
     pub fn budget(&self) -> Option<Span> {
         let more = self.problem.robots.len().saturating_sub(FEW);
         self.problem.stopped.then_some(BUDGET + BUDGET_PER_ROBOT * more as i64)

@@ -26,8 +26,8 @@ struct StopsShort {
     gain: f64,
 }
 
-/// With a larger `first_m` a robot is sent past its goal. With a larger `gain` the estimate follows the noise of
-/// position fixes.
+/// With a larger `first_m` a robot comes to rest past its goal at first. With a larger `gain` the estimate follows the
+/// noise of position fixes.
 const STOPS_SHORT: StopsShort = StopsShort { first_m: 0.012, most_m: 0.02, rolls_on_m: 0.006, gain: 0.5 };
 
 const _: () = assert!(STOPS_SHORT.first_m <= STOPS_SHORT.most_m && STOPS_SHORT.gain < 1.0);
@@ -39,19 +39,19 @@ pub(crate) struct KnownRobot {
     pub id: RobotId,
     /// What its last report said.
     pub reported: Reported,
-    /// When it was found and reported last.
+    /// When it was found, and when it reported last.
     pub contact: LastContact,
     /// How the charge of its battery falls over time.
     pub charge: ChargeTrend,
     /// How often the robot sends messages, to detect a flood.
     pub rate: ReportRate,
-    /// Where it has stood according to its reports, and since when.
+    /// The place that it reports, and since when it has reported about the same place.
     pub standstill: Standstill,
-    /// What is known of the robot if it has the original firmware, which understands TARGET and COLOR but no routes.
+    /// Used only if the robot has the original firmware, which understands TARGET and COLOR but no routes.
     pub original: OriginalRobot,
     /// The colour that the robot was told to show last.
     pub light: ToldLight,
-    /// Whether it may take part in runs.
+    /// Whether the list of admitted robots lets it take part in runs.
     pub is_admitted: bool,
     /// Signs that two robots share this name.
     pub namesakes: Namesakes,
@@ -64,7 +64,7 @@ pub(crate) struct KnownRobot {
 /// What is known of a robot with the original firmware.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct OriginalRobot {
-    /// When the robot was last asked for a report because of its silence, show clock.
+    /// When the robot was last asked for a report because of its silence, show clock. At first, when it was found.
     pub asked: Instant,
     /// Estimate of how far before its target the robot comes to rest, metres.
     pub short_m: f64,
@@ -75,8 +75,8 @@ pub(crate) struct OriginalRobot {
 pub(crate) struct ToldLight {
     /// The colour.
     pub color: Rgb,
-    /// Whether the robot was told to show `color`, or is dark after it was switched on. `false` for a robot of a run
-    /// that was taken up, until it is told a colour.
+    /// Whether the robot was told to show `color`, or is dark after it was switched on. `false` for a robot that is
+    /// known only from the journal of a run, until it is told a colour or restarts.
     pub is_sure: bool,
 }
 
@@ -90,22 +90,23 @@ impl ToldLight {
 pub(crate) struct LastRun {
     /// Whether the robot may still keep a route of that run, because it has not reported that it keeps none.
     pub may_keep_route: bool,
-    /// When STOP was last sent to the robot after that run, show clock; `None` if it was not.
+    /// When STOP was last sent to this robot alone after that run, show clock; `None` if it was not.
     pub stop_sent: Option<Instant>,
-    /// Id of the pixel that the robot showed when the run ended.
+    /// Id of the pixel that the robot showed when the run ended; `None` if it showed none or had dropped out.
     pub pixel: Option<u32>,
-    /// Goal of the robot when the run ended, stage metres.
+    /// Goal of the robot when the run ended, stage metres; `None` if it had none or had dropped out.
     pub goal: Option<Vec2>,
 }
 
 /// How long a robot has reported the same place.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Standstill {
-    /// When the robot first reported the place `at`, show clock.
+    /// When `at` was first reported, show clock. Until then, when the robot was found.
     pub since: Instant,
-    /// The last reported place, as it was first reported, stage metres. A report without a place does not change it.
+    /// The place that the robot reports, stage metres. Later reports less than [`SAME_PLACE_M`] away, or without a
+    /// place, do not change it. `None` before the first report of a place.
     pub at: Option<Vec2>,
-    /// When the robot last reported a place, show clock.
+    /// When the robot last reported a place, show clock. At first, when it was found.
     pub placed: Instant,
 }
 
@@ -128,23 +129,24 @@ impl KnownRobot {
         }
     }
 
-    /// Whether the robot has the original firmware, which understands TARGET and COLOR but no routes.
+    /// Whether the robot counts as one with the original firmware: it has not reported that it supports routes. The
+    /// original firmware understands TARGET and COLOR but no routes.
     pub fn is_original(&self) -> bool {
         !self.reported.abilities.route
     }
 
-    /// Whether the robot was told to show `color` last, so that no command for it is needed.
+    /// Whether the robot is known to show `color`, so that no command is needed.
     pub fn shows(&self, color: Rgb) -> bool {
         self.light.is_sure && self.light.color == color
     }
 
-    /// Whether the robot is not stale, and its last report names neither a fault nor a lost position.
+    /// Whether the robot is neither stale nor gone, and its last report names neither a fault nor a lost position.
     pub fn is_fit(&self) -> bool {
         self.contact.age == Age::Active
             && !matches!(self.reported.state, Some(RobotState::Faulty | RobotState::Lost))
     }
 
-    /// Whether it reported lately.
+    /// Whether the robot is neither stale nor gone: it reported lately.
     pub fn is_heard(&self) -> bool {
         self.contact.age == Age::Active
     }
@@ -170,13 +172,13 @@ impl KnownRobot {
         self.is_fit() && self.reported.at.is_some() && self.is_admitted && !self.namesakes.are_there()
     }
 
-    /// Whether the robot's last report says that it drives.
+    /// Whether the robot's last report says that it drives. `false` if it is held, or reports no state.
     pub fn may_move(&self) -> bool {
         matches!(self.reported.state, Some(RobotState::Driving))
     }
 
     /// Corrects the estimate of how far before its target the robot comes to rest. The robot was sent from `from` to
-    /// `target` and reported its arrival at `at`; all are stage metres.
+    /// `target` and reported its arrival at `at`; all are stage metres. Does nothing if `from` equals `target`.
     pub fn learn_short(&mut self, from: Vec2, target: Vec2, at: Vec2) {
         let Some(towards) = (target - from).normalized() else { return };
         let StopsShort { most_m, rolls_on_m, gain, .. } = STOPS_SHORT;
@@ -189,8 +191,8 @@ impl KnownRobot {
         log.record(now, EventKind::NameShared { robot: self.id, places: self.namesakes.places() });
     }
 
-    /// Stores what a report says. `place`: the reported position if it is plausible, stage metres; otherwise `None`.
-    /// Returns whether the report shows that the robot was restarted.
+    /// Stores what a report says, and when it came. `place`: the reported position if it is plausible, stage metres;
+    /// otherwise `None`. Returns whether the report shows that the robot was restarted.
     pub fn receive(&mut self, now: Instant, report: &Report, place: Option<Vec2>) -> bool {
         self.contact.heard = now;
         let same = |(at, place): (Vec2, Vec2)| at.distance(place) < SAME_PLACE_M;
@@ -203,7 +205,8 @@ impl KnownRobot {
         if place.is_some() || report.details.is_some() {
             self.reported.at = place;
         }
-        // The original firmware does not report this: the robot counts as real, even if a simulated one had its name.
+        // The original firmware does not report this, so its robot counts as real, even if a simulated one had this
+        // name before.
         self.reported.simulated = report.details.as_ref().is_some_and(|details| details.simulated);
         let restarted = report.details.as_ref().is_some_and(|details| self.take_over(details));
         if let Some(percent) = self.reported.battery {

@@ -35,9 +35,9 @@ pub(crate) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// Returns places near the places in `robots`, in the same order, with a clearance of about [`CLEARANCE_M`] between
-    /// robots. `None` if no robot is closer than [`TOO_CLOSE_M`] to another robot or to a standing disc. Also `None` if
-    /// a robot still would be.
+    /// Returns places near the places in `robots`, in the same order. Robots there have a clearance of about
+    /// [`CLEARANCE_M`], and at least [`TOO_CLOSE_M`], to other robots and to standing discs. `None` if no robot was
+    /// closer than [`TOO_CLOSE_M`] to another robot or disc, or if one still would be.
     pub fn separated(&self, robots: &[Vec2]) -> Option<Vec<Vec2>> {
         if !self.has_pair_within(robots, self.contact_m + TOO_CLOSE_M) {
             return None;
@@ -68,7 +68,8 @@ impl Place<'_> {
     }
 
     /// Moves the robots of each pair with centres closer than `apart_m` away from each other, once, along the line
-    /// between the centres. Standing discs do not move. Returns whether any robot was moved.
+    /// between the centres. Standing discs do not move. Pairs that are at most half of [`SLACK_M`] too close stay.
+    /// Returns whether any robot was moved.
     fn push_apart(&self, robots: &mut [Vec2], apart_m: f64) -> bool {
         let mut cells = FloorCells::new(robots, self.standing, apart_m);
         let mut pushed = false;
@@ -95,8 +96,8 @@ impl Place<'_> {
         pushed
     }
 
-    /// Returns `place`, moved onto the floor if it is outside. If the result is in an obstacle: returns `from`, the
-    /// place before.
+    /// Returns `place`, moved inside the floor if it is too close to the edge. A robot that stood at `from` nearer to
+    /// the edge may stay that near. If the result is too close to an obstacle, returns `from`.
     fn inside(&self, place: Vec2, from: Vec2) -> Vec2 {
         if place == from {
             return place;
@@ -123,6 +124,7 @@ impl Place<'_> {
 mod tests {
     use super::*;
 
+    /// Distance between the centres of two robots that touch in these tests, metres.
     const CONTACT_M: f64 = 0.0544;
 
     fn place<'a>(standing: &'a [Vec2], obstacles: &'a [Obstacle]) -> Place<'a> {

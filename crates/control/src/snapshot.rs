@@ -7,7 +7,7 @@ use lightbots_wire::{Abilities, Blocked, Firmware, RobotState};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Everything that a screen shows of the controller at one moment. [`crate::Event`]s say what happened before.
+/// The state of the controller, its run and its robots at one moment. [`crate::Event`]s say what happened before.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// Moment of the snapshot, show clock.
@@ -24,13 +24,14 @@ pub struct Snapshot {
     pub speed_percent: u32,
     /// The run; `None` if there is none.
     pub run: Option<RunView>,
-    /// Where and why the last run failed: a sentence for people. `None` if no run failed, and once the operator dismisses it
-    /// or begins another run.
+    /// Where and why the last run failed: a sentence for people. `None` if it did not fail, and once the operator
+    /// dismisses the message or begins another run.
     pub failure: Option<String>,
-    /// Frame in which the last run of a show failed or was aborted, counted from 0. `None` if it did not, and once the
-    /// operator dismisses the message, begins a run, or opens a show of another name.
+    /// Frame in which the last run failed or was aborted, counted from 0. `None` if the run played no show or did not
+    /// end so. Also `None` once the operator dismisses the message, begins a run, or opens a show of another name.
     pub stopped_in: Option<usize>,
-    /// What the last preflight found. `None` if the controller has made none since its start, and while one is under way.
+    /// What the last preflight found. `None` if the controller has made none since its start, and while one is under
+    /// way.
     pub preflight: Option<Arc<PreflightReport>>,
     /// All known robots, in the order in which they were found.
     pub robots: Vec<RobotView>,
@@ -41,11 +42,11 @@ pub struct Snapshot {
 /// Where a run is on the timeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShowPosition {
-    /// Position on the timeline, seconds since the air time of the first frame began; negative during the drive to that
-    /// frame.
+    /// Position on the timeline, seconds. The air time of the show's first frame begins at 0, so the drive to that
+    /// frame has negative positions.
     pub show_s: f64,
-    /// Whether the position moves on with the show clock. The position stands during a pause or an interruption, and while
-    /// the run waits for GO after the air time. Without music it also stands during holds and while robots are late.
+    /// Whether the position moves on with the show clock. It stands during a pause or an interruption, and while the
+    /// run waits for GO after the air time. Without music it also stands while robots are held, late or stopped.
     pub runs: bool,
 }
 
@@ -56,8 +57,8 @@ pub struct RunView {
     pub frame: usize,
     /// The frame that follows `frame`, counted from 0; `None` if the run ends with `frame`.
     pub next: Option<usize>,
-    /// Whether the operator can now send robots to another frame or skip the next one. `true` if a show is played and is not
-    /// interrupted, and robots stand, are held or paused.
+    /// Whether the operator can now send robots to another frame or skip the next one. `true` if a show is played and
+    /// is not interrupted, and robots stand, are being stopped, are held, or the run is paused.
     pub may_jump: bool,
     /// Whether this run is the drive to the starting places. If so, `frame` has no meaning.
     pub home: bool,
@@ -67,7 +68,8 @@ pub struct RunView {
     pub doing: &'static str,
     /// Progress of the drive or of the air time.
     pub progress: LegProgress,
-    /// Position on the timeline. `None` if no show is played, and before the first drive of the show begins.
+    /// Position on the timeline. `None` if no show is played, and before the run's first drive begins. For a run that
+    /// was taken up: before its first drive since then.
     pub position: Option<ShowPosition>,
     /// What the run waits for.
     pub wait: RunWait,
@@ -82,8 +84,8 @@ pub struct RunView {
 /// Progress of a drive or of an air time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegProgress {
-    /// Share of the drive's or air time's duration that is over, 0 to 1. If robots drive by TARGET: share of the length of
-    /// their paths that they have driven. 0 in all other phases, and while a run that stands is paused.
+    /// Share of the drive's or air time's duration that is over, 0 to 1. If robots drive by TARGET: share of the length
+    /// of their paths that they have driven. 0 in all other phases, and while a run that stands is paused.
     pub share: f64,
     /// Planned duration of the drive that is under way or ended last, seconds; 0 before the first drive.
     pub drive_s: f64,
@@ -96,15 +98,15 @@ pub struct RunWait {
     pub cue: Option<String>,
     /// Whether the run is interrupted and the operator can let it go on now, without the robots that do not report.
     pub may_go_on: bool,
-    /// Robots for which the other robots wait; at most 20. Such a robot is late on a drive, or, after all were stopped, has
-    /// not reported or set its clock precisely.
+    /// Robots for which the other robots wait; at most 20. On a drive such a robot is late. After all were stopped, it
+    /// has not yet reported that it is ready, or its clock is not precise.
     pub robots: Vec<RobotId>,
 }
 
 /// A preflight at one moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PreflightProgress {
-    /// The round under way, counted from 0. Robots whose test drives would meet drive in different rounds.
+    /// The round under way, counted from 0. Robots with test drives that would meet drive in different rounds.
     pub round: usize,
     /// Number of rounds.
     pub rounds: usize,
@@ -134,17 +136,18 @@ pub struct RobotView {
     pub reported: Reported,
     /// When the robot was found, when it reported last, and the age of that report.
     pub contact: LastContact,
-    /// Planned place of the robot on its path at this moment, stage metres; `None` while it drives no path.
+    /// Planned place of the robot on its path at this moment, stage metres. `None` unless a drive by routes is under
+    /// way in which the robot has a path.
     pub planned: Option<Vec2>,
-    /// Where the robot is to stand after the drive that is under way or ended last, stage metres. If the robot takes no part
-    /// in a run now: its goal when the last of its runs ended. `None` if it had none then.
+    /// Where the robot is to stand after the drive that is under way or ended last, stage metres. If the robot takes no
+    /// part in a run now: its goal when the last of its runs ended. `None` if it had none then.
     pub goal: Option<Vec2>,
     /// Id of the pixel that the robot shows in the run, or showed at the end of its last run. `None` if it showed none.
     pub pixel: Option<u32>,
     /// Colour that the robot should show.
     pub light: Rgb,
-    /// Time from the robot's last report until its battery is empty, if the charge falls on as measured. `None` before three
-    /// falls of 1 % were measured, or if the charge does not fall.
+    /// Time from the robot's last report until its battery is empty, if the charge falls on as measured. `None` before
+    /// the charge has fallen three times, or if it does not fall.
     pub battery_left: Option<Span>,
     /// Whether the robot takes part in the run that is under way.
     pub takes_part: bool,
@@ -152,18 +155,19 @@ pub struct RobotView {
     pub is_admitted: bool,
 }
 
-/// What a robot's last report said.
+/// What a robot's last report said. Where a report has no details, earlier values stay.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reported {
     /// Position, stage metres; `None` if not known.
     pub at: Option<Vec2>,
-    /// Its heading, radians in the stage.
+    /// Its heading, radians counter-clockwise from the stage's x axis; `None` if not known.
     pub heading: Option<f64>,
-    /// Its battery, percent.
+    /// Charge of its battery, percent; `None` if not known.
     pub battery: Option<u8>,
     /// State of the robot; `None` for the original firmware, which does not report its state.
     pub state: Option<RobotState>,
-    /// Distance between the robot and its planned place, metres; `None` if it reports none, because no route is under way.
+    /// Distance between the robot and its planned place, metres; `None` if it reports none, because no route is under
+    /// way.
     pub off_m: Option<f64>,
     /// Obstacle in sight, for which the robot stands or brakes; `None` if there is none.
     pub blocked: Option<Blocked>,
@@ -191,7 +195,7 @@ pub struct LastContact {
     pub age: Age,
 }
 
-/// Age of a robot's last report.
+/// Age of a robot's last report, when it was last checked. It is checked about every 2 s at the latest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Age {
     /// Younger than [`Ageing::stale_after`](crate::Ageing::stale_after).
@@ -221,7 +225,7 @@ pub struct Counters {
     pub overflow: u64,
     /// Messages that were ignored because their robots sent too many.
     pub flooded: u64,
-    /// Arrivals reported by robots that were sent nowhere. Also counts how many times a robot was found standing away from
-    /// its planned place.
+    /// Arrivals reported by robots that were sent nowhere, or by unknown ones. Also counts how many times a robot was
+    /// found standing away from its planned place.
     pub unexpected: u64,
 }

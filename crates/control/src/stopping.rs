@@ -1,7 +1,7 @@
-//! Stops all robots. Robots that drive routes get STOP. TARGET-only robots (original firmware: TARGET and COLOR, no routes)
-//! get their present place as target. Robots on a drive first come to rest together: the command `StopFrom` names the moment
-//! at which all of them begin to slow down. STOP alone reaches some robots later than others, and robots that halt at
-//! different moments may touch.
+//! Stops all robots. Robots that drive routes get STOP. TARGET-only robots (original firmware: TARGET and COLOR, no
+//! routes) get their present place as target. Robots on a drive first come to rest together: the command `StopFrom`
+//! names the moment at which all of them begin to slow down. STOP alone reaches some robots later than others, and
+//! robots that halt at different moments may touch.
 
 use crate::context::Context;
 use crate::mutant::Mutant;
@@ -17,16 +17,17 @@ const COPIES: (u32, Span) = (6, Span::from_millis(50));
 const LEAST: Span = Span::from_millis(300);
 /// Largest time from STOP until stopping ends, even if a robot may still drive then.
 const MOST: Span = Span::from_millis(3_000);
-/// Least time between two STOPs to a robot whose state (such as `Lost` or `Faulty`) does not say whether it keeps a route.
+/// Least time between two STOPs to a robot in a state (such as `Lost` or `Faulty`) that does not say whether it keeps a
+/// route.
 const STOP_AGAIN: Span = Span::from_millis(1_000);
 /// Time between two checks of the robots.
 const CHECK: Span = Span::from_millis(100);
 /// A TARGET-only robot gets a new target to stop at once it is this far from the last one, metres.
 const MOVED_M: f64 = 0.01;
 
-/// Handles a report between runs of the robot at `index` in the fleet. Sends STOP while the robot may keep a route of the
-/// last run. No STOP is needed any more once the robot reports that it is `Idle`, or names no route. A `Lost` or `Faulty`
-/// robot may keep a route, and would turn towards it after its recovery.
+/// Handles a report between runs of the robot at `index` in the fleet. Sends STOP while the robot may keep a route of
+/// the last run. No STOP is needed any more once the robot reports that it is `Idle`, or names no route. A `Lost` or
+/// `Faulty` robot may keep a route, and would turn towards it after its recovery.
 pub(crate) fn stop_late_comer(context: &mut Context, now: Instant, index: usize) {
     let robot = context.fleet.robot_mut(index);
     let last_run = &mut robot.last_run;
@@ -39,8 +40,8 @@ pub(crate) fn stop_late_comer(context: &mut Context, now: Instant, index: usize)
     }
 }
 
-/// Whether a robot that reports this state drives or may keep a route. A `Cut` robot has aborted the route under way, and
-/// may keep the next route (R43 of docs/protocol.md).
+/// Whether a robot that reports this state drives or may keep a route. A `Cut` robot has aborted the route under way,
+/// and may keep the next route (R43 of docs/protocol.md).
 fn keeps_route(state: RobotState) -> bool {
     matches!(state, RobotState::Driving | RobotState::Held | RobotState::Ready | RobotState::Cut)
 }
@@ -59,8 +60,8 @@ pub(crate) struct Stopping {
 }
 
 impl Stopping {
-    /// Begins to stop all robots. `held_from`: when robots on a drive are to begin to slow down, show clock. With `None`,
-    /// STOP is sent at once.
+    /// Begins to stop all robots. `held_from`: when robots on a drive are to begin to slow down, show clock. With
+    /// `None`, STOP is sent at once.
     pub fn begin(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
         context.outbox.stop_repeating();
         let stop_at = held_from.map(|at| at + Route::EASE);
@@ -76,8 +77,8 @@ impl Stopping {
         stopping
     }
 
-    /// Handles a report of the robot at `index` in the fleet. A TARGET-only robot that has moved on gets its present place
-    /// as target.
+    /// Handles a report of the robot at `index` in the fleet. A TARGET-only robot that has moved on gets its present
+    /// place as target.
     pub fn on_report(&mut self, context: &mut Context, index: usize) {
         self.halt(context, index);
     }
@@ -110,8 +111,8 @@ impl Stopping {
         self.check_at
     }
 
-    /// Does what is due at `now`, and returns whether stopping is over. Robots that may keep a route get STOP on their own
-    /// topics, too: they may have missed all copies of the broadcast.
+    /// Does what is due at `now`, and returns whether stopping is over. Robots that may keep a route get STOP on their
+    /// own topics, too: they may have missed all copies of the broadcast.
     pub fn tick(&mut self, context: &mut Context, now: Instant) -> bool {
         if now < self.check_at {
             return false;

@@ -7,8 +7,8 @@ use lightbots_base::{Span, Vec2};
 use lightbots_plan::Path;
 use lightbots_wire::{Knot, Neighbours};
 
-/// Time between two samples of the paths. When two robots pass at full speed, their clearance between samples is about
-/// 1 mm less than at the samples.
+/// Time between two samples of the paths. When two robots pass at full speed, their clearance between samples is at
+/// most about 1 mm less than at the samples.
 const STEP: Span = Span::from_millis(40);
 /// Largest number of steps from sample to sample; the steps of longer paths are longer.
 const MOST_STEPS: i64 = 30_000;
@@ -34,11 +34,13 @@ pub(crate) struct Surroundings {
     /// Least planned clearance to all other robots and discs, metres; infinite above [`AMPLE_M`]. With more than
     /// [`MOST`] paths: the least clearance of the whole plan, or 0 if that is not known.
     pub room_m: f64,
-    /// The neighbours that come into sight of the robot on its path; `None` if they were not computed.
+    /// The neighbours that come into sight of the robot on its path, as far as a route has room for them; `None` if
+    /// they were not computed.
     pub neighbours: Option<Arc<Neighbours>>,
 }
 
-/// A stretch of time in which a neighbour is within [`AMPLE_M`] of a robot.
+/// A stretch of time in which a neighbour is within [`AMPLE_M`] of a robot, short pauses included. `first` and `last`
+/// are the numbers of its first and last step. `least_m` is the least gap between the rims in it, metres.
 #[derive(Clone, Copy, Debug)]
 struct Sighting {
     /// Index of the neighbour's path. For a disc that stands: the number of paths plus the index of the disc.
@@ -50,7 +52,7 @@ struct Sighting {
 
 /// Returns what is around each robot, in the order of `paths`. `standing`: centres of discs that do not move, stage
 /// metres. `least_m`: least clearance in the whole plan; `None` if it is not known. `contact_m`: distance between two
-/// centres at contact.
+/// centres at contact, metres.
 pub(crate) fn surroundings(
     paths: &[(usize, Path)],
     standing: &[Vec2],
@@ -72,8 +74,8 @@ pub(crate) fn surroundings(
         for one in sightings.iter().filter(|one| one.least_m < SIGHT_M) {
             let clearance_tenths = (one.least_m.max(0.0) * 1e4) as u16;
             let knots = knots_of(one, paths, standing, longest, every);
-            // Of those that stand, the farthest are left out if there is no room. Robots then treat them as unplanned
-            // obstacles.
+            // If there is no room for all, the last ones are left out: first those that stand, from the farthest on.
+            // Robots then treat them as unplanned obstacles.
             neighbours.push(clearance_tenths, &knots);
         }
         Surroundings { room_m, neighbours: Some(Arc::new(neighbours)) }
@@ -153,7 +155,7 @@ fn knots_of(
 }
 
 /// Adds knots after `from` up to and including `to`. Their number is such that the spline through them keeps within
-/// [`KNOT_ERROR_M`] of the path.
+/// [`KNOT_ERROR_M`] of the path, unless knots come closer than [`KNOT_EVERY`].
 fn divide(path: &Path, from: Span, to: Span, knots: &mut Vec<Knot>) {
     let ends = [from, to].map(|at| path.as_ref().at(at));
     let over_s = (to - from).as_secs();

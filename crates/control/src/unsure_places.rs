@@ -1,26 +1,28 @@
-//! Adds discs around inferred places, so that plans keep away from them by as much as these places may be wrong. A place is
-//! inferred if no robot reported it as its own.
+//! Adds discs around inferred places, so that plans keep away from them by as much as these places may be wrong. A
+//! place is inferred if no robot reported it as its own.
 
 use lightbots_base::Vec2;
 use lightbots_plan::TransitionProblem;
 
-/// Assumed error of an inferred place, metres. Measured: 5 mm if other robots see a failed robot. With less, robots that
-/// pass an obstacle at 6 mm by plan touch it. With more, there is no plan through gaps that are wide enough.
+/// Assumed error of an inferred place, metres. Measured: 5 mm if other robots see a failed robot. With less, robots
+/// that pass an obstacle at 6 mm by plan touch it. With more, there is no plan through gaps that are wide enough.
 pub(crate) const OFF_M: f64 = 0.008;
-/// Number of discs on a circle around an inferred place. Together they cover the disc at the place, grown by at least 6.8
-/// mm.
+/// Number of discs on a circle around an inferred place. Together they cover the disc at the place, grown by at least
+/// 6.8 mm.
 const RING: u32 = 6;
-/// Discs whose centres are closer than this count as one, metres. The possible places of a silent robot are 10 mm apart.
+/// Discs whose centres are closer than this count as one, metres. The possible places of a silent robot are 10 mm
+/// apart.
 const SAME_M: f64 = 0.004;
-/// Least clearance between a standing disc and a robot at the start or end of its drive, metres. With less there is no plan.
+/// Least clearance between a standing disc and a robot at the start or end of its drive, metres. With less there is no
+/// plan.
 pub(crate) const REST_CLEARANCE_M: f64 = 0.001;
-/// Largest number of inferred places for which discs are added. It bounds the time: each of up to six discs for a place is
-/// compared with all starts and goals, and planned around.
+/// Largest number of inferred places for which discs are added. It bounds the time: each of up to six discs for a place
+/// is compared with all starts and goals, and planned around.
 const PLACES_MAX: usize = 256;
 
-/// Returns the problem with added standing discs around the inferred places, stage metres. A disc with less clearance than
-/// [`REST_CLEARANCE_M`] to a robot's start or goal is left out. Robots that stopped at an obstacle must be able to leave.
-/// `None` if there is no disc to add, or more than [`PLACES_MAX`] places.
+/// Returns the problem with added standing discs around the inferred places, stage metres. A disc with less clearance
+/// than [`REST_CLEARANCE_M`] to a robot's start or goal is left out. Robots that stopped at an obstacle must be able to
+/// leave. `None` if there is no disc to add, or more than [`PLACES_MAX`] places.
 pub(crate) fn kept_away_from(problem: &TransitionProblem, inferred: &[Vec2]) -> Option<TransitionProblem> {
     if inferred.len() > PLACES_MAX {
         return None;

@@ -20,7 +20,7 @@ pub struct PathsView<'a> {
     /// When the drive began or will begin, show clock. Holds delay robots on their paths, which this moment does not
     /// show.
     pub began: Instant,
-    /// The robots that drive, and their paths.
+    /// The robots that have a path in this drive, and their paths. A path may also keep its robot in place.
     pub paths: Vec<(RobotId, &'a Path)>,
 }
 
@@ -141,7 +141,8 @@ impl Run {
         late.map(|(_, known)| id(known.robot)).collect()
     }
 
-    /// Adds to the view of a robot what the run knows of this robot. `participant`: its participant number.
+    /// Adds to the view of a robot what the run knows of this robot. Of one that dropped out, only that it takes no
+    /// part. `participant`: its participant number.
     pub fn complete(&self, view: &mut RobotView, participant: usize, now: Instant) {
         let Some(known) = self.roster.participants.get(participant) else { return };
         view.takes_part = !known.is_excluded();
@@ -191,8 +192,8 @@ impl Controller {
         self.context.fleet.robots().iter().map(view).collect()
     }
 
-    /// Returns the paths of the drive that is under way or about to begin, for drawing. `None` if there is none, or if
-    /// robots drive by TARGET.
+    /// Returns the paths of the drive that is under way or about to begin, for drawing. A drive is about to begin once
+    /// START was sent. `None` if there is none, or if robots drive by TARGET.
     pub fn paths(&self) -> Option<PathsView<'_>> {
         let run = self.run.as_ref()?;
         let (leg, began) = run.driven_paths()?;
@@ -209,7 +210,8 @@ impl Controller {
     }
 
     /// Returns the colours that layers of light give at `now` to robots that support LIGHT. Empty if the show has no
-    /// layers and no live light was used, and while robots blend from one light to another.
+    /// layers and no live light was used, and while robots blend from one light to another. Also empty unless robots
+    /// drive, are about to start, or stand.
     pub fn layered_lights(&self, now: Instant) -> Vec<(RobotId, Rgb)> {
         let Some(Run { pipeline, roster, phase, .. }) = &self.run else { return Vec::new() };
         let plays = matches!(phase, RunPhase::Driving(_) | RunPhase::Standing(_) | RunPhase::Starting(_));

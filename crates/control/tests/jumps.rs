@@ -10,6 +10,7 @@ use lightbots_control::{
 use lightbots_show::{Cue, CuePlace, Identity, Layer, LayerSpan, Setting, Show};
 use lightbots_wire::LightAnchor;
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 
 /// A show in which every frame waits for GO.

@@ -8,6 +8,7 @@ use lightbots_lighting::{FrameTimes, LightMoment, LitFrame, ShowLight, planned};
 use lightbots_plan::ShowOptions;
 use lightbots_show::{FramePhase, Layer, LayerSpan, Setting, Show};
 
+/// Number of robots, and of pixels in each frame.
 const ROBOTS: usize = 9;
 /// Largest difference in time between the two lights, milliseconds.
 const IN_TIME_MS: i64 = 25;

@@ -7,6 +7,7 @@ use lightbots_base::{Rgb, Span};
 use lightbots_control::{EventKind, MissingPolicy, OnReturn, Operation, Refusal, RepeatView, RunOutcome};
 use lightbots_show::{Cue, CuePlace, Identity, Layer, LayerSpan, Setting, Show};
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 
 /// A show whose frames from `first` to `last` repeat until GO.

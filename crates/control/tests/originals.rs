@@ -6,6 +6,7 @@ use fleet::{World, show};
 use lightbots_base::Vec2;
 use lightbots_control::{EventKind, MissingPolicy, Operation, RunOutcome};
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 
 #[test]
@@ -37,8 +38,8 @@ fn lost_targets_are_said_again() {
     assert_eq!(world.run_to_end(300.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
 }
 
-/// An original robot whose target in the second of two frames gets lost. `way` leads from its pixel in the first frame
-/// to that target, which is returned. The robot still receives no messages.
+/// An original robot that does not receive its target in the second of two frames. `way` leads from its pixel in the
+/// first frame to that target, which is returned. The robot still receives no messages.
 fn lost_target(way: Vec2) -> (World, Vec2) {
     let mut show = show(2, 1, 0.5);
     let goal = show.frames[0].pixels[0].at + way;

@@ -8,6 +8,7 @@ use lightbots_control::{ControllerState, EventKind, MissingPolicy, Operation, Re
 use lightbots_show::{Identity, Show};
 use std::sync::Arc;
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 
 #[test]
@@ -379,7 +380,8 @@ fn a_show_that_validation_rejects_is_not_begun() {
     }
 }
 
-/// A world whose run was aborted while robot 3 kept a route. The robot receives and sends nothing until `unheard_s` later.
+/// A world whose run was aborted while robot 3 kept a route. The robot receives and sends nothing until `unheard_s`
+/// later.
 fn aborted_without_robot_3(unheard_s: f64) -> World {
     let mut world = World::ready(10, 0, show(3, 10, 3.0));
     world.play();
@@ -393,8 +395,8 @@ fn aborted_without_robot_3(unheard_s: f64) -> World {
     world
 }
 
-/// Checks that the abort of a run reaches a robot that keeps a route and receives nothing for `unheard_s`. It must keep no
-/// route `within_s` after it receives messages again.
+/// Checks that the abort of a run reaches a robot that keeps a route and receives nothing for `unheard_s`. It must keep
+/// no route `within_s` after it receives messages again.
 fn is_stopped_after(unheard_s: f64, within_s: f64) {
     let mut world = aborted_without_robot_3(unheard_s);
     world.run_for(within_s);

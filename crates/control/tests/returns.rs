@@ -7,6 +7,7 @@ use lightbots_base::{RobotId, Span};
 use lightbots_control::{ControllerState, EventKind, JOURNAL_OUTDATED, OnReturn, Operation, RunOutcome};
 use lightbots_show::{Identity, Show};
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 
 /// A run of `count` robots, the last `originals` of which are original ones, with a journal.

@@ -7,6 +7,7 @@ use lightbots_base::Vec2;
 use lightbots_control::{EventKind, RunOutcome};
 use lightbots_show::{Identity, Obstacle, Show};
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 /// Distance from the walls at which one robot drives past the bay, metres.
 const LANE_M: f64 = 0.04;

@@ -9,6 +9,7 @@ use lightbots_show::Identity;
 use lightbots_wire::Blocked;
 use std::sync::Arc;
 
+/// Distance between the centres of two robots that touch, metres.
 const CONTACT_M: f64 = 0.054;
 
 /// Eight robots in the first of two frames. In the second frame those of the pixels from `movers` on stay in place. The

@@ -6,7 +6,9 @@ use lightbots_base::{Vec2, random::split_mix};
 use lightbots_draw::text::{self, Font, TextSettings};
 use lightbots_draw::{DOUBTFUL, PictureFloor, PlaceSettings, READABLE, SignReader, Style, place};
 
+/// The signs that are measured.
 const SIGNS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+/// Numbers of robots with which each sign is shown.
 const COUNTS: [usize; 8] = [6, 8, 10, 12, 16, 20, 30, 60];
 
 fn main() {

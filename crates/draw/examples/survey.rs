@@ -39,7 +39,7 @@ fn main() {
     times.iter().take(SLOWEST).for_each(|(time, path)| println!("{time:8.2} s {}", path.display()));
 }
 
-/// Notes about parts of a file that its drawing lacks.
+/// Notes about parts of a file that its drawing lacks. The error says why there is no drawing.
 fn notes(bytes: &[u8]) -> Result<Vec<Note>, DrawError> {
     let settings = PictureSettings::default();
     match sniff(bytes) {

@@ -7,14 +7,14 @@ use crate::layout::Style;
 /// The claim of one part of a drawing to robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
-    /// Weight of the part. The robots beyond `least` are allotted in proportion to it.
+    /// Weight of the part. Robots are allotted in proportion to it, as far as `least` allows.
     pub demand: f64,
     /// Number of robots that the part gets in any case.
     pub least: usize,
 }
 
-/// Returns for each part the number of robots that it takes (may be fractional), all parts at one spacing. The spacing
-/// is chosen so that the sum is `count`.
+/// Returns for each part the number of robots that it takes, which may be fractional. All parts have the same spacing,
+/// which is chosen so that the sum is about `count`.
 pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f64> {
     let at = |spacing: f64| grounds.iter().map(|ground| demand(ground, style, spacing)).collect::<Vec<f64>>();
     let size = grounds.iter().map(|ground| ground.size).fold(0.0, f64::max);
@@ -26,7 +26,7 @@ pub(crate) fn demands(grounds: &[&Ground], style: Style, count: usize) -> Vec<f6
     at(high)
 }
 
-/// Number of robots that a part takes at a spacing between robots; may be fractional.
+/// Number of robots that a part takes at a spacing between robots, in the units of `ground`; may be fractional.
 fn demand(ground: &Ground, style: Style, spacing: f64) -> f64 {
     let filling = |area: f64| hexagonal_count(area, spacing);
     let (lines, edge) = (ground.lines.length(), ground.outline.length());

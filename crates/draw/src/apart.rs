@@ -17,7 +17,7 @@ pub(crate) enum Freedom {
     Free,
     /// Along the lines only.
     Line,
-    /// Not at all: a corner, an end, or a place that a user chose.
+    /// Not at all: a corner, an end, a crossing, or a place that a user chose.
     Fixed,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Room<'a> {
 }
 
 /// Moves places until no pair is closer than `distance`, or [`ROUNDS`] are over. `holds[i]` says how place `i` may
-/// move.
+/// move. Places with a pairing stay symmetric.
 pub(crate) fn push_apart(places: &mut [Vec2], holds: &[Freedom], distance: f64, room: &Room<'_>) {
     for _ in 0..ROUNDS {
         if !push_once(places, holds, distance, |_| room) {
@@ -66,7 +66,7 @@ pub(crate) fn push_parts_apart(
     }
 }
 
-/// Pushes all close pairs apart once. Returns whether any pair was closer than `distance`.
+/// Pushes all pairs apart once that are closer than 99.9 % of `distance`. Returns whether there were any.
 fn push_once<'r, 'b: 'r>(
     places: &mut [Vec2],
     holds: &[Freedom],
@@ -105,7 +105,8 @@ fn shares(a: &Freedom, b: &Freedom) -> (f64, f64) {
 }
 
 impl Room<'_> {
-    /// Returns where a place goes that was pushed to `at`: to the point nearest to `at` that `hold` allows.
+    /// Returns where a place goes that was pushed to `at`. A free place stays there unless it is outside the drawing;
+    /// then it goes to the nearest sample point. A place on a line goes to a near point of the line.
     fn nearest(&self, at: Vec2, hold: &Freedom) -> Vec2 {
         match hold {
             Freedom::Fixed => at,

@@ -13,8 +13,8 @@ use crate::layout::{Layout, LayoutTask, Style, separate};
 use crate::settings::{PlaceSettings, PlacedLight};
 use crate::thick::{BandLoad, thickened};
 
-/// Areas that are wider than this number of spacings, on average, get robots along the edge and a filling. In narrower
-/// areas that filling would zigzag.
+/// In style `Auto`, areas wider than this number of spacings, on average, get robots along the edge and a filling if
+/// there are enough robots. In narrower areas that filling would zigzag.
 const WIDE: f64 = 2.0;
 
 /// Up to this number of robots for each part with areas, no robots stand along the edge. Too few would be left for the
@@ -34,7 +34,7 @@ struct Piece {
     ground: Ground,
 }
 
-/// Places lights on a drawing whose coordinates are stage metres already.
+/// Places lights on a drawing whose coordinates are stage metres already. The kept lights of `settings` come first.
 ///
 /// # Errors
 /// No part of the drawing is on the floor and outside no-go areas.
@@ -91,7 +91,7 @@ fn pieces(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> 
     pieces
 }
 
-/// Replaces lines by bands of some width if the lines have no room for all robots.
+/// Gives lines some width, so that they become bands, if the lines have no room for all robots.
 fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings) {
     let is_line = |piece: &Piece| piece.ground.samples.is_empty();
     let sum = |lines: bool, of: fn(&Ground) -> f64, pieces: &[Piece]| -> f64 {
@@ -111,7 +111,8 @@ fn thicken(pieces: &mut [Piece], floor: &PictureFloor, settings: &PlaceSettings)
     }
 }
 
-/// Chooses the style of the areas. All areas get the same style, so that the letters of a word look alike.
+/// Chooses the style of the areas: that in `settings`, unless it is `Auto`. All areas get the same style, so that the
+/// letters of a word look alike.
 fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     if settings.style != Style::Auto {
         return settings.style;
@@ -134,7 +135,7 @@ fn style(pieces: &[Piece], settings: &PlaceSettings) -> Style {
     }
 }
 
-/// `[piece]`: the kept places that are nearer to this piece than to any other.
+/// `[piece]`: the kept places that are nearer to this piece than to any other, stage metres.
 fn kept_by_piece(grounds: &[&Ground], settings: &PlaceSettings) -> Vec<Vec<Vec2>> {
     let mut kept = vec![Vec::new(); grounds.len()];
     for light in &settings.kept {

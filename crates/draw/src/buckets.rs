@@ -2,7 +2,7 @@
 
 use lightbots_base::Vec2;
 
-/// Largest number of buckets along an axis and, about, in total. Without this bound a thin drawing would have many
+/// Largest number of buckets along an axis and, about, in total. Without this bound a thin drawing would have very many
 /// empty buckets.
 const MOST: f64 = 4e6;
 
@@ -167,7 +167,7 @@ pub(crate) fn nearest_distances(points: &[Vec2], pitch: f64) -> Vec<f64> {
     distances
 }
 
-/// Distance of the closest pair of points; infinite for fewer than two points.
+/// Distance of the closest pair of points, in the unit of the points; infinite for fewer than two points.
 pub fn closest_distance(points: &[Vec2]) -> f64 {
     nearest_distances(points, 0.1).into_iter().fold(f64::INFINITY, f64::min)
 }

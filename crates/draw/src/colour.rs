@@ -9,7 +9,8 @@ use crate::geometry::{contains, edges};
 /// Finds the colours of one part of a drawing.
 pub(crate) struct Paint<'a> {
     part: &'a DrawingPart,
-    /// The colour of the whole part; `None` if the part has several colours, a gradient or a picture, or is empty.
+    /// The colour of the whole part; `None` if the part has several colours, a gradient or a picture, or has neither
+    /// areas nor strokes.
     single: Option<Rgb>,
 }
 
@@ -25,7 +26,7 @@ impl<'a> Paint<'a> {
     }
 
     /// Returns the colour at a place. A picture comes first, then the last area that covers the place. Outside all
-    /// areas it is the colour of the nearest area or line.
+    /// areas it is the colour of the nearest area or line. An empty part is white.
     pub fn at(&self, at: Vec2) -> Rgb {
         if let Some(color) = self.single {
             return color;

@@ -10,11 +10,13 @@ pub use crate::geometry::FillRule;
 /// A drawing in units of its own, x to the right and y up. Its size and place on the floor are chosen later.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
-    /// The parts. Each gets robots of its own. Examples: the letters of a word, or the whole of a picture.
+    /// The parts, each with robots of its own if there are enough. Examples: the letters of a word, or the whole of a
+    /// picture.
     pub parts: Vec<DrawingPart>,
 }
 
-/// A part of a drawing. Robots of one part are spread evenly over all of its lines and areas.
+/// A part of a drawing. The robots of one part are spread over its lines and areas, more densely where the weight is
+/// larger.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingPart {
     /// Name of the part, unique in its drawing.
@@ -116,8 +118,8 @@ impl Drawing {
         self.parts.iter().flat_map(DrawingPart::points)
     }
 
-    /// Returns the smallest rectangle around all parts: its corners with the smaller and the larger x and y. `None` if
-    /// the drawing is empty.
+    /// Returns the smallest rectangle with sides along the axes around all parts: its corners with the smaller and the
+    /// larger x and y. `None` if the drawing has no points.
     pub fn bounds(&self) -> Option<(Vec2, Vec2)> {
         bounds(self.points())
     }

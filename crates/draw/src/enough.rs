@@ -10,9 +10,9 @@ use crate::settings::PlaceSettings;
 /// Largest number of robots that is tried. A drawing that is not readable with this number is too fine for robots.
 const MOST: usize = 1_000;
 
-/// Searches the least number of robots with which a drawing is readable. The number first grows in steps until the
-/// drawing is readable; then every number within the last step is tried. `None` if no step up to a thousand robots is
-/// readable.
+/// Searches the least number of robots with which a drawing is readable. The number first grows in steps, by a quarter
+/// each, until the drawing is readable; then every number within the last step is tried. `None` if no step up to a
+/// thousand robots is readable. Number of robots, size, kept lights, start and quality in `settings` are not used.
 pub fn enough_robots(drawing: &Drawing, settings: &PlaceSettings) -> Option<usize> {
     // A large floor, because room for the robots is not in question here.
     let floor = PictureFloor::new(1_000.0, 1_000.0, 0.0);

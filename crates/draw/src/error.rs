@@ -13,7 +13,7 @@ pub struct DrawError {
     pub message: String,
 }
 
-/// Something that is missing from a drawing, such as a picture inside an SVG.
+/// Something that is missing from a drawing, such as a picture inside an SVG, or that differs from the source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
     /// Stable name for programs, such as `svg-image`.
@@ -22,12 +22,12 @@ pub struct Note {
     pub message: String,
 }
 
-/// A drawing, and what is missing from it.
+/// A drawing, and notes about it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Made {
     /// The drawing.
     pub drawing: Drawing,
-    /// Notes about what is missing.
+    /// Notes about what is missing from the drawing or differs from the source.
     pub notes: Vec<Note>,
 }
 

@@ -7,10 +7,11 @@ use crate::drawing::{Drawing, DrawingPart, Stroke};
 use crate::error::DrawError;
 use crate::settings::PlaceSettings;
 
-/// If no size is set, a picture takes at most this share of the largest size that the floor allows.
+/// If no size is set, a picture has at first at most this share of the largest size that the floor allows. It grows if
+/// its lights need more room.
 const SHARE: f64 = 0.8;
 
-/// In a picture without a set size, lights are at most about this number of least spacings apart. Farther apart, they
+/// In a picture without a set size, lights are at most about this number of wanted spacings apart. Farther apart, they
 /// do not look like one picture to a viewer at the edge of the floor.
 const LOOSE: f64 = 4.0;
 
@@ -88,7 +89,7 @@ impl Placement {
     /// size in `settings`, it chooses one for the floor and the number of robots.
     ///
     /// # Errors
-    /// A drawing without extent, or a picture whose centre is not on the floor.
+    /// A drawing without extent, or a picture whose centre is not within the edges of the floor.
     pub fn new(drawing: &Drawing, floor: &PictureFloor, settings: &PlaceSettings) -> Result<Self, DrawError> {
         let drawn = drawing.bounds().ok_or_else(|| {
             DrawError::new("nothing-to-draw", "there is nothing to draw; choose another source")
@@ -122,7 +123,8 @@ impl Placement {
         Ok(placement)
     }
 
-    /// Returns the largest scale at which the box around the drawing stays on the floor after it is turned.
+    /// Returns the largest scale at which the box around the drawing stays within the edges of the floor after it is
+    /// turned. It is not positive if the centre is outside.
     fn largest(&self, floor: &PictureFloor) -> f64 {
         let (cos, sin) = (libm::cos(self.turn).abs(), libm::sin(self.turn).abs());
         let width = self.extent.x * cos + self.extent.y * sin;
@@ -137,13 +139,13 @@ impl Placement {
         self.scale * self.extent.x.max(self.extent.y)
     }
 
-    /// Whether the picture can grow by a factor and stay on the floor.
+    /// Whether the picture can grow by a little more than `factor` and stay within the edges of the floor.
     pub fn has_room(&self, factor: f64) -> bool {
         self.scale * factor * 1.002 <= self.most
     }
 
-    /// Makes the picture larger by about `factor`, as far as the floor allows, and returns the factor that was applied.
-    /// `closest_m`: distance of the closest two lights at the present size.
+    /// Makes the picture larger by about `factor`, as far as the edges of the floor allow, and returns the factor that
+    /// was applied. `closest_m`: distance of the closest two lights at the present size.
     ///
     /// # Errors
     /// The picture fills the floor already; the message says which number of robots would fit.

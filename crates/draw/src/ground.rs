@@ -43,7 +43,7 @@ impl Quality {
         }
     }
 
-    /// Number of rounds of relaxation.
+    /// Largest number of rounds of relaxation.
     pub(crate) fn rounds(self) -> usize {
         match self {
             Self::Quick => 12,
@@ -124,7 +124,7 @@ impl Ground {
         Mirror::of(&points, step)
     }
 
-    /// Distance between neighbours if `count` places fill the areas evenly.
+    /// Distance between neighbours if `count` places fill the areas evenly, in the drawing's units.
     pub fn spacing(&self, count: usize) -> f64 {
         hexagonal_spacing(self.mass, count)
     }

@@ -33,7 +33,7 @@ impl Ink {
     }
 }
 
-/// Colours along a line or around a point, as SVG 2 defines them.
+/// Colours along a line or around a focus, after SVG 2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
     /// Positions in the drawing of the points (0, 0), (1, 0) and (0, 1) of the gradient's own coordinate system.
@@ -46,7 +46,7 @@ pub struct Gradient {
     pub stops: Vec<(f64, Rgb)>,
 }
 
-/// The shape of a gradient.
+/// The shape of a gradient. Places are in the gradient's own coordinate system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GradientShape {
     /// Along a line from offset 0 to offset 1.

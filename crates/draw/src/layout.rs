@@ -13,7 +13,8 @@ use crate::relax::{Lloyd, energy};
 use crate::seeds::seeds;
 use crate::symmetry::{Mirror, Pairing, symmetric_share};
 
-/// How robots show areas.
+/// How robots show areas. A part that lacks what a style needs is filled, or gets robots along its strokes if it has no
+/// areas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// [`Style::Both`], [`Style::Lines`] or [`Style::Filled`], the same for all parts. The choice depends on the size
@@ -54,7 +55,7 @@ const EDGE_APART: f64 = 0.82;
 const LINE_APART: f64 = 0.6;
 
 /// Up to this number of places in a part, several numbers of places on the mirror axis are tried. An asymmetric
-/// arrangement is then always tried as well.
+/// arrangement is then tried as well.
 const FEW: usize = 60;
 
 /// The places of one part, and how each place may move.
@@ -74,7 +75,7 @@ pub(crate) struct LayoutTask<'a> {
     /// Number of all places, including the kept places.
     pub count: usize,
     /// Places to begin with, the kept places first, such as the places of the previous picture. Used only for filling
-    /// areas, and only if their number is the number of places wanted.
+    /// areas, and only if their number is the number of places wanted there.
     pub start: &'a [Vec2],
     pub quality: Quality,
     pub seed: u64,
@@ -123,7 +124,7 @@ impl LayoutTask<'_> {
         all(count)
     }
 
-    /// Places robots on the outline and inside, with equal spacing on both.
+    /// Places robots on the outline and inside, with about equal spacing on both.
     fn both(&self) -> Layout {
         let ground = self.ground;
         let spacing = balanced_spacing(ground.outline.length(), ground.mass, self.count);
@@ -185,10 +186,10 @@ impl LayoutTask<'_> {
         push_apart(&mut layout.places, &layout.holds, distance, &room);
     }
 
-    /// Returns the places in `fixed` and `count` relaxed places in the areas. If `start` has the right number of
-    /// places, relaxation begins with them, and symmetry is not sought. Otherwise, if the areas are symmetric and no
-    /// place is kept, the places are symmetric, with one exception. Asymmetric places are returned if the energy of
-    /// symmetric places is more than [`SYMMETRY_WORTH`] times theirs.
+    /// Returns the places in `fixed`, then `count` relaxed places in the areas, and the pairing of symmetric places. If
+    /// `start` has the right number of places, relaxation begins with them, and symmetry is not sought. Otherwise, if
+    /// the areas are symmetric and no place is kept, the places are symmetric, with one exception. Asymmetric places
+    /// are returned if the energy of symmetric places is more than [`SYMMETRY_WORTH`] times theirs.
     fn relaxed(&self, fixed: &[Vec2], count: usize, spacing: f64) -> (Vec<Vec2>, Option<Pairing>) {
         if count == 0 || self.ground.samples.is_empty() {
             return (fixed.to_vec(), None);
@@ -214,7 +215,8 @@ impl LayoutTask<'_> {
         if value(&places) <= SYMMETRY_WORTH * value(&free) { (places, Some(pairing)) } else { (free, None) }
     }
 
-    /// Returns the places of `start`, shifted together onto the drawing, which may have moved since they were made.
+    /// Returns the places of `start`, all shifted by the same vector: the middle of their box is then the middle of the
+    /// box of the samples. The drawing may have moved since those places were made.
     fn aligned_start(&self) -> Vec<Vec2> {
         let middle = |points: &[Vec2]| bounds(points).map_or(Vec2::ZERO, |(low, high)| low.lerp(high, 0.5));
         let shift = middle(&self.ground.inside) - middle(self.start);
@@ -232,8 +234,8 @@ impl LayoutTask<'_> {
         places
     }
 
-    /// Finds symmetric places: `single` of the `count` new places are on the axis `mirror`, the others are pairs of
-    /// mirror images.
+    /// Finds symmetric places, after those in `fixed`: `single` of the `count` new places are on the axis `mirror`, the
+    /// others are pairs of mirror images.
     fn symmetric(
         &self,
         fixed: &[Vec2],
@@ -258,8 +260,8 @@ impl LayoutTask<'_> {
     }
 }
 
-/// Pushes places of different parts apart, until no pair is closer than the closest pair within any part. Places of
-/// different parts are too close where a line leads behind an area.
+/// Pushes places of different parts apart, until no pair is closer than the closest pair within any part. The number of
+/// rounds is limited. Places of different parts are too close where a line leads behind an area.
 pub(crate) fn separate(grounds: &[&Ground], layouts: &mut [Layout]) {
     let distance =
         layouts.iter().map(|layout| closest_distance(&layout.places)).fold(f64::INFINITY, f64::min);

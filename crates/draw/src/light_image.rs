@@ -61,7 +61,7 @@ impl LightImage {
     }
 
     /// Normalised cross-correlation with a picture of the same box, 0 to 1. It is 1 if both are equal up to a factor of
-    /// brightness.
+    /// brightness, and 0 if one of them is dark.
     pub fn correlation(&self, other: &Self) -> f64 {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let scale = (dot(&self.values, &self.values) * dot(&other.values, &other.values)).sqrt();

@@ -23,10 +23,10 @@ const WHITE: Rgb = Rgb::new(255, 255, 255);
 /// Example of a correct line, for error messages.
 const EXAMPLE: &str = "Write a line for each light, such as 1.5, 2.0, #ff8800.";
 
-/// Reads the lights of a list whose lines are `x, y, colour`. The colour is `#rrggbb`, a name, or three columns of red,
-/// green and blue from 0 to 255. Lights without a colour are white. Columns are separated by semicolons, tabs, commas
-/// or spaces. With semicolons or tabs, numbers may have decimal commas. A first line may name the columns, and so
-/// change their order.
+/// Reads the lights of a list whose lines are `x, y, colour`. The colour is a CSS colour such as `#rrggbb` or a name,
+/// or three columns of red, green and blue from 0 to 255. Lights without a colour are white. Columns are separated by
+/// semicolons, tabs, commas or spaces; the first line decides which. With semicolons or tabs, numbers may have decimal
+/// commas. A first line may name the columns, and so change their order.
 ///
 /// # Errors
 /// A list that is empty, too long or not UTF-8, or a line that is wrong; the message names the first such line.
@@ -91,7 +91,7 @@ fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
     lines.map(|(n, line)| (n + 1, line)).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// Returns the character that separates the columns: the first of `;`, tab and `,` that occurs in the line, else a
+/// Returns the character that separates the columns: the first of `;`, tab and `,` that occurs in the line, otherwise a
 /// space.
 fn separator(line: &str) -> char {
     [';', '\t', ','].into_iter().find(|separator| line.contains(*separator)).unwrap_or(' ')
@@ -162,7 +162,7 @@ fn light(fields: &[String], columns: Columns, separator: char) -> Result<(Vec2, 
     Ok((at, color(fields.get(columns.color..).unwrap_or(&[]))?))
 }
 
-/// Reads the colour at the start of `fields`, the columns from the colour on; white if there is none.
+/// Reads the colour at the start of `fields`, which begin with the column of the colour. White if there is none.
 fn color(fields: &[String]) -> Result<Rgb, String> {
     let Some(first) = fields.first().filter(|first| !first.is_empty()) else { return Ok(WHITE) };
     let wrong = |text: &str| format!("the colour \"{}\" is unknown.", shortened(text));

@@ -13,7 +13,8 @@ use crate::pins::{self, CORNER_RAD};
 pub struct Figures {
     /// Standard deviation of the places' distances to their nearest neighbours, divided by the mean of these distances.
     pub variation: f64,
-    /// Distance of the closest pair of places. It sets the size of the picture on the floor.
+    /// Distance of the closest pair of places; infinite for a single place. It sets the size of the picture on the
+    /// floor.
     pub closest: f64,
     /// Largest distance of a point of the drawing from its nearest place.
     pub farthest_point: f64,

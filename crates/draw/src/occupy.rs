@@ -9,8 +9,8 @@ use crate::lines::{LineSet, Polyline};
 use crate::pins::{self, Pin};
 use crate::symmetry::Mirror;
 
-/// A pin closer than this share of the spacing to a pin of higher rank is dropped, because both would look like one
-/// light.
+/// A pin is an end, crossing or corner of a line. One closer than this share of the spacing to a pin of higher rank is
+/// dropped, because both would look like one light.
 const PIN_GAP: f64 = 0.6;
 
 /// A light closer than this share of the spacing to another line counts as a light of both lines.
@@ -19,7 +19,8 @@ const BESIDE: f64 = 0.45;
 /// Pins closer to each other than this share of the spacing become one light that several lines share.
 const SAME: f64 = 0.08;
 
-/// A piece of a line between two successive pins, or between a pin and an end. `from`: length from the line's start.
+/// A piece of a line between two successive places that have a light already, or between one and an end. `from`: length
+/// from the line's start.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     line: usize,
@@ -36,8 +37,9 @@ struct Edge {
 /// A place on a line, and how it may move.
 pub(crate) type LinePlace = (Vec2, Freedom);
 
-/// Returns `count` places along lines, at pins first and then evenly between them. `height`: larger side of the
-/// drawing. If the lines are symmetric about `mirror`, so are the places, as far as `count` allows.
+/// Returns `count` places along lines, at ends, crossings and corners first and then evenly between them. The list is
+/// empty without lines. `height`: larger side of the drawing. If the lines are symmetric about `mirror`, so are the
+/// places, as far as `count` allows.
 pub(crate) fn occupy(track: &LineSet, count: usize, height: f64, mirror: Option<Mirror>) -> Vec<LinePlace> {
     if count == 0 || track.lines.is_empty() {
         return Vec::new();
@@ -182,7 +184,8 @@ fn orbits(track: &LineSet, edges: &[Edge], mirror: Option<Mirror>, spacing: f64)
     orbits
 }
 
-/// Adds `count` lights, always to the group with the widest gaps. Both pieces of a pair get a light each.
+/// Adds `count` lights, each time to the group with the widest gaps. Both pieces of a pair get a light, unless only one
+/// light is left.
 fn fill(track: &LineSet, edges: &mut [Edge], orbits: &[Vec<usize>], count: usize) {
     let mut left = count;
     while left > 0 {

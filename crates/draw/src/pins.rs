@@ -99,7 +99,7 @@ fn longest_piece(track: &LineSet) -> f64 {
     pieces.map(|pair| pair[0].distance(pair[1])).fold(0.0, f64::max) * 1.01
 }
 
-/// Whether two points are on different lines, or more than three `window` apart along one line.
+/// Whether two points are on different lines, or more than three times `window` apart along one line.
 fn are_separate(track: &LineSet, a: usize, b: usize, window: f64) -> bool {
     let ((line_a, arc_a), (line_b, arc_b)) = (track.arc_of(a), track.arc_of(b));
     if line_a != line_b {

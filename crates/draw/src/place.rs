@@ -44,7 +44,8 @@ impl From<DrawError> for Refusal {
 }
 
 /// Places lights on a floor. If [`Style::Auto`] is set and the lights do not fit, areas are filled instead. If the
-/// lights still do not fit at `spacing_m`, they are placed closer together, but at least `least_m` apart.
+/// lights still do not fit at `spacing_m`, they are placed closer together, but at least `least_m` apart, and a note
+/// says so.
 ///
 /// # Errors
 /// An empty drawing, numbers out of range, a picture off the floor, or more robots than fit on the floor.

@@ -25,7 +25,7 @@ pub const READABLE: f64 = 0.90;
 /// Below this correlation a picture is not recognised.
 pub const DOUBTFUL: f64 = 0.85;
 
-/// How well lights show a drawing.
+/// How well lights show a drawing. Both figures are 1 if nothing can be measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readability {
     /// Normalised cross-correlation between the blurred lights and the blurred drawing, 0 to 1, in the part in which it
@@ -50,7 +50,7 @@ pub(crate) fn readability(drawing: &Drawing, lights: &[PlacedLight]) -> Readabil
     worst
 }
 
-/// Measures how well lights at `places` show one part. `None` for an empty part.
+/// Measures how well lights at `places` show one part. `None` for a part without extent.
 pub(crate) fn of_group(part: &DrawingPart, places: &[Vec2]) -> Option<Readability> {
     let (low, high) = bounds(part.points())?;
     let size = high - low;

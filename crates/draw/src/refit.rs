@@ -44,8 +44,9 @@ pub struct RefitLight {
 }
 
 /// Returns the picture of `lights` with `robots` lights at least `spacing_m` metres apart. Lights with `pinned` true
-/// are removed last, and move only if the whole picture is scaled or shifted. Each light that stays keeps its colour. A
-/// new light takes the colour of the nearest old light.
+/// are removed last, and move only if the whole picture is scaled or shifted. If `pinned` is shorter than `lights`, the
+/// others are not pinned. Each light that stays keeps its colour. A new light takes the colour of the nearest old
+/// light.
 ///
 /// # Errors
 /// No lights to begin with, no robots or more than [`MAX_ROBOTS`], or more lights than fit on the floor.
@@ -156,7 +157,8 @@ fn staying(places: &[Vec2], order: &[usize], robots: usize, is_pinned: impl Fn(u
     staying
 }
 
-/// Returns the median of the places' distances to their nearest neighbours, metres; 0.3 m for a single place.
+/// Returns the median of the places' distances to their nearest neighbours, metres, but at least 1 mm; 0.3 m for a
+/// single place.
 fn typical_distance(places: &[Vec2]) -> f64 {
     let mut distances = nearest_distances(places, 0.1);
     distances.retain(|distance| distance.is_finite());

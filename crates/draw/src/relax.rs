@@ -21,7 +21,7 @@ pub(crate) struct Lloyd<'a> {
     pub spacing: f64,
     /// Largest number of rounds.
     pub rounds: usize,
-    /// Which places are mirror images of each other; `None` for drawings without a mirror axis.
+    /// Which places are mirror images of each other; `None` if places need not stay symmetric.
     pub pairing: Option<&'a Pairing>,
 }
 
@@ -139,6 +139,7 @@ mod tests {
     use crate::geometry::hexagonal_spacing;
     use crate::seeds::seeds;
 
+    /// Number of rounds of a relaxation whose work is measured.
     const ROUNDS: usize = 12;
 
     /// A picture of dark ground below faint sky, with 30 samples for each place.

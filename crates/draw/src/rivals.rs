@@ -14,7 +14,7 @@ const OFFSETS: usize = 4;
 /// Number of bisection steps in the search for the grid's pitch.
 const HALVINGS: usize = 30;
 
-/// Returns the name of each method, and the `count` places on a part that it finds. For a part without areas there is
+/// Returns the name of each method, and the `count` places on a part that it finds. For a part of lines alone there is
 /// no grid. Empty if the part draws nothing.
 pub fn rivals(part: &DrawingPart, count: usize, seed: u64) -> Vec<(&'static str, Vec<Vec2>)> {
     let ground = Ground::new(part, count, Quality::Full, &|_| true);

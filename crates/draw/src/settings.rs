@@ -14,13 +14,14 @@ pub const MAX_ROBOTS: usize = 10_000;
 pub struct PlaceSettings {
     /// Number of lights.
     pub robots: usize,
-    /// Least distance between two lights, metres.
+    /// Wanted least distance between two lights, metres.
     pub spacing_m: f64,
     /// Least value, metres, to which `spacing_m` may be reduced if the lights do not fit otherwise.
     pub least_m: f64,
     /// How areas are shown.
     pub style: Style,
-    /// Larger side of the picture, metres. `None`: chosen for the floor and the number of robots.
+    /// Wanted larger side of the picture, metres. It becomes larger if the lights need more room, and smaller if the
+    /// floor is too small. `None`: chosen for the floor and the number of robots.
     pub size_m: Option<f64>,
     /// Centre of the picture, stage metres.
     pub center: Vec2,
@@ -32,8 +33,9 @@ pub struct PlaceSettings {
     pub view: Option<(Vec2, Vec2)>,
     /// Lights that stay where they are. They are included in `robots` and come first in the result.
     pub kept: Vec<PlacedLight>,
-    /// Places with which the relaxation begins, such as those of the previous picture. Used only for filling a part,
-    /// and only if their number is the part's number of places. Otherwise the relaxation begins with new places.
+    /// Places with which the relaxation begins, stage metres, such as those of the previous picture. Used only for
+    /// filling a part, and only if their number is the part's number of places. Otherwise the relaxation begins with
+    /// new places.
     pub start: Vec<Vec2>,
     /// How much work goes into the places.
     pub quality: Quality,

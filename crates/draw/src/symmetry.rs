@@ -54,8 +54,8 @@ impl Mirror {
         }
     }
 
-    /// Finds the mirror axis of a drawing; a left-right symmetry comes before an up-down symmetry. `None` if the
-    /// drawing has neither. `pitch`: distance between samples.
+    /// Finds the mirror axis of a drawing; a left-right symmetry comes before an up-down symmetry. Only axes through
+    /// the centroid are tried. `None` if the drawing has neither symmetry. `pitch`: distance between samples.
     pub fn of(samples: &[Sample], pitch: f64) -> Option<Self> {
         let mass: f64 = samples.iter().map(|sample| sample.mass).sum();
         let sum = samples.iter().fold(Vec2::ZERO, |sum, sample| sum + sample.at * sample.mass);

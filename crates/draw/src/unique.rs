@@ -14,7 +14,8 @@ const SAME: f64 = 0.015;
 /// as one.
 const CROSSING: f64 = 5.0;
 
-/// Returns strokes in which every stretch occurs only once. `size`: size of the drawing.
+/// Returns strokes without the stretches that run along another stretch, so that each is there once. Short shared
+/// stretches, as at crossings, stay. `size`: size of the drawing.
 pub(crate) fn unique(strokes: &[Stroke], size: f64) -> Vec<Stroke> {
     let distance = SAME * size;
     let mut lines = Vec::new();

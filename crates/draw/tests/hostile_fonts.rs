@@ -1,4 +1,4 @@
-//! Small fonts that need endless work.
+//! Small fonts whose letters would take very much time or memory.
 
 use std::time::{Duration, Instant};
 
@@ -65,7 +65,7 @@ fn square() -> Vec<u8> {
     glyph
 }
 
-/// A glyph composed of several copies of another one.
+/// A glyph composed of `times` copies of the glyph with the index `of`.
 fn composite(of: u16, times: usize) -> Vec<u8> {
     let mut glyph = Vec::new();
     put(&mut glyph, &[0xffff, 0, 0, 500, 700]);
@@ -76,7 +76,8 @@ fn composite(of: u16, times: usize) -> Vec<u8> {
     glyph
 }
 
-/// A layout table with several steps, each of which replaces the glyph by several copies of itself.
+/// A layout table with `steps` steps, each of which replaces the glyph with the index `glyph` by `times` copies of
+/// itself.
 fn multiplying(steps: u16, glyph: u16, times: u16) -> Vec<u8> {
     let mut table = Vec::new();
     let features = 10 + 20;
@@ -96,7 +97,8 @@ fn multiplying(steps: u16, glyph: u16, times: u16) -> Vec<u8> {
     table
 }
 
-/// Draws a text with a font, or returns the code of the error. Panics if that takes longer than `LONGEST`.
+/// Draws a text with a font. Returns the number of rings of its areas, or the code of the error. Panics if that takes
+/// longer than `LONGEST`.
 fn outcome(bytes: &[u8], words: &str) -> Result<usize, &'static str> {
     let start = Instant::now();
     let drawn = Font::read(bytes).and_then(|font| draw(&TextSettings::new(words, &font)));

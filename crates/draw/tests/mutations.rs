@@ -25,6 +25,7 @@ const USUAL: usize = 150;
 /// A decoder, and the name of its folder in the corpus.
 type Decoder = (&'static str, fn(&[u8]) -> Result<(), DrawError>);
 
+/// The decoders that are tested.
 const DECODERS: [Decoder; 5] = [
     ("svg", |bytes| svg::draw(bytes).map(drop)),
     ("picture", |bytes| picture::draw(bytes, &PictureSettings::default()).map(drop)),
@@ -36,7 +37,7 @@ const DECODERS: [Decoder; 5] = [
     }),
 ];
 
-/// A picture of a ring with a gap on a transparent ground.
+/// A picture of half a ring at the left edge, on a transparent ground.
 fn small_picture() -> RgbaImage {
     RgbaImage::from_fn(24, 24, |x, y| {
         let distance = f64::from(x).hypot(f64::from(y) - 12.0);
@@ -74,7 +75,7 @@ height="50%" rx="1"/></g><polyline points="1,1 2,3 4,5" fill="none" stroke="#00f
 
 const LIST: &[u8] = b"0,5;1,5;255;0;10\n-1;2e1;0;0;0\n3;4;1;2;3\n";
 
-/// Good files of a decoder.
+/// Good files of the decoder with this name.
 fn seeds(decoder: &str) -> Vec<Vec<u8>> {
     match decoder {
         "svg" => vec![SVG.to_vec()],

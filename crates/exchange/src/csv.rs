@@ -19,13 +19,13 @@ pub(crate) fn sniff(bytes: &[u8]) -> bool {
     holds(bytes, is_table_bytes) && !holds(bytes, is_document)
 }
 
-/// Whether the name of a file in an archive is that of a table.
+/// Whether a file in an archive is a table, by its name.
 fn is_table(name: &str) -> bool {
     is_table_bytes(name.as_bytes())
 }
 
-/// Whether the name of a file in an archive is that of a table: it ends with `.csv`. The name need not be UTF-8. Files
-/// in `__MACOSX/` are none: macOS adds them to its archives.
+/// Whether a file in an archive is a table, by its name: it ends with `.csv`, in upper or lower case. The name need not
+/// be UTF-8. Files in `__MACOSX/` are none: macOS adds them to its archives.
 fn is_table_bytes(name: &[u8]) -> bool {
     name.len() > 4 && name[name.len() - 4..].eq_ignore_ascii_case(b".csv") && !name.starts_with(b"__MACOSX/")
 }

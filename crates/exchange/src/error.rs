@@ -4,8 +4,8 @@ use std::fmt;
 
 use lightbots_show::{Issue, frame_label};
 
-/// Why bytes cannot be read as a show. `Display` gives one line: place, cause and remedy. The line does not have the name
-/// of the file, which only the caller knows.
+/// Why bytes cannot be read as a show. `Display` gives one line: place, cause and remedy. The line does not have the
+/// name of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
     /// The kind of error for programs: lower case words with hyphens, such as `not-json`.

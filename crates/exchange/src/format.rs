@@ -44,8 +44,8 @@ pub struct Loaded {
     /// Whether the file has a stage, or the reader made one around the paths in the file. If not, the floor is 3 m by 3
     /// m and may be replaced.
     pub has_stage: bool,
-    /// Why the file holds more than the show does, such as fields of a newer version: words that follow "because". The
-    /// file must then not be replaced by the show, or these contents are lost. `None`: everything was read.
+    /// Why the file holds more than the show does, such as fields of a newer version: words that follow "because". If
+    /// the show replaces the file, these contents are lost. `None`: no such contents were noticed.
     pub unread: Option<String>,
     /// Issues found while reading, such as unknown fields. Issues of [`validate`](lightbots_show::validate) are not
     /// among them.
@@ -62,8 +62,9 @@ pub struct Written {
 }
 
 impl Format {
-    /// Writes a file with the show and, if the format keeps it, the plan. Equal shows and plans give equal bytes. If the
-    /// format [needs](Self::needs_plan) a plan and `plan` is `None` or has errors, the result is an error and no bytes.
+    /// Writes a file with the show and, if the format keeps it, the plan. Equal shows and plans give equal bytes. If
+    /// the format [needs](Self::needs_plan) a plan and `plan` is `None` or has errors, there are no bytes, and an error
+    /// says why.
     pub fn write(&self, show: &Show, plan: Option<&ShowPlan>) -> Written {
         let mut issues = self.losses(show, plan);
         let written = (self.encode)(show, plan);
@@ -90,7 +91,7 @@ impl Format {
         self.endings[0]
     }
 
-    /// Whether a file keeps a part.
+    /// Whether a file of the format keeps a part.
     pub fn keeps(&self, part: Part) -> bool {
         self.carries.contains(&part)
     }

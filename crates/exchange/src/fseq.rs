@@ -11,11 +11,11 @@ use crate::sequence_file::{MAGIC, SequenceFile};
 use crate::timed::export::{ExportedShow, SAMPLE, sampled_note, written};
 use crate::timed::sequence::add_file;
 
-/// Number of [`SAMPLE`]s from one frame of the file to the next: 2 are 40 ms, with which every player of FSEQ keeps up.
+/// Number of [`SAMPLE`]s from one frame of the file to the next: 2 are 40 ms, 25 frames a second.
 const SAMPLES: usize = 2;
-/// Largest number of bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. Longer ones are
+/// Largest number of bytes of colours that are written uncompressed: 1,000 robots for 3.7 minutes. A longer sequence is
 /// compressed with zlib. Some readers support no compression, others only zstd (docs/exchange.md). With a larger bound,
-/// files of large fleets would be ten times as long.
+/// files of large fleets would be many times as long.
 const PLAIN_MAX: usize = 16 << 20;
 
 /// Whether the bytes begin like a file of FSEQ.
@@ -57,8 +57,9 @@ fn file(show: &Show, exported: &ExportedShow) -> (Vec<u8>, Issues) {
 }
 
 /// Adds the colours of an FSEQ file to a show, as a layer over all others. The file and the music begin with the air
-/// time of the first frame. The file's first three channels are red, green and blue of robot 0. A show without music
-/// gets the music that the file names. Returns a warning if the show has more robots than the file has colours for.
+/// time of the first frame. The file's first three channels are red, green and blue of robot 0, the next three those of
+/// robot 1. A show without music gets the music that the file names. Returns a warning if the show's largest frame has
+/// more pixels than the file has colours.
 ///
 /// # Errors
 /// If the bytes are no FSEQ file, or one that this program does not read.

@@ -1,7 +1,6 @@
 //! A JSON reader that builds no tree, and the parts that JSON formats share (`frames`, `text`).
 //!
-//! Reading takes no memory besides the show. Unlike common parsers this one reads `NaN` and `Infinity`, so that an error
-//! can name the pixel that has them.
+//! Unlike common parsers this one reads `NaN` and `Infinity`, so that an error can name the pixel that has them.
 
 pub(crate) mod frames;
 pub(crate) mod text;
@@ -12,7 +11,8 @@ use lightbots_show::excerpt;
 
 use crate::error::ReadError;
 
-/// A position in a JSON text. Reading a value moves the position to the byte after the value.
+/// A position in a JSON text. Reading a value moves the position to the byte after the value. Errors have line and
+/// column.
 #[derive(Clone)]
 pub(crate) struct Json<'a> {
     text: &'a str,
@@ -30,8 +30,8 @@ pub(crate) enum Scalar<'a> {
     Object,
 }
 
-/// Deepest nesting of lists and objects in a skipped value. Shows of both formats nest at most 5 deep. RFC 8259, section
-/// 9, allows a bound. The reader is recursive: with a much larger bound, a hostile file could overflow the stack.
+/// Deepest nesting of lists and objects in a value that is read by [`Json::scalar`] or skipped. RFC 8259, section 9,
+/// allows a bound. The reader is recursive: with a much larger bound, a hostile file could overflow the stack.
 const DEPTH_MAX: usize = 32;
 
 type Read<T> = Result<T, ReadError>;
@@ -51,13 +51,14 @@ impl<'a> Json<'a> {
         ReadError::at(code, self.text, self.at, what)
     }
 
-    /// Returns the next byte that is not white space. Moves the position to that byte.
+    /// Returns the next byte that is not white space, and moves the position to that byte. Fails at the end of the
+    /// text.
     pub fn peek(&mut self) -> Read<u8> {
         self.blank();
         self.text.as_bytes().get(self.at).copied().ok_or_else(|| self.cut_off())
     }
 
-    /// Skips white space. Returns whether the text ends after it.
+    /// Skips white space. Returns whether the text ends there.
     pub fn is_at_end(&mut self) -> bool {
         self.blank();
         self.at >= self.text.len()
@@ -102,7 +103,8 @@ impl<'a> Json<'a> {
         Ok(())
     }
 
-    /// Reads any value. Lists and objects are skipped.
+    /// Reads any value. Of a list or an object, only the kind is returned. Fails if they nest more than [`DEPTH_MAX`]
+    /// deep.
     pub fn scalar(&mut self) -> Read<Scalar<'a>> {
         self.value(DEPTH_MAX)
     }
@@ -152,11 +154,12 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// Returns the value of `key` in the object that follows, without moving the position. `None` if the object lacks the
-    /// key, or an error comes before it. If the key is there several times, the last value counts.
+    /// Returns the value of `key` in the object that follows, without moving the position. `None` if no object follows,
+    /// the object lacks the key, or an error comes before it. If the key is there several times, the last value before
+    /// an error counts.
     pub fn ahead(&self, key: &str) -> Option<Scalar<'a>> {
         let mut found = None;
-        // An error after the key does not matter: the caller uses the value to say where that error is.
+        // An error after the key does not matter: the caller uses the value to say where its own error is.
         let _ = self.clone().object(|json, name| {
             let value = json.scalar()?;
             if name == key {
@@ -167,7 +170,7 @@ impl<'a> Json<'a> {
         found
     }
 
-    /// Returns the error for a text in which something other than `wanted` follows.
+    /// Returns the error that something other than `wanted` follows, or that the text ends here.
     pub fn unexpected(&self, wanted: &str) -> ReadError {
         match self.text[self.at..].chars().next() {
             None => self.cut_off(),
@@ -230,7 +233,7 @@ impl<'a> Json<'a> {
         }
     }
 
-    /// Reads a number, or `true`, `false` or `null`.
+    /// Reads a number, or `true`, `false` or `null`. Numbers may be NaN or infinite.
     fn word(&mut self) -> Read<Scalar<'a>> {
         let rest = &self.text[self.at..];
         let part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'+' | b'.');
@@ -254,7 +257,7 @@ impl<'a> Json<'a> {
         Ok(scalar)
     }
 
-    /// Reads a text in double quotes. The position is before the opening quote.
+    /// Reads a text in double quotes. The position is at the opening quote.
     fn string(&mut self) -> Read<Cow<'a, str>> {
         self.at += 1;
         let start = self.at;

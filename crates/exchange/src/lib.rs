@@ -1,9 +1,8 @@
 //! File formats for shows and plans: from bytes to values and back.
 //!
-//! [`FORMATS`] is the only list of formats. The command line, the web API and the screen read names, endings and
-//! contents of formats from it. A further format is a module beside `lightbots`, `archive` and `original`, and a row of
-//! the table. `skyc`, `csv`, `vviz` and `fseq` are formats of other programs, which have no frames. `timed` converts
-//! between them and shows.
+//! [`FORMATS`] is the only list of formats. A further format is a module beside `lightbots`, `archive` and `original`,
+//! and a row of the table. `skyc`, `csv`, `vviz` and `fseq` are formats of other programs, which have no frames.
+//! `timed` converts between them and shows.
 //!
 //! The crate does no IO and does not check shows: [`lightbots_show::validate`] does. In reading order: [`Format`] is a
 //! row of the table. [`read()`] reads a file of any format and returns [`Loaded`] or a [`ReadError`]. [`Format::write`]

@@ -17,8 +17,8 @@ pub(crate) use write::encode;
 
 use crate::json;
 
-/// Whether the bytes begin like a JSON object. An object without the field `lightbots` is accepted here, so that
-/// [`read()`] refuses it with a message.
+/// Whether the bytes begin like a JSON object. An object without the field `lightbots` is accepted here; [`read()`]
+/// refuses it with a message.
 pub(crate) fn sniff(bytes: &[u8]) -> bool {
     json::first_byte(bytes) == Some(b'{')
 }

@@ -13,7 +13,7 @@ pub enum Part {
     FloorSize,
     /// Areas that robots drive around.
     NoGoAreas,
-    /// Size, speed and acceleration of a robot.
+    /// Size and dynamic limits of the robots.
     RobotLimits,
     /// Whether pixel ids are bound to robots.
     Identity,
@@ -33,17 +33,17 @@ pub enum Part {
     Groups,
     /// Light over time.
     Layers,
-    /// Moments at which frames must begin.
+    /// Moments at which frames should begin.
     AbsoluteTimes,
     /// Sections, markers and beats.
     Marks,
     /// Places where the show waits for GO.
     Cues,
-    /// Drives in which a picture moves as one.
+    /// How robots drive to a frame, such as a picture that moves as one.
     Motions,
     /// Timed paths that the show prescribes.
     Trajectories,
-    /// Robots that wait beside the floor.
+    /// The number of spare robots.
     Spares,
     /// Names and hashes of the files that belong to the show.
     Assets,
@@ -172,7 +172,8 @@ impl Part {
     }
 }
 
-/// Whether the show uses `part`: whether the part differs from the default that a reader assumes when a file lacks it.
+/// Whether the show uses `part`: whether the part differs from what a reader assumes if a file lacks it. The plan is
+/// used if there is one.
 pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
     let (stage, usual) = (&show.stage, Stage::default());
     let mut pixels = show.frames.iter().flat_map(|frame| &frame.pixels);
@@ -205,7 +206,7 @@ pub(crate) fn uses(part: Part, show: &Show, plan: Option<&ShowPlan>) -> bool {
     }
 }
 
-/// The parts that version 2 of our format added.
+/// The parts that version 2 of our format added. It also added ids of frames, which are no part.
 const VERSION_2: [Part; 10] = [
     Part::Sources,
     Part::Groups,

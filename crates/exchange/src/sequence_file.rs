@@ -17,7 +17,7 @@ use header::{BadSequence, ChannelRange, HEADER, Header, PLAIN, ZLIB, cut_off};
 const BLOCKS_MAX: usize = 255;
 /// Number of frames in a block, unless the file would have too many blocks.
 const BLOCK_FRAMES: usize = 250;
-/// Whole frames of at most this number of bytes are unpacked at once; a longer frame is unpacked alone. Unpacking 358
+/// Frames are unpacked in groups of at most this number of bytes; a longer frame is unpacked alone. Unpacking 358
 /// million frames of three channels one by one took 46 s, and with this bound 0.9 s (2026-11-28).
 const UNPACKED_AT_ONCE: usize = 64 << 10;
 
@@ -55,7 +55,7 @@ impl SequenceFile {
         bytes
     }
 
-    /// Writes a file without compression, which every reader of FSEQ 2 understands.
+    /// Writes a file without compression.
     pub fn plain_bytes(&self) -> Vec<u8> {
         let mut bytes = self.head(PLAIN, &[]);
         bytes.extend(&self.codes);
@@ -87,8 +87,9 @@ impl SequenceFile {
         bytes
     }
 
-    /// Reads at most the first `channels` channels of a file. If there would be more than [`PICTURE_PIXELS_MAX`] colours,
-    /// keeps every n-th frame only, and makes `step_ms` n times as long. Channels that a sparse file leaves out are 0.
+    /// Reads at most the first `channels` channels of a file, but at least one light; a light has three channels. If
+    /// there would be more than [`PICTURE_PIXELS_MAX`] colours, keeps every n-th frame only, and makes `step_ms` n
+    /// times as long. Channels that a sparse file leaves out are 0.
     pub fn read(bytes: &[u8], channels: usize) -> Result<Self, BadSequence> {
         let header = Header::read(bytes)?;
         let ranges = header.ranges(bytes)?;
@@ -172,7 +173,8 @@ fn compressed(frames: &[u8]) -> Vec<u8> {
     encoder.finish().unwrap_or_default()
 }
 
-/// Writes a variable: its length, two letters, and a text with a zero byte at its end.
+/// Writes a variable: its length in bytes, two letters, and a text with a zero byte at its end. The text is cut after
+/// 200 characters.
 fn variable(name: &[u8; 2], text: &str) -> Vec<u8> {
     let text: String = text.chars().take(200).filter(|char| *char != '\0').collect();
     let length = (4 + text.len() + 1) as u16;

@@ -128,7 +128,7 @@ pub fn stem(file: &str) -> &str {
     &file[..file.len() - ending]
 }
 
-/// A list of all formats with their endings, for messages: "show of LightBots (.lightbots.json) or of …".
+/// A list of all formats, each with its first ending, for messages: "show of LightBots (.lightbots.json) or of …".
 pub fn formats_in_words() -> String {
     let formats = FORMATS.map(|format| format!("of {} ({})", format.program, format.ending()));
     format!("show {}", formats.join(" or "))

@@ -9,8 +9,8 @@ pub(crate) use write::encode;
 
 use crate::json;
 
-/// Whether the bytes begin like a JSON object, and contain the field `performances` of VVIZ but not our field
-/// `lightbots`.
+/// Whether the bytes begin like a JSON object, and contain the words `"performances"` of VVIZ but not `"lightbots"` of
+/// our format.
 pub(crate) fn sniff(bytes: &[u8]) -> bool {
     let holds = |word: &[u8]| bytes.windows(word.len()).any(|window| window == word);
     json::first_byte(bytes) == Some(b'{') && holds(b"\"performances\"") && !holds(b"\"lightbots\"")

@@ -1,5 +1,5 @@
-//! Files in a zip archive, in memory. Nothing that an archive says of itself is trusted: files are counted, and their
-//! bytes are counted while they are unpacked.
+//! Files in a zip archive, in memory. Sizes that an archive states are not trusted: files are counted, and their bytes
+//! are counted while they are unpacked.
 
 use std::io::{Cursor, Read, Write};
 
@@ -28,7 +28,8 @@ pub(crate) fn holds(bytes: &[u8], is_wanted: impl Fn(&[u8]) -> bool) -> bool {
     is_zip(bytes) && records(bytes).any(|record| name_of(record).is_some_and(&is_wanted))
 }
 
-/// For each record of the directory, the bytes of the archive from the start of the record on.
+/// For each position where the bytes look like the start of a directory record, the bytes from there on. File contents
+/// may also look so.
 fn records(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let begins = bytes.windows(DIRECTORY_RECORD.len()).enumerate();
     begins.filter(|(_, window)| *window == DIRECTORY_RECORD).map(|(at, _)| &bytes[at..])
@@ -40,8 +41,9 @@ fn name_of(record: &[u8]) -> Option<&[u8]> {
     record.get(NAME_AT..NAME_AT + length)
 }
 
-/// Unpacks the files of an archive, and calls `take` with the name and the bytes of each. Fails if the archive has more
-/// than `entries_max` entries, or if its files together have more than [`MAX_BYTES`].
+/// Unpacks the files of an archive, and calls `take` with the name and the bytes of each. Folders are skipped. Fails if
+/// `take` does, for a name that leads out of the archive, for more than `entries_max` entries, and for more than
+/// [`MAX_BYTES`] of files.
 pub(crate) fn unpack(
     bytes: &[u8],
     entries_max: usize,

@@ -12,6 +12,7 @@ use lightbots_show::Show;
 use rows::{row, show};
 use zipped::archive;
 
+/// The only file of the show.
 const LOGO: &[u8] = b"<svg xmlns=\"http://www.w3.org/2000/svg\"/>";
 
 /// A show with one file.

@@ -62,7 +62,7 @@ fn no_mutation_breaks_reading_or_validating() {
     assert!(were_read > 500 && refused > 500, "{were_read} read, {refused} refused");
 }
 
-/// Whether a mutant is a show. It is then written in our format and read again.
+/// Whether a mutant is a show. If it is, it is also written in our format and read again.
 fn is_read(bytes: &[u8]) -> bool {
     is_show(bytes, "a.skyc", &LIGHTBOTS)
 }

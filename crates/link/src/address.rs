@@ -14,7 +14,8 @@ pub struct BrokerAddress {
 }
 
 impl BrokerAddress {
-    /// Reads `host`, `host:port`, `[v6]`, `[v6]:port` or a bare IPv6 address. An error is a text for people with the reason.
+    /// Reads `host`, `host:port`, `[v6]`, `[v6]:port` or a bare IPv6 address. Without a port, it is 8883 if `tls` is
+    /// set, otherwise 1883. An error is a text for people with the reason.
     pub(crate) fn parse(text: &str, tls: bool) -> Result<Self, &'static str> {
         let (host, port) = split_port(text).ok_or("its port is no number from 1 to 65535")?;
         if host.is_empty() || host.contains(['/', ' ', '?', '#', '@']) {

@@ -7,7 +7,8 @@ use clap::Args;
 
 use crate::{BrokerUrl, TlsTrust};
 
-/// Name of the environment variable with the user. It counts if neither an address nor the option `--broker-user` has one.
+/// Name of the environment variable with the user. It counts if neither an address nor the option `--broker-user` has
+/// one.
 const USER: &str = "LIGHTBOTS_BROKER_USER";
 /// Name of the environment variable with the password. It counts if neither an address nor the option
 /// `--broker-password-file` has one.

@@ -1,4 +1,5 @@
-//! MQTT client ids, named as the programs of the original protocol name theirs, and random numbers for them.
+//! MQTT client ids, and random numbers for them. Those of a robot and of a controller are formed as in the original
+//! protocol.
 
 use lightbots_base::RobotId;
 
@@ -18,12 +19,13 @@ pub fn robot_client_id(id: &RobotId) -> String {
     format!("LightBot/{id}")
 }
 
-/// A client id for a connection that several robots share: `LightBots/<uuid>`. Each call returns a new UUID.
+/// A client id for a connection that several robots share: `LightBots/<uuid>`. Each call makes a new UUID. Panics as
+/// [`random_id`] does.
 pub fn crowd_client_id() -> String {
     format!("LightBots/{}", random_id())
 }
 
-/// A client id for a controller: `BotControl/<uuid>`. Each call returns a new UUID.
+/// A client id for a controller: `BotControl/<uuid>`. Each call makes a new UUID. Panics as [`random_id`] does.
 pub fn controller_client_id() -> String {
     format!("BotControl/{}", random_id())
 }

@@ -20,17 +20,18 @@ use crate::{BrokerAddress, TlsTrust};
 /// Longest MQTT packet, bytes: a thousand times the longest payload (R4). A longer packet closes the connection.
 const PACKET_BYTES_MAX: usize = 16 << 20;
 /// Largest number of topic filters in one subscription packet. With at most 512 bytes per filter (docs/brokers.md), the
-/// packet stays below 65,536 bytes.
+/// packet stays below 65,536 bytes. With a larger value, a broker may refuse the packet.
 const FILTERS_PER_PACKET: usize = 100;
-/// Longest time for sending queued messages before a disconnect, chosen by us. With a longer time, programs would end late.
+/// Longest time for sending queued messages before a disconnect, chosen by us. With a longer time, programs would end
+/// late.
 const DISCONNECT_MAX: Duration = Duration::from_millis(500);
-/// After a reconnect, all subscriptions are repeated three times. These are the waiting times before each repetition. They
-/// are needed because a cluster that has lost a node may later delete new subscriptions of that node's clients
-/// (RabbitMQ 3.10, docs/brokers.md).
+/// After a reconnect, all subscriptions are repeated three times. These are the waiting times before each repetition,
+/// each lengthened at random by up to a fifth. The repetitions are needed because a cluster that has lost a node may
+/// later delete new subscriptions of that node's clients (RabbitMQ 3.10, docs/brokers.md).
 const RESUBSCRIBE_AFTER: [Duration; 3] =
     [Duration::from_millis(1_000), Duration::from_millis(2_000), Duration::from_millis(6_000)];
-/// Longest random wait before the next address is tried. It keeps the robots of a fleet from connecting at one moment. With
-/// a longer wait, robots could reach the 1.9 s without messages after which they stop (R43).
+/// Longest random wait before the next address is tried. It keeps the robots of a fleet from connecting at one moment.
+/// With a longer wait, robots could reach the 1.9 s without messages after which they stop (R43 of docs/protocol.md).
 const NEXT_ADDRESS_MAX: Duration = Duration::from_millis(100);
 
 pub(crate) struct ConnectionTask {
@@ -54,7 +55,8 @@ pub(crate) struct ConnectionTask {
     connects: usize,
     /// Task that repeats the subscriptions on the present connection; `None`: there is no such task.
     resubscription: Option<AbortHandle>,
-    /// `[address]`: the last reported reason for a failure since the link was last connected; `None`: none.
+    /// `[address]`: the last reported reason for a failure since the link was last connected; `None`: no failure was
+    /// reported.
     reported: Vec<Option<String>>,
 }
 
@@ -145,8 +147,8 @@ impl ConnectionTask {
         }
     }
 
-    /// Closes the connection, because it does not deliver messages, and waits until the next attempt. Returns `false` if the
-    /// link was closed meanwhile. Does nothing if the link is not connected.
+    /// Closes the connection, because it does not deliver messages, and waits until the next attempt is due. Returns
+    /// `false` if the link was closed meanwhile. If the link is not connected, does nothing and returns `true`.
     async fn renew(&mut self) -> bool {
         if !self.status.connected.load(Ordering::Acquire) {
             return true;
@@ -166,8 +168,8 @@ impl ConnectionTask {
         }
     }
 
-    /// Starts a task that repeats the subscriptions after the times of [`RESUBSCRIBE_AFTER`]. The broker's answers are
-    /// ignored, because it has granted all filters before.
+    /// Starts a task that repeats the subscriptions after the times of [`RESUBSCRIBE_AFTER`]. The broker's answers to
+    /// them are ignored, because it granted all filters when the link connected.
     fn subscribe_later(&mut self) {
         let (client, filters) = (self.client.clone(), self.config.filters.clone());
         let later = async move {
@@ -219,9 +221,9 @@ impl ConnectionTask {
         self.events.send(LinkEvent::Connected).await.is_ok()
     }
 
-    /// Handles a failure: drops queued messages, chooses the next address, and waits until the next attempt is due.
-    /// Reports the failure if its reason is new or the link was connected. Returns `false` if the link was closed
-    /// meanwhile.
+    /// Handles a failure of the present address: drops queued messages, chooses the next address, and waits until the
+    /// next attempt is due. Reports the failure if its reason is new for this address or the link was connected.
+    /// Returns `false` if the link was closed meanwhile.
     async fn failed(&mut self, reason: String) -> bool {
         let was_connected = self.status.connected.swap(false, Ordering::AcqRel);
         self.accepted = false;
@@ -251,7 +253,7 @@ impl ConnectionTask {
         }
     }
 
-    /// Sends the queued messages and disconnects. Gives up after [`DISCONNECT_MAX`].
+    /// Sends the queued messages and disconnects, if the link is connected. Gives up after [`DISCONNECT_MAX`].
     async fn disconnect(mut self) {
         self.cancel_resubscription();
         if !self.status.connected.swap(false, Ordering::AcqRel) || self.client.try_disconnect().is_err() {

@@ -10,8 +10,8 @@ use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt, BufReader};
 use tokio::net::TcpStream;
 use tokio::task::JoinHandle;
 
-/// Largest number of bytes of output that may wait: 1,600 for each of ten thousand robots. If more waits, the MQTT client
-/// blocks.
+/// Largest number of bytes of output that may wait: 1,600 for each of ten thousand robots. If more waits, the MQTT
+/// client blocks until some of it is written. With a larger value, commands to a slow broker arrive later.
 const WAITING_BYTES_MAX: usize = 16 << 20;
 /// Largest number of bytes that are written at once. Fewer need more system calls. A usual size of socket buffers, not
 /// measured.
@@ -23,8 +23,8 @@ const WRITE_BYTES_MAX: usize = 64 << 10;
 pub(crate) struct DetachedWriter(Arc<Mutex<Option<JoinHandle<()>>>>);
 
 impl DetachedWriter {
-    /// Wraps a socket. What is written to the result waits in a buffer, and a new task of this writer writes the buffer to
-    /// the socket.
+    /// Wraps a socket. What is written to the result waits in a buffer, and a new task of this writer writes the buffer
+    /// to the socket.
     pub(crate) fn attach(
         &self,
         socket: TcpStream,
@@ -41,7 +41,8 @@ impl DetachedWriter {
         tokio::io::join(input, reported)
     }
 
-    /// Waits until the task has written the output of a connection that was dropped.
+    /// Waits until the task has written the output of a connection that was dropped. Returns at once if no socket was
+    /// attached since the last call.
     pub(crate) async fn finish(&self) {
         let task = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(task) = task {

@@ -9,22 +9,23 @@ use crate::BrokerUrl;
 /// Configuration of a link.
 #[derive(Clone, Debug)]
 pub struct LinkConfig {
-    /// Broker to connect to. If one of its addresses fails, the next address is tried.
+    /// Broker to connect to. If the connection to one of its addresses fails, the next address is tried.
     pub broker: BrokerUrl,
     /// MQTT client id of this program.
     pub client_id: String,
     /// Topic filters to subscribe to, all at QoS 0.
     pub filters: Vec<String>,
-    /// Largest number of queued messages in each direction; less than 16 counts as 16. Further messages are dropped.
+    /// Largest number of messages that wait to be sent, and of events that wait to be received; less than 16 counts as
+    /// 16. Further messages are dropped.
     pub queue: usize,
 }
 
 /// Event of a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LinkEvent {
-    /// The link is connected, and subscribed to all filters.
+    /// The link is connected, and the broker has granted all filters.
     Connected,
-    /// The link is not connected, and keeps trying. The event is sent again when the reason changes.
+    /// The link is not connected, and keeps trying. The event is sent again when an attempt fails for a new reason.
     Disconnected {
         /// Why the link is not connected: one line for people.
         reason: String,

@@ -1,12 +1,12 @@
 //! A connection to an MQTT broker that reconnects by itself.
 //!
 //! The crate carries topics and payloads and does not know their meaning. In reading order: [`BrokerUrl`] holds the
-//! addresses and the login of a broker, and [`TlsTrust`] the certificates for TLS. [`BrokerArguments`] reads both from a
-//! command line. [`Link`] is the connection.
+//! addresses and the login of a broker, and [`TlsTrust`] the certificates for TLS. [`BrokerArguments`] reads both from
+//! a command line. [`Link`] is the connection.
 //!
-//! A link reconnects with back-off and jitter, to the next address if there are several, and subscribes again in each new
-//! session. It never blocks its user. It drops messages that cannot be sent now, because a late command is worse than a lost
-//! one: the protocol repeats important messages.
+//! A link reconnects with back-off and jitter, to the next address if there are several, and subscribes again in each
+//! new session. Sending never blocks. A message that cannot be sent now is dropped, because a late command is worse
+//! than a lost one.
 //!
 //! ```
 //! use lightbots_link::BrokerUrl;

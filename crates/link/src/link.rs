@@ -44,20 +44,22 @@ impl Link {
         self.events.recv().await
     }
 
-    /// Returns the next event if one is waiting, else `None`.
+    /// Returns the next event if one is waiting; otherwise, and once the link is closed, `None`.
     pub fn try_next(&mut self) -> Option<LinkEvent> {
         self.events.try_recv().ok()
     }
 
-    /// Closes the connection and connects to the next address, because the present broker does not deliver messages. Queued
-    /// messages are lost. Does nothing if the link is not connected.
+    /// Closes the connection, because the present broker does not deliver messages. Then connects to the next address,
+    /// or again to the same one if there is only one. Queued messages are lost. Does nothing if the link is not
+    /// connected.
     pub fn renew(&self) {
         if self.sender.is_connected() {
             self.sender.status.renew.notify_one();
         }
     }
 
-    /// Sends the messages that are still queued, for at most half a second, and disconnects.
+    /// Sends the messages that are still queued, for at most half a second, and disconnects. A link that is not
+    /// connected just ends.
     pub async fn close(mut self) {
         drop(self.stop.take());
         if let Some(task) = self.task.take() {
@@ -81,13 +83,14 @@ impl Sender {
         sent
     }
 
-    /// Whether messages can be sent now.
+    /// Whether the link is connected and has subscribed to all filters. Even then, a message is dropped if the queue is
+    /// full.
     pub fn is_connected(&self) -> bool {
         self.status.connected.load(Ordering::Acquire)
     }
 
-    /// Index in [`BrokerUrl::addresses`](crate::BrokerUrl::addresses) of the present connection's address, or of the last
-    /// one's.
+    /// Index in [`BrokerUrl::addresses`](crate::BrokerUrl::addresses) of the present connection's address. Without a
+    /// connection, that of the last one, or 0 if there was none.
     pub fn address_index(&self) -> usize {
         self.status.at.load(Ordering::Acquire)
     }

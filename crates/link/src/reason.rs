@@ -7,8 +7,8 @@ use tokio_rustls::rustls::{self, AlertDescription, CertificateError};
 
 use crate::BrokerAddress;
 
-/// Returns one line for people: why the connection to `address` failed or broke, and what to do. `accepted`: whether the
-/// broker had accepted the login before the error.
+/// Returns one line for people: why the connection to `address` failed or broke, and what to do. `accepted`: whether
+/// the broker had accepted the login before the error.
 pub(crate) fn reason(error: &ConnectionError, address: &BrokerAddress, accepted: bool) -> String {
     if let Some(error) = rustls_error(error) {
         return tls_reason(error, address);

@@ -9,8 +9,8 @@ use tokio_rustls::rustls::pki_types::pem::{Error as PemError, PemObject};
 use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
-/// Trusted certificate authorities, and a client certificate for brokers that ask for one. A clone shares the content of
-/// the original. Two values are equal only if they share their content.
+/// Trusted certificate authorities, and a client certificate for brokers that ask for one. A clone shares the content
+/// of the original. Two values are equal only if they share their content.
 #[derive(Clone)]
 pub struct TlsTrust(Arc<ClientConfig>);
 
@@ -28,8 +28,9 @@ pub struct Pem<'a> {
 }
 
 impl TlsTrust {
-    /// Builds the TLS settings. `ca` has the trusted certificate authorities; `None`: those of the system. `client` is the
-    /// client certificate with its chain, and its key; `None`: no client certificate.
+    /// Builds the TLS settings. `ca` has the trusted certificate authorities; `None`: those of the system. `client` is
+    /// the client certificate with its chain, and its key; `None`: no client certificate. An error says which text is
+    /// unusable and why.
     pub fn new(ca: Option<Pem<'_>>, client: Option<(Pem<'_>, Pem<'_>)>) -> Result<Self, TlsTrustError> {
         let roots = match ca {
             Some(pem) => roots_from(pem)?,
@@ -64,7 +65,7 @@ impl TlsTrust {
     }
 
     /// Returns the settings that trust the certificate authorities of the system, without a client certificate. The
-    /// authorities are read at the first call only.
+    /// authorities are read at the first call only; later calls return the same settings or the same error.
     pub(crate) fn of_system() -> Result<Self, TlsTrustError> {
         static SYSTEM: OnceLock<Result<TlsTrust, TlsTrustError>> = OnceLock::new();
         SYSTEM.get_or_init(|| Self::new(None, None)).clone()

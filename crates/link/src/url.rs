@@ -32,8 +32,8 @@ impl BrokerUrl {
         Self { addresses, user: None, password: None, trust: None }
     }
 
-    /// Reads addresses separated by commas. The default port is 1883, or 8883 with TLS. A later address without a scheme
-    /// uses TLS if the first address does. `tcp://` and `ssl://` are accepted as well.
+    /// Reads addresses separated by commas. The default port is 1883, or 8883 with TLS. A later address without a
+    /// scheme uses TLS if the first address does. `tcp://` counts as `mqtt://`, and `ssl://` as `mqtts://`.
     pub fn parse(text: &str) -> Result<Self, UrlError> {
         let mut parts = text.split(',').map(str::trim);
         let mut broker = Self::parse_one(parts.next().unwrap_or_default(), None)?;
@@ -72,8 +72,8 @@ impl BrokerUrl {
         Ok(Self { addresses: vec![address], user, password, trust: None })
     }
 
-    /// Adds the addresses of `more` to this broker. The login that one of the two has counts for all addresses; two
-    /// different logins are an error.
+    /// Adds the addresses of `more` to this broker. A login that only one of the two has counts for all addresses; two
+    /// different logins are an error. The certificates of `self`, or else those of `more`, count for all addresses.
     pub fn and(mut self, more: Self) -> Result<Self, UrlError> {
         if self.user.is_none() {
             (self.user, self.password) = (more.user, more.password);
@@ -94,12 +94,14 @@ impl BrokerUrl {
         Self { user, password, ..self }
     }
 
-    /// Returns the broker with these certificates instead of its own.
+    /// Returns the broker with these certificates instead of its own. `None`: the certificate authorities of the
+    /// system.
     pub fn with_trust(self, trust: Option<TlsTrust>) -> Self {
         Self { trust, ..self }
     }
 
-    /// Returns the broker with its addresses rotated, so that the address with the index `first` is tried first.
+    /// Returns the broker with its addresses rotated, so that the address with the index `first` is tried first. The
+    /// index counts from 0, modulo the number of addresses.
     pub fn starting_at(mut self, first: usize) -> Self {
         let addresses = self.addresses.len().max(1);
         self.addresses.rotate_left(first % addresses);

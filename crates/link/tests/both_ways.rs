@@ -7,6 +7,7 @@ use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 
 /// Number of messages: with `PAYLOAD` bytes each, more than the buffers of two sockets hold.
 const MESSAGES: usize = 6000;
+/// Length of a payload, bytes.
 const PAYLOAD: usize = 2048;
 
 /// A broker that accepts a client, writes many messages, and only then reads.
@@ -73,7 +74,7 @@ async fn a_flood_in_both_directions_breaks_no_connection() {
     broker.join().unwrap();
 }
 
-/// Number of messages before a disconnect: more than a socket's buffer holds.
+/// Number of messages before a disconnect: with `PAYLOAD` bytes each, more than a socket's buffer holds.
 const LAST_WORDS: usize = 6000;
 
 #[tokio::test]

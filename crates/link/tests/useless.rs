@@ -5,7 +5,8 @@ use std::net::{TcpListener, TcpStream};
 
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 
-/// A minimal broker: accepts every login, and answers a subscription of two filters with these codes.
+/// A minimal broker: accepts any login, and answers a subscription of two filters with these return codes, one for each
+/// filter.
 fn serve(listener: &TcpListener, granted: [u8; 2]) {
     while let Ok((mut stream, _)) = listener.accept() {
         let mut bytes = [0; 512];
@@ -59,7 +60,7 @@ fn let_in(listener: &TcpListener) -> TcpStream {
     stream
 }
 
-/// Answers the next packet if it is a subscription. Returns whether it was.
+/// Reads the next packet, and grants it if it is a subscription of one filter. Returns whether it was a subscription.
 fn answer_subscription(stream: &mut TcpStream) -> bool {
     let mut bytes = [0; 512];
     let subscribes = matches!(stream.read(&mut bytes), Ok(1..)) && bytes[0] == 0x82;

@@ -8,7 +8,7 @@ use crate::recipe::Recipe;
 
 /// Searches for the smallest number of robots with which a source is readable, as [`enough_robots`] does. `asset` has
 /// the bytes of the source's file. `None` if no number that it tries, up to a thousand, is enough. `None` also if the
-/// source is itself an arrangement of lights, such as a grid.
+/// source is itself an arrangement of lights: a grid, random places or a list.
 ///
 /// # Errors
 /// If the source cannot be read or drawn.

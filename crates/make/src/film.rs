@@ -8,7 +8,8 @@ use lightbots_show::Frame;
 use crate::material::{Material, view_of};
 use crate::recipe::{Content, Recipe, style_of};
 
-/// Largest number of pictures of the animation from one key frame to the next.
+/// Largest distance between successive key frames, in pictures of the animation. A larger value gives more choice and
+/// takes longer.
 const REACH: usize = 60;
 
 /// Time that a drive takes in addition to its length divided by the top speed, seconds: for a quarter turn and a ramp.
@@ -28,18 +29,19 @@ pub struct Film {
 /// A frame of a film. Its pixels are not made yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFrame {
-    /// The frame with name, air time, and its source with the moment of the animation. The source does not name its file.
+    /// The frame with its name, its air time and its source. The source has the moment of the animation, but no file.
     pub frame: Frame,
     /// The picture of the animation at that moment.
     pub material: Material,
 }
 
 /// Chooses frames from the pictures of an animation, far enough apart in time for robots to drive from one to the next.
-/// `name` is the name of the series and the beginning of the frames' names. `recipe` has the animation as its content; its
-/// moment is not used. `bytes` are those of the animation's file.
+/// If even that is not enough time, the animation is slowed down. `name` is the name of the series and the beginning of
+/// the frames' names. `recipe` has the animation as its content; its moment is not used. `bytes` are those of the
+/// animation's file.
 ///
 /// # Errors
-/// If the recipe or the file is not an animation, or a picture has no room for `robots` robots.
+/// If the recipe is not one of an animation, the file cannot be read, or a picture has no room for `robots` robots.
 pub fn film(
     name: &str,
     bytes: &[u8],
@@ -73,7 +75,7 @@ pub fn film(
         frames.push(FilmFrame {
             frame: Frame {
                 name: format!("{name} {}", nth + 1),
-                // A frame stays for its time minus that of the drive to the next frame.
+                // A frame stays until the next key frame is due, minus the time of the drive there.
                 air_time_s: ((lasts_s - drive_s).max(0.0) * 100.0).round() / 100.0,
                 sources: vec![source],
                 ..Frame::default()
@@ -101,8 +103,8 @@ fn notes(mut notes: Vec<Note>, slowdown: f64) -> Vec<Note> {
     notes
 }
 
-/// Returns `[picture][robot]`: the place of the robot in each picture of the animation, stage metres. The search for the
-/// places in a picture begins with those in the previous picture.
+/// Returns `[picture][robot]`: the place of each robot in each picture of the animation, stage metres. The search for
+/// the places of a picture begins with those of the previous picture.
 fn places(
     animation: &Animation,
     usual: &PlaceSettings,

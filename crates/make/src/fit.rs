@@ -20,8 +20,8 @@ const SPACING_M: f64 = 0.0764;
 /// drawn, and about changes that people may not expect.
 ///
 /// # Errors
-/// If `robots` robots find no room in a frame, or a frame has neither pixels nor a source that can be drawn. The message
-/// names the frame.
+/// If a frame has no room for `robots` robots, or has neither pixels nor a source that can be drawn. The message names
+/// the frame. Frames before it may then be changed already.
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
@@ -99,8 +99,8 @@ fn material_of(show: &Show, source: &FrameSource, film: &mut Film) -> Result<Mat
     film.as_ref().map_or_else(|| material(&recipe, asset), |(_, animation)| moment(animation, *moment_s))
 }
 
-/// Returns the frame with `robots` pixels: some are added or removed, the others are moved a little. Pixels that are pinned
-/// to a robot are removed last.
+/// Returns the frame with `robots` pixels: some are added or removed, the others are moved a little. Pixels that are
+/// pinned to a robot are removed last. New pixels get the smallest free ids.
 fn fitted(frame: &Frame, floor: &PictureFloor, robots: usize) -> Result<Frame, DrawError> {
     let lights: Vec<PlacedLight> =
         frame.pixels.iter().map(|pixel| PlacedLight { at: pixel.at, color: pixel.color, part: 0 }).collect();

@@ -23,7 +23,8 @@ fn no_go(obstacle: &Obstacle, margin_m: f64) -> NoGo {
     }
 }
 
-/// Returns the centre of a rectangle, stage metres, and the length of its longer side, metres. `min` and `max` are corners.
+/// Returns the centre of a rectangle, stage metres, and the length of its longer side, metres. `min` and `max` are its
+/// corners with the smaller and the larger x and y.
 pub(crate) fn middle_and_side(min: Vec2, max: Vec2) -> (Vec2, f64) {
     (min.lerp(max, 0.5), (max.x - min.x).max(max.y - min.y))
 }

@@ -34,13 +34,13 @@ pub struct MadeFrame {
     pub notes: Vec<Note>,
 }
 
-/// Makes the pixels of the frame `before` anew from its only source, for `robots` robots. Name, times and source of the
-/// frame are kept, and so are pixels that were moved by hand. A robot that is pinned to another pixel is pinned to the
-/// nearest new pixel, of the same part if possible.
+/// Makes the pixels of the frame `before` anew from its only source, for `robots` robots. Everything else of the frame
+/// is kept, and so are pixels that were moved by hand, up to `robots` of them. A robot that is pinned to another pixel
+/// is pinned to the nearest new pixel, of the same part if possible.
 ///
-/// `asset` has the bytes of the source's file. `start` has places from which the search for places begins, such as
-/// those of the previous picture. It is used only if no pixel was moved by hand, for parts filled with lights, and if
-/// its number of places fits.
+/// `asset` has the bytes of the source's file. `start` has places from which the search for places begins, stage
+/// metres, such as those of the previous picture. It is used only for parts filled with lights, if no pixel was moved
+/// by hand and its number of places fits.
 ///
 /// # Errors
 /// If the frame does not have exactly one source, the source cannot be read or drawn, or not all robots find room.
@@ -148,7 +148,8 @@ fn names(drawing: &Drawing) -> Vec<String> {
     drawing.parts.iter().map(|part| part.name.clone()).collect()
 }
 
-/// Places a list of lights on the floor. If it does not have `robots` lights, lights are added or removed.
+/// Places a list of lights on the floor. If it does not have `robots` lights, lights are added or removed, and a note
+/// says so.
 fn listed(
     list: &LightList,
     recipe: &Recipe,
@@ -169,8 +170,11 @@ fn listed(
 
 /// Places an exact arrangement of lights on the floor. With `in_metres`, its places are stage metres. They are kept if
 /// the settings state no size, place or turn, and all lights are on the floor and at least [`LEAST_M`] apart.
-/// Otherwise, the arrangement is turned, moved and scaled to the size in the settings, or to a larger size if lights
-/// would be too close.
+/// Otherwise, the arrangement is turned, moved and scaled. It gets the size in the settings, or a larger one if lights
+/// would be closer than the wanted spacing. Without a size in the settings, the closest lights get the wanted spacing.
+///
+/// # Errors
+/// If two lights are at one place, or the arrangement does not fit on the floor.
 fn arranged(
     list: &LightList,
     recipe: &Recipe,
@@ -223,8 +227,9 @@ fn arranged(
     })
 }
 
-/// Makes the pixels for `lights`. The first lights belong to the pixels `moved`, which are kept unchanged. The others get
-/// the smallest free ids in order. `names` are the names of the source's parts.
+/// Makes the pixels for `lights`. The first lights belong to the pixels `moved`, which are kept unchanged. The others
+/// get the smallest free ids in order. `names` are the names of the source's parts. Robots that are pinned in `before`
+/// are pinned again.
 fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[String]) -> Vec<Pixel> {
     let taken: Vec<u32> = moved.iter().map(|pixel| pixel.id).collect();
     let mut free = (0..).filter(|id| !taken.contains(id));
@@ -244,8 +249,9 @@ fn pixels(before: &Frame, moved: &[&Pixel], lights: &[PlacedLight], names: &[Str
     pixels
 }
 
-/// Pins each robot that is pinned in `before` to the nearest new pixel without a robot, of the same part if there is one.
-/// Pixels with ids in `kept` come first in `pixels` and keep their robots.
+/// Pins each robot that is pinned in `before` to the nearest new pixel without a robot, of the same part if there is
+/// one. `kept` has the ids of moved pixels, which come first in `pixels` and keep their robots. A robot gets no pixel
+/// if all others have one.
 fn pin(before: &Frame, kept: &[u32], pixels: &mut [Pixel]) {
     for old in before.pixels.iter().filter(|pixel| pixel.robot.is_some() && !kept.contains(&pixel.id)) {
         let same = |pixel: &Pixel| pixel.part == old.part;

@@ -34,7 +34,8 @@ pub fn layer_picture(bytes: &[u8]) -> Result<LayerPicture, DrawError> {
     Ok(LayerPicture { width: width as u32, height: height as u32, codes })
 }
 
-/// Returns the numbers of columns and rows of a reduced picture, whose longer side has at most `side_max` pixels.
+/// Returns the numbers of columns and rows of a reduced picture: at least 1 each, the longer side at most `side_max`
+/// pixels. A picture that is small enough keeps its size.
 fn size(bitmap: &Bitmap, side_max: usize) -> (usize, usize) {
     let longer = bitmap.columns.max(bitmap.rows).max(1);
     let scaled = |side: usize| if longer <= side_max { side } else { side * side_max / longer };
@@ -83,8 +84,8 @@ fn shrunk(bitmap: &Bitmap, width: usize, height: usize) -> Vec<u8> {
     codes
 }
 
-/// Divides a side of `length` pixels into `count` equal cells. Returns, for each cell, the indices of the pixels in it, each
-/// with the share of the cell that it covers.
+/// Divides a side of `length` pixels into `count` equal cells. Returns, for each cell, the indices of the pixels in it,
+/// each with the share of the cell that the pixel covers.
 fn shares(length: usize, count: usize) -> Vec<Vec<(usize, f64)>> {
     // In units of a `count`-th of a pixel, both pixels and cells begin at whole numbers.
     let cell = |nth: usize| {

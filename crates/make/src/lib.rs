@@ -1,9 +1,8 @@
 //! Makes frames from their sources: reads the sources of a show, draws them, and places lights on the drawings.
 //!
-//! The command line and the browser make and change frames with this crate alone. It does no IO. In reading order:
-//! [`Recipe`] is the typed form of a source's settings, [`material()`] makes its drawing, and [`make_frame`] its pixels.
-//! [`film()`] makes the frames of an animation, and [`layer_picture()`] makes what a layer projects on the floor.
-//! [`fit_show`] fits all frames of a show to another fleet.
+//! The crate does no IO. In reading order: [`Recipe`] is the typed form of a source's settings, [`material()`] makes
+//! its drawing, and [`make_frame`] its pixels. [`film()`] makes the frames of an animation, and [`layer_picture()`]
+//! makes what a layer projects on the floor. [`fit_show`] fits all frames of a show to another fleet.
 
 mod enough;
 mod film;

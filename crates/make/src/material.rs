@@ -28,8 +28,8 @@ pub enum Material {
     Lights(LightList),
 }
 
-/// Draws a source. `asset` has the bytes of the source's file. Grids, hexagonal grids and random shapes give an empty
-/// drawing, because the places of their lights depend on the number of robots.
+/// Draws a source. `asset` has the bytes of the source's file; for words, it is the font. Grids, hexagonal grids and
+/// random shapes give an empty drawing, because the places of their lights depend on the number of robots.
 ///
 /// # Errors
 /// If the source cannot be drawn, or needs a file and `asset` is `None`.
@@ -55,15 +55,17 @@ pub fn material(recipe: &Recipe, asset: Option<&[u8]>) -> Result<Material, DrawE
     Ok(Material::Drawing { made, view })
 }
 
-/// Returns the smallest rectangle around the points of a line that was drawn by hand; `None` for other shapes. It serves as
-/// the whole picture, so that the points stay where people dragged them, although a curve swings beyond its points.
+/// Returns the smallest rectangle around the points of a line that was drawn by hand. `None` for other shapes, and for
+/// fewer than two points. It serves as the whole picture: the points thus stay where people dragged them, although a
+/// curve swings beyond them.
 fn box_of_points(shape: &ShapeSettings) -> Option<(Vec2, Vec2)> {
     let drawn = [ShapeKind::Line, ShapeKind::Polyline, ShapeKind::Curve, ShapeKind::Freehand];
     let is_drawn = drawn.contains(&shape.kind) && shape.points.len() > 1;
     is_drawn.then(|| bounds(&shape.points)).flatten()
 }
 
-/// Returns the picture that an animation shows at `moment_s`, seconds from the start of the animation.
+/// Returns the picture that an animation shows at `moment_s`, seconds from the start of the animation. Before the first
+/// picture it is the first one, after the end the last one.
 pub(crate) fn moment(animation: &Animation, moment_s: f64) -> Result<Material, DrawError> {
     let after = animation.frames.partition_point(|frame| frame.at_s <= moment_s + 1e-6);
     let frame = animation.frames.get(after.saturating_sub(1));
@@ -114,8 +116,8 @@ pub enum TextPages {
     },
 }
 
-/// Returns the recipe and the material of each frame that a text becomes. `asset` has the bytes of the font; `None`: the
-/// font is built in.
+/// Returns the recipe and the material of each frame that a text becomes. `asset` has the bytes of the font; `None`:
+/// the font is the built-in one that `words` names.
 ///
 /// # Errors
 /// If the font cannot be read or is unknown, or the text cannot be drawn.

@@ -12,6 +12,7 @@ use crate::settings::{Reader, Writer};
 /// The font of words if none is chosen.
 const USUAL_FONT: &str = "lato";
 
+/// Words for styles in settings. The first is used if the setting is missing.
 const STYLES: [(&str, Style); 5] = [
     ("auto", Style::Auto),
     ("filled", Style::Filled),
@@ -20,6 +21,7 @@ const STYLES: [(&str, Style); 5] = [
     ("lines", Style::Lines),
 ];
 
+/// Words for ways to draw a picture. The first is used if the setting is missing.
 const WAYS: [(&str, PictureWay); 4] = [
     ("auto", PictureWay::Auto),
     ("silhouette", PictureWay::Silhouette),
@@ -27,10 +29,11 @@ const WAYS: [(&str, PictureWay); 4] = [
     ("tones", PictureWay::Tones),
 ];
 
+/// Words for alignments of lines. The first is used if the setting is missing.
 const ALIGNS: [(&str, Align); 3] =
     [("center", Align::Centre), ("left", Align::Left), ("right", Align::Right)];
 
-/// The source of a frame with typed settings. A show has them as named values of any type.
+/// The source of a frame with typed settings. In a show, settings are named values of any type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recipe {
     /// The kind of source and the settings of that kind.
@@ -99,7 +102,7 @@ pub struct Scroll {
 pub struct Placing {
     /// Whether lights fill areas, or stand along edges or spines.
     pub style: Style,
-    /// Longer side of the picture, metres; `None`: it depends on the floor and the number of robots.
+    /// Wanted longer side of the picture, metres; `None`: it depends on the floor and the number of robots.
     pub size_m: Option<f64>,
     /// Centre of the picture, stage metres.
     pub center: Vec2,
@@ -158,15 +161,15 @@ impl Recipe {
         }
     }
 
-    /// Returns a recipe with default placing.
+    /// Returns a recipe with default placing and the seed 1.
     pub fn new(content: Content) -> Self {
         Self { content, placing: Placing::default(), seed: 1 }
     }
 
-    /// Reads the recipe of a frame's source.
+    /// Reads the recipe of a frame's source. If size or centre are not set, they come from the source's floor box.
     ///
     /// # Errors
-    /// If a setting has a value of a wrong type, or a word that is not known.
+    /// If a setting has a value of a wrong type or one that is not allowed, such as an unknown word.
     pub fn read(source: &FrameSource) -> Result<Self, DrawError> {
         let reader = Reader(&source.settings);
         let content = match source.kind {
@@ -204,7 +207,8 @@ impl Recipe {
         Ok(Self { content, placing, seed: source.seed })
     }
 
-    /// Writes the recipe as the source of a show. The source has no file.
+    /// Writes the recipe as the source of a show. The source gets kind, settings, seed and moment, but neither file nor
+    /// floor box.
     pub fn source(&self) -> FrameSource {
         let mut writer = Writer::default();
         let mut moment_s = None;
@@ -274,8 +278,8 @@ fn shape(reader: &Reader<'_>) -> Result<ShapeSettings, DrawError> {
     })
 }
 
-/// Returns the style of a content. `chosen` is returned, except that animations get `Filled` for `Auto`. The robots of
-/// an animation keep their indices from picture to picture, which is not possible along edges whose length changes.
+/// Returns the style of a content: `chosen`, except that animations get `Filled` for `Auto`. The robots of an animation
+/// keep their indices from picture to picture, which is not possible along edges whose length changes.
 pub(crate) fn style_of(chosen: Style, content: &Content) -> Style {
     let is_animation = matches!(content, Content::Animation { .. });
     if is_animation && chosen == Style::Auto { Style::Filled } else { chosen }

@@ -4,7 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_draw::DrawError;
 use lightbots_show::{NamedSettings, Setting, setting};
 
-/// Reads settings by their names.
+/// Reads settings by their names. `Null` counts as not set. A value of another type than the one asked for is an error.
 pub(crate) struct Reader<'a>(pub &'a NamedSettings);
 
 impl Reader<'_> {

@@ -1,5 +1,5 @@
-//! Measures planning. One row per scene and size compares it with plain squared distances (CAPT) and a dense library
-//! solver.
+//! Measures planning. One row per scene and size compares the planner with plain squared distances (CAPT) and with a
+//! dense library solver.
 //!
 //! `cargo run --release -p lightbots-plan --example bench -- [--json] [--quick] [--robots N] [--scene NAME]`
 #![allow(clippy::print_stdout, missing_docs)]

@@ -19,9 +19,9 @@ use lightbots_plan::{TransitionProblem, transition};
 struct Row {
     seeds: usize,
     millis: Vec<f64>,
-    /// Duration divided by that of the longest straight line at full speed. `over_least` adds a turn and a ramp to the
-    /// divisor.
+    /// Duration divided by that of the longest straight line at full speed.
     over_straight: Vec<f64>,
+    /// As `over_straight`, but with a turn and a ramp (0.62 s) added to the divisor.
     over_least: Vec<f64>,
     closest_mm: f64,
     pieces: usize,

@@ -16,18 +16,18 @@ pub struct Claims<R> {
     told: u64,
 }
 
-/// What is known about which robot must show which pixel, carried from frame to frame. A robot is given by its index in
-/// a list.
+/// What is known about which robot must show which pixel, carried from frame to frame. Robots are indices in one list
+/// of robots.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings {
     /// Names of robots; each value is the index of the robot.
     pub by_name: BTreeMap<String, usize>,
-    /// Whether `by_name` has the names of all robots. If `false`, any robot without a name may get a pixel that asks
-    /// for a name that `by_name` lacks.
+    /// Whether `by_name` has the names of all robots. If `false`, a pixel that asks for a name that `by_name` lacks may
+    /// get any robot without a name.
     pub names_known: bool,
     /// By pixel id: the robot that shows this pixel in all frames; `None` if that robot is not in the list.
     pub pins: BTreeMap<u32, Option<usize>>,
-    /// For each pixel id, the robot that showed it last, if that robot is here.
+    /// For each pixel id, the robot that showed it last, if that robot is in the list.
     pub claims: Claims<usize>,
 }
 
@@ -40,8 +40,8 @@ pub struct BoundFrame<'a> {
     pub pinned: Vec<Option<usize>>,
     /// Ids of the pixels that stay dark.
     pub dark: Vec<u32>,
-    /// Problems of the binding, each with the id of its pixel. Pixels that `stays_dark` excludes, and pixels for which
-    /// too few robots are left, have no entry.
+    /// Problems of the binding, each with the id of its pixel. A pixel has no entry if it is dark only because
+    /// `stays_dark` excludes it, or because too few robots are left.
     pub issues: Vec<(u32, BindingIssue)>,
 }
 
@@ -71,7 +71,7 @@ impl<R: Copy + PartialEq> Claims<R> {
         self.told += 1;
     }
 
-    /// Pixel ids, each with the robot that showed it last. The pixel that was shown longest ago comes first.
+    /// Pixel ids, each with the robot that showed it last, in the order of these last showings, the oldest first.
     pub fn oldest_first(&self) -> Vec<(u32, R)> {
         let mut all: Vec<_> = self.of.iter().map(|(&id, &(robot, told))| (told, id, robot)).collect();
         all.sort_unstable_by_key(|&(told, ..)| told);
@@ -91,9 +91,15 @@ impl<R: Copy + PartialEq> Claims<R> {
 
 impl Bindings {
     /// Binds a frame's pixels to robots, which stand at `places[robot]`, stage metres. A pixel is bound to the robot
-    /// that it names or is pinned to. With fixed identity, other pixels are bound to the robots that showed them last,
-    /// if these are free. Pixels without a bound robot stay open. A pixel stays dark if `stays_dark` returns `true`, if
-    /// its robot is missing or taken, or if no robot is left.
+    /// that it names, or else to the robot that it is pinned to. Pixels without a bound robot stay open: any robot may
+    /// show them.
+    ///
+    /// With fixed identity, other pixels are bound to the robots that showed them last, if these are free. If robots
+    /// that no pixel was last shown by suffice for the remaining pixels, these pixels are bound to them. Pixels with an
+    /// unknown name are bound to robots without a name, if they could otherwise get a robot with a name.
+    ///
+    /// A pixel stays dark if `stays_dark` returns `true`, or no robot is left. It also stays dark if the robot that it
+    /// names or is pinned to is missing or taken.
     pub fn bind<'a>(
         &self,
         frame: &'a [Pixel],
@@ -127,8 +133,8 @@ impl Bindings {
     }
 
     /// Records which robot shows each pixel of `bound`: `goal_of[robot]` is an index into `bound.pixels`, `None` if the
-    /// robot shows none. If not all names are known, a name that no robot has becomes the name of the robot that shows
-    /// its pixel.
+    /// robot shows none. If not all names are known, a name that is not in `by_name` becomes the name of the robot that
+    /// shows its pixel.
     pub fn remember(&mut self, bound: &BoundFrame<'_>, goal_of: &[Option<usize>]) {
         for (robot, goal) in goal_of.iter().enumerate() {
             let Some(pixel) = goal.and_then(|goal| bound.pixels.get(goal)) else { continue };
@@ -180,8 +186,8 @@ impl<'a> Binder<'a, '_> {
         self.issues.push((self.roles[role].pixel.id, why));
     }
 
-    /// Binds pixels that ask for robots by name, then pinned pixels. A pixel whose robot is missing or taken stays
-    /// dark. A pixel with an unknown name stays open if names are not completely known.
+    /// Binds pixels that ask for robots by name, then pinned pixels. A pixel stays dark if its robot is missing or
+    /// taken. A pixel with an unknown name stays open if names are not completely known.
     fn bind(&mut self) {
         for is_name in [true, false] {
             for role in 0..self.roles.len() {
@@ -221,7 +227,7 @@ impl<'a> Binder<'a, '_> {
         (0..self.roles.len()).filter(asks).collect()
     }
 
-    /// `[robot]`: whether it has a name.
+    /// `[robot]`: whether `by_name` has a name for it.
     fn named(&self) -> Vec<bool> {
         let mut named = vec![false; self.taken.len()];
         self.bindings.by_name.values().for_each(|&robot| named[robot] = true);
@@ -272,8 +278,9 @@ impl<'a> Binder<'a, '_> {
         self.place(fit, self.nameless());
     }
 
-    /// Binds open pixels to the robots that showed them last. A robot that has shown several of these pixels keeps the
-    /// one that it showed last. Pixels whose robot is taken stay open, and are reported as [`BindingIssue::Lost`].
+    /// Binds open pixels that name no robot to the robots that showed them last. A robot that showed several of these
+    /// pixels keeps the one that it showed last. A pixel stays open if its robot is taken, and is reported as
+    /// [`BindingIssue::Lost`].
     fn keep_owners(&mut self) {
         let told = |role: usize| {
             let pixel = self.roles[role].pixel;
@@ -310,8 +317,8 @@ impl<'a> Binder<'a, '_> {
         }
     }
 
-    /// Binds all open pixels to robots that have shown no pixel yet, if these robots suffice. Nothing is bound if no
-    /// free robot has shown a pixel: the assignment may then choose among all.
+    /// Binds all open pixels to new robots, if enough new robots are free. A robot is new if no pixel was last shown by
+    /// it. Nothing is bound if all free robots are new: the assignment may then choose among them.
     fn place_newcomers(&mut self) {
         let mut fresh = vec![true; self.taken.len()];
         self.bindings.claims.of.values().for_each(|&(robot, _)| fresh[robot] = false);

@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-/// The planner was cancelled. There is no plan, not even a part of one.
+/// The planner was cancelled: the call has no result, not even a part of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
 
-/// A cancellation that every long loop of the planner polls. Once its function returns `true`, it must keep returning
+/// A cancellation, polled by long loops of the planner. Once its function returns `true`, it must keep returning
 /// `true`. A loop that ends early leaves meaningless values. The entry points of this crate therefore poll again before
 /// they return a value.
 #[derive(Clone, Copy)]

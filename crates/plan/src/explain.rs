@@ -7,8 +7,8 @@ use lightbots_base::Span;
 /// The solvers that the planner tried for one transition, and its choice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
-    /// Rows of the schedule of solvers, in the order in which they ran. A group of rows that was skipped is one row
-    /// here.
+    /// Rows of the schedule of solvers, in the order in which they ran. A skipped group of rows is one row here, and
+    /// rows that were not reached are missing. Attempts with straight lines and prescribed drives have rows too.
     pub rows: Vec<ExplainedRow>,
     /// Index in `rows` of the chosen plan; `None` if there is no plan.
     pub chosen: Option<usize>,
@@ -16,7 +16,8 @@ pub struct Explanation {
     pub reason: String,
 }
 
-/// One row of the schedule of solvers, or a skipped group of rows, and its outcome.
+/// One row of the schedule of solvers, a skipped group of rows, or an attempt with straight lines or a prescribed
+/// drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExplainedRow {
     /// Solver and its parameters in a few words; for a skipped group, the name of the group.
@@ -35,8 +36,9 @@ pub enum RowOutcome {
     NoGuess,
     /// The paths of the row are rejected, because robots touch or their motion is illegal.
     Rejected {
-        /// For straight lines, the number of contacts and faults that are left; for other rows, of pairs of robots that
-        /// still touch. 0 if it is only known that the paths are rejected.
+        /// For straight lines, the number of contacts and faults that are left. For other rows, the number of pairs
+        /// that still touch: two robots, or a robot and a wall. It is 0 if it is only known that the paths are
+        /// rejected.
         contacts: usize,
     },
     /// The search for paths ended before it was known which contacts are left: its work was used up, planning was
@@ -44,7 +46,7 @@ pub enum RowOutcome {
     Unfinished,
     /// A plan that the proof accepts.
     Solved {
-        /// Duration of the plan at full speed.
+        /// Duration of the plan at full speed; 0 for trajectories that the show contains.
         duration: Span,
         /// Share of moments at which a robot may stop dead without a contact, in percent. `None` if it was not
         /// measured, because the choice did not depend on it.
@@ -58,7 +60,7 @@ impl Explanation {
         self.rows.push(ExplainedRow { solver, outcome });
     }
 
-    /// Marks the last row as chosen, for this reason.
+    /// Marks the last row as chosen, for the reason `reason`.
     pub(crate) fn choose(&mut self, reason: &str) {
         (self.chosen, self.reason) = (self.rows.len().checked_sub(1), reason.into());
     }

@@ -30,8 +30,8 @@ pub(crate) struct Instance<'a> {
 
 impl Instance<'_> {
     /// The instance of a problem with the assignment `goal_of[robot]`. `None` if the assignment does not fit the
-    /// problem or a place is not finite. `None` also if the speed, the acceleration or the radius of the robots is not
-    /// positive. It is `None`, too, if the floor is not wider and deeper than a robot.
+    /// problem, or a place is not finite. `None` also if the robots' speed, acceleration or radius is not positive, or
+    /// the floor is not wider and deeper than a robot.
     pub fn new(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Option<Self> {
         if goal_of.len() != problem.starts.len() {
             return None;
@@ -67,8 +67,8 @@ impl Instance<'_> {
         self.starts.len()
     }
 
-    /// Distance between the starts of robots `a` and `b`, or between their ends if that is smaller, metres. Spare
-    /// robots have no end, so for them only the starts count.
+    /// Distance between the starts of robots `a` and `b`, or between their ends if that is smaller, metres. If one of
+    /// them is spare, only the starts count.
     pub fn ends_apart(&self, a: usize, b: usize) -> f64 {
         let before = self.starts[a].distance(self.starts[b]);
         match (self.ends[a], self.ends[b]) {
@@ -77,20 +77,20 @@ impl Instance<'_> {
         }
     }
 
-    /// Distance that the centres of robots `a` and `b` must keep, metres. It is [`Self::widest_gap_m`], or slightly
-    /// less than the distance of their starts or ends if these are closer.
+    /// Distance that the centres of robots `a` and `b` must keep, metres. It is [`Self::widest_gap_m`], or 1 µm less
+    /// than the distance of their starts or ends if these are closer.
     pub fn least_gap(&self, a: usize, b: usize) -> f64 {
         self.widest_gap_m().min(self.ends_apart(a, b) - 1e-6)
     }
 
-    /// Distance that any two centres must keep, metres, unless starts or ends are closer. Pairs farther apart need no
-    /// check.
+    /// Distance that two centres must keep, metres, unless their starts or ends are closer. Pairs that are farther
+    /// apart need no further check.
     pub fn widest_gap_m(&self) -> f64 {
         self.limits.contact_m() + SPLINE_M
     }
 
     /// Distance that a robot's rim must keep from a wall, metres: `wish`, or the distance at the robot's start or end
-    /// if that is smaller.
+    /// if that is smaller. It is negative if the robot overlaps the wall at its start or end.
     pub fn wall_gap(&self, robot: usize, wall: usize, wish: f64) -> f64 {
         let at = |place| self.off_wall(wall, place).0;
         let end = self.ends[robot].map_or(wish, at);
@@ -112,7 +112,8 @@ impl Instance<'_> {
 
     /// Whether a robot can drive straight from one place to another with its rim `margin_m` from every wall, metres. If
     /// the robot is closer to a wall at an end of the line, the line only has to keep that smaller distance. The line
-    /// is sampled about every 10 mm. The floor's edge is not checked.
+    /// is sampled in steps of at most 10 mm, or in 4,000 steps if it is longer than 40 m. The floor's edge is not
+    /// checked.
     pub fn is_way_free(&self, from: Vec2, to: Vec2, margin_m: f64) -> bool {
         let samples = (from.distance(to) / 0.01).min(4000.0) as usize + 1;
         (0..self.walls.len()).all(|wall| {
@@ -122,8 +123,9 @@ impl Instance<'_> {
         })
     }
 
-    /// Returns the value of `off_edge_m`: [`EDGE_M`] if there is room. It is less if robots would not fit between a
-    /// wall and the edge, or if two robots could not pass each other.
+    /// Returns the value of `off_edge_m`: [`EDGE_M`] if there is room. It is less if otherwise a robot would not fit
+    /// between a wall and the edge, or two robots side by side on the floor. Gaps that are too narrow even for distance
+    /// 0 do not count.
     fn room_at_edge_m(&self) -> f64 {
         let least_m = 2.0 * self.limits.radius_m + SPLINE_M;
         let gaps = self.walls.iter().flat_map(|wall| self.off_edges(wall)).map(|gap_m| gap_m - least_m);
@@ -144,8 +146,8 @@ impl Instance<'_> {
         [min.x + half.x, half.x - max.x, min.y + half.y, half.y - max.y]
     }
 
-    /// The nearest place to `place` at which the robot's rim is at least `off_edge_m` from the floor's edge, metres. A
-    /// robot with a start or end closer to the edge may be as close to the edge as that start or end.
+    /// Returns the place nearest to `place` at which the robot's rim is at least `off_edge_m` metres from the floor's
+    /// edge. A robot with a start or end closer to the edge may be as close to the edge as that start or end.
     pub fn on_floor(&self, robot: usize, place: Vec2, off_edge_m: f64) -> Vec2 {
         let room = self.inner - Vec2::new(off_edge_m, off_edge_m);
         if place.x.abs() <= room.x && place.y.abs() <= room.y {

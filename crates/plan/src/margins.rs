@@ -1,5 +1,5 @@
-//! The margins that the planner keeps, in ascending order: the proof checks the smallest, and solvers first aim at the
-//! largest. All are metres between two rims, or between a rim and a wall or the floor's edge.
+//! The margins that the planner keeps, in ascending order: the proof checks the smallest, and solvers aim at larger
+//! ones. All are metres between two rims, or between a rim and a wall or the floor's edge.
 
 /// Least gap between rims, and between a rim and a wall, that the proof demands. A robot that starts or ends closer
 /// need only keep that smaller gap. The value covers a usual path error, 2 mm, and the rounding of messages. With a
@@ -22,8 +22,8 @@ pub(crate) const EDGE_M: f64 = 0.003_5;
 /// Gap that solvers aim at if it costs little time. The value covers a path error of 5 mm, although most path errors
 /// are below 2 mm.
 pub(crate) const COMFORT_M: f64 = 0.008;
-/// Gap between robots at which [`Scale`](crate::solve) first aims if robots do not have the Elisa-3's size. It exceeds
-/// [`COMFORT_M`] to leave room for the deformation.
+/// Gap between robots that [`Scale`](crate::solve) tries first to keep, if robots do not have the Elisa-3's size. It
+/// exceeds [`COMFORT_M`] to leave room for the deformation.
 pub(crate) const ROOMY_M: f64 = 0.013_5;
 
 const _: () = assert!(MARGIN_M < ROADMAP_M);

@@ -11,7 +11,8 @@
 
 use lightbots_base::Span;
 
-/// A plan may be chosen for its stop-safety if its duration is at most this many times the shortest duration.
+/// A plan may be chosen for its stop-safety if its duration is at most this many times the shortest duration. With a
+/// larger value, stop-safety counts more and duration less.
 const MOST_LONGER: f64 = 1.05;
 
 /// Properties of a candidate plan that are known before its stop-safety is measured.

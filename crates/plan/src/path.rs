@@ -1,11 +1,11 @@
-//! A timed path, the only type that the proof shares with the planner.
+//! A timed path: the type in which the planner hands its paths to the proof.
 
 use lightbots_base::{PathRef, Piece, Span, Vec2};
 
 /// A timed path that owns its pieces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    /// Its start, stage metres.
+    /// The place where it begins, stage metres.
     pub start: Vec2,
     /// Its pieces in order.
     pub pieces: Vec<Piece>,

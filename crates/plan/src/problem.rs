@@ -27,14 +27,18 @@ pub struct TransitionProblem {
     pub standing: Vec<Vec2>,
     /// No-go areas.
     pub obstacles: Vec<Obstacle>,
-    /// Half the floor's width and depth, metres. Robots' centres stay at least a robot's radius inside the edge.
+    /// Half the floor's width and depth, metres. Robots' centres stay at least a robot's radius inside the edge, unless
+    /// they start closer to it.
     pub half_floor: Vec2,
     /// Limits of the robots.
     pub limits: Limits,
     /// Asked duration of the drive. If it is `None`, or shorter than the robots can drive, robots drive as fast as
-    /// their limits allow. A prescribed motion for which it is too short is infeasible instead.
+    /// their limits allow. There are two exceptions among prescribed drives. A motion of the picture, other than
+    /// staggered starts, is infeasible if this duration is too short for it. Trajectories that the show contains keep
+    /// their own durations.
     pub duration: Option<Span>,
-    /// Shape of the speed over time: two ramps with a cruise between them (`Swift`), or no cruise (`Gentle`).
+    /// Shape of the speed over time: two ramps with a cruise between them if the way is long enough (`Swift`), or no
+    /// cruise (`Gentle`).
     pub easing: Easing,
     /// The drive that the show prescribes; `None` if it prescribes none. Prescribed paths apply only if robots stand
     /// where the paths begin and pixels are where the paths end. Otherwise the planner plans an ordinary drive.
@@ -105,17 +109,17 @@ impl TransitionProblem {
 pub struct Transition {
     /// `goal_of[robot]`: index of the robot's goal; `None` if the robot is spare.
     pub goal_of: Vec<Option<usize>>,
-    /// `paths[robot]`: its timed path. All paths last exactly `duration`. All but trajectories that the show contains
-    /// begin with a rest in which robots turn.
+    /// `paths[robot]`: its timed path. All paths last exactly `duration`. They begin with a rest in which robots turn,
+    /// except trajectories that the show contains and drives in which no robot moves.
     pub paths: Vec<Path>,
-    /// Duration of all paths, including the rest at the begin.
+    /// Duration of all paths, including the rest at the beginning.
     pub duration: Span,
     /// Duration of the same drive at full speed: the least within the limits of the robots, without the delays that
     /// raise stop-safety. 0 for trajectories that the show contains.
     pub least: Span,
     /// Lower bound on the duration, seconds: the bottleneck distance divided by the speed limit. The bottleneck
     /// distance is the longest straight line from a start to its goal, with the assignment that makes this line
-    /// shortest. If the show fixes the assignment, its longest line counts.
+    /// shortest. Assignments that break a pin, or the pairs of a prescribed drive, do not count.
     pub lower_bound_s: f64,
     /// The closest approach of two centres: of two robots, or of a robot and a standing disc. `None` if there is no
     /// pair of either kind.

@@ -1,6 +1,6 @@
-//! Raises the stop-safety of a transition (the share of moments at which a robot may stop dead without a contact) by
-//! delayed starts. A robot that follows another closely then falls back, and a robot that crosses just behind another
-//! crosses later.
+//! Raises the stop-safety of a transition by delayed starts. Stop-safety is the share of moments at which a robot may
+//! stop dead without a contact. A delayed robot falls back behind a robot that it follows closely, or crosses later
+//! behind a robot that it would cross just behind.
 
 mod delays;
 #[cfg(test)]
@@ -14,19 +14,21 @@ use crate::proof::{Proof, prove_unless};
 use crate::{Infeasible, Path, Transition, TransitionProblem, transition_unless};
 use lightbots_base::Span;
 
-/// Largest share of the planned duration by which delays may lengthen a transition; the design allows 5 %.
+/// Largest share of the planned duration by which delays may lengthen a transition; the design allows 5 %. With a
+/// larger share, more robots can fall back, and shows take longer.
 const SHARE: f64 = 0.05;
 
-/// Measures the stop-safety of a transition, and raises it by delays of at most 5 % of the duration. Transitions with
-/// an asked duration, with a prescribed drive or of more than 500 s are only measured. The order on candidate plans
-/// chooses between the paths with and without delays. `transition` gets the chosen paths, which are proven, and their
-/// stop-safety is returned.
+/// Measures the stop-safety of a transition, and raises it by delays that lengthen the transition by at most 5 %.
+/// Returns the stop-safety of the paths that `transition` has afterwards. These paths are proven. The order on
+/// candidate plans (`order.rs`) chooses between the paths with and without delays.
+///
+/// Transitions with an asked duration or a prescribed drive, and those of more than 500 s, are only measured.
 pub fn raise(problem: &TransitionProblem, transition: &mut Transition) -> StopSafety {
     raised(problem, transition, Cancel::NEVER)
 }
 
-/// [`raise`], cancelled as soon as `is_wanted` returns `true`. After a cancellation, the paths of `transition` are
-/// still proven.
+/// [`raise`], cancelled once `is_wanted` returns `true`. After a cancellation too, the paths of `transition` are
+/// proven.
 pub fn raise_unless(
     problem: &TransitionProblem,
     transition: &mut Transition,
@@ -57,7 +59,7 @@ pub(crate) fn raised(
     let measure = |paths: &[Path]| measured(paths, &problem.limits, &StopAssumptions::default(), cancel);
     let before = measure(&transition.paths);
     let is_long = before.pace > STEP;
-    // Delays would take robots out of step with their formation.
+    // Delays would lengthen an asked duration, or take robots out of step with their formation.
     let is_timed = problem.duration.is_some() || problem.prescribed.is_some();
     if before.unsafe_moments.is_empty() || is_timed || is_long || cancel.is_wanted() {
         return before;

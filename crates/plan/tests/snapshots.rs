@@ -15,7 +15,7 @@ use lightbots_base::{Limits, Vec2};
 use lightbots_plan::{Path, Transition, TransitionProblem, transition};
 use lightbots_show::{Easing, Obstacle};
 
-/// FNV-1a over the bits of all pieces: equal only for plans that are equal bit for bit.
+/// FNV-1a over the bits of all pieces. Plans that differ in a bit have different fingerprints, but for rare collisions.
 fn fingerprint(paths: &[Path]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut add = |word: u64| {
@@ -35,7 +35,8 @@ fn fingerprint(paths: &[Path]) -> u64 {
     hash
 }
 
-/// One line about a plan: its duration, its least clearance and its fingerprint.
+/// One line about a plan: its duration, the ratio to its bound, its least clearance, its greatest number of pieces and
+/// its fingerprint. Without a plan, the line is the planner's message.
 fn summary(name: &str, problem: &TransitionProblem) -> String {
     match transition(problem) {
         Ok(plan) => {

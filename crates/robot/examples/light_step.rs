@@ -20,9 +20,11 @@ use plant::{Flaws, Plant, STEP, Turn, straight};
 
 /// Number of interleaved runs. It is odd, for the median.
 const ROUNDS: usize = 101;
-/// Start and `END` of a route that takes 18.9 s, metres.
+/// Start of a route that takes 18.9 s, stage metres.
 const START: Vec2 = Vec2::new(-2.5, 0.0);
+/// End of that route, stage metres.
 const END: Vec2 = Vec2::new(2.5, 0.0);
+/// Number of that route.
 const SEQ: u32 = 1;
 /// Duration of a stretch.
 const STRETCH: Span = Span::from_millis(10_000);

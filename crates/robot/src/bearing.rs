@@ -1,18 +1,18 @@
-//! Heading from motion, for robots without heading fixes. It is found by the rotation that maps the track by odometry onto
-//! the track by position fixes.
+//! Heading from motion, for robots without heading fixes. It is found by the rotation that maps the track by odometry
+//! onto the track by position fixes.
 
 use lightbots_base::{Vec2, wrap};
 
-/// Displacement by odometry since the first pair of places at which the rotation is computed, metres. With a smaller value,
-/// the noise of the fixes hides the direction: 2 mm over 60 mm are 2°. With a larger value, a robot drives farther before
-/// its heading is known.
+/// Displacement by odometry since the first pair of places at which the rotation is computed, metres. With a smaller
+/// value, the noise of the fixes hides the direction: 2 mm over 60 mm are 2°. With a larger value, a robot drives
+/// farther before its heading is known.
 const SPREAD_M: f64 = 0.06;
 /// Number of fixes after which the sums are reset if the robot has not driven [`SPREAD_M`]: 16 s of fixes. A robot that
 /// stands gathers no information.
 const MOST: u32 = 1000;
 
-/// Sums over pairs of (place by odometry, place by fix). They give the least-squares rotation from the first to the second
-/// track.
+/// Sums over pairs of (place by odometry, place by fix). They give the least-squares rotation from the first to the
+/// second track.
 #[derive(Debug, Default)]
 pub(crate) struct Bearing {
     count: u32,
@@ -24,8 +24,8 @@ pub(crate) struct Bearing {
 }
 
 impl Bearing {
-    /// Adds a pair of places, metres. Once the track is long enough, returns the rotation from the track by odometry to the
-    /// track by fixes, radians counter-clockwise, and resets the sums. Otherwise `None`.
+    /// Adds a pair of places, metres. Once the track is long enough, returns the rotation from the track by odometry to
+    /// the track by fixes, radians counter-clockwise, and resets the sums. Otherwise `None`.
     pub(crate) fn add(&mut self, by_wheels: Vec2, by_fix: Vec2) -> Option<f64> {
         let (wheels0, fix0) = *self.first.get_or_insert((by_wheels, by_fix));
         let (wheels, fix) = (by_wheels - wheels0, by_fix - fix0);

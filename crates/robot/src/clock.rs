@@ -3,9 +3,9 @@
 //! A Kalman filter estimates offset and drift of the show clock. An answer measures the offset as half the difference
 //! of the delays of question and answer. The error is at most half of the excess of the round trip over the shortest
 //! possible one. So the excess sets the noise of the measurement. Over a jittery link the few quick answers count most,
-//! but no answer is discarded. (The clock filter of NTP, RFC 5905 section 10, discards all but the quickest answer.) If
-//! both directions of a link have much jitter, quick round trips are rare. Then the least delays of each direction on
-//! its own give a better estimate ([`least_delays`]).
+//! but slower answers count, too. (The clock filter of NTP, RFC 5905 section 10, discards all but the quickest answer.)
+//! If both directions of a link have much jitter, quick round trips are rare. Then the least delays of each direction
+//! on its own give a better estimate ([`least_delays`]).
 
 mod least_delays;
 
@@ -13,19 +13,19 @@ use least_delays::LeastDelays;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::TimeAnswer;
 
-/// Least number of answers after which the clock counts as synchronised. With a smaller value, one delayed answer
-/// decides the offset. With a larger value, robots join later.
+/// Least number of answers before the clock can count as synchronised. With a smaller value, one delayed answer decides
+/// the offset. With a larger value, robots join later.
 const ENOUGH: u32 = 4;
 /// Largest error of the clock at which it becomes synchronised, microseconds, 1 sigma. After [`QUICK`] answers it
 /// becomes synchronised with any error. With a smaller value, robots on jittery links join later. With a larger value,
 /// robots depart at visibly different times.
 const GOOD_US: f64 = 3_000.0;
-/// Number of answers until which questions are sent every [`QUICK_PACE`]. Tuned on the tests of this module: an error
-/// of 2 ms after 3 s.
+/// Number of answers until which questions are sent every [`QUICK_PACE`], if they are answered. Tuned on the tests of
+/// this module: an error of 2 ms after 3 s. With a smaller value, clocks are good later.
 const QUICK: u32 = 16;
-/// Number of answers until which a robot whose clock has an error above [`GOOD_US`] asks every [`QUICK_PACE`]: 30 s.
-/// With a smaller value, clocks differ too much on a link of 5 to 250 ms each way. Robots are then 25 mm off and brake
-/// for each other. With a larger value, a fleet floods a link that is always bad.
+/// Number of answers until which a robot asks every [`QUICK_PACE`] while the error of its clock is above [`GOOD_US`]:
+/// 30 s. With a smaller value, clocks differ too much on a link of 5 to 250 ms each way. Robots are then 25 mm off and
+/// brake for each other. With a larger value, a fleet floods a link that is always bad.
 const PATIENT: u32 = 150;
 /// Number of answers from which questions are sent every [`OLD_PACE`]: the clock is settled. With a smaller value, the
 /// drift is too uncertain for questions that rare.
@@ -34,8 +34,8 @@ const SETTLED: u32 = 60;
 const QUICK_PACE: Span = Span::from_millis(200);
 /// Time between two questions from [`QUICK`] answers on, until the clock is settled.
 const YOUNG_PACE: Span = Span::from_millis(1000);
-/// Time between two questions of a robot whose clock is settled, or that gets no answers. With a larger value, drift
-/// adds up between answers.
+/// Time between two questions once the clock is settled, or while no answers come. With a larger value, drift adds up
+/// between answers.
 const OLD_PACE: Span = Span::from_millis(3000);
 /// Number of unanswered questions in a row after which the robot asks every [`OLD_PACE`], because its controller does
 /// not answer time questions.
@@ -55,8 +55,8 @@ const WANDER: f64 = 0.3e-6 * 0.3e-6;
 const BEST_US: f64 = 100.0;
 /// Share by which the shortest known round trip grows with each answer, because routes through a network change.
 const LEAK: f64 = 1e-5;
-/// If the estimated offset is outside the bounds of an answer by more than this, microseconds, the answer comes from a
-/// controller that was restarted.
+/// An answer counts as that of a restarted controller if the estimated offset is outside its bounds by more than this,
+/// microseconds. With a smaller value, a robot loses its route if its own clock jumps.
 const SET_ANEW_US: f64 = 500_000.0;
 
 const _: () = assert!(ENOUGH < QUICK && QUICK < SETTLED && SETTLED < PATIENT);
@@ -152,7 +152,8 @@ impl ClockFilter {
         clock.synchronised.then(|| (2.0 * libm::sqrt(variance.max(0.0))) as u32)
     }
 
-    /// Handles an answer that arrived at `now`, own clock. Late, duplicate and impossible answers are dropped.
+    /// Handles an answer that arrived at `now`, own clock. Answers that are too late (see [`LATEST`]), duplicate or
+    /// impossible are dropped.
     pub(crate) fn answer(&mut self, clock: &mut ShowClock, now: Instant, answer: &TimeAnswer) {
         let late = !(Span::ZERO..=LATEST).contains(&(now - answer.asked));
         if late || self.answered.contains(&answer.asked) || answer.sent < answer.received {

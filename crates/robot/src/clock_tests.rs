@@ -101,8 +101,8 @@ fn a_controller_that_starts_anew_sets_the_clock_anew() {
     assert_eq!(clock.show_time(Instant(3_000_000)), Some(Instant(3_000_000)));
 }
 
-/// Answers each question from `from` on for `seconds`, with this offset of the show clock. Returns the moment from which
-/// the clock is synchronised.
+/// Answers each question from `from` on for `seconds`, with this offset of the show clock. Returns the moment from
+/// which the clock is synchronised.
 fn converse(clock: &mut Clock, from: Instant, seconds: f64, show_offset: u64) -> Option<Instant> {
     let steps = (0..(seconds * 62.5) as u64).map(|step| from + Span(step as i64 * 16_000));
     steps.fold(None, |good, now| {

@@ -22,8 +22,8 @@ pub struct Config {
     /// estimates the actual slip.
     pub slip: f64,
     /// How long the robot drives on without a link. On a route, the robot brakes and is `cut` once it has received no
-    /// message for longer. On a drive to a target, only a link that is down for longer has this effect. The robot
-    /// stands at most 0.3 s later.
+    /// message, or the link has been down, for longer. On a drive to a target, only a link that is down for longer has
+    /// this effect. The robot stands at most 0.3 s later.
     pub silence: Span,
     /// Time between position fixes.
     pub fix_pace: Span,
@@ -31,7 +31,7 @@ pub struct Config {
     pub abilities: Abilities,
     /// Dimensions and limits of the robot: radius, wheels, speed, acceleration.
     pub limits: Limits,
-    /// Whether the robot's reports say that it is simulated. Real robots never set this.
+    /// Whether the robot's reports say that it is simulated; `false` for a real robot.
     pub simulated: bool,
     /// Its proximity sensors.
     pub proximity: ProximitySensors,
@@ -53,7 +53,7 @@ pub struct ProximitySensors {
     pub bearings_rad: [f32; SENSORS],
     /// Half the opening angle of each sensor's cone, radians.
     pub half_cone_rad: f32,
-    /// Largest gap that counts as a reading, metres. Objects farther away are beyond the robot's stopping distance.
+    /// Largest gap that counts as a reading, metres. At a larger gap, the sensor counts as seeing nothing.
     pub range_m: f32,
     /// Constant part of the noise of a reading, 1 sigma, metres.
     pub noise_m: f32,
@@ -66,6 +66,7 @@ impl ProximitySensors {
     /// a gap of 5 mm, 0.8 mm at 10 mm.
     pub const ELISA_3: Self = Self {
         bearings_rad: {
+            /// Angle between two adjacent sensors, radians.
             const STEP: f32 = core::f32::consts::FRAC_PI_4;
             [0.0, STEP, 2.0 * STEP, 3.0 * STEP, 4.0 * STEP, 5.0 * STEP, 6.0 * STEP, 7.0 * STEP]
         },
@@ -85,15 +86,15 @@ pub struct SafetyPolicy {
     /// Constant part of the safety margin on the gap between the rims at the nearest approach, metres. It is added to
     /// the part by `sigmas`.
     pub spare_m: f32,
-    /// Upper bound of the safety margin for a neighbour with a known planned clearance, as a share of that clearance.
-    /// One standard deviation of the neighbour's place is subtracted from the bound. For a neighbour that stands by
-    /// plan there is no such bound.
+    /// Upper bound of the safety margin for a moving neighbour with a known planned clearance, as a share of that
+    /// clearance. One standard deviation of the neighbour's place is subtracted from the bound, but the bound is never
+    /// negative. For a neighbour that stands by plan there is no such bound.
     pub planned_share: f32,
     /// How much nearer a neighbour may come before the robot brakes for it, metres. This applies to a neighbour that is
     /// already too near and has a known planned clearance.
     pub tolerance_m: f32,
-    /// A robot counts as blocked after this number of steps in which less than half the wanted speed was allowed. A
-    /// step without a speed limit lowers the count by one.
+    /// A robot counts as blocked after this number of steps in which it wanted to drive and less than half the wanted
+    /// speed was allowed. A step without a speed limit lowers the count by one.
     pub steps_to_block: u8,
     /// Number of steps in a row in which the blocking obstacle must be missing before the robot is free again.
     pub steps_to_free: u8,

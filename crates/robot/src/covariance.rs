@@ -1,8 +1,8 @@
 //! Covariance of the extended Kalman filter over place, heading and the slip of both wheels (Thrun, Burgard and Fox,
 //! "Probabilistic Robotics", 2005, section 3.3).
 //!
-//! The Kalman gains change slowly. So the covariance is propagated over several steps at once, and the last gains are used
-//! in between. The filter then costs only a few multiplications a step.
+//! The Kalman gains change slowly. So the covariance is propagated over several steps at once, and the last gains are
+//! used in between. The filter then costs only a few multiplications a step.
 
 use lightbots_base::Vec2;
 
@@ -11,17 +11,18 @@ use lightbots_base::Vec2;
 const X: usize = 0;
 /// Index of stage y in a row.
 const Y: usize = 1;
-/// Index of the heading.
+/// Index of the heading in a row.
 const HEADING: usize = 2;
-/// Index of the left wheel's slip.
+/// Index of the left wheel's slip in a row.
 const LEFT: usize = 3;
 
-/// Process noise of the place in each step, even if the robot stands, metres, 1 sigma. With a smaller value, a robot that
-/// was pushed rejects its fixes. With a larger value, noise of the fixes moves a robot that stands.
+/// Process noise of the place in each step, even if the robot stands, metres, 1 sigma. With a smaller value, a robot
+/// that was pushed rejects its fixes. With a larger value, noise of the fixes moves a robot that stands.
 const STANDING_M: f64 = 1e-5;
 /// Process noise of the heading in each step, even if the robot stands, radians, 1 sigma. See [`STANDING_M`].
 const STANDING_RAD: f64 = 5e-5;
-/// Process noise of the place besides slip, 1 sigma, as a share of the distance driven, because wheels are not quite round.
+/// Process noise of the place besides slip, 1 sigma, as a share of the distance driven, because wheels are not quite
+/// round.
 const WAY: f64 = 0.01;
 /// Process noise of the heading, 1 sigma, as a share of the rotation, because the effective distance between the wheels
 /// varies: see docs/simulator.md.
@@ -55,7 +56,8 @@ pub(crate) struct Drift {
     pub variance: f64,
 }
 
-/// Variance of the mean of all measurements in a [`MotionSegment`]; infinite without measurements.
+/// Variance of the mean of all measurements in a [`MotionSegment`]: of the place in each coordinate (square metres),
+/// and of the heading (radians squared). Infinite without measurements.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Noise {
     pub place: f64,
@@ -88,10 +90,11 @@ pub(crate) fn right_correction(gains: &[Gain; 3], innovation: [f32; 3]) -> f32 {
     gains.iter().zip(innovation).fold(0.0, |sum, (gain, off)| sum + gain.right * off)
 }
 
-/// The covariance.
+/// Covariance of place, heading and the slip of both wheels. Units: metres, radians, and slip as a share.
 #[derive(Debug)]
 pub(crate) struct PoseCovariance {
-    /// The larger one of the variances of x and y, square metres. It is copied from `rows`, because every step reads it.
+    /// The larger one of the variances of x and y, square metres. It is copied from `rows`, because every step reads
+    /// it.
     place: f64,
     heading: f64,
     rows: [Row; 4],
@@ -167,7 +170,8 @@ impl PoseCovariance {
         self.right_own = self.right_own * left * left + fresh;
     }
 
-    /// Updates the covariance by measurements of place and heading with these variances.
+    /// Updates the covariance by measurements of place and heading with these variances. An infinite variance means no
+    /// measurement.
     pub(crate) fn update(&mut self, noise: Noise) {
         for (state, variance) in [(X, noise.place), (Y, noise.place), (HEADING, noise.heading)] {
             if variance.is_finite() {
@@ -190,7 +194,8 @@ impl PoseCovariance {
         self.right_own += seen_right * share * seen_right;
     }
 
-    /// Kalman gains of measurements of x, y and heading with these variances.
+    /// Kalman gains of measurements of x, y and heading with these variances, from the covariance after
+    /// [`update`](Self::update).
     pub(crate) fn gains(&self, place: f64, heading: f64) -> [Gain; 3] {
         [(X, place), (Y, place), (HEADING, heading)].map(|(state, variance)| {
             let by = (1.0 / variance) as f32;
@@ -222,7 +227,7 @@ impl PoseCovariance {
         self.place
     }
 
-    /// Variance of the heading.
+    /// Variance of the heading, radians squared.
     pub(crate) fn heading(&self) -> f64 {
         self.heading
     }

@@ -4,23 +4,26 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::filter::turned;
 
-/// Acceleration of the ramp, as a multiple of the acceleration that plans use. Braking for others is not limited by it, and
-/// speed lost by that may be regained faster ([`RECOVERY`]). With a smaller value, a robot cannot catch up with its route.
+/// Acceleration of the ramp, as a multiple of the acceleration that plans use. Braking for others is not limited by it,
+/// and speed lost by that may be regained faster ([`RECOVERY`]). With a smaller value, a robot cannot catch up with its
+/// route.
 const ACCEL_RESERVE: f64 = 1.25;
-/// Largest speed, as a multiple of the speed limit that plans use. With a smaller value, a robot that is late at full speed
-/// cannot catch up with its route.
+/// Largest speed, as a multiple of the speed limit that plans use. With a smaller value, a robot that is late at full
+/// speed cannot catch up with its route.
 const SPEED_RESERVE: f64 = 1.25;
-/// Acceleration with which a robot regains its speed after braking without a ramp, as a multiple of the ramp: about the grip
-/// of the tyres. An Elisa-3 slips at it and falls behind by at most 4 mm. With the ramp alone, it falls behind by 20 mm.
-/// Robots close behind then brake in turn, each more than the one before.
+/// Acceleration with which a robot regains its speed after braking without a ramp, as a multiple of the ramp: about the
+/// grip of the tyres. An Elisa-3 slips at it and falls behind by at most 4 mm. With the ramp alone, it falls behind by
+/// 20 mm. Robots close behind then brake in turn, each more than the one before.
 const RECOVERY: f64 = 9.0;
-/// Number of braked steps from which a robot that drives gently regains its speed by the ramp. With fewer braked steps, it
-/// regains speed as fast as the grip allows. If a sensor error brakes a robot in one step, regaining speed by the ramp would
-/// leave it 18 mm behind. The robot behind would run into it (campaign, seeds 498, 703).
+/// Number of braked steps from which a robot that drives gently regains its speed by the ramp. After fewer braked
+/// steps, it regains its speed by [`RECOVERY`]. If a sensor error brakes a robot in one step, regaining speed by the
+/// ramp would leave it 18 mm behind. The robot behind would run into it (fault campaign of docs/campaign.md, seeds 498
+/// and 703).
 const STOP_AND_GO: u32 = 2;
 /// Largest change of the commanded turning rate, rad/s²: 2 m/s² at the wheels.
 const TURN_ACCEL: f64 = 100.0;
-/// Dead time of the drive, seconds: one step until the motors react to a command, and one step for which a command is held.
+/// Dead time of the drive, seconds: one step until the motors react to a command, and one step for which a command is
+/// held.
 const DEAD_S: f64 = 0.032;
 /// Below this commanded speed the robot counts as standing or turning on the spot, m/s.
 const STANDING_MPS: f64 = 0.01;
@@ -54,16 +57,17 @@ pub(crate) struct DriveBase {
 }
 
 impl DriveBase {
-    /// Predicted pose in `dt` seconds, when the next command takes effect. Motors react one step late, so the robot moves by
-    /// the last command until then.
+    /// Predicted pose in `dt` seconds, when the next command takes effect. Motors react one step late, so the robot
+    /// moves by the last command until then.
     pub(crate) fn foresee(&self, body: BodyPose, dt: f64) -> BodyPose {
         let facing = turned(body.facing, within(self.commanded.turn_radps * dt, 0.1));
         let way = self.commanded.speed_mps * dt;
         BodyPose { at: body.at + (body.facing + facing) * (0.5 * way), facing }
     }
 
-    /// Changes the command towards the setpoint `want`, by at most the ramps, and returns the wheel rates, left and right,
-    /// rad/s. `slip`: slip of the wheels, left and right, as a share of their turning. `dt`: length of the step, seconds.
+    /// Changes the command towards the setpoint `want`, by at most the ramps, and returns the wheel rates, left and
+    /// right, rad/s. Speed that was lost by braking without a ramp may be regained faster, by [`RECOVERY`]. `slip`:
+    /// slip of the wheels, left and right, as a share of their turning. `dt`: length of the step, seconds.
     pub(crate) fn step(&mut self, want: Setpoint, slip: [f64; 2], dt: f64, limits: &Limits) -> [f64; 2] {
         let speed_max = limits.speed_mps * SPEED_RESERVE;
         let speed = within(want.speed_mps, speed_max);
@@ -81,8 +85,8 @@ impl DriveBase {
         self.wheels(slip, limits)
     }
 
-    /// Like [`Self::step`], but with a speed of at most `most_mps`. If the command is faster, the robot brakes to `most_mps`
-    /// without a ramp.
+    /// Like [`Self::step`], but with a speed of at most `most_mps`. If the command is faster, the robot brakes to
+    /// `most_mps` without a ramp.
     pub(crate) fn step_within(
         &mut self,
         want: Setpoint,
@@ -104,8 +108,9 @@ impl DriveBase {
         self.braked_steps > 0 && !(self.gently && self.braked_steps >= STOP_AND_GO)
     }
 
-    /// The setpoint of a robot that has nothing to do: it brakes by the ramp on its present curve until it stands. Robots
-    /// close behind detect this in time; they could not if it stopped at once.
+    /// The setpoint of a robot that has nothing to do: it brakes by the ramp on its present curve until it stands.
+    /// Robots close behind detect this in time; they could not if it stopped at once. Zero if the robot stands or only
+    /// turns.
     pub(crate) fn rolling_out(&self, dt: f64, limits: &Limits) -> Setpoint {
         if !self.rolls() {
             return Setpoint::default();
@@ -115,12 +120,13 @@ impl DriveBase {
         Setpoint { speed_mps: next_mps, turn_radps: turn_radps * next_mps / speed_mps }
     }
 
-    /// Whether the robot is commanded to drive, and not only to turn or stand.
+    /// Whether the commanded speed counts as driving: it is at least [`STANDING_MPS`], forwards or backwards.
     pub(crate) fn rolls(&self) -> bool {
         self.commanded.speed_mps.abs() >= STANDING_MPS
     }
 
-    /// Distance that the robot drives until it stands if it brakes by the ramp from now on, metres, including the dead time.
+    /// Distance that the robot drives until it stands if it brakes by the ramp from now on, metres, including the dead
+    /// time.
     pub(crate) fn braking_m(&self, limits: &Limits) -> f64 {
         let speed_mps = self.commanded.speed_mps.abs();
         speed_mps * (speed_mps / (2.0 * ACCEL_RESERVE * limits.accel_mps2) + DEAD_S)
@@ -143,8 +149,8 @@ impl DriveBase {
         !self.rolls() && self.commanded.turn_radps.abs() < STANDING_RADPS
     }
 
-    /// Wheel rates of the command, left and right, rad/s. If one exceeds the motor's limit, both are scaled down, so that
-    /// the robot stays on its curve.
+    /// Wheel rates of the command, left and right, rad/s. If one exceeds the motor's limit, both are scaled down, so
+    /// that the robot stays on its curve.
     fn wheels(&self, slip: [f64; 2], limits: &Limits) -> [f64; 2] {
         let Setpoint { speed_mps, turn_radps } = self.commanded;
         let half = turn_radps * limits.track_m * 0.5;
@@ -160,8 +166,8 @@ impl DriveBase {
     }
 }
 
-/// Returns `value`, limited to ±`most`. `f64::clamp` is not used, because it also checks its bounds, which costs time in
-/// every step.
+/// Returns `value`, limited to ±`most`. `f64::clamp` is not used, because it also checks its bounds, which costs time
+/// in every step.
 #[inline]
 fn within(value: f64, most: f64) -> f64 {
     let value = if value < -most { -most } else { value };

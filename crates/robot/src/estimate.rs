@@ -1,5 +1,5 @@
-//! Estimate of the robot's present pose. The filter estimates the pose at the moment at which the latest fix was measured.
-//! If fixes arrive late, odometry since that moment leads to the present pose.
+//! Estimate of the robot's present pose. The filter estimates the pose at the moment at which the latest fix was
+//! measured. If fixes arrive late, odometry since that moment leads to the present pose.
 
 use lightbots_base::{Instant, Pose, Span, Vec2, wrap};
 
@@ -16,7 +16,7 @@ const LOST_AFTER: Span = Span::from_millis(3000);
 /// How well a robot knows its pose in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PoseQuality {
-    /// Whether the pose is too uncertain to drive.
+    /// Whether the pose is too uncertain to drive: the error of the place exceeds [`LOST_M`], or `lost_for_good`.
     pub lost: bool,
     /// Whether the last fix is older than [`LOST_AFTER`], or no fix ever came. Then even a robot that rests on a held
     /// route is lost.
@@ -30,8 +30,8 @@ pub(crate) struct PoseQuality {
 pub(crate) struct Estimate {
     delay: Span,
     filter: Filter,
-    /// The present place, stage metres, if fixes arrive late. Otherwise `at`, `facing` and `heading` are unused, because the
-    /// filter's pose is the present one.
+    /// The present place, stage metres, if fixes arrive late. Otherwise `at`, `facing` and `heading` are unused,
+    /// because the filter's pose is the present one.
     at: Vec2,
     /// Unit vector of `heading`.
     facing: Vec2,
@@ -66,7 +66,8 @@ impl Estimate {
         self.predict_present(history);
     }
 
-    /// Corrects the pose by a fix that arrived at `now`. A place or heading that is NaN is ignored.
+    /// Corrects the pose by a fix that arrived at `now`. A heading that is not finite is ignored, and so is a place
+    /// with a coordinate that is NaN or at least 1 km.
     #[inline]
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix, history: &OdometryHistory) {
         if !self.is_ahead() {
@@ -102,7 +103,7 @@ impl Estimate {
         self.heading = wrap(self.heading + turned_by);
     }
 
-    /// The estimated place, stage metres.
+    /// The estimated present place, stage metres.
     pub(crate) fn at(&self) -> Vec2 {
         if self.is_ahead() { self.at } else { self.filter.at() }
     }
@@ -131,23 +132,23 @@ impl Estimate {
         self.filter.slip()
     }
 
-    /// The estimated pose; `None` while the heading is unknown.
+    /// The estimated present pose; `None` while the heading is unknown.
     pub(crate) fn pose(&self) -> Option<Pose> {
         self.aligned().then_some(Pose::new(self.at(), self.heading()))
     }
 
-    /// Expected error of the place, 1 sigma in each coordinate, metres.
+    /// Expected error of the place, 1 sigma, metres: that of x or of y, whichever is larger.
     pub(crate) fn error_m(&self) -> f64 {
         libm::sqrt(self.filter.variance())
     }
 
-    /// [`Self::error_m`] after `way_m` more metres of driving without a fix.
+    /// Expected error of the place after `way_m` more metres of driving without a fix, 1 sigma, metres.
     pub(crate) fn error_after_m(&self, way_m: f64) -> f64 {
         libm::sqrt(self.filter.variance() + self.filter.drift(way_m))
     }
 
-    /// Error of the place after `way_m` more metres of driving without a fix, metres. It assumes that heading error and slip
-    /// error stay constant, and adds all errors linearly.
+    /// Error of the place after `way_m` more metres of driving without a fix, metres. It assumes that heading error and
+    /// slip error stay constant, and adds all errors linearly.
     pub(crate) fn error_at_worst_m(&self, way_m: f64) -> f64 {
         // The filter's covariance is that of the moment at which the fixes were made.
         self.error_m() + self.filter.strays_m(way_m + self.at().distance(self.filter.at()))
@@ -168,7 +169,8 @@ impl Estimate {
         self.filter.last_fix().is_none_or(|fix| now - fix > span)
     }
 
-    /// Whether the pose is too uncertain to drive.
+    /// Whether the pose is too uncertain to drive: the error of the place exceeds [`LOST_M`], or the last fix is older
+    /// than [`LOST_AFTER`]. Also if no fix ever came.
     pub(crate) fn lost(&self, now: Instant) -> bool {
         self.filter.variance() > LOST_M * LOST_M || self.lost_for_good(now)
     }

@@ -17,11 +17,11 @@ use crate::noise::NoiseEstimate;
 use crate::slip::SlipEstimate;
 use gate::{GateResult, OutlierGate};
 
-/// Number of steps between two propagations of the covariance. With a smaller value, the filter costs more time. With a
-/// larger value, the Kalman gains in use are too old.
+/// Largest number of steps between two propagations of the covariance. With a smaller value, the filter costs more
+/// time. With a larger value, the Kalman gains in use are too old.
 const STRETCH: u32 = 4;
-/// After a gap without fixes, and after a jump, the covariance is propagated at each of this number of fixes. Each of
-/// these fixes changes the Kalman gains a lot.
+/// After power-on, a gap without fixes, or a jump, the covariance is propagated at each of this number of fixes. These
+/// fixes change the Kalman gains a lot. With a larger value, the filter costs more time after each gap.
 const TEACHING: u8 = 8;
 /// Lower bound of the assumed noise of a position fix, metres, 1 sigma. With a smaller value, a configuration with too
 /// little noise makes the filter reject good fixes.
@@ -32,8 +32,8 @@ const BEST_HEADING_RAD: f64 = 0.002;
 const NO_COMPASS: Span = Span::from_millis(500);
 /// Error of a heading that is computed from motion, radians, 1 sigma: 2 mm of noise over 60 mm.
 const BEARING_RAD: f64 = 0.03;
-/// A heading from motion replaces the estimated heading only if both differ by more than this, radians. With a smaller
-/// value, noise of the motion spoils a heading that is known.
+/// A heading from motion replaces a known heading only if both differ by more than this, radians. With a smaller value,
+/// noise of the motion spoils a heading that is known.
 const BEARING_OFF_RAD: f64 = 0.2;
 
 /// Estimate of the pose and of the wheels' slip, with its covariance.
@@ -125,8 +125,8 @@ impl Filter {
         ((left + right) * 0.5, (right - left) / self.track_m)
     }
 
-    /// Corrects the state by a fix that arrived at `now`. A place or heading that is NaN is ignored, and so is a place
-    /// beyond 1 km.
+    /// Corrects the state by a fix that arrived at `now`. A heading that is not finite is ignored, and so is a place
+    /// with a coordinate that is NaN or at least 1 km.
     pub(crate) fn correct(&mut self, now: Instant, fix: &Fix) {
         let mut off = (Vec2::ZERO, 0.0);
         if fix.at.x.abs() < 1e3 && fix.at.y.abs() < 1e3 {
@@ -139,7 +139,8 @@ impl Filter {
         self.apply(off);
     }
 
-    /// Corrects pose and slip by the innovations of place and heading.
+    /// Corrects pose and slip by the innovations of place (metres) and heading (radians). Does nothing if all fixes
+    /// since the last propagation were outliers or jumps.
     fn apply(&mut self, off: (Vec2, f64)) {
         let [places, headings] = self.fixes;
         if places + headings == 0 {
@@ -222,8 +223,8 @@ impl Filter {
         }
     }
 
-    /// If no heading fixes come, sets the heading from the robot's motion: if the heading is unknown, or wrong by more
-    /// than [`BEARING_OFF_RAD`]. `by_fix`: place of the present fix, stage metres.
+    /// If no heading fix came for [`NO_COMPASS`], sets the heading from the robot's motion: if the heading is unknown,
+    /// or wrong by more than [`BEARING_OFF_RAD`]. `by_fix`: place of the present fix, stage metres.
     fn learn_heading(&mut self, now: Instant, by_fix: Vec2) {
         if self.gate.last_heading().is_some_and(|seen| now - seen < NO_COMPASS) {
             return;

@@ -1,51 +1,53 @@
 //! Trajectory tracking. The motion of the route is feed-forward. The errors along the robot's front, across it, and in
-//! heading are feedback. Source: Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990.
+//! heading are feedback. Source: Kanayama et al., "A stable tracking control method for an autonomous mobile robot",
+//! 1990.
 
 use lightbots_base::{Motion, Vec2};
 
 use crate::drive::{BodyPose, Setpoint};
 use crate::look_ahead::Ahead;
 
-/// Gain of the error along the robot's front, 1/s (Kanayama's Kx). With a larger value, the dead time of two steps makes the
-/// speed oscillate.
+/// Gain of the error along the robot's front, 1/s (Kanayama's Kx). With a larger value, the dead time of two steps
+/// makes the speed oscillate.
 const ALONG: f64 = 9.0;
-/// Deceleration at the end of closing a large error along the front, m/s². It adds to the deceleration of the route. With a
-/// larger value, a robot that catches up cannot brake in time and overshoots.
+/// Deceleration at the end of closing a large error along the front, m/s². It adds to the deceleration of the route.
+/// With a larger value, a robot that catches up cannot brake in time and overshoots.
 const CLOSING_MPS2: f64 = 0.4;
-/// Error along the front from which [`CLOSING_MPS2`] limits the closing speed, metres. At this error the limit equals the
-/// linear gain.
+/// Error along the front from which [`CLOSING_MPS2`] limits the closing speed, metres. At this error the limit equals
+/// the linear gain.
 const FAR_M: f64 = 2.0 * CLOSING_MPS2 / (ALONG * ALONG);
-/// Gain of the error across the front per speed, rad/m² (Kanayama's Ky). With [`TURN`], the error decays nearly critically
-/// damped within 60 mm of driving.
+/// Gain of the error across the front per speed, rad/m² (Kanayama's Ky). With [`TURN`], the error decays nearly
+/// critically damped at full speed. With a larger value, the robot swings across its path.
 const ACROSS: f64 = 600.0;
-/// Gain of the sine of the heading error, rad/s (Kanayama's Kθ, times the speed). See [`ACROSS`].
+/// Gain of the sine of the heading error, rad/s (Kanayama's Kθ, times the speed). With a larger value, errors across
+/// the front are closed later. See [`ACROSS`].
 const TURN: f64 = 11.0;
 /// Gain of the heading error while turning on the spot, 1/s. With a larger value, the dead time of two steps makes the
 /// heading oscillate.
 const SPOT: f64 = 12.0;
-/// Turning rate towards the look-ahead direction, as a multiple of the remaining angle over the remaining time. At 1 the
-/// turn would end exactly in time, without reserve for the acceleration.
+/// Turning rate towards the look-ahead direction, as a multiple of the remaining angle over the remaining time. At 1
+/// the turn would end exactly in time, without reserve for the acceleration.
 const SWING: f64 = 1.8;
-/// Lower bound of the speed by which an error across the front is multiplied for steering, m/s. With a smaller value, a slow
-/// robot does not return to its route.
+/// Lower bound of the speed by which an error across the front is multiplied for steering, m/s. With a smaller value, a
+/// slow robot does not return to its route.
 const STEERING_MPS: f64 = 0.05;
 /// Below this speed of the route, its tangent is not used as the direction of travel, m/s.
 pub(crate) const RESTING_MPS: f64 = 0.002;
-/// While the route rests, errors along the front below this are taken for noise, metres. With a smaller value, robots jitter
-/// at their places.
+/// While the route rests, errors along the front below this are taken for noise, metres. With a smaller value, robots
+/// jitter at their places.
 const CALM_M: f64 = 0.0015;
 /// While the robot turns on the spot, sines of the heading error below this are taken for noise. See [`CALM_M`].
 const CALM_SIN: f64 = 0.012;
-/// A robot turns towards the place of a creeping route if it is farther from it than this, metres. It does not turn while
-/// the route rests: its estimated place may be wrong by as much, and it would arrive later.
+/// A robot turns towards the place of a creeping route if it is farther from it than this, metres. It does not turn
+/// while the route rests: its estimated place may be wrong by as much, and it would arrive later.
 const STRAY_M: f64 = 0.004;
-/// A route rests up to this speed, and creeps above it (up to [`RESTING_MPS`]), m/s. The bound only has to exclude rounding
-/// errors.
+/// A route rests up to this speed, and creeps above it (up to [`RESTING_MPS`]), m/s. The bound only has to exclude
+/// rounding errors.
 const CREEPING_MPS: f64 = 1e-5;
 /// Largest speed along the front with which an error is corrected while the route rests, m/s.
 const CORRECTION_MPS: f64 = 0.1;
-/// Cosine of the angle between the robot's direction of driving and the direction of travel. Below it, the robot changes
-/// between driving forwards and backwards. Near zero, noise would make it change repeatedly.
+/// Cosine of the angle between the robot's direction of driving and the direction of travel. Below it, the robot
+/// changes between driving forwards and backwards. Near zero, noise would make it change repeatedly.
 const BEHIND_COS: f64 = -0.1;
 
 const _: () = assert!(CREEPING_MPS < RESTING_MPS && RESTING_MPS < STEERING_MPS);
@@ -64,8 +66,8 @@ impl Follow {
         Self { travel: Vec2::ZERO, sense: 0.0 }
     }
 
-    /// Returns the next setpoint. `motion`: motion of the route per show time, at the moment when the setpoint takes effect.
-    /// `ahead`: the look-ahead direction if the route rests or is slow, and later drives off; otherwise `None`.
+    /// Returns the next setpoint. `motion`: motion of the route per show time, at the moment when the setpoint takes
+    /// effect. `ahead`: the look-ahead direction if the route rests or is slow, and later drives off; otherwise `None`.
     #[inline]
     pub(crate) fn step(&mut self, motion: &Motion, ahead: Option<Ahead>, body: BodyPose) -> Setpoint {
         let speed = motion.velocity.length();

@@ -4,6 +4,7 @@
 use lightbots_base::{Instant, Span};
 
 /// Number of steps that are remembered: 0.5 s of 16 ms each, which is more than the largest delay of a fix (0.45 s).
+/// With fewer, late fixes correct the wrong pose.
 const STEPS: usize = 32;
 
 /// Turns of the left and the right wheel in a step, radians.
@@ -45,7 +46,7 @@ impl OdometryHistory {
         Some(turns)
     }
 
-    /// Wheel turns in the part of the oldest step that lies before `then`, interpolated linearly.
+    /// Wheel turns in the part of the oldest step that lies before `then`, interpolated linearly; zero without steps.
     pub(crate) fn begun_by(&self, then: Instant) -> Turns {
         let Some((ended, turns)) = self.all().next() else { return [0.0; 2] };
         let (whole, past) = (*ended - self.taken, then - self.taken);

@@ -1,4 +1,4 @@
-//! What every step of a robot reads and writes.
+//! The state of an ordinary step of a robot.
 
 use lightbots_base::{Instant, Limits, Rgb, Span};
 use lightbots_wire::{Abilities, RobotState};
@@ -18,8 +18,8 @@ use crate::supervise::Supervisor;
 /// counts as an outage. With a larger value, a robot drives on without fixes for longer.
 const OVERDUE: Span = Span::from_millis(16);
 
-/// All state that an ordinary step reads or writes. In such a step no neighbour is in sight, and the light follows a
-/// straight line of colours. `Hot` is one piece of memory, 1.8 KB.
+/// The state that an ordinary step reads or writes, without the stored routes. In such a step no neighbour is in sight,
+/// and the light follows a straight line of colours. `Hot` is one piece of memory, 1.8 KB.
 ///
 /// A simulator of thousands of robots may prefetch it into the cache before the robot's step. Otherwise the step waits
 /// longer for memory than it computes.
@@ -42,7 +42,7 @@ pub struct Hot {
     pub(crate) range_m: f32,
     /// Whether the robot understands routes, and with them the show clock.
     pub(crate) takes_routes: bool,
-    /// Whether the light flashes red for faults; an original robot's light does not.
+    /// Whether the light flashes red if the robot is faulty, cut off or lost. An original robot's light does not.
     pub(crate) shows_trouble: bool,
     /// Whether the light may change without a further command, or a command changed it since the latest step.
     pub(crate) light_changes: bool,
@@ -59,8 +59,8 @@ pub struct Hot {
     pub(crate) pauses: bool,
     /// Whether the safety layer slowed the robot on its route, and the robot has not caught up since.
     pub(crate) is_held_up: bool,
-    /// Whether the safety layer tracks a neighbour, or slows the robot for one. If not, a step does not run the safety
-    /// layer.
+    /// Whether the safety layer tracks a neighbour, or slows the robot for one. If not, a step runs the safety layer
+    /// only if a sensor reads a gap within the range.
     pub(crate) is_wary: bool,
     /// How well the robot knew its pose in the latest step.
     pub(crate) quality: PoseQuality,

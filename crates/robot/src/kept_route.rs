@@ -8,12 +8,12 @@ use crate::follow::Follow;
 use crate::look_ahead::LookAhead;
 use crate::storage::Slot;
 
-/// A START is refused if its moment is past by more than this. With a larger value, a robot would jump onto a route
-/// that others have driven for long.
+/// A START is refused if its moment is past by more than this. With a smaller value, robots on slow links refuse more
+/// STARTs. With a larger value, a robot would jump onto a route that others have driven for long.
 pub(crate) const TOO_LATE: Span = Span::from_millis(500);
 /// A robot turns towards a kept route only if it is within this distance of the route's start, metres. With a smaller
-/// value, robots that have just arrived (R36) may not turn in time. With a larger value, robots whose last route was
-/// aborted turn towards a route that they cannot drive.
+/// value, robots that have just arrived (R36 of docs/protocol.md) may not turn in time. With a larger value, robots
+/// that aborted their last route turn towards a route that they cannot drive.
 const BEGINS_HERE_M: f64 = 0.02;
 
 /// A route that waits for its START or its start time.
@@ -37,8 +37,8 @@ impl KeptRoute {
         Self { slot, seq, starts: None, follow: Follow::new(), begin, ahead, is_turned_to }
     }
 
-    /// Whether a START for the moment `at` is refused, because the moment is too long ago. `show`: the show clock now,
-    /// if it is known.
+    /// Whether a START for the moment `at` is refused, because the moment is past by more than [`TOO_LATE`]. `show`:
+    /// the show clock now. Without it, no START is refused.
     pub(crate) fn is_late(&self, at: Instant, show: Option<Instant>) -> bool {
         show.is_some_and(|show| show - at > TOO_LATE)
     }
@@ -61,7 +61,7 @@ impl KeptRoute {
     }
 
     /// The setpoint that turns the robot towards the first direction of the route. `None` if the robot shall not turn,
-    /// or if the route begins at another place.
+    /// if the route begins farther away than [`BEGINS_HERE_M`], or if the route does not move.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         let is_here = self.begin.distance(body.at) < BEGINS_HERE_M;
         self.ahead.filter(|_| self.is_turned_to && is_here).map(|ahead| self.follow.prepare(ahead, body))

@@ -1,13 +1,13 @@
 //! The firmware core of a LightBot: the same code on a board, in Webots and in the simulator.
 //!
 //! A [`Robot`] is the core of one robot. Every 16 ms the shell (the program around the core) passes in the readings of
-//! the sensors. It gets the outputs for motors and light. The shell passes in messages as they come, and takes outgoing
-//! messages after every step. The core allocates nothing and reads no clock. The same inputs give the same outputs to
-//! the last bit. The core has no notion of shows or brokers.
+//! the sensors, and gets back the outputs for motors and light. The shell passes in messages as they come, and takes
+//! outgoing messages after every step. The core allocates nothing and reads no clock. The same inputs give the same
+//! outputs to the last bit.
 //!
 //! A step: [`Inputs`] → `estimate` (pose) → `routes` with `follow`, or `seek` (setpoint) → `reflex` and `supervise` may
-//! override → `drive` (wheel rates) → [`Outputs`]. [`Hot`] is all state of an ordinary step. A `PATH` command is
-//! decoded on the stack, so the thread that calls [`Robot::receive`] needs 32 KB of stack.
+//! override → `drive` (wheel rates) → `light` (colour) → [`Outputs`]. [`Hot`] is the state of an ordinary step. A
+//! `PATH` command is decoded on the stack, so the thread that calls [`Robot::receive`] needs 32 KB of stack.
 //!
 //! ```
 //! use lightbots_base::{Instant, RobotId, Vec2};

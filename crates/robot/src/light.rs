@@ -9,14 +9,16 @@ use crate::light_ahead::{LightAhead, StoredTracks};
 use crate::light_piece::LightPiece;
 use crate::live_light::LiveLight;
 
-/// Number of fades that can wait for their moment. A further fade replaces the waiting fade with the latest moment.
+/// Number of fades that can wait for their moment. If there are as many, a further fade replaces the waiting fade with
+/// the latest moment.
 const WAITING: usize = 4;
-/// Half a period of blinking and of red flashes: 4 Hz.
+/// Half a period of blinking and of red flashes: 4 Hz. With a larger value, the light blinks more slowly.
 const FLASH: Span = Span::from_millis(125);
 /// How long a fault must last before the light shows it. With a smaller value, the light flashes at every restart of
 /// the link.
 const SETTLED: Span = Span::from_millis(500);
-/// Time from the beginning of a group of red flashes to the beginning of the next group.
+/// Time from the beginning of a group of red flashes to the beginning of the next group. It must be longer than the
+/// flashes of a group take.
 const TROUBLE: Span = Span::from_millis(2000);
 const RED: Rgb = Rgb::new(255, 0, 0);
 
@@ -51,8 +53,8 @@ impl Light {
         self.tracks.clear();
     }
 
-    /// Adds a fade. It begins at its moment, or at once if the moment is past. `show`: the show clock; if it is
-    /// unknown, the light changes to the colour of the fade at once.
+    /// Adds a fade. It begins at its moment, or at once if the moment is past. `show`: the show clock. If it is
+    /// unknown, the light changes to the colour of the fade at once, as by [`set`](Self::set).
     pub(crate) fn fade(&mut self, show: Option<Instant>, fade: Fade) {
         let Some(show) = show else {
             return self.set(fade.to);
@@ -74,7 +76,7 @@ impl Light {
     }
 
     /// Sets the fault that is present at `now`, own clock. `flashes`: the number of red flashes that stand for it; 0 if
-    /// there is no fault.
+    /// there is no fault. The light shows a fault only once it has lasted for [`SETTLED`].
     pub(crate) fn report(&mut self, now: Instant, flashes: u8) {
         if flashes == 0 && !self.busy {
             return;
@@ -85,7 +87,7 @@ impl Light {
         }
     }
 
-    /// Whether the light may change by itself.
+    /// Whether the light may change without a further command.
     pub(crate) fn is_busy(&self) -> bool {
         self.busy
     }

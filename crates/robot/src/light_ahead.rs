@@ -1,5 +1,5 @@
-//! Stretches of light: colours over time that the controller sends ahead (R55 to R57). This module decides which
-//! stretch plays, and computes its colour.
+//! Stretches of light: colours over time that the controller sends ahead (R55 to R57 of docs/protocol.md). This module
+//! decides which stretch plays, and computes its colour.
 
 use lightbots_base::{Instant, LightCursor, LightRecord, LightTrack, Rgb, Span};
 use lightbots_wire::{LightAnchor, LightStretch, MAX_LIGHT_RECORDS};
@@ -10,8 +10,8 @@ use crate::timeline::Timeline;
 /// Number of stretches that are stored: the stretch that plays, the stretch that follows it, and the first stretch of
 /// the next drive.
 pub(crate) const STORED: usize = 3;
-/// A message is old if its number is below the newest one by less than this, as with routes. A number farther below
-/// comes from a restarted controller.
+/// A message is old if its number is below the newest one by less than this. A number farther below comes from a
+/// restarted controller. With a smaller value, more late messages count as new.
 pub(crate) const OLD_NUMBERS: u32 = 64;
 
 /// Colours of one stretch.
@@ -117,8 +117,8 @@ impl LightAhead {
         self.playing.is_some() || !self.waiting.is_empty()
     }
 
-    /// Stores a stretch until it begins. An old message changes nothing. If all places are taken, the new stretch
-    /// replaces the waiting stretch that arrived last.
+    /// Stores a stretch until it begins. An old message, or a copy of the newest one, changes nothing. If all places
+    /// are taken, the new stretch replaces the waiting stretch that arrived last.
     pub(crate) fn keep(&mut self, stretch: &LightStretch, storage: &mut StoredTracks) {
         if self.newest != 0 && self.newest.wrapping_sub(stretch.number) < OLD_NUMBERS {
             return;
@@ -159,14 +159,15 @@ impl LightAhead {
         }
     }
 
-    /// Notes a hold (`hold`) or a resume for the moment `at`, show clock.
+    /// Notes a hold (`hold`) or a resume for the moment `at`, show clock. It counts for stretches that do not run
+    /// freely.
     pub(crate) fn note(&mut self, at: Instant, hold: bool) {
         self.timeline.note(at, hold);
         // A resume that is received late advances the time at once.
         self.quiet_until = Instant::ZERO;
     }
 
-    /// Ends the stretch that plays.
+    /// Ends the stretch that plays, if one does. Waiting stretches stay.
     pub(crate) fn end(&mut self) {
         self.playing = None;
         self.quiet_until = Instant::ZERO;
@@ -178,7 +179,8 @@ impl LightAhead {
         self.waiting.clear();
     }
 
-    /// Drops all stretches and all moments of the show clock, because the show clock was reset.
+    /// Drops all stretches and all moments of the show clock, because the show clock was reset. The number of the
+    /// newest stretch is kept.
     pub(crate) fn forget_moments(&mut self) {
         *self = Self { newest: self.newest, ..Self::default() };
     }
@@ -217,8 +219,8 @@ impl LightAhead {
         Some(colour)
     }
 
-    /// Returns the line of colours at the moment `show`, after the last line has ended. `None` if a stretch may begin,
-    /// or none plays: `step` must then compute the colour.
+    /// Returns the line of colours at the moment `show` (show clock), after the last line has ended. `None` if a
+    /// stretch may begin, none plays, or its track is over: `step` must then compute the colour.
     #[inline]
     pub(crate) fn next_piece(&mut self, show: Instant, storage: &StoredTracks) -> Option<LightPiece> {
         if show >= self.quiet_until {

@@ -1,8 +1,8 @@
 //! A piece of light: a linear change of colour over a time of the show clock. A step within the piece need not look at
-//! stretches, fades or faults.
+//! stretches and fades.
 //!
-//! Most steps lie within a piece. They would be a quarter slower if [`LightAhead`](crate::light_ahead::LightAhead)
-//! computed each colour.
+//! While a stretch plays, most steps lie within a piece. They would be a quarter slower if
+//! [`LightAhead`](crate::light_ahead::LightAhead) computed each colour.
 
 use lightbots_base::{Instant, Rgb, Span};
 
@@ -10,7 +10,7 @@ use lightbots_base::{Instant, Rgb, Span};
 /// floating-point numbers.
 const PARTS_BITS: u32 = 40;
 
-/// The colours from one moment of the show clock to another, if no message comes in between.
+/// The colours from one moment of the show clock to another, if no message and no fault comes in between.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPiece {
     /// First moment of the piece, show clock. The piece lasts `lasts_us` microseconds, 0 if it covers no moment.

@@ -1,5 +1,5 @@
 //! Live light: a colour from elsewhere, such as a lighting desk, that is shown instead of the robot's own light (R59 to
-//! R61).
+//! R61 of docs/protocol.md).
 
 use lightbots_base::{Instant, Rgb, Span};
 use lightbots_wire::{LiveColours, LiveRelease};
@@ -15,8 +15,8 @@ const LOSS: Span = Span::from_millis(2_500);
 pub(crate) struct LiveLight {
     /// Slot of the robot: the number by which LIVE and RELEASE messages address it. `None` until it is received.
     slot: Option<u16>,
-    /// Number of the newest LIVE or RELEASE message for this robot, and until when (own clock) it counts. `None` if none
-    /// came yet.
+    /// Number of the newest LIVE or RELEASE message for this robot, and until when (own clock) it counts. `None` if
+    /// none came yet.
     newest: Option<(u32, Instant)>,
     /// The live colour that is shown while the newest message counts. `None` if the own light is shown.
     shown: Option<Rgb>,
@@ -35,8 +35,8 @@ impl LiveLight {
         }
     }
 
-    /// Handles live colours that arrive at `now`, own clock. Returns whether one of them is for this robot. An old message
-    /// is ignored.
+    /// Handles live colours that arrive at `now`, own clock. Returns whether the robot now shows one of them. Colours
+    /// for other robots and old messages are ignored.
     pub(crate) fn receive(&mut self, now: Instant, live: &LiveColours) -> bool {
         let colour = self.slot.and_then(|slot| live.of(slot)).filter(|_| !self.is_old(now, live.number));
         if colour.is_some() {
@@ -45,8 +45,8 @@ impl LiveLight {
         colour.is_some()
     }
 
-    /// Handles a RELEASE that arrives at `now`, own clock. The own light is shown again if the message covers this robot's
-    /// slot and is not old.
+    /// Handles a RELEASE that arrives at `now`, own clock. The own light is shown again if the message covers this
+    /// robot's slot and is not old.
     pub(crate) fn release(&mut self, now: Instant, release: &LiveRelease) {
         if self.slot.is_some_and(|slot| release.covers(slot)) && !self.is_old(now, release.number) {
             (self.newest, self.shown) = (Some((release.number, now + LOSS)), None);
@@ -59,19 +59,20 @@ impl LiveLight {
         self.shown
     }
 
-    /// Whether a live colour is shown instead of the own light.
+    /// Whether a live colour is shown instead of the own light. A colour that has become too old counts until the next
+    /// call of [`colour`](Self::colour).
     pub(crate) fn is_on(&self) -> bool {
         self.shown.is_some()
     }
 
-    /// Whether the message with this number, which arrives at `now` (own clock), is older than the newest one that counts.
-    /// Messages of the same moment have the same number and are not old.
+    /// Whether the message with this number, which arrives at `now` (own clock), is older than the newest one that
+    /// counts. Messages of the same moment have the same number and are not old.
     fn is_old(&self, now: Instant, number: u32) -> bool {
         self.counted(now).is_some_and(|newest| (1..OLD_NUMBERS).contains(&newest.wrapping_sub(number)))
     }
 
-    /// Returns the number of the newest message. `None` if no message counts at `now`, own clock: a controller that comes
-    /// back may begin with any number.
+    /// Returns the number of the newest message. `None` if no message counts at `now`, own clock: a controller that
+    /// comes back may begin with any number.
     fn counted(&self, now: Instant) -> Option<u32> {
         self.newest.filter(|(_, until)| now < *until).map(|(number, _)| number)
     }

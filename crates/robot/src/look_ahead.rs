@@ -7,7 +7,8 @@ use lightbots_wire::Route;
 
 use crate::cursor::from;
 
-/// Below this speed a route is slow, m/s. The proof of a plan uses the same bound.
+/// Below this speed a route is slow, m/s. The proof of a plan uses the same bound (`CREEP_MPS` of its module `course`).
+/// With a larger value, a robot turns away from the tangent of faster parts of its route.
 pub(crate) const SLOW_MPS: f64 = 0.02;
 /// How far the look-ahead looks ahead on the route, path time. With a smaller value, a robot begins its turn too late.
 /// With a larger value, the robot turns away while the route still moves.
@@ -39,7 +40,7 @@ pub(crate) struct LookAhead {
 
 impl LookAhead {
     /// The look-ahead direction at the path time `time`, which is within piece `index` of the route; this piece begins
-    /// at the path time `begin`. `None` if the route ends or stays about as slow as it is now.
+    /// at the path time `begin`. `None` if, within [`HORIZON`], the route ends or stays about as slow as it is now.
     pub(crate) fn look(&mut self, route: &Route, (index, begin): (usize, Span), time: Span) -> Option<Ahead> {
         if time < self.from || time >= self.until {
             (self.from, self.until, self.towards) = (time, time + HORIZON / 2, None);
@@ -94,6 +95,7 @@ mod tests {
     use lightbots_base::Piece;
     use lightbots_wire::Pieces;
 
+    /// One second: the duration of most pieces here.
     const SECOND: Span = Span(1_000_000);
 
     fn route(pieces: &[Piece]) -> Route {

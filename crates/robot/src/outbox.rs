@@ -1,5 +1,5 @@
-//! The outbox: which messages wait, and when the robot reports without being asked. It holds kinds of messages instead of
-//! texts, because a report is written when it is sent.
+//! The outbox: which messages wait, and when the robot reports without being asked. It holds kinds of messages instead
+//! of texts, because a report is written when it is sent. `R25` and the like are rules of docs/protocol.md.
 
 use lightbots_base::{Instant, Span, Vec2, wrap};
 use lightbots_wire::RobotState;
@@ -9,29 +9,31 @@ use lightbots_wire::RobotState;
 const BUSY: Span = Span::from_millis(500);
 /// Time between two periodic status reports while the robot neither drives nor is held.
 const CALM: Span = Span::from_millis(2000);
-/// A robot reports at once if it is farther than this from its route, metres. A robot that stands reports at once if it is
-/// this far from its last reported place. With a smaller value, ordinary tracking errors are reported.
+/// A robot reports at once if it is farther than this from its route, metres. A robot that stands reports at once if it
+/// is farther than this, plus a margin by [`SURE`], from its last reported place. With a smaller value, ordinary
+/// tracking errors are reported.
 const OFF_M: f64 = 0.008;
-/// Least time between two reports of a robot that stands and is being moved. With a smaller value, a robot that is carried
-/// floods the broker.
+/// Least time between two reports of a robot that stands and is being moved. With a smaller value, a robot that is
+/// carried floods the broker.
 const MOVED_AGAIN: Span = Span::from_millis(200);
-/// Standard deviations of the reported place that are added to [`OFF_M`] for a robot that stands. The place of a robot that
-/// was just switched on still changes while its estimate settles.
+/// Standard deviations of the reported place that are added to [`OFF_M`] for a robot that stands. The place of a robot
+/// that was just switched on still changes while its estimate settles.
 const SURE: f64 = 3.0;
-/// A robot is back on its route once it is within this distance of it, metres. The difference to [`OFF_M`] is hysteresis.
+/// A robot is back on its route once it is within this distance of it, metres. The difference to [`OFF_M`] is
+/// hysteresis.
 const BACK_M: f64 = 0.006;
-/// The distance from the route is reported again once it has grown by this factor. While a robot brakes for a neighbour, the
-/// distance grows by less. If it grows by more, the robot may be standing.
+/// The distance from the route is reported again once it has grown by this factor. While a robot brakes for a
+/// neighbour, the distance grows by less. If it grows by more, the robot may be standing.
 const FARTHER: f64 = 4.0;
-/// A robot whose fixes are overdue reports the error of its place again once the error has grown by this factor and
-/// [`MORE_M`].
+/// While fixes are overdue, the error of the place is reported again once it exceeds this factor times the last
+/// reported error, plus [`MORE_M`]. With a smaller value, a robot without fixes sends more reports.
 const MORE: f64 = 1.25;
-/// Growth of the error that must be exceeded in addition to the factor [`MORE`], metres.
+/// Error that is added to the last reported one times [`MORE`] before a new error is reported, metres. See [`MORE`].
 const MORE_M: f64 = 0.0005;
 /// The direction of an obstacle is reported again if it has changed by more than this, radians.
 const ELSEWHERE: f64 = 0.08;
-/// How long a robot that was switched on, or has a new link, waits for its place before it introduces itself. Then it
-/// introduces itself without a place.
+/// How long a robot that was switched on, or has a new link, waits for its place before it introduces itself. After
+/// this time it introduces itself without a place. With a larger value, a robot without fixes is noticed later.
 const POWER_ON: Span = Span::from_millis(500);
 
 const _: () = assert!(BACK_M < OFF_M && BUSY.0 < CALM.0);
@@ -64,8 +66,8 @@ pub(crate) struct Outbox {
     question: bool,
     next_status: Instant,
     state: RobotState,
-    /// Place of the robot at the last status report, stage metres. With it, the distance from there beyond which the robot
-    /// counts as moved, metres. `None` if the place was unknown.
+    /// Place of the robot at the last status report, stage metres. With it, the distance from there beyond which the
+    /// robot counts as moved, metres. `None` if the place was unknown.
     reported_at: Option<(Vec2, f64)>,
     /// The last reported distance from the route, metres; 0 if the robot was reported on its route.
     reported_off_m: f64,
@@ -76,8 +78,8 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// An empty outbox. `phase` delays the first periodic status report. Different phases spread the reports of a fleet over
-    /// time.
+    /// An empty outbox. `phase` delays the first periodic status report. Different phases spread the reports of a fleet
+    /// over time.
     pub(crate) fn new(phase: Span) -> Self {
         Self {
             introduction: false,
@@ -100,8 +102,8 @@ impl Outbox {
         self.introduction = true;
     }
 
-    /// Notes at `now`, own clock, that the robot was switched on or its link is new. The robot introduces itself once it
-    /// knows its place, at the latest after [`POWER_ON`].
+    /// Notes at `now`, own clock, that the robot was switched on or its link is new. The robot introduces itself once
+    /// it knows its place, at the latest after [`POWER_ON`].
     pub(crate) fn arrive_new(&mut self, now: Instant) {
         self.newcomer = Some(now);
     }
@@ -120,9 +122,10 @@ impl Outbox {
         self.question = true;
     }
 
-    /// Decides after a step whether an introduction or a status report is due. `at`: place of the robot, stage metres, and
-    /// its error, metres, 1 sigma; `None` if the place is unknown. `off_m`: distance from the route, metres; `None` if no
-    /// route is under way. `err_m`: error of the place to report, metres; `None` if fixes are not overdue on a route.
+    /// Decides after a step whether an introduction or a status report is due. `at`: place of the robot, stage metres,
+    /// and its error, metres, 1 sigma; `None` if the place is unknown. `off_m`: distance from the route, metres; `None`
+    /// if no route is under way. `err_m`: error of the place to report, metres; `None` if fixes are not overdue on a
+    /// route.
     pub(crate) fn notice(
         &mut self,
         now: Instant,
@@ -162,8 +165,8 @@ impl Outbox {
         }
     }
 
-    /// Notes the place `at` (stage metres) of a robot that stands and has nothing to drive. A status report is due if the
-    /// robot was moved since its last report: it was lifted or pushed.
+    /// Notes the place `at` (stage metres) of a robot that stands and has nothing to drive. A status report is due if
+    /// the robot was lifted or pushed since its last report. None is due within [`MOVED_AGAIN`] of the last report.
     pub(crate) fn notice_place(&mut self, now: Instant, at: Option<Vec2>) {
         if self.next_status - now > CALM - MOVED_AGAIN {
             return;
@@ -172,8 +175,8 @@ impl Outbox {
         self.status |= at.zip(self.reported_at).is_some_and(is_off);
     }
 
-    /// Notes the direction of the obstacle to report, radians in the stage; `None` if there is none. A status report is due
-    /// if this is new.
+    /// Notes the direction of the obstacle to report, radians in the stage; `None` if there is none. A status report is
+    /// due if this is new.
     #[inline]
     pub(crate) fn notice_block(&mut self, towards: Option<f64>) {
         let news = match (towards, self.reported_towards) {
@@ -192,8 +195,8 @@ impl Outbox {
         !(self.introduction || self.arrival.is_some() || self.question || self.status)
     }
 
-    /// Removes the next message and returns its kind; `None` if none is to be sent. A robot that cannot drive routes does
-    /// not ask for the time (R25), and sends only status reports that commands require (R41, R55, R59).
+    /// Removes the next message and returns its kind; `None` if none is to be sent. A robot that cannot drive routes
+    /// does not ask for the time (R25), and sends only status reports that commands require (R41, R55, R59).
     pub(crate) fn take(&mut self, knows_place: bool, drives_routes: bool) -> Option<MessageKind> {
         if core::mem::take(&mut self.introduction) {
             self.introduced_without_place = !knows_place;

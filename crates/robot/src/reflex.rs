@@ -267,8 +267,8 @@ impl Reflex {
         })
     }
 
-    /// Forgets all neighbours and sets the state to free, because a route begins. Also resets the least gap for
-    /// reports. From the next step on the plan names the neighbours in sight.
+    /// Forgets all neighbours and sets the state to free, because a route begins. Its plan names other neighbours than
+    /// the route before. Also resets the least gap for reports.
     pub(crate) fn begin_route(&mut self) {
         self.tracks.clear();
         self.safety = Safety::Free;
@@ -303,8 +303,8 @@ impl Reflex {
         }
     }
 
-    /// Direction of the obstacle that slows or blocks the robot, radians counter-clockwise from its front; `None` if
-    /// none does.
+    /// Direction of the obstacle that slows or blocks the robot, or slowed it in a recent step. It is in radians
+    /// counter-clockwise from the robot's front; `None` if the state is free.
     pub(crate) fn braking_towards(&self) -> Option<f64> {
         match self.safety {
             Safety::Free => None,
@@ -320,7 +320,7 @@ impl Reflex {
 struct Cause {
     /// Its centre, body space, metres.
     at: Point,
-    /// Whether the plan does not know it.
+    /// Whether it follows no planned neighbour.
     unplanned: bool,
 }
 

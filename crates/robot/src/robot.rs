@@ -19,17 +19,17 @@ pub use reports::Message;
 use sense::{AWAY_M, LONGEST_STEP};
 pub use state::Robot;
 
-/// A robot farther than this from the present place of its route abandons the route, metres. It is stuck, or was never where
-/// the route starts. With a smaller value, robots abandon routes that they can still follow. With a larger value, robots
-/// drive far away from the paths for which the plan was proved.
+/// A robot farther than this from the present place of its route abandons the route, metres. The robot is stuck, was
+/// held up by an obstacle for long, or was never where the route starts. With a smaller value, robots abandon routes
+/// that they can still follow. With a larger value, robots drive far away from the paths for which the plan was proved.
 const GIVE_UP_M: f64 = 0.3;
-/// A robot that the safety layer slowed has caught up once it is within this distance of the present place of its route,
-/// metres. With a smaller value, the error of following a route counts as being behind.
+/// A robot that the safety layer slowed has caught up once it is within this distance of the present place of its
+/// route, metres. With a smaller value, the error of following a route counts as being behind.
 const CAUGHT_UP_M: f64 = 0.02;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Handles a message that arrives at `now`, own clock. Messages are ignored unless their topic is `Broadcast` or the
-    /// robot's own topic.
+    /// Handles a message that arrives at `now`, own clock. Messages are ignored unless their topic is `Broadcast` or
+    /// the robot's own topic.
     pub fn receive(&mut self, now: Instant, topic: Topic, payload: &[u8]) {
         let personal = topic == Topic::Robot(self.config.id);
         if !personal && topic != Topic::Broadcast {
@@ -58,8 +58,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Notes that the link to the broker went up or down at `now`, own clock. After the link went up, the robot introduces
-    /// itself once it knows its place, at the latest after 0.5 s.
+    /// Notes that the link to the broker went up or down at `now`, own clock. After the link went up, the robot
+    /// introduces itself once it knows its place, at the latest after 0.5 s.
     pub fn link(&mut self, now: Instant, up: bool) {
         self.hot.now = self.hot.now.max(now);
         self.hot.supervisor.link(now, up);
@@ -69,8 +69,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Runs one step at `now`, own clock. The shell calls it every 16 ms. The length of the step is measured in the time of
-    /// the wheels' world (see [`Inputs::lag`]). After a gap of more than 0.1 s the step counts as 0.1 s long.
+    /// Runs one step at `now`, own clock, and returns the wheel rates and the colour. The shell calls it every 16 ms.
+    /// The length of the step is measured in the time of the wheels' world (see [`Inputs::lag`]), and counts as at most
+    /// 0.1 s.
     pub fn step(&mut self, now: Instant, inputs: &Inputs) -> Outputs {
         let world = now - inputs.lag;
         let took = self.take_time(now, world);
@@ -90,9 +91,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         Outputs { wheels_radps, light }
     }
 
-    /// Returns the colour of the light at `now`, own clock, between steps. A shell that can change its light at any time
-    /// calls this about every millisecond. The lights of a fleet then change at the same moment, instead of each at its
-    /// robot's next step.
+    /// Returns the colour of the light at `now`, own clock, between steps. A shell that can change its light at any
+    /// time calls this about every millisecond. The lights of a fleet then change within about a millisecond of each
+    /// other, instead of each at its robot's next step.
     pub fn light(&mut self, now: Instant) -> Rgb {
         let show = self.hot.clock.show_time(now);
         if !self.hot.light_changes {
@@ -118,8 +119,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.change_light(now, show)
     }
 
-    /// Returns the colour of the light piece at `show` of the show clock, and stores that moment. `None` if the piece does
-    /// not cover the moment, or the show clock is unknown.
+    /// Returns the colour of the light piece at `show` of the show clock, and stores that moment. `None` if the piece
+    /// does not cover the moment, or the show clock is unknown.
     #[inline]
     fn piece_colour(&mut self, show: Option<Instant>) -> Option<Rgb> {
         let show = show?;
@@ -129,7 +130,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         Some(colour)
     }
 
-    /// Computes the colour at a moment that the light piece does not cover, and replaces the piece by the next one.
+    /// Computes the colour at a moment that the light piece does not cover, and replaces the piece. The new piece may
+    /// be [`LightPiece::NONE`].
     #[inline(never)]
     fn change_light(&mut self, now: Instant, show: Option<Instant>) -> Rgb {
         if let Some(show) = show.filter(|_| !self.hot.light_piece.is_none())
@@ -148,8 +150,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.shown
     }
 
-    /// Ends the light piece, because a message or a fault may change the light. Passes the colour that was shown last to
-    /// `Light`.
+    /// Ends the light piece, if there is one, and passes the colour that it showed last to `Light`. Needed before a
+    /// message or a fault changes the light.
     fn end_light_piece(&mut self) {
         if !self.hot.light_piece.is_none() {
             self.hot.shown = self.hot.light_piece.colour(self.hot.piece_shown_at).unwrap_or(self.hot.shown);
@@ -158,15 +160,16 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Returns the time since the last step, limited to 0 to [`LONGEST_STEP`], and stores the moment of this step. Lag
-    /// that was caught up without a route does not count. In the first step, the robot notes that it was switched on.
+    /// Returns the length of this step in the time of the wheels' world, limited to 0 to [`LONGEST_STEP`]; zero in the
+    /// first step. Without a route under way, it is at most the time that passed on the own clock. Also stores the
+    /// moment of this step. The first step begins the wait for the robot's introduction.
     fn take_time(&mut self, now: Instant, world: Instant) -> Span {
         let hot = &mut self.hot;
         if hot.last_step.is_none() {
             hot.outbox.arrive_new(now);
         }
         let took = hot.last_step.map_or(Span::ZERO, |last| {
-            // Lag that is caught up without a route is no time in which wheels turned.
+            // Without a route, a lag that shrinks is no time in which wheels turned.
             let most = if hot.routes.under_way() { LONGEST_STEP } else { now - (last + hot.lag) };
             (world - last).min(most)
         });
@@ -175,8 +178,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         took.clamp(Span::ZERO, LONGEST_STEP)
     }
 
-    /// Begins the kept route if its start time has come, and ends the drive to a target. Abandons the route at once if
-    /// the robot stands more than [`AWAY_M`] from the route's start; beyond [`GIVE_UP_M`], `supervise` does so.
+    /// Begins the kept route if its start time has come, and ends the drive to a target. If the robot stands more than
+    /// [`AWAY_M`] from the route's start, the route is abandoned at once. Beyond [`GIVE_UP_M`], `supervise` abandons
+    /// it.
     #[inline]
     fn begin_due(&mut self, route_time: Option<Instant>) {
         let Some(time) = route_time.filter(|_| self.hot.routes.keeps_one()) else { return };
@@ -190,9 +194,10 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Stops the robot or ends its route if it must not drive on. During a silence of the controller, asks for the time. A
-    /// lost or faulty robot gives up its route, because the other robots drive on. But a lost or faulty robot keeps its
-    /// target, as an original robot does.
+    /// Ends drives that must not go on, because of a `STOP at`, an outage of the link, or an unfit robot. A robot that
+    /// is lost, faulty or farther than [`GIVE_UP_M`] from its route abandons the route, because the other robots drive
+    /// on. It keeps a target, as an original robot does. A distance beyond [`GIVE_UP_M`] is also a fault, unless the
+    /// robot waits for fixes or for a neighbour. During a silence of the controller, also asks for the time.
     fn supervise(&mut self, now: Instant) {
         self.stop_in_time(now);
         let drives = self.drives();
@@ -204,7 +209,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let hot = &mut self.hot;
         if drives == Drives::Route {
             let gives_up = off_m > GIVE_UP_M;
-            // A robot that pauses until fixes come, or stands for an obstacle, falls behind its route: that is no fault.
+            // A robot that pauses until fixes come, or stands for an obstacle, falls behind its route: that is no
+            // fault.
             if gives_up && !hot.pauses && !hot.is_held_up {
                 hot.supervisor.fault(now);
             }

@@ -23,6 +23,7 @@ use crate::timeline::Timeline;
 /// fixes arrive late. With a larger value, pictures look blurred.
 const NEAR_M: f64 = 0.0125;
 /// Path time after the end of a route from which the coarser arrival test of the original robots (20 mm) is enough.
+/// With a larger value, a robot that cannot get nearer to its place arrives later.
 const TRYING: Span = Span::from_millis(1500);
 /// During a hold, a robot farther than this from the present place of its route drives back there, metres. With a
 /// smaller value, noise makes the robot turn on the spot. With a larger value, robots near it have less room than
@@ -31,8 +32,9 @@ const STRAYED_M: f64 = 0.0055;
 /// The drive back ends within this distance of the place of the route, metres. The difference to [`STRAYED_M`] is
 /// hysteresis.
 const BACK_M: f64 = 0.004;
-/// A route is an old message that arrived late if its number is below the newest one by less than this. A route whose
-/// number is farther below comes from a restarted controller.
+/// A route is an old message that arrived late if its number is the newest one or below it by less than this. A route
+/// whose number is farther below comes from a restarted controller. With a smaller value, more late messages count as
+/// new routes.
 const OLD_NUMBERS: u32 = 64;
 
 const _: () = assert!(BACK_M < STRAYED_M && STRAYED_M < NEAR_M);
@@ -75,10 +77,10 @@ pub(crate) struct Routes {
     running: Option<Running>,
     timeline: Timeline,
     kept: Option<KeptRoute>,
-    /// Number of the route that was finished last; 0 if there is none.
+    /// Number of the route that was finished last; 0 if none was since power-on or the latest STOP or TARGET.
     finished: u32,
-    /// Whether the link was out since the latest accepted START, or the latest STOP or TARGET. Until the next one, a
-    /// received route may be an old message, and the robot does not turn towards it.
+    /// Whether the link was out since the latest accepted START, STOP or TARGET. If so, a received route may be an old
+    /// message, and the robot does not turn towards it before its START.
     was_out: bool,
 }
 
@@ -87,8 +89,8 @@ impl Routes {
         Self { running: None, kept: None, timeline: Timeline::new(), finished: 0, was_out: false }
     }
 
-    /// Keeps a route until its START; it replaces the kept route. Old messages change nothing, and neither do copies of
-    /// the route that is kept, under way or just finished.
+    /// Keeps a route until its START; it replaces the route that was kept before. Old messages change nothing, and
+    /// neither do copies of the route that is kept, under way or just finished.
     pub(crate) fn keep(&mut self, route: &Route, storage: &mut RouteStorage) {
         let newest = self.named();
         let age = newest.wrapping_sub(route.seq);
@@ -173,7 +175,8 @@ impl Routes {
     }
 
     /// The next setpoint along the route under way; `None` if no route is under way. `takes_effect`: show time at which
-    /// the setpoint takes effect. `aside`: offset from the route at which the robot shall drive, stage metres.
+    /// the setpoint takes effect. `aside`: offset from the route at which the robot shall drive, stage metres. It is
+    /// ignored while path time stands still, and on the drive to the end of a route that is over.
     pub(crate) fn step(
         &mut self,
         takes_effect: Instant,
@@ -235,21 +238,21 @@ impl Routes {
         }
     }
 
-    /// Notes that the link was out, and stops turning towards the kept route until its START comes. This matters only
-    /// for a robot that has or had a route: only then can a message about routes be old.
+    /// Notes that the link was out, and stops turning towards the kept route until its START comes. The outage is noted
+    /// only for a robot that keeps, drives or has finished a route: only then can a message about routes be old.
     pub(crate) fn note_outage(&mut self) {
         self.was_out |= self.named() != 0;
         self.await_start();
     }
 
-    /// The setpoint that turns the robot towards the first direction of the kept route; `None` if the robot shall not
-    /// turn.
+    /// The setpoint that turns the robot towards the first direction of the kept route. `None` if no route is kept, or
+    /// the robot shall not turn.
     pub(crate) fn prepare(&mut self, body: BodyPose) -> Option<Setpoint> {
         self.kept.as_mut()?.prepare(body)
     }
 
-    /// Ends the route under way and returns its number. The route must be over at `show`, and the robot at `at` must be
-    /// near enough to its end. Otherwise returns `None`.
+    /// Ends the route under way and returns its number. The route must be over at `show` (show clock), and the robot at
+    /// `at` (stage metres) must be near enough to its end. Otherwise changes nothing and returns `None`.
     pub(crate) fn finish(&mut self, show: Instant, at: Vec2) -> Option<u32> {
         let over = |running: &mut Running| {
             let time = self.timeline.at(show).time;
@@ -260,7 +263,7 @@ impl Routes {
         Some(self.finished)
     }
 
-    /// Gives up the route under way, without an arrival.
+    /// Gives up the route under way, without an arrival. The kept route stays.
     pub(crate) fn abandon(&mut self) {
         self.running = None;
     }
@@ -273,7 +276,8 @@ impl Routes {
         self.was_out = false;
     }
 
-    /// Gives up the route under way and discards all moments of the show clock, because the show clock was reset.
+    /// Gives up the route under way and forgets holds and resumes, because the show clock was reset. The kept route
+    /// stays, but waits for a new START.
     pub(crate) fn forget_moments(&mut self) {
         self.running = None;
         self.timeline = Timeline::new();
@@ -323,8 +327,8 @@ impl Routes {
         }
     }
 
-    /// Place of the route under way at the moment when the latest setpoint takes effect, stage metres; `None` if no
-    /// route is under way.
+    /// Place of the route under way at the moment when the latest setpoint takes effect, stage metres; before its first
+    /// step, its start. `None` if no route is under way.
     pub(crate) fn due(&self) -> Option<Vec2> {
         self.running.as_ref().map(|running| running.due)
     }
@@ -351,8 +355,8 @@ impl Routes {
 }
 
 impl Running {
-    /// Whether the robot at `at` is near enough to `end`, which means within [`NEAR_M`]. From [`TRYING`] after the end
-    /// of the route on, it is enough to be within the arrival test of the original robots. `time`: path time.
+    /// Whether the robot at `at` is near enough to `end`, both stage metres. Near enough is within [`NEAR_M`]. From
+    /// [`TRYING`] after the end of the route on, the arrival test of the original robots is enough. `time`: path time.
     fn is_there(&self, time: Span, at: Vec2, end: Vec2) -> bool {
         at.distance(end) <= NEAR_M || time >= self.duration + TRYING && within_arrival(at, end)
     }

@@ -7,23 +7,23 @@ use crate::drive::{BodyPose, Setpoint};
 
 /// Arrival test of the original robots: both coordinates are within this distance of the target, metres.
 const ARRIVED_M: f64 = 0.02;
-/// The robot stops once it is closer than this to the target, metres. With a smaller value, noise of the place would make
-/// the robot turn on the spot.
+/// The robot stops once it is closer than this to the target, metres. With a smaller value, noise of the place would
+/// make the robot turn on the spot.
 const STOP_M: f64 = 0.003;
-/// The robot also stops once it is closer than this to a target that lies to its side, metres. With a smaller value, the
-/// robot would turn back and forth at the target.
+/// The robot also stops once it is closer than this to a target that lies to its side, metres. With a smaller value,
+/// the robot would turn back and forth at the target.
 const ABEAM_M: f64 = 0.012;
-/// Deceleration when approaching the target, m/s². It is less than the ramps of the drive base allow, so that the robot does
-/// not overshoot.
+/// Deceleration when approaching the target, m/s². It is less than the ramps of the drive base allow. With a larger
+/// value, the robot overshoots.
 const BRAKING_MPS2: f64 = 0.8;
-/// Turning rate per sine of the heading error, rad/s. With a larger value, the dead time of the motors makes the heading
-/// oscillate.
+/// Turning rate per sine of the heading error, rad/s. With a larger value, the dead time of the motors makes the
+/// heading oscillate.
 const TURN_GAIN: f64 = 8.0;
-/// If the cosine of the heading error is below this (an error of more than 45°), the robot turns on the spot. Otherwise it
-/// drives a curve.
+/// If the cosine of the heading error is below this (an error of more than 45°), the robot turns on the spot. Otherwise
+/// it drives a curve.
 const CURVE_COS: f64 = 0.7;
-/// The robot changes between driving forwards and backwards if the cosine of the angle from its direction of driving to the
-/// target is below this. Near zero, noise would make it change repeatedly.
+/// The robot changes between driving forwards and backwards if the cosine of the angle from its direction of driving to
+/// the target is below this. Near zero, noise would make it change repeatedly.
 const BEHIND_COS: f64 = -0.15;
 
 /// A drive to a target.
@@ -51,7 +51,8 @@ impl Seek {
         within_arrival(at, self.goal)
     }
 
-    /// The next setpoint.
+    /// The next setpoint towards the goal. Zero once the robot is within [`STOP_M`] of the goal, or near a goal that
+    /// lies to its side. `body`: pose in the stage when the setpoint takes effect.
     pub(crate) fn step(&mut self, body: BodyPose, limits: &Limits) -> Setpoint {
         let to_goal = self.goal - body.at;
         let distance = to_goal.length();

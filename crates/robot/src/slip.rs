@@ -12,12 +12,14 @@ const FIRST_M: f64 = 0.1;
 /// Distance over which the mean is averaged in the long run, metres. With a smaller value, the mean follows single
 /// bumps. With a larger value, the mean does not follow worn tyres or another floor within a show.
 const LAST_M: f64 = 2.0;
-/// First estimate of the deviation, 1 sigma, as a share of the expected slip.
+/// First estimate of the deviation, 1 sigma, as a share of the expected slip. With a larger value, the first fixes
+/// change the slip faster.
 const WANDER: f64 = 0.3;
 /// Lower bound of the deviation, 1 sigma, as a share of its first estimate. With a smaller value, the filter ignores
 /// slip after a drive with steady slip.
 const LEAST: f64 = 0.25;
-/// Upper bound of the deviation, 1 sigma, as a share of the wheel's turning.
+/// Upper bound of the deviation, 1 sigma, as a share of the wheel's turning. With a larger value, strange fixes can
+/// make the filter trust the wheels too little.
 const MOST: f64 = 0.1;
 /// Largest absolute slip, as a share of the wheel's turning. A wheel with more slip is lifted or stuck.
 const BOUND: f64 = 0.4;

@@ -1,13 +1,14 @@
-//! Detection of stuck wheels, which do not turn although they are commanded to. A robot with a stuck wheel reports a fault
-//! at once, because it blocks the paths of other robots.
+//! Detection of stuck wheels, which do not turn although they are commanded to. A robot with a stuck wheel is faulty,
+//! because it blocks the paths of other robots.
 
-/// A wheel that is commanded to turn slower than this cannot count as stuck, rad/s: 22 mm/s of an Elisa-3. With a smaller
-/// value, friction is taken for a stall.
+/// A wheel that is commanded to turn slower than this cannot count as stuck, rad/s: 22 mm/s of an Elisa-3. With a
+/// smaller value, friction is taken for a stall.
 const LEAST_RADPS: f64 = 5.0;
-/// A wheel counts as not turning if it turns by less than this share of its commanded turn.
+/// A wheel counts as not turning if it turns by less than this share of its commanded turn. With a larger value, a
+/// wheel that slips or is slow counts as stuck.
 const SHARE: f64 = 0.2;
-/// Number of steps in a row without turning after which a wheel counts as stuck. With less than three, the dead time of the
-/// motors counts as a stall. With a larger value, a robot that is stuck is reported later.
+/// Number of steps in a row without turning at which a wheel counts as stuck. With less than three, the dead time of
+/// the motors counts as a stall. With a larger value, a robot that is stuck is reported later.
 const STEPS: u8 = 6;
 
 /// Compares commanded with measured wheel rates.
@@ -27,8 +28,8 @@ impl StallDetector {
         self.commanded_radps = wheels_radps;
     }
 
-    /// Checks the turns of the left and the right wheel in a step of `dt` seconds. Returns whether a wheel is stuck. If so,
-    /// the counts begin again at 0.
+    /// Checks the turns of the left and the right wheel in a step of `dt` seconds, radians. Returns whether a wheel is
+    /// stuck. If so, the counts begin again at 0. No wheel is stuck before one has turned since power-on.
     #[inline]
     pub(crate) fn sample(&mut self, turns_rad: [f64; 2], dt: f64) -> bool {
         self.turned |= turns_rad != [0.0; 2];
@@ -48,6 +49,7 @@ impl StallDetector {
 mod tests {
     use super::*;
 
+    /// Duration of a step, seconds.
     const DT: f64 = 0.016;
 
     #[test]

@@ -1,8 +1,7 @@
-//! Path time that does not jump back. Path time is how far along its route a robot should be, as a time. A HOLD stops
-//! path time at a moment that it names. It can arrive late, for example after a freeze of the broker: path time should
-//! then have stopped at a moment in the past. If robots drove straight back to their places at that path time, they
-//! might meet. So each robot goes back along its route. Robots that receive the HOLD at the same moment go back in
-//! step.
+//! Path time that hardly jumps back. Path time is how far along its route a robot should be, as a time. A HOLD names
+//! the moment at which path time stops. The HOLD can arrive after that moment, for example after a freeze of the
+//! broker. Path time has then run too far. If robots drove straight back to where they should have stopped, they might
+//! meet. So each robot goes back along its route. Robots that receive the HOLD at the same moment go back in step.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
@@ -33,8 +32,8 @@ impl SteadyTime {
         Self { at: starts, progress: RouteProgress::START, goes_back: false }
     }
 
-    /// Returns the progress at the moment `at`, show clock. `due`: the progress that follows from all known holds and
-    /// resumes.
+    /// Returns the progress at the moment `at`, show clock: `due`, or a progress that goes back towards `due`. `due`:
+    /// the progress that follows from all known holds and resumes.
     pub(crate) fn step(&mut self, at: Instant, due: RouteProgress) -> RouteProgress {
         let over_s = (at - core::mem::replace(&mut self.at, at)).as_secs().clamp(0.0, 0.1);
         let RouteProgress { time, rate, .. } = self.progress;
@@ -56,6 +55,7 @@ mod tests {
     use super::*;
     use crate::timeline::Timeline;
 
+    /// Duration of a step.
     const STEP: Span = Span::from_millis(16);
 
     /// Progress of each step of a route from 0 s on. `comes`: when a HOLD of `hold` is learnt of, and a RESUME.

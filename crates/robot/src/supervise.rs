@@ -1,19 +1,23 @@
-//! Supervision: a lost link, or a fault of sensors or motors, stops the robot, whatever it was commanded to do.
+//! Supervision of link and hardware: when an outage of the link ends a drive, and how long the robot stands after a
+//! fault of sensors or motors.
 
 use lightbots_base::{Instant, Span};
 
-/// How long a robot stands after a fault. With a smaller value, a robot whose sensor fails repeatedly starts and stops
-/// repeatedly.
+/// How long a robot stands after its latest fault. With a smaller value, a robot with a sensor that fails repeatedly
+/// starts and stops repeatedly. With a larger value, a robot stands for long after a fault that is over.
 const FAULT: Span = Span::from_millis(1000);
 /// Time without a message on a route, or before a known start, after which the robot asks for the time to get an
 /// answer. It must be shorter than `Config::silence` (1.9 s by default). With a larger value, a question that is lost
 /// cannot be repeated in time.
 const QUIET: Span = Span::from_millis(1000);
 /// Time without a message after which the link counts as out, whatever the robot does. A robot asks for the time at
-/// least every 3 s (R28), so at least one answer did not come. With a smaller value, robots that stand for long take
-/// each new route for an old one. With a larger value, robots turn towards an old route after an outage.
+/// least every 3 s (R28 of docs/protocol.md), so at least one answer did not come. With a smaller value, robots that
+/// stand for long take each new route for an old one. With a larger value, robots turn towards an old route after an
+/// outage.
 const OUTAGE: Span = Span::from_millis(3300);
-/// Least time between two questions for the time that a silence causes.
+/// Least time between two time questions because of a silence; periodic time questions do not count. With a smaller
+/// value, a fleet floods its broker in a silence. With a larger value, too few questions go out before the silence cuts
+/// the robot off.
 const ASK_AGAIN: Span = Span::from_millis(150);
 
 const _: () = assert!(ASK_AGAIN.0 < QUIET.0);
@@ -96,8 +100,9 @@ impl Supervisor {
         now - self.heard > OUTAGE
     }
 
-    /// Cuts the robot off if the link has been down for too long during a drive, or silent for too long during a route.
-    /// Returns whether the robot was cut off by this call.
+    /// Cuts the robot off if the link has been down for longer than `Config::silence` on a drive to a target or on a
+    /// route. On a route, it also cuts the robot off if no message came for as long. Returns whether the robot was cut
+    /// off by this call.
     pub(crate) fn check_link(&mut self, now: Instant, drives: Drives) -> bool {
         let down = self.is_down(now);
         let silent = self.is_silent(now);
@@ -111,8 +116,9 @@ impl Supervisor {
         news
     }
 
-    /// Returns whether the robot is to ask for the time now, because of a silence. If so, the call counts as having
-    /// asked.
+    /// Returns whether the robot is to ask for the time now. It is if no message came for longer than [`QUIET`] on a
+    /// route or before a known start. At least [`ASK_AGAIN`] lies between two such questions. If the result is `true`,
+    /// the call counts as having asked.
     pub(crate) fn take_question(&mut self, now: Instant, drives: Drives) -> bool {
         let asks = matches!(drives, Drives::Soon | Drives::Route)
             && now - self.heard > QUIET
@@ -157,6 +163,7 @@ impl Supervisor {
 mod tests {
     use super::*;
 
+    /// One second, microseconds.
     const SECOND: u64 = 1_000_000;
 
     #[test]

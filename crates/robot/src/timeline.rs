@@ -1,11 +1,12 @@
-//! Path time: how far along its route a robot should be, as a time. It is the time of the show clock since the start of the
-//! route, minus the time spent in holds. A hold slows path time to a stop within [`Route::EASE`], and a resume lets it run
-//! again.
+//! Path time: how far along its route a robot should be, as a time. It is the time of the show clock since the start of
+//! the route, minus the time spent in holds. A hold slows path time to a stop within [`Route::EASE`], and a resume lets
+//! it run again.
 
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Route;
 
-/// Number of holds and resumes that are remembered. The effect of older ones is kept in the base point.
+/// Number of holds and resumes that are remembered for a route. The effect of older ones is kept in `Timeline::base`.
+/// With a smaller value, a late message about an old hold or resume is dropped more often.
 const EVENTS: usize = 8;
 
 /// Progress of a route at one moment.
@@ -13,7 +14,8 @@ const EVENTS: usize = 8;
 pub(crate) struct RouteProgress {
     /// Path time.
     pub time: Span,
-    /// Rate of path time, in path time per show time, 0 to 1. While path time goes back (see `steady_time`): down to −0.5.
+    /// Rate of path time, in path time per show time, 0 to 1. While path time goes back (see `steady_time`): down to
+    /// −0.5.
     pub rate: f64,
     /// Whether a hold is in force, even if path time is still slowing down.
     pub held: bool,
@@ -32,10 +34,12 @@ struct Point {
     progress: RouteProgress,
 }
 
-/// The path time of the route under way as a function of the show clock alone. Robots that know the same holds and resumes
-/// compute the same path time, however late the messages arrived.
+/// The path time of the route under way as a function of the show clock alone. Robots that know the same holds and
+/// resumes compute the same path time. The order in which they learnt of them does not matter, unless more than
+/// [`EVENTS`] are known.
 #[derive(Clone, Debug)]
 pub(crate) struct Timeline {
+    /// Progress at the start of the route, or after the latest hold or resume that is no longer remembered.
     base: Point,
     /// Holds and resumes in the order of their moments, none of them before `base`.
     events: heapless::Vec<Event, EVENTS>,
@@ -49,7 +53,8 @@ impl Timeline {
         }
     }
 
-    /// Begins a route at the moment `at`, show clock. Holds and resumes for earlier moments are dropped.
+    /// Begins a route at the moment `at`, show clock. Holds and resumes for earlier moments are dropped, those for
+    /// later ones count.
     pub(crate) fn begin(&mut self, at: Instant) {
         self.base = Point { at, progress: RouteProgress::START };
         self.events.retain(|event| event.at >= at);
@@ -81,13 +86,13 @@ impl Timeline {
         self.note(at, true);
     }
 
-    /// Whether no resume after the moment `show` (show clock) is known.
+    /// Whether no resume for a later moment than `show` (show clock) is known.
     pub(crate) fn stays_held(&self, show: Instant) -> bool {
         self.events.iter().all(|event| event.hold || event.at <= show)
     }
 
-    /// Path time at the moment `show`, show clock. Also returns whether path time runs evenly with the show clock from then
-    /// on, by the holds and resumes that are known.
+    /// Path time at the moment `show`, show clock. Also returns whether path time runs evenly with the show clock from
+    /// then on, by the holds and resumes that are known.
     pub(crate) fn time_and_whether_even(&self, show: Instant) -> (Span, bool) {
         let now = self.at(show);
         let is_even = now.rate == 1.0 && !now.held && self.events.last().is_none_or(|last| last.at <= show);
@@ -116,8 +121,8 @@ impl RouteProgress {
 }
 
 impl Point {
-    /// Progress at a later moment `at`, without holds and resumes in between. The rate first changes linearly to 0 (if held)
-    /// or 1, and then stays.
+    /// Progress at a later moment `at`, without holds and resumes in between. The rate first changes linearly to 0 (if
+    /// held) or 1, and then stays.
     fn until(self, at: Instant) -> Self {
         let RouteProgress { time, rate, held } = self.progress;
         let elapsed = at - self.at;

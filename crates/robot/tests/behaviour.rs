@@ -7,7 +7,9 @@ use lightbots_robot::{Config, Inputs, Message, Robot};
 use lightbots_wire::{Abilities, Blink, Command, Fade, Pieces, RobotState, Route, Topic};
 use plant::{Flaws, Plant, straight};
 
+/// Place of the robot before a drive, stage metres.
 const START: Vec2 = Vec2::new(-0.5, 0.2);
+/// End of the drive, stage metres.
 const END: Vec2 = Vec2::new(0.4, -0.3);
 
 /// Sends a route that starts 0.3 s from now. Returns its start, show clock.
@@ -18,8 +20,8 @@ fn send(plant: &mut Plant, route: &Route) -> Instant {
     at
 }
 
-/// Drives a route. Returns the largest distance from the place on the path, and the largest error of the estimate,
-/// metres.
+/// Drives a route. Returns the largest distance of the robot from its planned place, and the largest error of the
+/// estimated place, both metres. `held`: how much longer to run because of holds.
 fn worst_off(plant: &mut Plant, route: &Route, held: Span) -> (f64, f64) {
     let at = send(plant, route);
     let path = PathRef::new(route.start, &route.pieces);

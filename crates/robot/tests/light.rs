@@ -7,8 +7,11 @@ use lightbots_base::{Instant, LightCursor, LightRecord, Rgb, Span, Vec2};
 use lightbots_wire::{Command, Fade, LightAnchor, LightRecords, LightStretch, Route};
 use plant::{Flaws, Plant, straight};
 
+/// Start of the route, stage metres.
 const START: Vec2 = Vec2::new(-0.8, 0.0);
+/// End of the route, stage metres.
 const END: Vec2 = Vec2::new(0.8, 0.0);
+/// Number of the route that the robot drives.
 const SEQ: u32 = 1;
 
 /// A stretch of ten seconds with lines and steps that repeat.
@@ -23,7 +26,8 @@ fn stretch(number: u32, anchor: LightAnchor, skip: Span) -> LightStretch {
     LightStretch { number, anchor, skip, over: Span::ZERO, start: Rgb::new(9, 9, 9), records }
 }
 
-/// Path time at `show` in a drive that begins at `began` and is held from `hold` to `resume`, by R38.
+/// Path time at `show` in a drive that begins at `began` and is held from `hold` to `resume`, all show clock, by R38 of
+/// docs/protocol.md.
 fn path_time(show: Instant, [began, hold, resume]: [Instant; 3]) -> Span {
     let ease = Route::EASE;
     // Progress along an ease, in which the rate falls or rises linearly.
@@ -36,7 +40,8 @@ fn path_time(show: Instant, [began, hold, resume]: [Instant; 3]) -> Span {
     (show - began).min(hold - began) + slowing - eased(slowing) + eased(show - resume) + after
 }
 
-/// Largest difference between a shown channel and the wanted one within 5 ms, because the clock is that accurate.
+/// Largest difference between a channel of the shown colour and of the wanted one. The clock is accurate to 5 ms, so
+/// the moment within ±5 ms that fits best counts.
 fn off(plant: &Plant, colour: impl Fn(Instant) -> Rgb) -> u8 {
     let moments = (-5..=5).map(|ms| colour(plant.show() + Span::from_millis(ms)));
     let differs = |wanted: Rgb| {

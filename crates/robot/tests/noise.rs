@@ -68,7 +68,7 @@ impl Dice {
     }
 }
 
-/// Runs a robot for 4000 random steps. Returns all its outputs as text.
+/// Runs a robot for 4000 random steps. Returns all its outputs and messages as text.
 fn life(seed: u64) -> String {
     let mut dice = Dice(seed * 2 + 1);
     let id = RobotId::new("r1").unwrap();

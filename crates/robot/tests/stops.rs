@@ -6,7 +6,9 @@ use lightbots_base::{Instant, PathRef, Span, Vec2};
 use lightbots_wire::{Command, RobotState, Route, Topic};
 use plant::{Flaws, Plant, straight};
 
+/// Start of the route, stage metres.
 const START: Vec2 = Vec2::new(-0.6, 0.2);
+/// End of the route, stage metres.
 const END: Vec2 = Vec2::new(0.6, -0.1);
 
 /// A robot in the middle of a route, which also keeps the next one. Returns that first route and its beginning too.

@@ -8,8 +8,11 @@ use lightbots_robot::{Inputs, SENSORS};
 use lightbots_wire::{Command, Report, RobotState, Topic};
 use plant::{Flaws, Plant, straight};
 
+/// Place of the robot before a drive, stage metres.
 const START: Vec2 = Vec2::new(-0.6, 0.2);
+/// End of a long drive, stage metres.
 const FAR: Vec2 = Vec2::new(0.9, 0.2);
+/// The robot's own colour.
 const OWN: Rgb = Rgb::new(0, 60, 90);
 const RED: Rgb = Rgb::new(255, 0, 0);
 

@@ -17,7 +17,9 @@ use tokio::sync::mpsc;
 
 use common::{Outcome, embedded};
 
+/// Numbers of robots that are measured.
 const SIZES: [usize; 3] = [30, 100, 1_000];
+/// Number of light changes for each number of robots.
 const CHANGES: usize = 20;
 /// How long before its moment a light is sent.
 const AHEAD: Span = Span::from_millis(500);
@@ -25,7 +27,9 @@ const AHEAD: Span = Span::from_millis(500);
 const ASK: Duration = Duration::from_millis(1);
 /// Time for clocks to settle before the first change.
 const SETTLE: Duration = Duration::from_secs(20);
+/// Time between two steps of a robot core, microseconds.
 const STEP_US: u64 = 16_000;
+/// Longest wait until all robots know the show clock.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A link event for a robot: the robot's index, when the event arrived, and the event.
@@ -53,7 +57,9 @@ struct Fleet {
     message: Message,
 }
 
-/// Spreads of all changes, milliseconds, sorted.
+/// For each light change, the time between the first and the last robot that changed, milliseconds, sorted. `asked_ms`
+/// is by samples of the lights, `stepped_ms` by steps of the cores. `missed`: lights that did not change in time, in
+/// total.
 struct Spreads {
     asked_ms: Vec<f64>,
     stepped_ms: Vec<f64>,

@@ -27,8 +27,9 @@ use common::{Outcome, embedded, program};
 
 /// Numbers of robots if the command line has none.
 const SIZES: [usize; 1] = [1_000];
-/// Number of frames of the show. Each is shown for `AIR_S` seconds; with the drives that makes five minutes.
+/// Number of frames of the show. Each is shown for `AIR_S`; with the drives that makes five minutes.
 const FRAMES: usize = 26;
+/// Air time of each frame, seconds.
 const AIR_S: f64 = 10.0;
 /// Distance between neighbours in the grid, metres.
 const SPACING_M: f64 = 0.1;
@@ -213,7 +214,7 @@ impl Robots {
         self.began.elapsed().as_micros() as u64
     }
 
-    /// Runs the robots until the controller ends. Returns its processor time, seconds.
+    /// Runs the robots until the controller ends. Returns the controller's processor time, seconds.
     async fn run(&mut self, play: &mut Child, broker: &BrokerUrl, seen: &mut Seen) -> Outcome<f64> {
         let asker = RobotId::new("clock").ok_or("a name")?;
         let filters = vec![Topic::Robot(asker).write().to_string()];

@@ -20,6 +20,7 @@ use common::{Broker, Outcome, embedded, mosquitto};
 /// Numbers of robots, each with the number that share a connection: one, and for the largest fleet as the program does
 /// it.
 const SIZES: [(usize, usize); 4] = [(30, 1), (100, 1), (1_000, 1), (10_000, 50)];
+/// Number of measured rounds for each broker and number of robots.
 const ROUNDS: usize = 7;
 /// Time after which a missing answer counts as lost.
 const PATIENCE: Duration = Duration::from_secs(30);

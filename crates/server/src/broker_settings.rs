@@ -11,12 +11,14 @@ use crate::failure::Failure;
 
 /// Address in the settings that means the server's own broker.
 pub const EMBEDDED: &str = "embedded";
+/// Name of the file in the data folder.
 const FILE: &str = "broker.json";
 /// Longest text of a certificate or key in the settings, bytes; a chain of certificates fits.
 const LONGEST: usize = 32 << 10;
 /// Longest file of certificates, bytes; all authorities of a system (0.2 MB) fit.
 const PEM_MAX: u64 = 1 << 20;
-/// Longest file of settings, bytes: seven texts, each twice as long when escaped.
+/// Longest file of settings that is read, bytes: room for seven texts of `LONGEST`, escaped. A longer file counts as
+/// missing.
 const FILE_MAX: u64 = 14 * LONGEST as u64;
 
 /// Settings of a broker, as they were entered on the screen or on the command line.
@@ -65,8 +67,8 @@ impl Settings {
         self.address == EMBEDDED
     }
 
-    /// Returns the broker that the settings describe. The error is one line for people. A login in the address is moved to
-    /// the fields `user` and `password`.
+    /// Returns the external broker that the settings describe. A login in the address is moved to the fields `user` and
+    /// `password`. The error is one line for people.
     pub fn broker(&mut self) -> Result<BrokerUrl, String> {
         for text in [&self.ca, &self.client_cert, &self.client_key].into_iter().flatten() {
             if text.len() > LONGEST {
@@ -131,6 +133,7 @@ impl Settings {
 }
 
 /// Returns the external broker that the command line of `run` names. `None` if it names none, or says [`EMBEDDED`].
+/// Error if it says both, or if an address is wrong.
 pub fn other_broker(addresses: &[String], login: &BrokerArguments) -> Result<Option<BrokerUrl>, Failure> {
     let embedded = addresses.iter().filter(|address| address.trim() == EMBEDDED).count();
     if embedded == addresses.len() {

@@ -1,4 +1,4 @@
-//! The folder of a program's data: one program uses it at a time.
+//! The folder of a program's data. A lock lets one program at a time use it.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Seek, Write};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::disk;
 use crate::failure::Failure;
 
-/// Name of the file whose lock shows that a program uses the folder. The operating system holds the lock. The program that
-/// ends does not remove the file, because another program may open it at that moment.
+/// Name of the file whose lock shows that a program uses the folder. The operating system holds the lock. A program
+/// that ends leaves the file, because another program may open it at that moment.
 const LOCK: &str = ".lock";
-/// Longest text that is read from a lock file, bytes.
+/// Most bytes that are read from a lock file.
 const LONGEST: u64 = 200;
 
 /// A data folder that only this program uses while the value exists. A file system without locks cannot prevent a second
@@ -22,7 +22,8 @@ pub struct DataFolder {
 }
 
 impl DataFolder {
-    /// Returns the default data folder of the user on this system.
+    /// Returns the default data folder: `lightbots` in the user's data folder, or `lightbots-data` in the working
+    /// folder if no data folder of the user is known.
     pub fn usual() -> PathBuf {
         let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let data = set("XDG_DATA_HOME")
@@ -53,8 +54,8 @@ impl DataFolder {
         Ok(folder)
     }
 
-    /// Writes the address of this program to the lock file, for the error message of a second program that wants the
-    /// folder.
+    /// Writes the address `url` of this program's web app to the lock file, for the error message of a second program
+    /// that wants the folder.
     pub fn tell_address(&self, url: &str) {
         self.note(&format!("process {} ({url})", std::process::id()));
     }

@@ -1,5 +1,6 @@
-//! Files that survive a crash and a full disk. A file is replaced whole or not at all. What a call has done is on the disk
-//! when the call returns.
+//! Changes of files that survive a crash and a full disk. [`replace`] replaces a file whole or not at all. What
+//! [`create_folder`], [`replace`], [`rename`], [`link`] and [`remove`] have done is on the disk when they return, on
+//! Unix.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
@@ -24,7 +25,7 @@ pub enum Readers {
     Owner,
 }
 
-/// Makes a folder and the missing folders above it. All of them are on the disk when this returns.
+/// Makes a folder and the missing folders above it. The new folders are on the disk when this returns.
 pub fn create_folder(folder: &Path) -> io::Result<()> {
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
@@ -41,8 +42,8 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a file, all or nothing, and makes its folder if that is missing. After a crash, the old or the new file exists.
-/// After an error, there is no draft, and the old file exists, unless only the last synchronisation failed.
+/// Writes a file, all or nothing, and makes its folder if that is missing. After a crash, the old or the new file
+/// exists. After an error, the old file exists, unless only the last synchronisation failed.
 pub fn replace(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<()> {
     replace_with(path, readers, |file| file.write_all(bytes))
 }
@@ -91,13 +92,13 @@ pub fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Reads a regular file; more than `most` bytes are an error. A pipe or a device is refused before it is opened, because
-/// reading it may wait for ever or never end.
+/// Reads a regular file; more than `most` bytes are an error. A pipe or a device is refused before it is opened,
+/// because reading it may wait for ever or never end.
 pub fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     open_regular(path).and_then(|file| read_to_end(file, most))
 }
 
-/// Opens a regular file; anything else is an error.
+/// Opens a regular file for reading; anything else, and a missing file, is an error.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
@@ -131,11 +132,12 @@ pub fn remove_drafts(folder: &Path) {
     }
 }
 
-/// A temporary file, which is removed when this value is dropped, unless it was renamed by then.
+/// The path of a temporary file. When this value is dropped, the file is removed, unless it was renamed before.
 pub struct Draft(PathBuf);
 
 impl Draft {
-    /// Returns the draft of a file, under a name that no other save of this program uses. Nothing is written yet.
+    /// Returns the draft of the file at `path`, in the same folder, under a name that no other draft of this process
+    /// has. Nothing is written yet.
     pub fn beside(path: &Path) -> Self {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);

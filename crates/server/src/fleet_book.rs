@@ -9,12 +9,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::disk::{self, Readers};
 
+/// Name of the file in the data folder.
 const FILE: &str = "robots.json";
-/// Longest display name of a robot, characters. A row of the screen's table shows it.
+/// Longest display name of a robot, characters.
 const CALLED_MAX: usize = 40;
-/// The most robots that are kept: twice the largest fleet.
+/// Most robots whose settings are kept: twice the largest fleet.
 const ROBOTS_MAX: usize = 20_000;
-/// Longest file, bytes: each robot has two names.
+/// Longest file that is read, bytes. A longer one counts as missing.
 const FILE_MAX: u64 = 8 << 20;
 
 /// Display names of robots, and the list of robots that may take part in runs. Clones share the content.
@@ -44,7 +45,7 @@ struct About {
 
 impl FleetBook {
     /// Reads the file in the data folder. The result is empty if the file is missing, cannot be read or is invalid. An
-    /// invalid file is renamed and kept.
+    /// invalid file is renamed to `robots.json.unreadable`.
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
         let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
@@ -57,8 +58,8 @@ impl FleetBook {
         Self { path, kept: Arc::new(Mutex::new(kept)) }
     }
 
-    /// Gives a robot a display name; an empty text removes it. The error is a line for people, for example if another robot
-    /// has the name.
+    /// Gives a robot a display name, in which runs of white space become one space. An empty name removes it. The error
+    /// is a line for people: for example, the name is too long or another robot has it.
     pub fn call(&self, robot: RobotId, called: &str) -> Result<(), String> {
         let called: String = called.split_whitespace().collect::<Vec<_>>().join(" ");
         if called.chars().count() > CALLED_MAX || called.chars().any(char::is_control) {
@@ -78,7 +79,8 @@ impl FleetBook {
         })
     }
 
-    /// Puts robots on the list of the robots that may take part, or takes them off that list.
+    /// Puts robots on the list of the robots that may take part in runs, or takes them off (`listed` is false). The
+    /// error is a line for people.
     pub fn list(&self, robots: &[RobotId], listed: bool) -> Result<(), String> {
         self.change(|kept| {
             for robot in robots {
@@ -88,7 +90,8 @@ impl FleetBook {
         })
     }
 
-    /// Sets whether only listed robots take part in runs. If `on`, the robots in `present` are put on the list too.
+    /// Sets whether only listed robots take part in runs. If `on`, the robots in `present` are put on the list too. The
+    /// error is a line for people.
     pub fn only_listed(&self, on: bool, present: &[RobotId]) -> Result<(), String> {
         self.change(|kept| {
             kept.only_listed = on;
@@ -120,7 +123,7 @@ impl FleetBook {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes the content in memory and on the disk, or neither.
+    /// Changes the content in memory and on the disk. After an error, the content in memory is unchanged.
     fn change(&self, act: impl FnOnce(&mut Kept) -> Result<(), String>) -> Result<(), String> {
         let mut kept = self.lock();
         let mut changed = kept.clone();

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::failure::Failure;
 
-/// A file that is written during a rehearsal or replay. Its old content stays until the first call of `append` or `finish`,
-/// so that unusable input does not destroy it.
+/// A file to which bytes are appended while something is computed. The old content of a regular file stays until the
+/// first call of `append` or `finish`, so that unusable input does not destroy it.
 #[derive(Debug)]
 pub struct GrowingFile<'a> {
     path: &'a Path,
@@ -32,7 +32,7 @@ impl<'a> GrowingFile<'a> {
         }
     }
 
-    /// Writes what is still buffered. Error if any bytes could not be written.
+    /// Writes what is still buffered. Error if any bytes, now or in an earlier call of `append`, could not be written.
     pub fn finish(mut self) -> Result<(), Failure> {
         if self.failure.is_none() {
             self.failure = self.begin().and_then(|()| self.file.flush()).err();

@@ -15,11 +15,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::commands::guard;
 
-/// Largest file of a picture, bytes; the same as for the sources of frames.
+/// Largest picture file that is given to the child process, bytes. A larger file is refused.
 pub const FILE_MAX: u64 = 64 << 20;
 /// Longest line of [`Head`], bytes.
 const HEAD_MAX: u64 = 4096;
-/// Most bytes of a decoded picture: more than `make::layer_picture` ever returns.
+/// Most bytes that are read of a decoded picture. Decoded pictures have fewer.
 const CODES_MAX: u64 = 4 << 20;
 /// Most results that are remembered, and most pixels of their pictures together. Beyond either, the oldest results are
 /// forgotten.
@@ -78,7 +78,8 @@ impl LayerPictures {
     }
 }
 
-/// Decodes a file in a child process.
+/// Decodes a file in a child process. The inner error says what is wrong with the file; the outer one, that no child
+/// could do it.
 fn by_child(file: &[u8]) -> io::Result<Decoded> {
     if file.len() as u64 > FILE_MAX {
         return Ok(Err(format!("the file is larger than {} MB; make it smaller", FILE_MAX >> 20)));

@@ -116,9 +116,9 @@ impl Library {
         self.sweep();
     }
 
-    /// Adds a built-in show and returns the name under which it is listed, as close to `name` as possible. If an example has
-    /// the same name as the file of the command line, the file keeps the name. The example is then listed under another
-    /// name. `unread` says why the show's file holds more than the show; `None`: it does not.
+    /// Adds a built-in show and returns the name under which it is listed, as close to `name` as possible. If `show` is
+    /// the file of the command line and an example has its name, the file gets the name. The example is then listed
+    /// under another name. `unread` says why the show's file holds more than the show; `None`: it does not.
     pub fn give(&self, name: &str, origin: ShowOrigin, show: &Show, unread: Option<String>) -> String {
         self.assets.give(show);
         self.given.add(Given::new(tidy_name(name), origin, show, unread), &self.files.names())
@@ -133,14 +133,15 @@ impl Library {
         }
     }
 
-    /// Returns the name of the show that was open last, if that show still exists.
+    /// Returns the name of the show that was open last, if that name was saved and the show can still be read.
     pub fn remembered(&self) -> Option<String> {
         let name = disk::read_regular(&self.files.folder().join(OPEN), NAME_BYTES_MAX).ok()?;
         let name = String::from_utf8(name).ok()?;
         self.get(&name).is_ok().then_some(name)
     }
 
-    /// Returns the entries of all readable shows, sorted by name.
+    /// Returns the entries of the readable shows, sorted by name: the built-in ones, and of the folder at most
+    /// `SHOWS_MAX`.
     pub fn list(&self) -> Vec<ShowEntry> {
         let names = self.files.names().into_iter().take(SHOWS_MAX).chain(self.given.names());
         let entries = names.filter_map(|name| Some((name.clone(), self.entry(&name).ok()?)));
@@ -175,7 +176,8 @@ impl Library {
         Ok(Kept { etag, bytes, show, read_only, issues: Issues::new() })
     }
 
-    /// Returns the saved states of a show, the newest first: the present one, and earlier ones that can be read.
+    /// Returns the states of a show, the newest first: the present one, and the earlier ones that can be read. An
+    /// earlier state that equals the next newer one is left out.
     pub fn states(&self, name: &str) -> Result<Vec<ShowState>, LibraryError> {
         let name = checked(name)?;
         let now = self.entry(name)?;
@@ -228,20 +230,21 @@ impl Library {
         self.pictures.attach(show, |hash, asset| self.assets.of(hash, asset))
     }
 
-    /// Decodes the pictures of the show's layers and adds them to the show, because robots play it with them. Sets `issues`
-    /// to the warnings about files that cannot be shown.
+    /// Decodes the pictures of the show's layers and stores them in `kept.show`. Sets `kept.issues` to the warnings
+    /// about files that cannot be shown.
     pub fn with_pictures(&self, mut kept: Kept) -> Kept {
         kept.issues = self.attach_pictures(&mut kept.show);
         kept
     }
 
-    /// Returns an asset by its hash.
+    /// Returns an asset by its hash, the SHA-256 in hexadecimal digits. Error if the library does not have it.
     pub fn asset(&self, hash: &str) -> Result<Arc<[u8]>, LibraryError> {
         let content = self.assets.get(asset_hash(hash)?);
         content.ok_or_else(|| LibraryError::Missing(format!("there is no file {hash} in the library")))
     }
 
-    /// Adds an asset, which shows can then name by its hash. Error if the content has another hash.
+    /// Adds an asset, which shows can then name by its hash. Error if `hash` is no SHA-256 in hexadecimal digits, if
+    /// the content has another hash, or if the disk cannot be written.
     pub fn put_asset(&self, hash: &str, content: &[u8]) -> Result<(), LibraryError> {
         let stated = asset_hash(hash)?;
         let found = hash_of(content);

@@ -1,8 +1,8 @@
-//! The program `lightbots`: sockets, embedded broker, files and clocks around the cores. The only crate with IO.
+//! The program `lightbots`: sockets, embedded broker, files and clocks around the cores.
 //!
-//! `main` reads the command line and hands over to one file a command in `commands`. `live` holds what a running fleet
-//! needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's server. The
-//! cores, and not this program, decide about shows and robots.
+//! `main` reads the command line and runs a command; `commands` has one file or folder for each. `live` holds what a
+//! running fleet needs: the broker, the task that owns the controller core, the simulated robots. `web` is the screen's
+//! server. The cores, and not this program, decide about shows and robots.
 
 mod accounts;
 mod backup;
@@ -51,7 +51,7 @@ fn main() {
         }
     };
     let code = runtime.block_on(async {
-        // The first thing, so that an early Ctrl-C or TERM is never missed.
+        // The first thing, so that an early Ctrl-C or TERM is not missed.
         let stop = Stop::install();
         match Cli::try_parse() {
             Ok(cli) => run(cli, stop).await,

@@ -6,7 +6,7 @@ use lightbots_api::rounded;
 use lightbots_base::{Rgb, RobotId, Vec2};
 use lightbots_sim::Spread;
 
-/// Reads `WxH` in metres, such as `3x3` or `4.5x2`.
+/// Reads the width and depth of a floor, `WxH` in metres, each from 0.1 to 1000, such as `3x3` or `4.5x2`.
 pub fn floor(text: &str) -> Result<(f64, f64), String> {
     let wrong = || "a floor is WIDTHxDEPTH in metres, each from 0.1 to 1000, such as 3x3".to_owned();
     let (width, depth) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
@@ -14,7 +14,7 @@ pub fn floor(text: &str) -> Result<(f64, f64), String> {
     read(width).zip(read(depth)).ok_or_else(wrong)
 }
 
-/// Reads the size of a picture, `WIDTHxHEIGHT` in pixels.
+/// Reads the size of a picture, `WIDTHxHEIGHT` in pixels, each from 16 to 4096.
 pub fn pixels(text: &str) -> Result<(u32, u32), String> {
     let wrong = || "a size is WIDTHxHEIGHT in pixels, each from 16 to 4096, such as 1280x720".to_owned();
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
@@ -39,7 +39,7 @@ pub fn robot(text: &str) -> Result<RobotId, String> {
         .ok_or_else(|| "a robot's name has 1 to 36 letters, digits and signs, none of / + # |".into())
 }
 
-/// Reads a place `X,Y` in metres, such as `0.5,-1.3`.
+/// Reads a place `X,Y` in metres, each from -1000 to 1000, such as `0.5,-1.3`. `None` if it is no such place.
 pub fn place(text: &str) -> Option<Vec2> {
     let (x, y) = text.split_once(',')?;
     let read = |text: &str| text.trim().parse::<f64>().ok().filter(|metres| metres.abs() <= 1000.0);
@@ -63,14 +63,15 @@ pub fn color(text: &str) -> Result<Rgb, String> {
     Rgb::from_hex(text).ok_or_else(|| "write a colour like #ffa500".into())
 }
 
-/// Reads an address to listen at or to send to: an IP address or a name of a machine, and a port, such as `127.0.0.1:8420`.
+/// Reads an address to listen at or to send to: an IP address or a name of a machine, and a port, such as
+/// `127.0.0.1:8420`. Of a name with several addresses, the first is taken.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
     let wrong =
         || "an address is HOST:PORT, such as 127.0.0.1:8420, or 0.0.0.0:8420 for every network".to_owned();
     text.trim().to_socket_addrs().ok().and_then(|mut found| found.next()).ok_or_else(wrong)
 }
 
-/// Returns a spread with its numbers rounded to `decimals`.
+/// Returns a spread with its numbers rounded to `decimals` digits after the point.
 pub fn rounded_spread(Spread { median, p99, max }: Spread, decimals: i32) -> Spread {
     Spread { median: rounded(median, decimals), p99: rounded(p99, decimals), max: rounded(max, decimals) }
 }

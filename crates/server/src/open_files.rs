@@ -8,7 +8,7 @@ pub fn raise_limit() {
     }
 }
 
-/// Returns how many files this process may have open at once.
+/// Returns how many files this process may have open at once; 256 if the limit is not known.
 pub fn limit() -> usize {
     // 256 if the limit is not known: the least that systems have.
     let known = rlimit::Resource::NOFILE.get_soft().unwrap_or(256);
@@ -22,8 +22,8 @@ pub fn is_limit(error: &std::io::Error) -> bool {
     error.raw_os_error().is_some_and(|code| codes.contains(&code))
 }
 
-/// Limits the memory of the broker's process, on Linux only. A broker that uses too much memory then ends, and the rest of
-/// the machine keeps its memory. The command `run` starts its broker again.
+/// Limits the memory for data of this process, the broker's, on Linux only. A broker that needs more then ends, and the
+/// rest of the machine keeps its memory.
 pub fn limit_memory() {
     #[cfg(target_os = "linux")]
     {

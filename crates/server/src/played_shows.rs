@@ -1,4 +1,4 @@
-//! Shows that were played to their end, kept in a file of the data folder. Other shows are offered at half speed.
+//! Shows that were played to their end, kept in a file of the data folder. A screen offers other shows at half speed.
 
 use std::collections::VecDeque;
 use std::io;
@@ -13,10 +13,11 @@ use crate::disk::{self, Readers};
 use crate::live::conductor::{Handle, News};
 use crate::web::Desk;
 
+/// Name of the file in the data folder.
 const FILE: &str = "played.json";
 /// Most shows that are kept. If there are more, the one that was entered first is forgotten. An entry has about 100 bytes.
 const SHOWS_MAX: usize = 1_000;
-/// Longest file, bytes: names of shows are 200 characters at most.
+/// Longest file that is read, bytes. A longer one counts as missing.
 const FILE_MAX: u64 = 1 << 20;
 
 /// The shows that were played to their end. Clones share them.
@@ -52,8 +53,8 @@ pub struct Played {
 }
 
 impl Played {
-    /// Returns a show by `drives`, its `show_plan::drives_hash`, with the kind of robots that report on the broker. A show
-    /// that only simulated robots have played counts as not played if a real robot reports.
+    /// Combines a show, by its `show_plan::drives_hash`, with the kind of robots that report on the broker. A show that
+    /// only simulated robots have played counts as not played if a real robot reports.
     pub fn of(drives: u64, robots: &[RobotView]) -> Self {
         Self { drives, real: has_real(robots) }
     }

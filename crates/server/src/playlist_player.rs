@@ -29,7 +29,7 @@ struct Attempt {
     key: TurnKey,
     /// Revision of the show that this attempt opened; `None` if it has not opened the show yet.
     revision: Option<u32>,
-    /// Why the turn could not begin at the last check.
+    /// Why the turn could not begin, as the latest check that found a reason says. `None` if no check found one.
     refusal: Option<String>,
 }
 
@@ -81,7 +81,8 @@ impl Player {
         }
     }
 
-    /// Handles an event: records how the run of a turn ends, and holds the playlist if a person stopped robots.
+    /// Handles an event: records how the run of a turn ends, and holds the playlist if a person stopped the robots or
+    /// ended that run.
     fn hear(&mut self, news: &News) {
         let News::Event(event) = news else { return };
         // The end of the program stops robots too, and must not hold the playlist.
@@ -141,8 +142,8 @@ impl Player {
         }
     }
 
-    /// Ends the turn that is playing as failed, if its run is over although no event said so. Events are lost if too many
-    /// come at once.
+    /// Ends the turn that is playing as failed, if at `LOOKS_WITHOUT_RUN` consecutive checks it had no run. Its end may
+    /// have gone unnoticed, because events are lost if too many come at once.
     fn watch(&mut self, snapshot: &Snapshot) {
         self.looks_without_run = if snapshot.run.is_some() { 0 } else { self.looks_without_run + 1 };
         if self.looks_without_run < LOOKS_WITHOUT_RUN {
@@ -287,7 +288,7 @@ impl Player {
         self.shared.playlist.ends(key, end, at_s);
     }
 
-    /// Restores the operator's settings of speed and loop.
+    /// Restores the operator's settings of speed and loop, if a show of the playlist changed them.
     async fn restore_settings(&mut self) {
         let Some((percent, on)) = self.settings.take() else { return };
         for operation in [Operation::Speed { percent }, Operation::Loop { on }] {

@@ -97,8 +97,8 @@ impl RunReport {
         self.issues.splice(0..0, issues.iter().cloned());
     }
 
-    /// Adds a warning of the conductor as an issue with the code `warning`: of a second controller, of a GO that was
-    /// refused, or of the recording of the run.
+    /// Adds a warning of the conductor as an issue with the code `warning`, unless there are `ISSUES_MAX` issues
+    /// already.
     pub fn warn(&mut self, line: String) {
         if self.issues.len() < ISSUES_MAX {
             self.issues.push(Issue::warning("warning", line));

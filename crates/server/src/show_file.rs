@@ -17,7 +17,8 @@ pub const FLOOR_IGNORED: &str = "floor-ignored";
 /// A show as commands use it: read, adapted to the command line, and validated.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// The show, with the identity of the command line. Its floor is that of the file, or else that of the command line.
+    /// The show, with the identity that the command line states, if any. Its floor is that of the file, or else that of
+    /// the command line, or else the default.
     pub show: Show,
     /// Why the file holds more than the show; `None`: the show holds everything.
     pub unread: Option<String>,
@@ -25,8 +26,8 @@ pub struct Opened {
     pub issues: Issues,
 }
 
-/// Reads the show of a file, with the identity of the command line. The floor of the command line is used only if the file
-/// has none. The error is one line with the file's name.
+/// Reads the show of a file, with the identity that the command line states, if any. The floor of the command line is
+/// used only if the file has none. The error is one line with the file's name.
 pub fn open(path: &Path, arguments: &ShowArguments) -> Result<Opened, Failure> {
     let bytes = bytes(path)?;
     interpret(&bytes, path, arguments)
@@ -38,7 +39,7 @@ pub fn load(path: &Path) -> Result<Loaded, Failure> {
     loaded(&bytes, path)
 }
 
-/// Reads a file that is not too long to be a show.
+/// Reads a file of at most `MAX_BYTES`; a folder, a longer file or an unreadable file is an error.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let unreadable = |what: String| Failure::input(format!("{}: {what}", path.display()));
     let about = std::fs::metadata(path).map_err(|error| unreadable(format!("cannot be read: {error}")))?;

@@ -1,4 +1,4 @@
-//! Plans whole shows: for the screen, for `check` and for `plan`.
+//! Plans whole shows from their starting places, and remembers the latest plan.
 
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -40,8 +40,8 @@ fn document(show: &Show, found: &Issues, plan: &ShowPlan, began: Instant) -> api
     plan_document(plan, &found, plan_ms)
 }
 
-/// The latest plan. A show in which only light, colours, music or the show's name were changed is not planned again. A new
-/// name of a frame leads to a new plan.
+/// The latest plan. It is used again for a show that differs only in what drives do not depend on, such as light,
+/// colours, music or its name. A new name of a frame leads to a new plan.
 #[derive(Debug, Default)]
 pub struct LastPlan(Mutex<Option<(Show, Arc<ShowPlan>)>>);
 
@@ -83,8 +83,8 @@ impl io::Write for Hashed {
     }
 }
 
-/// Returns a hash of everything that robots' drives depend on, and of the names of frames. It takes long for a large show,
-/// so it must not run in a task that others wait for.
+/// Returns a hash of a show without the parts that robots' drives do not depend on; the names of frames are hashed,
+/// too. It takes long for a large show, so it must not run in a task that others wait for.
 pub fn drives_hash(show: &Show) -> u64 {
     let mut hashed = Hashed(StateHash::new());
     // Neither serialising a show nor hashing it fails.

@@ -1,5 +1,5 @@
-//! Handles Ctrl-C, TERM and HUP, which a closed terminal sends. The handlers are installed before anything else, so
-//! that at no moment a signal kills the program before robots receive STOP.
+//! Handles Ctrl-C, TERM and HUP, the signal of a closed terminal. The handlers are installed before anything else.
+//! Without a handler, a signal would end the program before robots receive STOP.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -13,8 +13,8 @@ const COMPUTING: u8 = 1;
 /// Phase in which a command waits by [`Stop::wait`]: the first signal requests a stop.
 const RUNNING: u8 = 2;
 
-/// Whether the program, or the part of it that has this value, is to stop. After the first signal, a second one ends the
-/// program at once.
+/// Tells the program, or the part of it that has this value, when to stop. If a signal has requested the stop of the
+/// program, a second signal ends it at once.
 #[derive(Clone, Debug)]
 pub struct Stop {
     wanted: watch::Receiver<bool>,
@@ -31,7 +31,7 @@ impl Stop {
         Self { wanted, phase }
     }
 
-    /// Runs a computation. A signal during it ends the program at once.
+    /// Runs a computation. From its start until [`Stop::take_over`], a signal ends the program at once.
     pub fn at_once<T>(&self, compute: impl FnOnce() -> T) -> T {
         self.phase.store(COMPUTING, Ordering::Release);
         tokio::task::block_in_place(compute)
@@ -104,7 +104,8 @@ async fn listen(mut signals: Signals, sender: watch::Sender<bool>, phase: Arc<At
 struct Signals {
     interrupt: Option<tokio::signal::unix::Signal>,
     terminate: Option<tokio::signal::unix::Signal>,
-    /// The HUP signal; `None` if the program was started to outlive its terminal, as `nohup` does.
+    /// The HUP signal. `None` if it cannot be handled, or if Linux reports that the program was started with HUP
+    /// ignored, as `nohup` does.
     hang_up: Option<tokio::signal::unix::Signal>,
 }
 

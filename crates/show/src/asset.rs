@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::layer_picture::LayerPicture;
 
-/// SHA-256 of a file's bytes. `Display` gives 64 hexadecimal digits, as in show files.
+/// SHA-256 of a file's bytes. `Display` gives 64 hexadecimal digits in lower case, as in show files.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct AssetHash(pub [u8; 32]);
 
@@ -21,12 +21,12 @@ pub struct Asset {
     pub media_type: String,
     /// Length of the file, bytes.
     pub bytes: u64,
-    /// The bytes of the file. `None` if only the hash is known, because the show was read from a file without its
-    /// assets. Serde skips the content: recordings and journals of a controller do not need it.
+    /// The bytes of the file. `None` if they are not at hand, for example because the show was read from a file without
+    /// its assets. Serde skips this field, so it is `None` after deserialising.
     #[serde(skip)]
     pub content: Option<Arc<[u8]>>,
-    /// The decoded file, if it is a picture that layers project on the floor. `None` if no layer projects it, or it was
-    /// not decoded. Recordings of a controller contain the picture, because the light of a run depends on it.
+    /// The decoded file, if it is a picture that layers project on the floor. `None` for other files, and for a picture
+    /// that was not decoded. Serde keeps this field: the light of a recorded show depends on the picture.
     #[serde(with = "crate::layer_picture::shared")]
     pub picture: Option<Arc<LayerPicture>>,
 }

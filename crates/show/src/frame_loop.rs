@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::{Cue, CuePlace, Issue, Issues, Show, excerpt, frame_label};
 
-/// Frames that a show repeats until GO. A cue at the last of these frames names the first one.
+/// Frames that a show repeats until GO. The show has a cue at the last of these frames, and the cue names the first
+/// one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameLoop {
     /// The first frame, counted from 0.
@@ -14,14 +15,15 @@ pub struct FrameLoop {
 }
 
 impl FrameLoop {
-    /// Whether the loop contains a frame.
+    /// Whether the loop contains the frame with the index `frame`, counted from 0.
     pub fn has(&self, frame: usize) -> bool {
         (self.first..=self.last).contains(&frame)
     }
 }
 
-/// The valid loops of a show in playing order. No frame is in two loops. A cue with an invalid loop gives no loop: the
-/// show waits for GO at the cue's frame instead, as [`validate`](crate::validate()) reports.
+/// The valid loops of a show in playing order. No frame is in two loops. If several cues name a frame, the first of
+/// them counts. A cue with an invalid loop gives no loop: [`validate`](crate::validate()) warns about it, and the show
+/// waits for GO at the cue's frame instead.
 pub fn frame_loops(show: &Show) -> Vec<FrameLoop> {
     examined(show).0
 }
@@ -59,9 +61,9 @@ pub(crate) fn examined(show: &Show) -> (Vec<FrameLoop>, Issues) {
     (loops, issues)
 }
 
-/// Returns the loop from the frame `first` to the frame `last`; `first` is `None` if no frame has the id that the cue
-/// names. If the loop is invalid, returns the code of an issue and the reason. `before` is the previous loop in playing
-/// order.
+/// Returns the loop from the frame `first` to the frame `last`, both counted from 0. `first` is `None` if no frame has
+/// the id that the cue names. `before` is the last valid loop in playing order. If the loop is invalid, returns the
+/// code of an issue and the reason.
 fn loop_to(
     last: usize,
     first: Option<usize>,
@@ -84,7 +86,8 @@ mod tests {
     use super::*;
     use crate::Frame;
 
-    /// Five frames `f0` to `f4`; `loops`: the frame of a cue, and where its loop begins.
+    /// Five frames with the ids `f0` to `f4`. `loops`: for each cue, the index of its frame and the id of the loop's
+    /// first frame.
     fn show(loops: &[(usize, &str)]) -> Show {
         let frame = |number: usize| Frame { id: Some(format!("f{number}")), ..Frame::default() };
         let cue = |&(last, from): &(usize, &str)| Cue {

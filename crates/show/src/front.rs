@@ -4,41 +4,44 @@ use lightbots_base::{Limits, Vec2};
 
 use crate::{Obstacle, Show, Stage, robots_needed};
 
-/// Distances between neighbouring robots, and between rows, for robots of the size of an Elisa-3, metres. The first with
-/// which all rows are on the floor is taken. The original system uses 0.1 m. 0.06 m leaves 6 mm between rims, twice
-/// `PROVABLE_GAP_M`.
+/// Distances between neighbouring robots, and between rows, for robots of the size of an Elisa-3, metres. They are
+/// tried in this order, until no row is beyond the far edge of the floor; otherwise the last one is used. The original
+/// system uses 0.1 m. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
 const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
-/// Distance from the front edge of the floor to the first row, metres, but at most a quarter of the floor's depth. The
-/// original system has y = 1.3 m on a floor of 3 m.
+/// Distance from the front edge of the floor to the first row, for robots of the size of an Elisa-3, metres. At most a
+/// quarter of the floor's depth is used. The original system has y = 1.3 m on a floor of 3 m.
 const FIRST_ROW_M: f64 = 0.2;
-/// Least distance from a side edge to the nearest robot of a row, metres. The original system has x = -1.45 m on a floor
-/// of 3 m.
+/// Least distance from a side edge to the centre of a robot in a row, for robots of the size of an Elisa-3, metres. A
+/// floor that is narrower than twice this distance gets one column in its middle. The original system has x = −1.45 m
+/// on a floor of 3 m.
 const SIDE_M: f64 = 0.05;
-/// Longest row, metres: five times the widest floor, which is 200 m (`MOST_SIDE_M`). Bounds the number
-/// of columns for hostile widths.
+/// Longest row, metres: five times the widest valid floor, which is 200 m (`MOST_SIDE_M`). Bounds the number of columns
+/// for hostile widths.
 const USABLE_MAX_M: f64 = 1e3;
-/// Largest ratio of a robot's radius to that of an Elisa-3 with which distances grow. Bounds them for invalid shows: the
-/// largest radius that validation allows, 1 m, has a ratio of 37.
+/// Largest factor by which distances grow for robots larger than an Elisa-3. Bounds them for invalid shows: the largest
+/// radius that validation allows, 1 m, has the factor 37.
 const SIZE_MAX: f64 = 100.0;
-/// Least clearance between a waiting robot and a no-go area, metres. More than `PROVABLE_GAP_M`, so that the robot's
-/// drive away from there can be proven free of contact.
+/// Least clearance between a waiting robot's rim and a no-go area, metres. More than `PROVABLE_GAP_M`, so that the
+/// drive from the starting place can be proven free of contact.
 const OBSTACLE_GAP_M: f64 = 0.01;
 /// Largest number of rows without a free place. Once there are more, the remaining places are put in one column without
-/// a check of no-go areas. Valid shows stay below the bound: the largest floor, 200 m, has 3,333 rows.
+/// a check of no-go areas. The largest valid floor, 200 m deep, has only 3,333 rows 0.06 m apart.
 const FULL_ROWS_MAX: usize = 10_000;
-/// Largest number of comparisons of a place with a no-go area: ten times what `MAX_PIXELS` places and `MAX_OBSTACLES`
-/// areas need. After that, the remaining places are put in one column without a check. Bounds the time for hostile
-/// shows.
+/// Largest number of comparisons of a place with a no-go area. After that, the remaining places are put in one column
+/// without a check. The bound is ten times what `MAX_PIXELS` free places and `MAX_OBSTACLES` areas need; it limits the
+/// time for hostile shows.
 const COMPARISONS_MAX: usize = 200_000_000;
 
-/// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Robots
-/// of a row are 0.1 m apart, and so are rows. The first row is 0.2 m from the edge, or a quarter of the floor's depth
-/// if that is less. A row runs from left to right and is centred. On the original system's floor of 3 m by 3 m the
-/// first thirty places have y = 1.3 m and begin at x = −1.45 m. Places on no-go areas are left out.
+/// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Each
+/// row is centred and runs from left to right. On the original system's floor, 3 m by 3 m, thirty places have y = 1.3 m
+/// and begin at x = −1.45 m.
 ///
-/// These distances are for an Elisa-3 and smaller robots; for larger robots they grow with the radius. If the floor is
-/// too small, robots and rows are closer together, down to 60 mm for an Elisa-3. If that is not enough, the last rows
-/// are beyond the far edge, which [`validate`](crate::validate()) reports. The list always has `count` places.
+/// For robots up to the size of an Elisa-3, neighbours and rows are 0.1 m apart. If the floor is too small, they are
+/// closer, down to 0.06 m. The first row is 0.2 m from the front edge, or a quarter of the floor's depth if that is
+/// less. For larger robots, these distances grow with the radius, at most by a factor of 100.
+///
+/// Places on or close to no-go areas are left out, unless hardly any place is free. If the floor is still too small,
+/// the last rows are beyond the far edge. The list always has `count` places.
 pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
     let [wide_m, medium_m, narrow_m] = STEPS_M;
@@ -58,8 +61,8 @@ pub fn starting_places(show: &Show) -> Vec<Vec2> {
     show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show)))
 }
 
-/// Rows of `count` places for robots `size` times as large as an Elisa-3. `step_m` is the distance between neighbours
-/// for an Elisa-3, metres.
+/// Rows of `count` places, stage metres, without those on or close to no-go areas. Robots are `size` times as large as
+/// an Elisa-3. `step_m` is the distance between neighbours for an Elisa-3, metres.
 fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
     let (step_m, side_m, first_row_m) = (step_m * size, SIDE_M * size, FIRST_ROW_M * size);
     // A floor without a finite width gets a single column, so that validation can report the places.
@@ -81,7 +84,7 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
         let spots = (0..in_row).map(|column| Vec2::new(tidy(left + column as f64 * step_m), tidy(y)));
         let before = places.len();
         places.extend(spots.filter(|spot| is_free(stage, *spot)));
-        // Rows full of obstacles are skipped, up to a bound.
+        // Rows without a free place are skipped, up to a bound.
         full_rows += usize::from(places.len() == before);
         row += 1;
         comparisons_left = comparisons_left.saturating_sub(in_row * stage.obstacles.len());

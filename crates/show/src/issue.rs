@@ -13,11 +13,11 @@ pub struct Issue {
     pub frame: Option<usize>,
     /// Ids of the pixels concerned; may be empty.
     pub pixels: Vec<u32>,
-    /// One line for people with place, cause and remedy. The text counts frames from 1.
+    /// One line for people: place, cause and, where there is one, remedy. The text counts frames from 1.
     pub message: String,
 }
 
-/// Issues in the order of their discovery.
+/// A list of issues.
 pub type Issues = Vec<Issue>;
 
 /// Severity of an issue.
@@ -26,7 +26,7 @@ pub type Issues = Vec<Issue>;
 pub enum Severity {
     /// The show plays well; the note is for information.
     Note,
-    /// The show plays, but could play better.
+    /// The show plays, but it could play better, or a part of it is left out.
     Warning,
     /// The show must not be played.
     Error,

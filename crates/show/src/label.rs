@@ -4,7 +4,8 @@
 /// stays one line on a screen.
 const EXCERPT_CHARS: usize = 40;
 
-/// How messages name a frame: `frame 3 "Heart"`. `index` counts frames from 0, the text counts them from 1.
+/// How messages name a frame: `frame 3 "Heart"`, or `frame 3` without a name. `index` counts frames from 0, the text
+/// counts them from 1. A long name is cut as by [`excerpt`].
 pub fn frame_label(index: usize, name: &str) -> String {
     if name.is_empty() {
         return format!("frame {}", index + 1);
@@ -12,7 +13,7 @@ pub fn frame_label(index: usize, name: &str) -> String {
     format!("frame {} \"{}\"", index + 1, excerpt(name))
 }
 
-/// A time as minutes and seconds, such as `1:02.5`. Times before 0 become 0.
+/// A time in seconds as minutes and seconds, rounded to tenths, such as `1:02.5`. Times before 0 become 0.
 pub fn clock_label(seconds: f64) -> String {
     let tenths = (seconds.max(0.0) * 10.0).round() as u64;
     format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)

@@ -2,21 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A small picture or film, decoded, in memory. A separate process decodes files of pictures, so that a harmful file
-/// cannot end the program that plays a show.
+/// A small decoded picture, or the decoded pictures of a film.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LayerPicture {
     /// Number of pixels in a row.
     pub width: u32,
     /// Number of rows of one picture.
     pub height: u32,
-    /// Red, green and blue of each pixel, sRGB codes. The pictures of a film follow one another, each row by row from the
-    /// top left.
+    /// Red, green and blue of each pixel, sRGB codes from 0 to 255, row by row from the top left. The pictures of a
+    /// film follow one another.
     pub codes: Vec<u8>,
 }
 
 impl LayerPicture {
-    /// Number of pixels of all pictures of a film together.
+    /// Number of pixels of the picture; of a film, of all its pictures together.
     pub fn pixels(&self) -> usize {
         self.codes.len() / 3
     }

@@ -1,8 +1,8 @@
 //! The show document that people draw: the model in memory and its validation.
 //!
-//! The crate knows nothing of wheels, messages, plans and files, and does no IO. In reading order: [`Show`] is the
-//! document, [`validate()`] gives [`Issues`] of a document, [`front_rows`] gives places where robots wait before the first
-//! frame. `lightbots-exchange` reads and writes files.
+//! The crate does no IO, and knows nothing of plans, messages and file formats. In reading order: [`Show`] is the
+//! document, [`validate()`] gives [`Issues`] of a document, [`front_rows`] gives places where robots wait before the
+//! first frame. `lightbots-exchange` reads and writes files.
 //!
 //! ```
 //! use lightbots_show::{Frame, Show, validate};

@@ -19,9 +19,9 @@ pub struct Show {
     pub identity: Identity,
     /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge, where y is largest.
     pub starts: Option<Vec<Vec2>>,
-    /// File name of the music, which the screen plays; `None`: the show has no music.
+    /// File name of the music; `None`: the show has no music.
     pub music: Option<String>,
-    /// Number of spare robots, which wait beside the floor to replace robots that fail.
+    /// Number of spare robots: robots beyond those with pixels, to replace robots that fail.
     pub spares: u32,
     /// Files that belong to the show, by hash.
     pub assets: Assets,
@@ -31,24 +31,25 @@ pub struct Show {
     pub sections: Vec<Section>,
     /// Named moments of the show.
     pub markers: Vec<Marker>,
-    /// Places where the show waits for GO.
+    /// Places where the show waits for GO, or repeats frames until GO.
     pub cues: Vec<Cue>,
     /// Light over time, lowest layer first.
     pub layers: Vec<Layer>,
-    /// Timed paths that the show prescribes.
+    /// Timed paths that the show prescribes for robots.
     pub trajectories: Vec<Trajectory>,
     /// Frames in playing order.
     pub frames: Vec<Frame>,
 }
 
-/// The floor and the robots on it.
+/// The floor and the robots on it. The origin of stage metres is the middle of the floor; y is largest at its front
+/// edge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
     /// Extent along x, metres.
     pub width_m: f64,
     /// Extent along y, metres.
     pub depth_m: f64,
-    /// No-go areas, numbered from 1 in this order.
+    /// No-go areas. Messages number them from 1 in this order.
     pub obstacles: Vec<Obstacle>,
     /// Size and dynamic limits of each robot of the fleet.
     pub limits: Limits,
@@ -86,16 +87,17 @@ pub enum Identity {
 /// A picture of the show.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
-    /// Id by which layers, cues and trajectories name the frame; unique in its show. `None`: nothing names the frame.
+    /// Id by which layers, cues and trajectories name the frame; unique in a valid show. `None`: nothing names the
+    /// frame.
     pub id: Option<String>,
     /// Name for people; may be empty.
     pub name: String,
     /// Air time, seconds: how long the frame stays.
     pub air_time_s: f64,
-    /// Moment at which the air time must begin, seconds from the start of the first frame's air time. `None`: as soon as
-    /// the transition is over.
+    /// Moment at which the air time should begin, seconds from the start of the first frame's air time. It moves
+    /// nothing by itself: the air time begins as soon as the transition is over. `None`: no wish.
     pub at_s: Option<f64>,
-    /// Wanted duration of the transition to the frame, seconds; `None`: the shortest that the robots' limits allow.
+    /// Wanted duration of the transition to the frame, seconds; `None`: as short as the planner can make it.
     pub transition_s: Option<f64>,
     /// Speed profile of the transition to the frame.
     pub easing: Easing,
@@ -104,9 +106,9 @@ pub struct Frame {
     pub motion: Option<PictureMotion>,
     /// Identity in this frame; `None`: that of the show.
     pub identity: Option<Identity>,
-    /// What the pixels were made from; empty: drawn by hand.
+    /// What the pixels were made from; empty if they were drawn by hand.
     pub sources: Vec<FrameSource>,
-    /// Pixels, sorted by id; ids are unique.
+    /// Pixels, sorted by id; ids are unique in a valid show.
     pub pixels: Vec<Pixel>,
 }
 
@@ -131,7 +133,7 @@ pub struct Pixel {
     pub color: Rgb,
     /// Name of the only robot that may show the pixel; `None`: any robot that [`Identity`] allows.
     pub robot: Option<String>,
-    /// The part of a source that the pixel belongs to; `None`: the pixel was drawn by hand.
+    /// The part of a source that the pixel belongs to; `None`: it belongs to no source.
     pub part: Option<SourcePart>,
     /// Name of a group of pixels of the frame that are edited as one; `None`: the pixel is in no group.
     pub group: Option<String>,

@@ -3,22 +3,21 @@
 use lightbots_base::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// How robots drive from the previous frame's picture to a frame: another drive than the planner's shortest, or that
-/// drive with staggered starts. Places are in stage metres. Angles are in radians, counter-clockwise; directions count
-/// from the x axis.
+/// How robots drive from the previous frame's picture to a frame, if not on the planner's shortest drive. Places are in
+/// stage metres. Angles are in radians, counter-clockwise; directions count from the x axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum PictureMotion {
     /// The formation travels without turning, and each robot keeps its place in the formation.
     Travel {
-        /// Displacements of the formation from where it starts, metres, in order. The formation moves along a smooth
-        /// curve from `(0, 0)` through all of them; a single displacement gives a straight line.
+        /// Displacements from the formation's first place, metres, in order. The formation moves along a smooth curve
+        /// from `(0, 0)` through all of them; a single displacement gives a straight line.
         along: Vec<Vec2>,
     },
     /// The formation turns about a point, and may grow or shrink meanwhile.
     Turn {
         /// Centre of the turn.
         center: Vec2,
-        /// Angle of the whole turn, radians.
+        /// Angle of the whole turn, radians; positive: counter-clockwise.
         turn: f64,
         /// Factor by which the distances from the centre have changed at the end of the turn.
         size: f64,
@@ -45,7 +44,8 @@ pub enum PictureMotion {
         radius_m: f64,
         /// Direction in which the wave runs, radians.
         direction: f64,
-        /// Distance from one crest to the next, metres.
+        /// Wanted distance from one crest to the next, metres. It is longer if the last robots would begin too late in
+        /// the drive.
         length_m: f64,
         /// Number of circles of each robot.
         times: u32,
@@ -82,8 +82,8 @@ impl PictureMotion {
         Self::NAMES[index]
     }
 
-    /// Whether the picture moves as one formation, so that each robot keeps its pixel. The frame then has the pixel ids of
-    /// the previous frame at other places. False for `Stagger` and `Morph`.
+    /// Whether each robot keeps its pixel id: true for all motions but `Stagger` and `Morph`. The frame then has the
+    /// pixel ids of the previous frame, at other places.
     pub fn is_of_formation(&self) -> bool {
         !matches!(self, Self::Stagger { .. } | Self::Morph { .. })
     }

@@ -15,8 +15,8 @@ pub fn most_pixels(show: &Show) -> usize {
     show.frames.iter().map(|frame| frame.pixels.len()).max().unwrap_or(0)
 }
 
-/// Number of robots that a show is made for, including spare robots. Without spare robots, it is the number of pixels of
-/// the largest frame, or the number of robots that pixels name if that is larger. The show also plays without spares.
+/// Number of robots that a show is made for, including spare robots, of which at most `MAX_PIXELS` count. Without spare
+/// robots, it is the number of pixels of the largest frame, or the number of robots that pixels name if that is larger.
 pub fn robots_needed(show: &Show) -> usize {
     let spares = usize::try_from(show.spares).unwrap_or(MAX_PIXELS).min(MAX_PIXELS);
     most_pixels(show).max(robots_asked_for(show)) + spares

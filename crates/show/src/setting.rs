@@ -1,6 +1,6 @@
-//! Settings of sources and layers. A later version of the program may give a meaning to further values.
+//! Settings of sources and layers.
 
-/// A value of a setting: any JSON value with finite numbers. Reading and writing a file does not change it.
+/// A value of a setting: any JSON value with finite numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Setting {
     /// No value.
@@ -17,7 +17,7 @@ pub enum Setting {
     Object(NamedSettings),
 }
 
-/// Named values in the order of the file; names are unique.
+/// Named values in the order of the file. Names are unique.
 pub type NamedSettings = Vec<(String, Setting)>;
 
 /// Returns the value of the setting called `name`; `None` if there is no such setting.

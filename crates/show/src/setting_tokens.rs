@@ -1,4 +1,4 @@
-//! Settings as a flat list, as journals and recordings hold them.
+//! Settings of layers as a flat list, for serde.
 //!
 //! A hostile file could nest values until reading them overflows the stack. A flat list is read with a bound on the
 //! depth.
@@ -7,8 +7,8 @@ use crate::setting::{NamedSettings, Setting};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Deepest nesting of values that is read, with the outermost object counted. Settings of a valid document nest at most
-/// 8 deep.
+/// Deepest nesting of lists and objects that is read, with the outermost object counted. Settings of a valid document
+/// nest at most 8 deep.
 const DEEPEST: u32 = 16;
 
 /// A simple value, or the start of a list or object. `List(n)` is followed by n values, `Object(n)` by n pairs of a text
@@ -52,7 +52,8 @@ fn add(value: &Setting, tokens: &mut Vec<Token>) {
     }
 }
 
-/// Reads settings from a flat list of tokens. Fails if tokens are missing or left over, or if values nest too deeply.
+/// Reads settings from a flat list of tokens. Fails if the list is not exactly one object, or if values nest too
+/// deeply.
 pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<NamedSettings, D::Error> {
     let tokens = Vec::<Token>::deserialize(deserializer)?;
     read(tokens)

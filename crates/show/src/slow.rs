@@ -6,10 +6,10 @@ use crate::{PictureMotion, Show};
 /// times.
 pub const SPEED_MIN_PERCENT: u32 = 20;
 
-/// Returns the show with drives at `percent` of the usual speed; less than [`SPEED_MIN_PERCENT`] counts as that. Times
-/// that the show prescribes for drives are multiplied by 100/`percent`. Limits of speed and turning rate are multiplied
-/// by `percent`/100, the limit of acceleration by its square. Air times do not change. At 100 percent or more, the show
-/// is unchanged.
+/// Returns the show with drives at `percent` of the usual speed; less than [`SPEED_MIN_PERCENT`] counts as that. Limits
+/// of speed and turning rate are multiplied by `percent`/100, the limit of acceleration by its square. Wanted durations
+/// of transitions, delays of staggered starts, and trajectories to a frame take 100/`percent` times as long. Air times
+/// and the times of the timeline do not change. At 100 percent or more, the show is unchanged.
 pub fn slowed(show: &Show, percent: u32) -> Show {
     let mut slow = show.clone();
     if percent >= 100 {

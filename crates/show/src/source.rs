@@ -11,14 +11,15 @@ use crate::setting::NamedSettings;
 pub struct FrameSource {
     /// Kind of source.
     pub kind: SourceKind,
-    /// The file that the source is made from; `None`: `settings` say everything.
+    /// The file that the source is made from; `None`: the source has no file.
     pub asset: Option<AssetHash>,
     /// Seed of all random choices in placing the source's pixels.
     pub seed: u32,
-    /// Where the picture of the source lies on the floor; `None`: the whole floor.
+    /// Rectangle in which the picture of the source lies, unless `settings` state its size and centre. `None`: no
+    /// rectangle is given.
     pub floor_box: Option<FloorBox>,
     /// Ids of the pixels that a user moved by hand, sorted and unique. When the source is made anew, these pixels keep
-    /// their places.
+    /// their places, as far as there are robots for them.
     pub moved: Vec<u32>,
     /// Name that all frames made together share, such as one frame for each word of a text; `None`: the frame was made
     /// alone.
@@ -62,8 +63,8 @@ pub struct FloorBox {
 pub struct SourcePart {
     /// Index of the source in [`Frame::sources`](crate::Frame::sources), counted from 0.
     pub source: u32,
-    /// Name of the part, such as a letter of a word; may be empty. When the source is made anew, a robot that is pinned
-    /// to a pixel is pinned to a new pixel of the same part.
+    /// Name of the part, such as a letter of a word; may be empty. When the source is made anew, pinned robots are
+    /// pinned to new pixels, of the same part if possible.
     pub name: String,
 }
 
@@ -84,7 +85,7 @@ impl FrameSource {
 }
 
 impl SourceKind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Self; 6] =
         [Self::Text, Self::Svg, Self::Picture, Self::Shape, Self::List, Self::Animation];
 

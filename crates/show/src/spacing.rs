@@ -1,4 +1,4 @@
-//! Pairs of close places. A grid finds them, so that the time grows with the number of places and not of pairs.
+//! Pairs of close places. A grid finds them, so that not all pairs of places are compared.
 
 use lightbots_base::Vec2;
 
@@ -13,9 +13,9 @@ pub struct CloseApproach {
     pub gap_m: f64,
 }
 
-/// All pairs of places closer to each other than `reach_m`, which must be positive, ordered by their indices. The search
-/// ends once there are `most` pairs or a few more. Places with a coordinate that is not finite, or beyond ±`FARTHEST_M`,
-/// are left out.
+/// All pairs of places closer to each other than `reach_m` (metres, positive), ordered by their indices. The search
+/// ends after the first place whose pairs bring the number to `most` or more; further pairs are then missing. Places
+/// with a coordinate that is not finite, or beyond ±`FARTHEST_M`, are left out.
 pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseApproach> {
     let cells = sorted_cells(places, reach_m);
     let mut pairs = Vec::new();
@@ -46,7 +46,8 @@ pub fn close_pairs(places: &[Vec2], reach_m: f64, most: usize) -> Vec<CloseAppro
 /// grid's rows would overflow far beyond it.
 const FARTHEST_M: f64 = 1e3;
 
-/// Row and column of the grid cell of every place, and the index of the place, sorted. A cell has the side `reach_m`.
+/// Row and column of the grid cell of each place, and the index of the place, sorted. Places beyond `FARTHEST_M` are
+/// left out. A cell has the side `reach_m`.
 fn sorted_cells(places: &[Vec2], reach_m: f64) -> Vec<(i64, i64, usize)> {
     let cell = |metres: f64| (metres / reach_m).floor() as i64;
     let near = |place: &Vec2| place.x.abs() <= FARTHEST_M && place.y.abs() <= FARTHEST_M;

@@ -1,7 +1,7 @@
 //! What stands on the timeline besides frames: light layers, sections, markers, beats, cues, prescribed trajectories.
 //!
-//! Seconds count from the start of the first frame's air time. Music begins at that moment too, so that times do not
-//! depend on how long the drive to the first frame takes.
+//! Unless stated otherwise, seconds count from the start of the first frame's air time. Music begins at that moment
+//! too, so that times do not depend on how long the drive to the first frame takes.
 
 use lightbots_base::Vec2;
 use serde::{Deserialize, Serialize};
@@ -63,9 +63,9 @@ pub enum FramePhase {
 pub struct Section {
     /// Name for people.
     pub name: String,
-    /// Start, seconds.
+    /// Start, seconds from the start of the first frame's air time.
     pub from_s: f64,
-    /// End, seconds.
+    /// End, seconds from the start of the first frame's air time.
     pub to_s: f64,
 }
 
@@ -74,23 +74,23 @@ pub struct Section {
 pub struct Marker {
     /// Name for people.
     pub name: String,
-    /// Moment, seconds.
+    /// Moment, seconds from the start of the first frame's air time.
     pub at_s: f64,
 }
 
-/// A place where the show waits for the operator's GO.
+/// A place where the show waits for the operator's GO, or repeats frames until GO.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cue {
     /// Name for people; may be empty.
     pub name: String,
-    /// Where the show waits.
+    /// Where the show waits, or where the loop ends.
     pub at: CuePlace,
-    /// Id of the first frame of a loop: the cue's own frame or an earlier one. The show repeats all frames from there
-    /// to the cue's frame until GO, instead of waiting. `None`: the show waits.
+    /// Id of the first frame of a loop: the cue's own frame or an earlier one. The show repeats the frames from this
+    /// one to the cue's frame until GO, instead of waiting. `None`: the show waits. Only for a cue at a frame.
     pub loop_from: Option<String>,
 }
 
-/// Where the show waits for a cue.
+/// Where a cue is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CuePlace {
     /// At the end of the air time of a frame, which is given by its id.
@@ -129,8 +129,8 @@ pub struct Trajectory {
     pub frame: Option<String>,
     /// Id of the pixel whose robot drives the path.
     pub pixel: u32,
-    /// Start of the path: seconds from the start of the transition to `frame`. Without a frame, seconds from the start of
-    /// the show.
+    /// Start of the path: seconds from the start of the transition to `frame`. Without a frame, seconds from the start
+    /// of the show.
     pub at_s: f64,
     /// Place at the start, stage metres.
     pub start: Vec2,
@@ -141,7 +141,8 @@ pub struct Trajectory {
 /// A piece of a trajectory: a straight line or a cubic Bézier curve, whose parameter is proportional to time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrajectoryPiece {
-    /// End of the piece, seconds from the start of the path; larger than `end_s` of the previous piece.
+    /// End of the piece, seconds from the start of the path; larger than `end_s` of the previous piece, or than 0 for
+    /// the first.
     pub end_s: f64,
     /// Control points of a cubic Bézier curve, stage metres; `None`: a straight line.
     pub controls: Option<[Vec2; 2]>,

@@ -19,9 +19,9 @@ pub use limits::{
     PROVABLE_GAP_M,
 };
 
-/// Returns the issues of a show. Those of the stage and of all frames together come first, then those of each frame,
-/// then those of other parts. A show with an error must not be planned. Any show is accepted. Equal shows give equal
-/// issues.
+/// Returns the issues of a show; any show is accepted. Issues of the stage and of all frames together come first, then
+/// those of each frame, then those of other parts. A show with an error must not be planned. At most a thousand issues
+/// are listed, and one more then says that there are others.
 pub fn validate(show: &Show) -> Issues {
     let mut findings = Findings::default();
     let is_sound = stage::check(&show.stage, &mut findings);

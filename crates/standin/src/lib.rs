@@ -1,11 +1,12 @@
 //! A stand-in for Webots' libController: the same C functions, connected to our simulated floor by a socket.
 //!
-//! It allows tests of the Webots driver without Webots. It copies the special cases of Webots:
+//! It allows tests of the Webots driver without Webots. It copies some special cases of Webots:
 //! - values are NaN before the first sample;
-//! - a negative rate is refused while a motor has a target position;
-//! - motors keep their last command when their controller ends;
-//! - position sensors under-read;
-//! - a step returns −1 once, and the next call ends the process.
+//! - a negative rate is refused while a motor has a finite target position;
+//! - when the simulation ends, a step returns −1, and the next step or the cleanup ends the process.
+//!
+//! The floor at the other end of the socket adds two more. Position sensors show less than the wheels turn. Motors keep
+//! their last command when their controller ends.
 //!
 //! [`socket`] describes the messages on the socket.
 #![allow(unsafe_code)]
@@ -30,13 +31,14 @@ pub extern "C" fn wb_robot_init() -> c_int {
     1
 }
 
-/// Advances the simulation by `millis` milliseconds. Returns −1 if the simulation ends.
+/// Advances the simulation by `millis` milliseconds, a multiple of 16. Returns 0, or −1 if the simulation ends. After
+/// −1, the next call of this function ends the process.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_step(millis: c_int) -> c_int {
     with(|robot| robot.step(millis))
 }
 
-/// Disconnects from the floor. Ends the process if the simulation ends.
+/// Disconnects from the floor. Ends the process if the simulation has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_cleanup() {
     with(|robot| robot.cleanup());
@@ -48,7 +50,7 @@ pub extern "C" fn wb_robot_get_name() -> *const c_char {
     with(|robot| robot.name.as_ptr())
 }
 
-/// Simulated time, seconds.
+/// Simulated time at the latest step, seconds; 0 before the first step.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_robot_get_time() -> c_double {
     with(|robot| robot.reply.time_s)
@@ -79,7 +81,8 @@ pub extern "C" fn wb_motor_set_position(tag: Tag, position: c_double) {
     with(|robot| robot.aim_motor(tag, position));
 }
 
-/// Sets a motor's rate, rad/s. A negative rate is refused while the motor has a target position.
+/// Sets a motor's rate, rad/s, limited to ±[`motor::RATE_MAX_RADPS`]. A negative rate is refused while the motor has a
+/// finite target position.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_motor_set_velocity(tag: Tag, radps: c_double) {
     with(|robot| robot.turn_motor(tag, radps));
@@ -91,7 +94,7 @@ pub extern "C" fn wb_position_sensor_enable(tag: Tag, _millis: c_int) {
     with(|robot| robot.enable(tag));
 }
 
-/// Value of a wheel's sensor, radians.
+/// Value of a wheel's sensor, radians; NaN before the first sample.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_position_sensor_get_value(tag: Tag) -> c_double {
     with(|robot| robot.wheel_sensor(tag))
@@ -103,7 +106,8 @@ pub extern "C" fn wb_gps_enable(tag: Tag, _millis: c_int) {
     with(|robot| robot.enable(tag));
 }
 
-/// World x, y and z of the robot, metres; NaN before the first sample. The pointer is valid until the next step.
+/// World x, y and z of the robot, metres; z is 0. NaN before the first sample. The pointer stays valid; the values
+/// change with the steps.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_gps_get_values(_tag: Tag) -> *const c_double {
     with(|robot| robot.gps().as_ptr())
@@ -115,13 +119,14 @@ pub extern "C" fn wb_compass_enable(tag: Tag, _millis: c_int) {
     with(|robot| robot.enable(tag));
 }
 
-/// Direction of north in body space, as x, y and z. The pointer is valid until the next step.
+/// Direction of north (world +y) in body space, as x, y and z; NaN before the first sample. The pointer stays valid;
+/// the values change with the steps.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_compass_get_values(_tag: Tag) -> *const c_double {
     with(|robot| robot.compass().as_ptr())
 }
 
-/// Sets the colour of the light.
+/// Sets the colour of the light, R·65536 + G·256 + B. It counts from the next step on.
 #[unsafe(no_mangle)]
 pub extern "C" fn wb_led_set(_tag: Tag, colour: c_int) {
     with(|robot| robot.command.colour = colour as u32);

@@ -1,8 +1,7 @@
 //! A motor as in Webots: it turns at a rate, or towards a position.
 //!
 //! Source: reference manual of R2025a, `Motor`, and `WbMotor::computeCurrentDynamicVelocity`. Towards a position, a
-//! motor turns at `P` times the remaining angle, but no faster than its rate; the sign of the rate is ignored. The
-//! last command stays in force when the controller ends.
+//! motor turns at `P` times the remaining angle, but no faster than its rate; the sign of the rate is ignored.
 
 /// Proportional part of a motor's default `controlPID`, rad/s per radian of error (stated in Webots' reference manual,
 /// `Motor`).
@@ -20,7 +19,7 @@ pub struct Motor {
 }
 
 impl Default for Motor {
-    /// In Webots, motors begin with their highest rate and a target at their present position.
+    /// In Webots, motors begin with their highest rate and a target at their present position, which is 0 here.
     fn default() -> Self {
         Self { target_rad: 0.0, radps: RATE_MAX_RADPS }
     }

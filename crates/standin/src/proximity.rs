@@ -12,12 +12,14 @@ pub const TABLE: [[f64; 3]; 5] = [
     [0.04, 0.0, 0.0],
 ];
 
-/// Sensor value at a distance in metres: linear between the rows of [`TABLE`]; beyond the last row, that row's value.
+/// Sensor value at a distance in metres: linear between the rows of [`TABLE`]. Below the first row and beyond the last
+/// one, the value of that row.
 pub(crate) fn value(distance_m: f64) -> f64 {
     between(distance_m, 1)
 }
 
-/// Noise of the distance that a sensor shows, metres, 1 sigma. `distance_m`: the true distance.
+/// Noise of the distance that a sensor shows, metres, 1 sigma: the noise of the value, divided by the mean slope of
+/// [`TABLE`]. `distance_m`: the true distance.
 #[must_use]
 pub fn sigma_m(distance_m: f64) -> f64 {
     let per_m = (TABLE[0][1] - TABLE[4][1]) / TABLE[4][0];

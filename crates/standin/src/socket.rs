@@ -1,8 +1,8 @@
 //! Messages on the socket between the process of a robot and the simulated floor. Numbers are little-endian.
 //!
 //! A process first sends its robot's name (one byte for the length, then the bytes), and then a [`StepCommand`] for
-//! every step. When the floor has the commands of all processes, it answers each with a [`StepReply`]. The environment
-//! variable [`ADDRESS`] holds the path of the socket.
+//! every step. When the floor has the commands of all connected processes, it answers each with a [`StepReply`]. The
+//! environment variable [`ADDRESS`] holds the path of the socket.
 
 use std::io::{self, Read, Write};
 
@@ -21,18 +21,18 @@ pub struct StepCommand {
     pub colour: u32,
 }
 
-/// What the floor answers after a step.
+/// The state of the robot that the floor sends after a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReply {
     /// Whether the simulation ends.
     pub ends: bool,
     /// Simulated time, seconds.
     pub time_s: f64,
-    /// Readings of the wheels' sensors, left and right, radians.
+    /// Readings of the wheels' sensors since the beginning, left and right, radians.
     pub wheels_rad: [f64; 2],
-    /// Place, metres.
+    /// Place in the world (x, y), metres.
     pub at: [f64; 2],
-    /// Heading, radians.
+    /// Heading, radians counter-clockwise from world x.
     pub heading: f64,
     /// Distances that the proximity sensors measure, clockwise from the front, metres; infinite: nothing in range.
     pub near_m: [f64; RAYS],
@@ -94,14 +94,15 @@ impl StepReply {
     }
 }
 
-/// Writes the name with which a connection begins. Only the first 255 bytes of the name are written.
+/// Writes the name with which a connection begins: its length and its bytes. Only the first 255 bytes of the name are
+/// written.
 pub fn write_name(name: &str, out: &mut impl Write) -> io::Result<()> {
     let bytes = &name.as_bytes()[..name.len().min(255)];
     out.write_all(&[bytes.len() as u8])?;
     out.write_all(bytes)
 }
 
-/// Reads the name with which a connection begins.
+/// Reads the name with which a connection begins. Bytes that are not UTF-8 are replaced.
 pub fn read_name(from: &mut impl Read) -> io::Result<String> {
     let mut length = [0];
     from.read_exact(&mut length)?;

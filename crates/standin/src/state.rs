@@ -18,7 +18,9 @@ pub(crate) struct RobotProcess {
     pub(crate) command: StepCommand,
     pub(crate) reply: StepReply,
     socket: Option<UnixStream>,
+    /// `[tag]`: whether the device is enabled.
     enabled: [bool; TAGS],
+    /// Number of steps since the connection.
     steps: u64,
     gps: [f64; 3],
     compass: [f64; 3],
@@ -26,7 +28,8 @@ pub(crate) struct RobotProcess {
 
 static ROBOT: Mutex<Option<Box<RobotProcess>>> = Mutex::new(None);
 
-/// Runs `action` on the robot. If the process has not connected, prints an error and ends the process.
+/// Runs `action` on the robot and returns its result. If the process has not connected yet, prints an error and ends
+/// the process.
 pub(crate) fn with<T>(action: impl FnOnce(&mut RobotProcess) -> T) -> T {
     let mut guard = ROBOT.lock().unwrap_or_else(PoisonError::into_inner);
     match guard.as_mut() {

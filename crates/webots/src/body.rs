@@ -18,7 +18,8 @@ impl fmt::Display for MissingDevice {
     }
 }
 
-/// Motors, sensors and light of this process's robot, with the sensors switched on.
+/// Motors, sensors and light of this process's robot. GPS, compass and wheel sensors are switched on; the proximity
+/// sensors may be off.
 pub struct WebotsBody<'a> {
     library: &'a LibController,
     motors: [DeviceTag; 2],
@@ -44,7 +45,7 @@ const AHEAD_S: f64 = 0.1 + 3.0 * 0.016;
 
 impl<'a> WebotsBody<'a> {
     /// Finds the robot's devices, stops its wheels, and has sensors sampled every `step_ms` milliseconds. If `blind`,
-    /// the proximity sensors stay off.
+    /// the proximity sensors stay off. An error if a motor, wheel sensor, GPS, compass or light is missing.
     pub fn new(library: &'a LibController, step_ms: i32, blind: bool) -> Result<Self, MissingDevice> {
         let find = |name: &'static str| library.device(name).ok_or(MissingDevice(name));
         let motors = [find("left wheel motor")?, find("right wheel motor")?];
@@ -113,7 +114,8 @@ impl<'a> WebotsBody<'a> {
         }
     }
 
-    /// Shows a colour. The light changes at most ten times a second, so call this once a step.
+    /// Shows a colour. Call this once a step with the wanted colour. For some steps after a change of the light (about
+    /// 100 ms), further colours are not shown.
     pub fn set_light(&mut self, colour: Rgb) {
         self.steps_since_light = self.steps_since_light.saturating_add(1);
         if self.last_light != Some(colour) && self.steps_since_light >= LIGHT_INTERVAL_STEPS {

@@ -11,7 +11,8 @@ use crate::rays::gaps_m;
 
 /// Names of the devices, clockwise from the front.
 const NAMES: [&str; 10] = ["ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7", "ps8", "ps9"];
-/// Least number of sensors with which the readings are used: the robot core has this number of directions.
+/// Least number of sensors with which the readings are used: the robot core has this number of directions. With fewer,
+/// the robot drives as without sensors.
 const LEAST: usize = 8;
 /// Distance from the robot's centre to a sensor, metres (stated in `webots/protos/LightBot.proto`).
 const SENSOR_M: f64 = 0.024;
@@ -92,7 +93,9 @@ impl Table {
         Self { rows: rows.iter().map(|row| (row[0], row[1])).collect() }
     }
 
-    /// Distance at which the sensor has a value, metres; infinite at the end of its range and for NaN.
+    /// Distance at which the sensor has a value, metres. Values beyond that of the first row give the distance of that
+    /// row. Infinite at or beyond the value of the last row, for NaN, and for a table without rows or with equal
+    /// values.
     fn distance_m(&self, value: f64) -> f64 {
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return f64::INFINITY };
         let falls = first.1 > last.1;
@@ -141,7 +144,8 @@ mod tests {
 
     #[test]
     fn gaps_are_from_rim_to_rim() {
-        // Centres 64 mm apart: 24 mm to the sensor, then 27 mm to the bounds, or 21 mm to the ring with its colour factor.
+        // Centres 64 mm apart: 24 mm to the sensor, then 27 mm to the bounds, or 21 mm to the ring with its colour
+        // factor.
         let (bounds, ring) = (0.064 - 0.024 - 0.027, (0.064 - 0.024 - 0.021) / 0.84);
         assert!((along_m(SensorKind::Bounds, bounds) - 0.01).abs() < 1e-12);
         assert!((along_m(SensorKind::InfraRed, ring) - 0.01).abs() < 1e-12);

@@ -23,14 +23,15 @@ pub struct DriverSettings {
 /// Wanted step of the robot core, milliseconds, as in the simulator (docs/simulator.md). With 32 ms, robots deviate on
 /// curves (docs/webots.md).
 const STEP_MS: f64 = 16.0;
-/// Largest number of queued messages in each direction: four times `MESSAGES_PER_STEP`, more than a robot receives in a
-/// second.
+/// Largest number of queued messages in each direction: four times `MESSAGES_PER_STEP`. With a smaller value, messages
+/// are dropped when many arrive in one step.
 const QUEUE: usize = 256;
 /// Largest number of messages handled in one step. The others wait for the next step, so that messages never delay the
 /// wheels.
 const MESSAGES_PER_STEP: usize = 64;
 
-/// Drives the robot until the simulation ends. Call it in a tokio runtime, after [`LibController::init`].
+/// Drives the robot until the simulation ends. Call it in a tokio runtime, after [`LibController::init`]. An error if
+/// the robot lacks a required device.
 pub fn drive(library: &LibController, settings: &DriverSettings) -> Result<(), MissingDevice> {
     let step_ms = step_ms(library.basic_time_step_ms());
     let mut body = WebotsBody::new(library, step_ms, settings.blind)?;

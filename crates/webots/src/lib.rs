@@ -1,8 +1,8 @@
 //! The Webots driver of the robot core: one process per robot, as Webots starts its controllers.
 //!
 //! libController is loaded when the program starts, so that the build needs no part of Webots. In reading order:
-//! [`LibController`] finds and loads it, and [`WebotsBody`] holds the robot's motors, sensors and light. [`drive`] is the
-//! loop that connects them with the robot core and the broker.
+//! [`LibController`] finds and loads it, and [`WebotsBody`] holds the robot's motors, sensors and light. [`drive`] is
+//! the loop that connects them with the robot core and the broker.
 
 mod body;
 mod distance_sensors;

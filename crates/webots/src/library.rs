@@ -62,8 +62,8 @@ macro_rules! bind {
 }
 
 impl LibController {
-    /// Finds libController where Webots' own controllers look for it, and loads it. `home`: value of `WEBOTS_HOME`, if
-    /// it is set.
+    /// Finds libController at the paths where Webots' own controllers look for it, and loads it. `home`: value of
+    /// `WEBOTS_HOME`, if it is set. An error names the paths that were tried, or a function that the library lacks.
     pub fn load(home: Option<&Path>) -> Result<Self, LoadError> {
         let mut tried = Vec::new();
         for place in library_paths::candidates(home) {
@@ -112,7 +112,7 @@ impl LibController {
     }
 
     /// Advances the simulation by `millis` milliseconds, a multiple of the world's basic step. Returns `false` if the
-    /// simulation ends.
+    /// simulation ends; then call only [`cleanup`](Self::cleanup).
     pub fn step(&self, millis: i32) -> bool {
         (self.step)(millis) != -1
     }

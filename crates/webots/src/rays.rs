@@ -67,6 +67,7 @@ fn see(gaps_m: &mut [f64; SENSORS], centre: Vec2) {
 mod tests {
     use super::*;
 
+    /// Number of rays of the PROTO LightBot.
     const RAYS: usize = 10;
 
     /// Distances along the rays for a robot in this direction (body, degrees) at this gap.

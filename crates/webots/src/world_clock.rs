@@ -21,8 +21,8 @@ const RESTING_SHARE: f64 = 0.3;
 /// Largest rate of the world clock for a driving robot, world seconds per simulated second. Accelerations grow with the
 /// square of this rate, and an Elisa-3 stumbles between 1 and 2 m/s² (docs/simulator.md).
 const DRIVING_RATE: f64 = 1.1;
-/// Like `DRIVING_RATE`, for a robot without a route. The last robot to arrive has at least 0.3 s until the next
-/// `START`. At this rate it makes up a lag of 4 s in that time. With a smaller rate it would begin late.
+/// Like `DRIVING_RATE`, for a robot without a route. At this rate, a robot makes up a lag of 4 s within 0.3 s. With a
+/// smaller rate, the last robot to arrive would begin its next route late.
 const RESTING_RATE: f64 = 14.0;
 /// A step that takes longer than this in real time counts as a pause, seconds: about three steps of 16 ms. With a
 /// smaller value, jitter of a busy machine counts as pauses. With a larger value, short pauses move robots. Chosen, not
@@ -78,6 +78,7 @@ impl WorldClock {
 mod tests {
     use super::*;
 
+    /// Duration of a step, simulated seconds.
     const STEP_S: f64 = 0.016;
 
     /// A simulation with the clocks of some robots. Each robot reads the own clock late, by up to 4 ms.

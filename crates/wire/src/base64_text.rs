@@ -8,7 +8,8 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use crate::text_buffer::TextBuffer;
 
-/// Bytes that are encoded at once; a multiple of three, so that the pieces join without padding.
+/// Number of bytes that are encoded at once; a multiple of three, so that the pieces join without padding. With a
+/// larger value, the writer needs more stack.
 const ENCODED_AT_ONCE: usize = 48;
 
 /// The alphabet of RFC 4648, section 4.
@@ -55,7 +56,8 @@ impl<'a, 'b> Base64Writer<'a, 'b> {
     }
 }
 
-/// Decodes text into `bytes` and returns the decoded part; `None` if the text is not base64 or too long.
+/// Decodes text into the beginning of `bytes` and returns that part; `None` if the text is not base64 or its bytes do
+/// not fit.
 pub(crate) fn decode<'a>(text: &str, bytes: &'a mut [u8]) -> Option<&'a [u8]> {
     let length = BASE64.decode_slice(text, bytes).ok()?;
     bytes.get(..length)

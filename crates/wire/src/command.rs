@@ -4,7 +4,8 @@ use lightbots_base::{Instant, Piece, Rgb, Span, Vec2};
 
 use crate::{LightStretch, LiveColours, LiveRelease, Neighbours};
 
-/// Largest number of pieces of a route (R31). The controller rejects a frame whose plan has a longer path.
+/// Largest number of pieces of a route (R31). A `PATH` with more pieces is invalid. With a larger value, each robot
+/// needs more memory.
 pub const MAX_PIECES: usize = 128;
 
 /// The pieces of a route.
@@ -15,11 +16,11 @@ pub type Pieces = heapless::Vec<Piece, MAX_PIECES>;
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// `TARGET x y`: drive to this place at once, stage metres.
+    /// `TARGET x y`: drive to this place at once, stage metres. Routes are deleted.
     Target(Vec2),
-    /// `COLOR n`: show this colour at once.
+    /// `COLOR n`: show this colour at once. It ends fades and stretches of light.
     Color(Rgb),
-    /// `UUID`: report on `T/LightBot/UUID` at once.
+    /// `UUID`: report on the topic `UUID` at once.
     Uuid,
     /// `PATH …`: keep this route until a `START` names its number. The route replaces another one that is kept and has
     /// not begun.
@@ -43,28 +44,28 @@ pub enum Command {
         /// Moment on the show clock.
         at: Instant,
     },
-    /// `STOP`: wheels stop at once; target and routes are deleted.
+    /// `STOP`: wheels stop at once. Target, routes, stretches of light, and fades that have not begun are deleted.
     Stop,
-    /// `STOP at`: from this moment on slow down as by `HOLD at`, and once at rest stop as by `STOP`.
+    /// `STOP at`: from this moment of the show clock on slow down as by `HOLD at`, and once at rest stop as by `STOP`.
     StopFrom {
         /// Moment on the show clock.
         at: Instant,
     },
     /// `TIME asked received sent`: the answer to a [`crate::TimeQuestion`].
     Time(TimeAnswer),
-    /// `FADE n at over`: the light changes evenly to this colour.
+    /// `FADE n at over`: from a moment of the show clock on, the light changes evenly to this colour.
     Fade(Fade),
-    /// `BLINK over`: the light flashes white so that people find the robot.
+    /// `BLINK over`: the light flashes white for this time, so that people find the robot.
     Blink(Blink),
     /// `LIGHT …`: a stretch of the robot's light, sent ahead of time.
     Light(LightStretch),
-    /// `SLOT k`: the robot gets this number, by which `LIVE` and `RELEASE` address it.
+    /// `SLOT k`: the robot gets this number, by which `LIVE` and `RELEASE` address it (R59).
     Slot(u16),
     /// `LIVE n first colours`: colours from a lighting desk or another program, for many robots.
     Live(LiveColours),
     /// `RELEASE n first count`: robots show their own light again.
     Release(LiveRelease),
-    /// `STATUS`: report on `T/LightBot/Status` at once.
+    /// `STATUS`: report on the topic `Status` at once.
     Status,
 }
 
@@ -108,13 +109,13 @@ pub struct Fade {
     pub to: Rgb,
     /// Beginning, show clock.
     pub at: Instant,
-    /// Duration; zero switches at once.
+    /// Duration; zero switches the colour at the beginning.
     pub over: Span,
 }
 
 /// Flashes that let people find a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Blink {
-    /// Duration, at most a minute (R24).
+    /// Duration. A decoder shortens it to at most a minute (R24).
     pub over: Span,
 }

@@ -9,13 +9,14 @@ use crate::number::{instant, number, span};
 use crate::path::decode_route;
 use crate::{Blink, Command, Fade, TimeAnswer};
 
-/// Longest payload that a robot reads, bytes (R4). A route of [`crate::MAX_PIECES`] curves needs half of these bytes.
+/// Longest payload that a robot reads, bytes (R4). A route of [`crate::MAX_PIECES`] curves needs about half of these
+/// bytes. With a larger value, a payload keeps a small board busy for longer.
 pub const MAX_PAYLOAD: usize = 16 * 1024;
 
 /// Longest duration of a `BLINK` (R24); a longer one is shortened.
 const LONGEST_BLINK: Span = Span::from_millis(60_000);
 
-/// Why a part of a payload is not a command. The robot counts and ignores the part (R7).
+/// Why a part of a payload, or all of it, is not a command. A robot ignores and counts it (R7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// The first word is not a known command.
@@ -36,7 +37,8 @@ pub struct Commands<'a> {
     refused: Option<Unknown>,
 }
 
-/// Returns the commands of a payload in order. They are the parts between `|`; empty parts are skipped.
+/// Returns the commands of a payload in order. They are the parts between `|`; empty parts are skipped. An invalid part
+/// is an error, and the parts after it are still read. A payload that is not UTF-8 or too long gives a single error.
 pub fn commands(payload: &[u8]) -> Commands<'_> {
     let read = match payload.len() {
         0..=MAX_PAYLOAD => core::str::from_utf8(payload).map_err(|_| Unknown::NotText),
@@ -65,8 +67,8 @@ impl Iterator for Commands<'_> {
 
 /// Decodes one command from its first word and the fields after it. Surplus fields are ignored, because later versions
 /// of the protocol may add some.
-// Each arm builds the whole result in place: a command has room for a route, and another move would copy all of it, even
-// for a `HOLD`.
+// Each arm builds the whole result in place: a command has room for a route, and another move would copy all of it,
+// even for a `HOLD`.
 fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown>> {
     match word {
         "TARGET" => made(target(fields), Command::Target),
@@ -90,7 +92,8 @@ fn decode(word: &str, fields: &mut Fields<'_>) -> Option<Result<Command, Unknown
     }
 }
 
-/// Returns the command of a decoded value, or why it could not be decoded; always `Some`, as the iterator returns it.
+/// Converts a decoded value to its command, and keeps an error. Always returns `Some`, because that is the type of the
+/// iterator's items.
 #[inline(always)]
 fn made<T>(read: Result<T, Unknown>, command: impl Fn(T) -> Command) -> Option<Result<Command, Unknown>> {
     match read {

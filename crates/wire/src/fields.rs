@@ -67,12 +67,13 @@ fn first(bytes: &[u8], marks: impl Fn(u64) -> u64, sought: impl Fn(u8) -> bool) 
     at + bytes[at..].iter().position(|&byte| sought(byte)).unwrap_or(bytes.len() - at)
 }
 
-/// Marks bytes below `!`: whitespace and control characters.
+/// Marks bytes below `!`: whitespace and control characters. Of the marked bytes, only the first one surely is such a
+/// byte.
 fn below_exclamation(word: u64) -> u64 {
     word.wrapping_sub(LOW_BITS * 0x21) & !word & HIGH_BITS
 }
 
-/// Marks bytes that are zero.
+/// Marks bytes that are zero. Of the marked bytes, only the first one surely is zero.
 fn zeros(word: u64) -> u64 {
     word.wrapping_sub(LOW_BITS) & !word & HIGH_BITS
 }

@@ -1,8 +1,8 @@
 //! The messages between controller and robot: bytes ↔ values, as `docs/protocol.md` specifies them.
 //!
-//! Decoding never panics, never allocates, and takes time linear in the bytes. The crate knows nothing of brokers, shows or
-//! wheels. The original protocol is kept byte for byte. Our additions leave it unchanged, so that an original robot and an
-//! original controller still work.
+//! Decoding never panics, never allocates, and takes time linear in the bytes. The crate knows nothing of brokers,
+//! shows or wheels. The original protocol is kept byte for byte. Our additions leave it unchanged, so that an original
+//! robot and an original controller still work.
 //!
 //! ```
 //! use lightbots_base::Vec2;

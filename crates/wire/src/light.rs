@@ -9,7 +9,8 @@ use crate::fields::Fields;
 use crate::number::{instant, span, write_digits};
 use crate::text_buffer::TextBuffer;
 
-/// Most records of a light track that a robot keeps (R55).
+/// Largest number of records of a stretch of light (R55). A `LIGHT` with more is invalid. With a larger value, each
+/// robot needs more memory.
 pub const MAX_LIGHT_RECORDS: usize = 192;
 /// Largest number of bytes of a track: the start colour, and for each record four bytes of duration and three of
 /// colour.
@@ -37,9 +38,10 @@ pub struct LightStretch {
     pub number: u32,
     /// Moment from which the time of the stretch counts.
     pub anchor: LightAnchor,
-    /// Time after the anchor at which the track begins.
+    /// Time of the stretch at which its track begins, counted from the anchor.
     pub skip: Span,
-    /// How long the light changes from the colour shown before to the colours of the track.
+    /// How long the light blends from the colour that was shown before to the colours of the track, counted from the
+    /// beginning of the track.
     pub over: Span,
     /// Colour at the beginning of the track.
     pub start: Rgb,
@@ -48,7 +50,7 @@ pub struct LightStretch {
 }
 
 impl LightStretch {
-    /// Returns the colours of the stretch over time.
+    /// Returns the colours of the stretch over the time since its track began.
     pub fn track(&self) -> LightTrack<'_> {
         LightTrack { start: self.start, records: &self.records }
     }

@@ -19,7 +19,8 @@ const COLOUR_BYTES: usize = 3;
 /// `LIVE n first colours`: colours for robots in consecutive slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LiveColours {
-    /// Number chosen by the controller, never 0. Each message has a higher number than the messages before.
+    /// Number of the moment of live light, never 0. Messages of one moment have the same number (R60). Numbers rise,
+    /// and wrap around after the largest one.
     pub number: u32,
     /// Slot of the first colour.
     pub first: u16,
@@ -37,7 +38,7 @@ impl LiveColours {
 /// `RELEASE n first count`: robots in consecutive slots show their own light again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LiveRelease {
-    /// Number from the same rising sequence as [`LiveColours::number`].
+    /// Number of the moment, from the same sequence as [`LiveColours::number`].
     pub number: u32,
     /// The first slot.
     pub first: u16,

@@ -13,7 +13,7 @@ use crate::fields::Fields;
 use crate::number::write_int;
 use crate::text_buffer::TextBuffer;
 
-/// Largest number of neighbours of one route (R31).
+/// Largest number of neighbours of one route (R31). With a larger value, each robot needs more memory.
 pub const MAX_NEIGHBOURS: usize = 64;
 /// Largest number of knots of all neighbours of one route together (R31).
 pub const MAX_KNOTS: usize = 256;
@@ -40,7 +40,8 @@ pub struct Neighbour {
     pub count: u16,
 }
 
-/// The neighbours of a route: first those that drive, then those that stand, each group with the nearest first (R31).
+/// The neighbours of a route. By R31, those that drive come first, then those that stand, each group with the nearest
+/// first. This type does not check the order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Neighbours {
     /// The neighbours.
@@ -77,8 +78,8 @@ impl Neighbours {
         has_room && self.knots.extend_from_slice(knots).is_ok()
     }
 
-    /// Returns the motion of a neighbour at a path time; `None` before its first knot and after its last one. A
-    /// neighbour whose velocity is zero at its last knot stays there.
+    /// Returns the motion of a neighbour at a path time. `None` before its first knot. After its last knot, `None` too,
+    /// unless its velocity there is zero: then it stays at that knot.
     pub fn motion(&self, neighbour: &Neighbour, at: Span) -> Option<NeighbourMotion> {
         let first = usize::from(neighbour.first);
         let knots = self.knots.get(first..first + usize::from(neighbour.count))?;

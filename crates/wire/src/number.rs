@@ -19,7 +19,7 @@ const POWERS_OF_TEN: [f64; 16] =
 const INSTANT_MAX_US: u64 = i64::MAX as u64;
 /// Longest duration on the wire: one hour (R22, R31).
 const DURATION_MAX: Span = Span(3_600_000_000);
-/// Largest coordinate on the wire, metres from the origin (R19, R31).
+/// Largest absolute coordinate of a route, metres (R31).
 const COORDINATE_MAX_M: f64 = 1000.0;
 /// Largest absolute value of a number in a report, in the unit of its field (R9). A position with a larger coordinate
 /// counts as unknown.
@@ -36,7 +36,7 @@ pub fn number(text: &str) -> Option<f64> {
 }
 
 /// Reads `[-]digits[.,]digits[E-digit]` with a mantissa of at most `EXACT_MAX`, correctly rounded. `None` for other
-/// texts.
+/// texts, and if decimals and exponent together exceed 15.
 fn plain_decimal(bytes: &[u8]) -> Option<f64> {
     let (negative, digits) = match bytes {
         [b'-', rest @ ..] => (true, rest),
@@ -77,17 +77,18 @@ fn any_number(bytes: &[u8]) -> Option<f64> {
     core::str::from_utf8(copy).ok()?.parse().ok()
 }
 
-/// Reads an instant in microseconds; `None` above `INSTANT_MAX_US`.
+/// Reads an instant in microseconds. `None` if the text is not a whole number from 0 to `INSTANT_MAX_US`.
 pub(crate) fn instant(text: &str) -> Option<Instant> {
     text.parse().ok().filter(|&us| us <= INSTANT_MAX_US).map(Instant)
 }
 
-/// Reads a duration in microseconds, 0 to `DURATION_MAX`.
+/// Reads a duration in microseconds. `None` if the text is not a whole number from 0 to `DURATION_MAX`.
 pub(crate) fn span(text: &str) -> Option<Span> {
     text.parse().ok().map(Span).filter(|span| (Span::ZERO..=DURATION_MAX).contains(span))
 }
 
-/// Reads a coordinate in whole tenths of a millimetre; returns metres.
+/// Reads a coordinate in whole tenths of a millimetre and returns it in metres. `None` if the text is not a whole
+/// number or the coordinate exceeds ±`COORDINATE_MAX_M`.
 pub(crate) fn metres(text: &str) -> Option<f64> {
     let tenths: i32 = text.parse().ok()?;
     let metres = f64::from(tenths) / 1e4;
@@ -136,7 +137,7 @@ pub(crate) fn write_digits(out: &mut TextBuffer<'_>, mut value: u64, width: usiz
 }
 
 /// Writes a number as C and Java print it with `%f` in an English locale: with six decimals. Finite values beyond ±10¹²
-/// are written as ±10¹², others as `NaN`, `Infinity` or `-Infinity`.
+/// are written as ±10¹². Values that are not finite are written as `NaN`, `Infinity` or `-Infinity`.
 pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() {
         return write_not_finite(out, value);
@@ -150,9 +151,9 @@ pub(crate) fn write_six_decimals(out: &mut TextBuffer<'_>, value: f64) -> fmt::R
     write_digits(out, millionths.unsigned_abs() % 1_000_000, 6)
 }
 
-/// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`, `1.0E-4`,
-/// `NaN`. Places in metres are thus rounded to a tenth of a millimetre. Finite numbers beyond `DOUBLE_MAX` become
-/// `NaN`.
+/// Writes a number as Java's `Double.toString` prints it, after rounding it to four decimals: `1.3`, `-0.73`, `1.0E-4`.
+/// Places in metres are thus rounded to a tenth of a millimetre. Finite numbers beyond ±`DOUBLE_MAX` are written as
+/// `NaN`. Values that are not finite are written as `NaN`, `Infinity` or `-Infinity`.
 pub(crate) fn write_double(out: &mut TextBuffer<'_>, value: f64) -> fmt::Result {
     if !value.is_finite() || value.abs() > DOUBLE_MAX {
         return write_not_finite(out, if value.is_finite() { f64::NAN } else { value });

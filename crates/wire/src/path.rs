@@ -1,7 +1,7 @@
 //! `PATH seq x y piece…`: a route as text, in tenths of a millimetre and microseconds.
 //!
-//! A piece is `R us` (rest), `L us x y` (straight at constant speed) or `C us x1 y1 x2 y2 x y` (cubic Bézier). After the
-//! pieces may come `G room`, the planned clearance in millimetres, and the neighbours.
+//! A piece is `R us` (rest), `L us x y` (straight at constant speed) or `C us x1 y1 x2 y2 x y` (cubic Bézier). After
+//! the pieces may come `G room`, the planned clearance in millimetres, and the neighbours.
 
 use core::fmt::{self, Write};
 
@@ -16,8 +16,8 @@ use crate::{Neighbours, Pieces, Route};
 /// values.
 type Tenths = [i32; 2];
 
-/// Reads the route after the word `PATH`. `None` if there are more than `MAX_PIECES` pieces, or a field is invalid. An
-/// invalid entry among the neighbours only ends their list (R31).
+/// Reads the route after the word `PATH`. `None` if there are more than `MAX_PIECES` pieces, or a field is missing or
+/// invalid. An invalid entry among the neighbours only ends their list (R31).
 pub(crate) fn decode_route(fields: &mut Fields<'_>) -> Option<Route> {
     let seq = fields.next()?.parse().ok().filter(|&seq| seq != 0)?;
     let start = place(fields)?;
@@ -51,8 +51,8 @@ fn place(fields: &mut Fields<'_>) -> Option<Vec2> {
     Some(Vec2::new(x, y))
 }
 
-/// Writes `PATH …` without the bars around a command. Places are rounded to a tenth of a millimetre, and durations are
-/// at least one microsecond.
+/// Writes `PATH …` without the bars around a command. Places are rounded to a tenth of a millimetre and limited to
+/// ±1000 m. Durations are at least one microsecond. Neighbours are written only after a known clearance.
 pub(crate) fn encode_route(route: &Route, out: &mut TextBuffer<'_>) -> fmt::Result {
     out.write_str("PATH ")?;
     write_int(out, i64::from(route.seq))?;

@@ -7,20 +7,21 @@ use lightbots_base::{Instant, RobotId, Vec2};
 pub struct Report {
     /// Name of the robot.
     pub id: RobotId,
-    /// Position, stage metres; `None`: not known (NaN on the wire).
+    /// Position, stage metres; `None`: not known (NaN on the wire, or a coordinate beyond ±10⁶ m).
     pub at: Option<Vec2>,
-    /// Fields after the position; `None` for an original robot.
+    /// Fields after the position; `None` if there is no known field, as from an original robot.
     pub details: Option<Details>,
 }
 
-/// The fields `key=value` after the position, in any order, all optional on the wire (R10).
+/// The fields `key=value` after the position, in any order, all optional on the wire (R10). A field that is missing or
+/// invalid has its default value: `None`, 0, `false`, empty or [`RobotState::Idle`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Details {
     /// Heading, radians counter-clockwise from the x axis of the stage; `None` if it is not known.
     pub heading: Option<f64>,
-    /// Charge of the battery, percent.
+    /// Charge of the battery, percent, 0 to 100; `None` if it is not known.
     pub battery: Option<u8>,
-    /// State (R12).
+    /// What the robot does (R12).
     pub state: RobotState,
     /// Number of the kept route. Without one, that of the route under way, or else of the route finished last; 0 if
     /// there is none.
@@ -75,12 +76,12 @@ pub type Firmware = heapless::String<24>;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum RobotState {
-    /// Stands and waits.
+    /// Stands, with nothing to drive.
     #[default]
     Idle,
     /// Keeps a route that has not begun.
     Ready,
-    /// Drives, to a target or along a route.
+    /// Drives to a target or along a route, or rolls to rest.
     Driving,
     /// Has a route under way that is held: it slows down or stands until RESUME.
     Held,

@@ -9,12 +9,13 @@ use crate::number::{DOUBLE_MAX, instant, number, write_digits, write_double, wri
 use crate::text_buffer::TextBuffer;
 use crate::{Abilities, Blocked, Details, Firmware, Report, RobotState, TimeQuestion};
 
-/// Longest report that a controller reads, bytes (R4).
+/// Longest report or time question that a controller reads, bytes (R4).
 const MAX_REPORT: usize = 1024;
 
 impl Report {
     /// Reads a report: a name and two numbers, then fields `key=value`. `None` if the name or a number is missing or
-    /// invalid. A field with an invalid value counts as not sent. Unknown fields are skipped.
+    /// invalid, or if the payload is not UTF-8 or longer than 1,024 bytes. A field with an invalid value counts as not
+    /// sent. Unknown fields are skipped.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         let id = RobotId::new(fields.next()?)?;
@@ -44,7 +45,7 @@ impl Report {
 }
 
 impl TimeQuestion {
-    /// Reads a question; `None` for all other payloads.
+    /// Reads a question; `None` if the name or the moment is missing or invalid. Fields after these two are ignored.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(text(payload)?);
         Some(Self { id: RobotId::new(fields.next()?)?, asked: instant(fields.next()?)? })
@@ -72,7 +73,7 @@ impl RobotState {
         (Self::Faulty, "faulty"),
     ];
 
-    /// Returns the word of the state on the wire and on the screen.
+    /// Returns the word of the state on the wire.
     pub fn word(self) -> &'static str {
         Self::WORDS.iter().find(|(state, _)| *state == self).map_or("idle", |(_, word)| word)
     }
@@ -89,7 +90,8 @@ fn text(payload: &[u8]) -> Option<&str> {
         .filter(|text| text.len() <= MAX_REPORT)
 }
 
-/// Stores one `key=value` field. The first field with a known key creates the details, even if its value is invalid.
+/// Stores one `key=value` field. A known key creates the details if there are none, even if the value is invalid. Of
+/// two fields with one key, the later one counts.
 fn read_detail(details: &mut Option<Details>, key: &str, value: &str) {
     match key {
         "h" => known(details).heading = finite(value),

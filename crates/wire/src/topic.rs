@@ -12,9 +12,9 @@ pub type TopicText = heapless::String<56>;
 /// ours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Topic {
-    /// `UUID`: presence of robots. Original.
+    /// `UUID`: introductions of robots. Original.
     Uuid,
-    /// `Arrival`: robots have reached their target or the end of their route. Original.
+    /// `Arrival`: reports of robots that have reached their target or the end of their route. Original.
     Arrival,
     /// `Status`: periodic reports, and reports of changes. Ours.
     Status,

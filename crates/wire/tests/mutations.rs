@@ -17,7 +17,7 @@ use checks::read;
 use mutator::{corpus_files, keep_broken, mutant, rounds};
 use numbers::Numbers;
 
-/// Number of mutations of each message in a usual run.
+/// Number of mutations of each message in a usual run. With more, the test takes longer.
 const USUAL: usize = 2_000;
 
 /// Longest payload after a mutation, bytes. Without a bound, doubled pieces would make it grow without end.

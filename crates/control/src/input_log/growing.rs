@@ -32,8 +32,8 @@ pub fn replay_observed(
     replay.finish()
 }
 
-/// Replays a log while it is being written. Blocks last about a second, so the replay is about a second behind the
-/// recorded controller.
+/// Replays a log while it is being written. A block holds about a second of inputs, so the replay is about a second
+/// behind the recorded controller.
 #[derive(Debug, Default)]
 pub struct GrowingReplay {
     /// Bytes that were fed and are not replayed yet, because they are no whole block.

@@ -2,10 +2,10 @@
 //!
 //! A log is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian) and blocks ([`crate::block`]). The
 //! first block is the [`LogHeader`], which holds the controller at rest with its show. Each further block holds the
-//! records of inputs of about a second. A record after each taking of outputs holds two bytes of the digest of all
-//! outputs until then. A replay compares these bytes, and thus finds the first input after which an output differs.
-//! Plans are not in the log: the replay makes them again. If the planner was cancelled, the replay cancels it at the
-//! same check.
+//! records of inputs of about a second, or of less. If outputs were taken after an input, a record before the next
+//! input holds two bytes of the digest of all outputs until then. A replay compares these bytes, and thus finds the
+//! first input after which an output differs. Plans are not in the log: the replay makes them again. If the planner was
+//! cancelled, the replay cancels it at the same check.
 //!
 //! [`RecordedController`] writes a log, [`replay`] replays it.
 

@@ -5,19 +5,19 @@ use crate::operation::Operation;
 use lightbots_base::Span;
 use serde::{Deserialize, Serialize};
 
-/// One input, or the outputs that were taken after an input. `after`, or the single field of a variant, is the time
-/// since the input before.
+/// One input, the outputs that were taken after an input, or the end of the log. `after`, and the only value of `Wake`,
+/// `Connected` and `Disconnected`, is the time since the input before.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Record<'a> {
     /// A call of `wake`: time passed.
     Wake(Span),
-    /// A robot's message. Its payload consists of the first `front` bytes of an earlier payload, `middle`, and the last
-    /// `back` bytes of the earlier payload.
+    /// A message on one of the topics of robots. Its payload consists of the first `front` bytes of an earlier payload,
+    /// `middle`, and the last `back` bytes of the earlier payload.
     Message {
         after: Span,
         topic: RobotTopic,
-        /// Number of the earlier payload in the list of `Senders`, counted from 1; 0 if there is none, and `middle` is
-        /// the whole payload.
+        /// Number of the earlier payload in the list of `Senders`, counted from 1; 0 if the payload is compared with
+        /// none, and `middle` is the whole payload.
         like: u32,
         /// Number of bytes with which both payloads begin.
         front: u16,
@@ -62,8 +62,12 @@ pub(crate) enum RobotTopic {
 pub(crate) struct OutputKinds;
 
 impl OutputKinds {
+    /// Messages to robots were taken.
     pub const SENDS: u8 = 1;
+    /// Events were taken.
     pub const EVENTS: u8 = 2;
+    /// Plan requests were taken.
     pub const REQUESTS: u8 = 4;
+    /// An operation, or the taking up of a run, was answered.
     pub const ANSWER: u8 = 8;
 }

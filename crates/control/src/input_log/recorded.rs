@@ -34,8 +34,9 @@ impl RecordedController {
         Self { controller, recording: None }
     }
 
-    /// Drops the present log and begins a new one. `notes`: names and values for people. During a run, while robots are
-    /// being stopped, and if outputs wait to be taken, no new log begins, and the result is `false`.
+    /// Drops the present log, with its bytes that were not taken, and begins a new one. `notes`: names and values for
+    /// people. During a run, while robots are being stopped, and if outputs wait to be taken, no new log begins. The
+    /// present one is dropped even then, and the result is `false`.
     pub fn begin_log(&mut self, now: Instant, notes: Vec<(String, String)>) -> bool {
         let checkpoint = self.controller.checkpoint();
         self.recording = checkpoint.map(|checkpoint| Recording::begin(now, notes, checkpoint));
@@ -59,34 +60,35 @@ impl RecordedController {
         recording.take()
     }
 
-    /// [`Controller::keep_journal`]
+    /// Keeps a journal of each run from now on, as [`Controller::keep_journal`] does. This is not recorded.
     pub fn keep_journal(&mut self) {
         self.controller.keep_journal();
     }
 
-    /// [`Controller::take_journal`]
+    /// Returns the next piece for the journal's file, as [`Controller::take_journal`] does. This is not recorded.
     pub fn take_journal(&mut self, clocks: ComputerTime) -> Option<JournalPiece> {
         self.controller.take_journal(clocks)
     }
 
-    /// [`Controller::begin_journal_again`]
+    /// Makes the next piece of the journal a whole journal, as [`Controller::begin_journal_again`] does. This is not
+    /// recorded.
     pub fn begin_journal_again(&mut self) {
         self.controller.begin_journal_again();
     }
 
-    /// [`Controller::connected`]
+    /// Records that the broker is connected, and handles it as [`Controller::connected`] does.
     pub fn connected(&mut self, now: Instant) {
         self.record(now, Record::Connected);
         self.controller.connected(now);
     }
 
-    /// [`Controller::disconnected`]
+    /// Records that the broker is lost, and handles it as [`Controller::disconnected`] does.
     pub fn disconnected(&mut self, now: Instant) {
         self.record(now, Record::Disconnected);
         self.controller.disconnected(now);
     }
 
-    /// [`Controller::message`]
+    /// Records a message, and handles it as [`Controller::message`] does.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         if let Some(recording) = &mut self.recording {
             recording.message(now, topic, payload);
@@ -94,7 +96,7 @@ impl RecordedController {
         self.controller.message(now, topic, payload);
     }
 
-    /// [`Controller::operate`]
+    /// Records an operation and its answer, and carries it out as [`Controller::operate`] does.
     pub fn operate(&mut self, now: Instant, operation: Operation) -> Result<(), Refusal> {
         if let Some(recording) = &mut self.recording {
             let operation = operation.clone();
@@ -105,7 +107,7 @@ impl RecordedController {
         answer
     }
 
-    /// [`Controller::take_up`]
+    /// Records that a run is taken up, and takes it up as [`Controller::take_up`] does.
     pub fn take_up(
         &mut self,
         now: Instant,
@@ -128,20 +130,21 @@ impl RecordedController {
         }
     }
 
-    /// [`Controller::wake`]
+    /// Records that time passed, and does what is due as [`Controller::wake`] does.
     pub fn wake(&mut self, now: Instant) {
         self.record(now, Record::Wake);
         self.controller.wake(now);
     }
 
-    /// [`Controller::planned`]
+    /// Records that a plan was made, but not the plan itself, and handles it as [`Controller::planned`] does.
     pub fn planned(&mut self, now: Instant, result: PlanResult) {
         let (number, cancelled_at) = (result.number, result.cancelled_at.unwrap_or(0));
         self.record(now, |after| Record::Planned { after, number, cancelled_at });
         self.controller.planned(now, result);
     }
 
-    /// [`Controller::next_send`]
+    /// Takes the next message to publish as [`Controller::next_send`] does, and adds it to the digest of the log, if
+    /// there is one.
     pub fn next_send(&mut self) -> Option<Send> {
         let send = self.controller.next_send()?;
         if let Some(recording) = &mut self.recording {
@@ -151,7 +154,7 @@ impl RecordedController {
         Some(send)
     }
 
-    /// [`Controller::next_event`]
+    /// Takes the next event as [`Controller::next_event`] does, and adds it to the digest of the log, if there is one.
     pub fn next_event(&mut self) -> Option<Event> {
         let event = self.controller.next_event()?;
         if let Some(recording) = &mut self.recording {
@@ -161,7 +164,8 @@ impl RecordedController {
         Some(event)
     }
 
-    /// [`Controller::next_plan_request`]
+    /// Takes the next plan request as [`Controller::next_plan_request`] does, and adds it to the digest of the log, if
+    /// there is one.
     pub fn next_plan_request(&mut self) -> Option<PlanRequest> {
         let request = self.controller.next_plan_request()?;
         if let Some(recording) = &mut self.recording {

@@ -8,10 +8,10 @@ use crate::block::append_block;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::Topic;
 
-/// Longest duration of a block of records, show clock. With longer blocks more inputs are lost when the program is
-/// killed.
+/// A block of records is closed at the first input that comes this long after the block began, show clock. With longer
+/// blocks more inputs are lost when the program is killed.
 const BLOCK_LASTS: Span = Span::from_millis(1_000);
-/// A block of records is closed once its content has this number of bytes.
+/// A block of records is closed at the next input once its content has this number of bytes.
 const BLOCK_BYTES: usize = 32 * 1024;
 
 /// A log that is being written.
@@ -57,7 +57,7 @@ impl Recording {
     }
 
     /// Appends a message. Of a robot's payload only the part is stored that differs from the robot's last payload on
-    /// this topic.
+    /// this topic, if that is remembered.
     pub fn message(&mut self, now: Instant, topic: &str, payload: &[u8]) {
         let after = self.advance(now);
         let topic_of_robots = match Topic::parse(topic) {

@@ -42,8 +42,8 @@ pub enum LogError {
 pub enum LogEnd {
     /// At the record `End`, which the writer appends to a whole log.
     Complete,
-    /// Without the record `End`: the writer was killed, or bytes were cut off or changed. Holds the number of bytes up to
-    /// the end of the last whole block that was read.
+    /// Without the record `End`: the writer was killed, or bytes were cut off or changed. Holds the number of bytes up
+    /// to the end of the last whole block that was read.
     Cut(u64),
     /// Unknown, because the replay stopped at a difference and read no further.
     NotReached,
@@ -99,7 +99,8 @@ pub enum ReplayStep<'a> {
         /// Its payload.
         payload: &'a [u8],
     },
-    /// An input that is neither a message nor the passing of time is about to be handled. Holds its description for people.
+    /// An input that is neither a message nor the passing of time is about to be handled. Holds its description for
+    /// people.
     Input(&'a str),
     /// The controller sent this message.
     Sent(&'a Send),
@@ -112,7 +113,8 @@ pub enum ReplayStep<'a> {
 /// A function that is called for each step of a replay, with the show clock and the controller at that moment.
 pub type ReplayObserver<'o> = dyn FnMut(Instant, &Controller, ReplayStep<'_>) + 'o;
 
-/// Checks that this program can replay a log that begins with `head`: at least the first [`HEAD_BYTES`] bytes of the log.
+/// Checks that this program can replay a log that begins with `head`: at least the first [`HEAD_BYTES`] bytes of the
+/// log.
 pub fn check_head(head: &[u8]) -> Result<(), LogError> {
     let rest = head.strip_prefix(MAGIC).ok_or(LogError::NoLog)?;
     let (version, _) = rest.split_first_chunk().ok_or(LogError::NoLog)?;
@@ -265,8 +267,8 @@ impl Replay {
         self.controller.planned(self.now, result);
     }
 
-    /// Takes outputs of the recorded kinds (`taken`), as the program around the recorded controller did. Then compares the
-    /// digest of all outputs until now with the recorded `digest`.
+    /// Takes outputs of the recorded kinds (`taken`), as the program around the recorded controller did. Then compares
+    /// the digest of all outputs until now with the recorded `digest`.
     fn compare(&mut self, taken: u8, digest: [u8; 2], observe: &mut ReplayObserver<'_>) {
         let mut lines = Vec::new();
         let mut line = |text: &dyn Fn() -> String| {

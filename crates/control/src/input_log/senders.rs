@@ -8,8 +8,8 @@ use std::hash::{BuildHasherDefault, DefaultHasher};
 
 /// Longest payload that is remembered, bytes; a longer payload is stored whole in the log.
 const PAYLOAD_MAX: usize = 1_024;
-/// Largest number of payloads that are remembered. It is more than the number of robots that a controller remembers,
-/// times the number of their topics.
+/// Largest number of payloads that are remembered. It is more than the number of robots that a controller remembers by
+/// default, times the number of their topics.
 const SENDERS_MAX: usize = 100_000;
 
 /// The last payload of each robot on each topic. Writer and reader of a log make the same changes to it, so numbers
@@ -23,7 +23,8 @@ pub(crate) struct Senders {
 /// What a payload has in common with an earlier payload of the same robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Likeness {
-    /// Number of the earlier payload, counted from 1; 0 if there is none.
+    /// Number of the earlier payload, counted from 1; 0 if the payload is not remembered, and so was compared with
+    /// none.
     pub like: u32,
     /// Number of bytes that both payloads have in common at the front.
     pub front: u16,
@@ -32,8 +33,9 @@ pub(crate) struct Likeness {
 }
 
 impl Senders {
-    /// Compares a payload with the last payload of its robot on this topic. Remembers the new payload in place of the
-    /// last one.
+    /// Compares a payload with the last payload of its robot on this topic, or with an empty one if it is the first.
+    /// Remembers the new payload in place of the last one. A payload that is not to be remembered is compared with
+    /// none.
     pub fn compare(&mut self, topic: RobotTopic, payload: &[u8]) -> Likeness {
         let unlike = Likeness { like: 0, front: 0, back: 0 };
         let Some(number) = self.number(topic, payload) else { return unlike };

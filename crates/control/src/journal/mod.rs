@@ -1,9 +1,9 @@
 //! The journal of a run: all that a new controller needs to go on with the run after the controller was killed.
 //!
 //! A journal is the bytes [`MAGIC`], the number [`VERSION`] (2 bytes, little-endian), the byte [`OUTDATED`] and blocks
-//! ([`crate::block`]). Each block is an [`Entry`] with changes of the [`JournalState`]. The first entry holds the whole state, the show
-//! included. A journal that was cut anywhere ends with its last whole entry. A journal that has become long is replaced
-//! by a new one that begins with the present state.
+//! ([`crate::block`]). Each block is an [`Entry`] with changes of the [`JournalState`]. The first entry holds the whole
+//! state, the show included. A journal that was cut anywhere ends with its last whole entry. A journal that has become
+//! long is replaced by a new one that begins with the present state.
 //!
 //! [`Journal`] writes the entries of a run, [`UnfinishedRun`] is the run read from them, and
 //! [`Controller::take_up`](crate::Controller::take_up) goes on with that run.
@@ -31,6 +31,7 @@ const MAGIC: &[u8; 8] = b"LBotsJrn";
 /// `Show`.
 pub(crate) const VERSION: u16 = 13;
 
-/// Place and value of the byte that says that entries after the last one are missing. A shell writes it when a piece could
-/// not be written: also on a full disk a byte can be replaced. The byte is 0 before.
+/// Place (offset in bytes) and value of the byte that says that entries after the last one are missing. The program
+/// that keeps the file writes it when it could not write a piece: also on a full disk a byte can be replaced. The byte
+/// is 0 before.
 pub const OUTDATED: (usize, u8) = (MAGIC.len() + size_of::<u16>(), 1);

@@ -18,7 +18,7 @@ pub enum JournalError {
     OtherVersion(u16),
     /// Not even the first entry is whole.
     NoEntry,
-    /// An entry is not valid, although its checksum is right.
+    /// An entry is not valid, or the state after all entries is not plausible, although the checksums are right.
     BadEntry,
 }
 
@@ -100,8 +100,8 @@ impl UnfinishedRun {
     }
 
     /// Returns the show clock of the run at the time when the computer's clocks read `now`. Robots may still drive by
-    /// this show clock, so a new controller must continue it. If only the time of day is known and was set back, no time
-    /// counts as passed.
+    /// this show clock, so a new controller must continue it. If only the time of day is known and was set back, no
+    /// time counts as passed.
     pub fn show_clock_at(&self, now: &ComputerTime) -> Instant {
         Instant(self.at.0.saturating_add(now.us_since(&self.clocks)))
     }

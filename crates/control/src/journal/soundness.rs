@@ -10,7 +10,8 @@ use std::collections::BTreeSet;
 /// overflow.
 const TIME_MAX: u64 = 1 << 60;
 /// Longest time from an entry of a journal to the begin of a hold that was stated before the entry. Controllers state
-/// holds at most 4 s ahead. With a larger value, a forged journal delays every START of the controller that takes it up.
+/// holds at most 4 s ahead. With a larger value, a forged journal delays every START of the controller that takes it
+/// up.
 const HOLD_AHEAD: Span = Span::from_millis(60_000);
 
 impl JournalState {

@@ -97,7 +97,7 @@ pub(crate) struct Position {
     /// When robots stopped, if the drive was broken off. The value is kept until robots drive again, even if the run is
     /// interrupted again meanwhile.
     pub stops: Option<StopTimes>,
-    /// The air time under way. `None` unless robots stand in a frame or where a drive was broken off.
+    /// The air time that is under way while robots stand, or that was interrupted. `None` otherwise.
     pub stood: Option<AirTime>,
 }
 

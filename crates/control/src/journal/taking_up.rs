@@ -12,23 +12,23 @@ use crate::run::{Participant, PlayedShow, Roster, Run, RunPurpose, StopTimes};
 use lightbots_base::{Instant, Span, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Longest silence of a driving robot at the moment of the journal's last entry. After a longer silence the controller would
-/// have held all robots.
+/// Longest silence of a driving robot at the moment of the journal's last entry. After a longer silence the controller
+/// would have held all robots.
 const UNHEARD: Span = Span::from_millis(1_500);
-/// Time after the journal's last entry by which all robots stand. The controller ended at most 2 s after the entry. At most
-/// 2.5 s later each robot has stopped (R43 of docs/protocol.md).
+/// Time after the journal's last entry by which all robots stand. The controller ended at most 2 s after the entry. At
+/// most 2.5 s later each robot has stopped (R43 of docs/protocol.md).
 const STANDS_AFTER: Span = Span::from_millis(4_500);
-/// A time that is longer than any run.
+/// A time that is longer than any run: 1,000 days.
 const FOR_EVER: Span = Span::from_millis(86_400_000_000);
 
 /// What a new controller does with a run that was cut off. A preflight never goes on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OnReturn {
-    /// The run goes on by itself if its robots report within `WaitBounds::goes_on_within` of the journal's last entry, and
-    /// no later entry was lost. Otherwise the operator is asked.
+    /// The run goes on by itself if its robots report within `WaitBounds::goes_on_within` of the journal's last entry,
+    /// and no later entry was lost. Otherwise the operator is asked.
     #[default]
     GoOrAsk,
-    /// The run goes on by itself.
+    /// The run goes on by itself once its robots report, however long that takes.
     Go,
     /// The operator is asked.
     Ask,
@@ -37,10 +37,10 @@ pub enum OnReturn {
 }
 
 impl Controller {
-    /// Takes up a run whose former controller is gone, and opens its show. The run is interrupted until its robots report,
-    /// and is then planned from where robots stand. If `on_return` lets it not go on, all robots are told to stop instead.
-    /// Refused during another run and while robots are being stopped. Call this before [`connected`](Self::connected), with
-    /// `now` from [`show_clock_at`](UnfinishedRun::show_clock_at).
+    /// Takes up a run whose former controller is gone, and opens its show. The run is interrupted until its robots
+    /// report, and is then planned from where robots stand. If `on_return` is `Stop` or the run is a preflight, all
+    /// robots are told to stop instead. Refused during another run and while robots are being stopped. Call this before
+    /// [`connected`](Self::connected), with `now` from [`show_clock_at`](UnfinishedRun::show_clock_at).
     pub fn take_up(
         &mut self,
         now: Instant,
@@ -72,8 +72,8 @@ impl Controller {
 }
 
 impl UnfinishedRun {
-    /// Returns the longest time from `now` on until the robots report after which the run goes on without the operator. Zero:
-    /// the operator is asked in any case. `now`: see [`show_clock_at`](Self::show_clock_at).
+    /// Returns for how long from `now` on the robots may stay silent so that the run still goes on without the
+    /// operator. Zero: the operator is asked in any case. `now`: see [`show_clock_at`](Self::show_clock_at).
     pub fn goes_on_within(&self, now: Instant, on_return: OnReturn, waits: &WaitBounds) -> Span {
         match on_return {
             OnReturn::Go => FOR_EVER,
@@ -94,8 +94,8 @@ fn restore_mapping(context: &mut Context, state: &JournalState) {
 }
 
 impl Run {
-    /// Returns the run of a journal in the phase Interrupted, as if its robots had been out of reach until now. `by_itself`:
-    /// longest interruption after which the run goes on without the operator.
+    /// Returns the run of a journal in the phase Interrupted, as if its robots had been out of reach until now.
+    /// `by_itself`: longest interruption after which the run goes on without the operator.
     fn take_up(context: &mut Context, now: Instant, unfinished: &UnfinishedRun, by_itself: Span) -> Self {
         let UnfinishedRun { at, state, .. } = unfinished;
         let (begun, progress) = (&state.begun, &state.progress);
@@ -146,14 +146,14 @@ impl Run {
     }
 }
 
-/// Whether a participant stands at its goal in the leg of a journal. All participants do after the leg. During the leg, only
-/// those do that the leg leaves where they are.
+/// Whether a participant stands at its goal in the leg of a journal. All participants do after the leg. During the leg,
+/// only those do that the leg leaves where they are.
 fn stands_at_goal(leg: &Leg, position: Position, participant: usize) -> bool {
     position.is_at_goals() || position.drive.is_some() && !leg.is_driven_by(participant)
 }
 
-/// Stores what the journal says of a robot. Until the robot reports, its place is `goal` (stage metres) if it takes part and
-/// `goal` is given, otherwise the place in the journal.
+/// Stores what the journal says of a robot. Until the robot reports, its place is `goal` (stage metres) if it takes
+/// part and `goal` is given, otherwise the place in the journal.
 fn expect(context: &mut Context, robot: usize, entry: &ParticipantEntry, goal: Option<Vec2>) {
     let robot = context.fleet.robot_mut(robot);
     robot.reported.abilities = entry.abilities;

@@ -109,8 +109,8 @@ fn entry(changes: Vec<Change>) -> Entry {
     }
 }
 
-/// A change of any type that is written changes these bytes. Then raise [`VERSION`], so that older journals are refused by
-/// their number and not misread.
+/// A change of any type that is written changes these bytes. Then raise [`VERSION`], so that older journals are refused
+/// by their number and not misread.
 #[test]
 fn the_format_is_that_of_its_version() {
     let clock = PathClock::new(Instant(1), Span(2));

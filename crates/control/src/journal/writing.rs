@@ -11,7 +11,8 @@ use crate::mutant::Mutant;
 use crate::run::Run;
 use lightbots_base::{Instant, Span};
 
-/// Longest time between two entries of a journal. A later controller computes from it by when robots stood.
+/// Longest time between two entries of a journal while the controller runs. A later controller computes from it by when
+/// robots stood.
 const ALIVE: Span = Span::from_millis(2_000);
 /// A new journal replaces one that is longer than both this number of bytes and this multiple of its first piece. A
 /// journal thus stays small while a show loops for days.
@@ -72,7 +73,8 @@ impl Journal {
         }
     }
 
-    /// Records all that changed in this run since the last call.
+    /// Records what changed in this run since the last call, if a journal is kept. Pins, owners and obstacles are
+    /// compared only with a new leg and after an operation.
     pub fn note(&mut self, now: Instant, run: &Run, context: &Context) {
         if !self.is_kept {
             return;
@@ -208,7 +210,7 @@ impl Journal {
         }
     }
 
-    /// Records the leg of the run if it is not recorded yet. Returns whether it was recorded now.
+    /// Records the leg of the run, if there is one and it is not recorded yet. Returns whether it was recorded now.
     fn note_leg(&mut self, now: Instant, run: &Run) -> bool {
         let Some(leg) = run.phase.left_leg(&run.pipeline) else { return false };
         let known = self.state.as_ref().and_then(|state| state.leg.as_ref());

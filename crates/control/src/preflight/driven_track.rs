@@ -1,8 +1,8 @@
 //! Compares the headings that a robot reports on a drive with the direction in which it really drove.
 //!
-//! A robot whose marker is mounted askew still reaches its goals, because feedback corrects its path. While the robot
-//! drives, it estimates its place from its wheels and its heading. Once the robot stands, position fixes measure its
-//! place, and thus the direction of the drive.
+//! A robot with a marker that is mounted askew still reaches its goals, because feedback corrects its path. While the
+//! robot drives, it estimates its place from its wheels and its heading. Once the robot stands, position fixes measure
+//! its place, and thus the direction of the drive.
 
 use lightbots_base::{Vec2, difference};
 
@@ -60,7 +60,7 @@ impl DrivenTrack {
 mod tests {
     use super::*;
 
-    /// Returns the angle, degrees, that is found for a robot that drives on an arc and whose headings are off.
+    /// Returns the angle, degrees, that is found for a robot that drives on an arc and reports headings that are off.
     fn askew_deg(off_deg: f64, backwards: bool) -> f64 {
         let mut track = DrivenTrack::default();
         let place = |heading: f64| Vec2::new(heading.sin(), -heading.cos()) * 0.22;

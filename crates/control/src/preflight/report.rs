@@ -15,7 +15,7 @@ pub(crate) const OFF_RAD: f64 = 3.0 * core::f64::consts::PI / 180.0;
 pub struct PreflightReport {
     /// Whether the preflight was carried out to its end.
     pub finished: bool,
-    /// Every robot that was to be tested, in the order of the fleet.
+    /// The robots that took part, and all other admitted robots, in the order of the fleet.
     pub robots: Vec<PreflightRobot>,
 }
 
@@ -26,7 +26,7 @@ pub struct PreflightRobot {
     pub id: RobotId,
     /// What is wrong with the robot; empty if it passed.
     pub findings: Vec<PreflightFinding>,
-    /// Largest measured distance from a planned place, metres; `None` if none was measured.
+    /// Largest measured distance of the robot from a planned place, metres; `None` if none was measured.
     pub off_m: Option<f64>,
     /// Largest measured angle, radians: from a planned heading, or from the reported headings to the direction of the
     /// drive. `None` if none was measured.
@@ -62,7 +62,7 @@ pub enum PreflightFinding {
     Failed(Trouble),
     /// There is no free floor around the robot for its test drive, or no path to its goal was found.
     NoRoom,
-    /// The preflight ended before the robot was tested, or the robot came during the preflight.
+    /// The preflight ended before the test of the robot was complete, or the robot came during the preflight.
     Unfinished,
 }
 
@@ -72,7 +72,7 @@ impl PreflightReport {
         self.robots.iter().filter(|robot| robot.passed()).count()
     }
 
-    /// Returns the result for a robot; `None` if the robot was not to be tested.
+    /// Returns the result for a robot; `None` if the report has none.
     pub fn of(&self, robot: RobotId) -> Option<&PreflightRobot> {
         self.robots.iter().find(|tested| tested.id == robot)
     }

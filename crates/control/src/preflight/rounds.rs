@@ -2,7 +2,7 @@
 //!
 //! The robots are not tested yet: a robot may not stop, or may drive too far. So the lines of robots that drive in one
 //! round keep a gap from each other and from all standing robots, along their whole lengths. At any place on its line,
-//! a robot meets no other robot.
+//! a robot meets no other robot. Robots that already stand closer than the gap keep about their distance.
 
 use crate::floor_cells::FloorCells;
 use lightbots_base::Vec2;

@@ -29,7 +29,8 @@ pub(crate) fn places(cx: &RunContext) -> Arc<[Vec2]> {
     (0..cx.roster.len()).filter_map(|participant| place(cx, participant)).collect()
 }
 
-/// Whether the first leg of the queue leads through a robot that dropped out. If so, counts a replan for that robot.
+/// Whether the first leg of the queue leads through a robot that dropped out and stands where no plan expected it. If
+/// so, counts a replan for that robot.
 pub(crate) fn obstruct_next(cx: &mut RunContext) -> bool {
     let obstructing = cx.pipeline.queue.front().and_then(|leg| {
         (0..cx.roster.len()).find(|&participant| {

@@ -6,9 +6,9 @@ use crate::run::probation;
 use crate::run::readiness::is_ready;
 use crate::run::run_context::RunContext;
 
-/// Makes a robot a candidate for the next frame, if it may take part. Called when a robot that takes no part or dropped
-/// out has reported. A robot that was never in the run is wanted only while pixels stay dark. May send the route of a
-/// driving test. `is_stopping`: all robots are being stopped.
+/// Makes a robot a candidate for the next frame, if a show is played and the robot may take part and is ready. Called
+/// when a robot that takes no part or dropped out has reported. A robot that was never in the run is wanted only while
+/// pixels stay dark. May send the route of a driving test. `is_stopping`: all robots are being stopped.
 pub(crate) fn consider(cx: &mut RunContext, robot: usize, is_stopping: bool) {
     let participant = cx.io.fleet.robot(robot).participant.map(|participant| participant as usize);
     let is_welcome = match participant {

@@ -1,4 +1,5 @@
-//! Waiting for precise clocks. Robots whose clocks differ are not where the plan has them, and brake for each other.
+//! Waiting for precise clocks. If their clocks differ, robots are not where the plan has them, and brake for each
+//! other.
 
 use lightbots_base::{Instant, Span};
 

@@ -51,7 +51,7 @@ const BOUNDS: Bounds = Bounds {
 /// The state while robots are stopped and asked where they stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gathering {
-    /// The moment at which robots that received STOP or HOLD stand.
+    /// The moment at which robots that received STOP or HOLD in time stand, show clock.
     since: Instant,
     /// Reports from this moment on count.
     fresh_from: Instant,
@@ -112,7 +112,8 @@ impl Gathering {
         self.left.stood = None;
     }
 
-    /// The robots (indices into the fleet) for which all others wait.
+    /// The robots (indices into the fleet) for which all others wait: not ready yet, or with a clock that is not
+    /// precise.
     pub fn awaited<'a>(&'a self, io: &'a Context, roster: &'a Roster) -> impl Iterator<Item = usize> + 'a {
         let robots = roster.active().map(|(_, known)| known.robot);
         robots.filter(|&robot| {
@@ -120,7 +121,7 @@ impl Gathering {
         })
     }
 
-    /// Whether all robots have reported where they stand, and some clock is not precise yet.
+    /// Whether all robots are ready, except that some clock is not precise yet.
     pub fn waits_for_clocks_only(&self, io: &Context, roster: &Roster) -> bool {
         let is_ready = |robot: usize| missing(io, robot, self.fresh_from).is_none();
         roster.active().all(|(_, known)| is_ready(known.robot)) && self.awaited(io, roster).next().is_some()
@@ -234,8 +235,8 @@ pub(crate) fn hold_before_stop(cx: &RunContext, clock: &PathClock) -> Option<Ins
     (cx.now < at + Route::EASE && at < clock.ends).then_some(at)
 }
 
-/// Whether the run still waits for robots whose clocks are not precise yet. When the wait begins, an event names the
-/// robot with the least precise clock.
+/// Whether the run still waits for robots with clocks that are not precise yet. When the wait begins, an event names
+/// the robot with the least precise clock.
 fn waits_for_clocks(cx: &mut RunContext) -> bool {
     let clocks = cx.roster.active().map(|(one, known)| (clock_us(cx.io, known.robot), one));
     let worst = clocks.max().filter(|&(us, _)| us > PRECISE_US);
@@ -258,7 +259,7 @@ fn clock_us(io: &Context, robot: usize) -> u32 {
     io.fleet.robot(robot).reported.clock_us.unwrap_or(0)
 }
 
-/// Asks each robot for what it lacks.
+/// Asks each robot for what it lacks: a robot that does not stand is told to stop, the others are asked for a report.
 fn ask(cx: &mut RunContext, unready: &[(usize, Trouble)]) {
     for &(participant, why) in unready {
         if why == Trouble::Deaf {

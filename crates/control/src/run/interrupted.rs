@@ -1,9 +1,9 @@
 //! The phase in which the run is interrupted because its robots are out of reach: the broker is away, or many robots
 //! are silent. The run goes on once robots report where they are.
 //!
-//! Robots that are out of reach stop by themselves (R43 of docs/protocol.md), so they do not drop out. After a short
-//! interruption the run goes on by itself. After a longer one the operator has to agree, because people may be on the
-//! floor by then.
+//! Robots that are out of reach stop by themselves (R43 of docs/protocol.md), so they do not drop out at once. After a
+//! short interruption the run goes on by itself. After a longer one the operator has to agree, because people may be on
+//! the floor by then.
 
 use crate::event::{EventKind, Trouble};
 use crate::journal::Position;
@@ -48,7 +48,7 @@ pub(crate) struct Interrupted {
     /// When enough robots had reported again for the run to go on, or when the operator let it go on before that.
     /// `None` until then.
     back_at: Option<Instant>,
-    /// Number of robots that have reported since the interruption, and when that number last grew.
+    /// Largest number of active robots that have reported since the interruption, and when it last grew.
     reported: (usize, Instant),
     ask_at: Instant,
     /// When robots that report again were last sent HOLD or STOP.

@@ -9,8 +9,8 @@ use crate::run::phase::RunPhase;
 use lightbots_base::Instant;
 
 impl Run {
-    /// Whether the operator may choose the next frame: robots stand or are being stopped, are held on their drive, or
-    /// the run is paused. `false` while the run is interrupted, and once it is over.
+    /// Whether the operator may choose the next frame: robots stand, are being stopped, or are held on their drive.
+    /// Also if the run is paused before or on a drive. `false` while the run is interrupted, and once it is over.
     pub fn may_jump(&self) -> bool {
         match &self.phase {
             RunPhase::Standing(_) | RunPhase::Gathering(_) => true,

@@ -81,8 +81,8 @@ impl Run {
         }
     }
 
-    /// Whether the next frame may be left out for the music. It must stay if it is the last one, is in a loop, has a
-    /// cue, or was chosen by the operator.
+    /// Whether the next frame may be left out for the music. It must stay if it is the last one, is in a loop or has a
+    /// cue. It must also stay if it became the next one by a jump (a choice, a skip or a left-out frame).
     fn may_leave_out_next(&self) -> bool {
         let playback = &self.playback;
         let frame = playback.next.frame;

@@ -42,7 +42,7 @@ pub(crate) struct LegTimes {
     pub drive: Span,
     /// Air time (stay of robots) that the show gives the frame; zero if the leg does not reach the frame.
     pub air: Span,
-    /// Whether the frame has a cue. Show time then goes on until the operator gives GO.
+    /// Whether robots wait for the operator's GO in the frame that the leg reaches. Show time then goes on until GO.
     pub waits_for_go: bool,
     /// How long show time had stood still in the run until the drive began, seconds. Corrected so that layers that run
     /// freely keep to the music.
@@ -113,7 +113,7 @@ impl LegLight {
         self.times.lead_s + self.clock.map_or(0.0, |clock| clock.lost.as_secs())
     }
 
-    /// What determines the light of a participant in this leg. `next` is the leg to the next frame. `None` if the
+    /// What determines the light of a participant in this leg. `next` is the leg after this one. `None` if the
     /// participant is not in the leg.
     pub fn driven<'a>(
         &self,

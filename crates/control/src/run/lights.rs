@@ -56,7 +56,7 @@ impl Default for Lights {
 impl Lights {
     /// Sends robots their changes of light for a drive from `began` to `ends`. If a robot has a route in the `next`
     /// leg, its change is sent along with that route, which is acknowledged. Otherwise the change is sent at once and
-    /// repeated. Robots that cannot fade are sent their new colour in the middle of the fade.
+    /// repeated. Robots that follow routes and cannot fade are sent their new colour in the middle of the fade.
     pub fn begin_drive(
         &mut self,
         context: &mut Context,
@@ -152,7 +152,7 @@ impl Lights {
         self.repeat_at.min(self.colors_at)
     }
 
-    /// The change of light to send along with the next route of a participant. `None` if it has received all.
+    /// The change of light to send along with the next route of a participant. `None` if none is pending.
     pub fn pending(&self, participant: usize) -> Option<Fade> {
         self.pending.get(participant).copied().flatten()
     }

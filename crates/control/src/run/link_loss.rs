@@ -49,7 +49,8 @@ const ANSWER: Span = Span::from_millis(600);
 /// What the silence of robots means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// The silent robots are lost, because enough other robots answer, or too few take part to tell.
+    /// The silent robots are lost, because enough other robots answer, too few take part to tell, or the robots fell
+    /// silent one after the other.
     RobotsLost,
     /// It is not known yet: the other robots have not had enough time to answer.
     Unknown,

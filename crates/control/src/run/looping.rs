@@ -20,7 +20,8 @@ impl Run {
     }
 
     /// The loop whose frames are played, and the last frame of its present pass. A loop begins once robots have reached
-    /// its first frame. A second GO at the cue before the loop therefore does not end the loop.
+    /// its first frame. A second GO at the cue before the loop therefore does not end the loop. `None` if no loop has
+    /// begun.
     fn present_loop(&self) -> Option<(FrameLoop, FrameCursor)> {
         let present = self.present();
         let repeats = self.playback.loop_at(present.frame)?;

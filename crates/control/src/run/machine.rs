@@ -216,7 +216,7 @@ impl Run {
         self.regather(io, now);
     }
 
-    /// All places where a robot that drops out now may stand. Empty if it stands at the place that it reported last.
+    /// The places where a robot that drops out now may stand. Empty if it stands at the place that it reported last.
     fn whereabouts(
         &mut self,
         io: &mut Context,

@@ -4,8 +4,8 @@ use crate::event::Trouble;
 use lightbots_base::Instant;
 use serde::{Deserialize, Serialize};
 
-/// A robot whose `Membership::dropouts` is more than this does not come back in the run, because each dropout costs a
-/// new plan.
+/// A robot with more `Membership::dropouts` than this does not come back in the run, because each dropout costs a new
+/// plan.
 const DROPOUTS_MAX: u8 = 3;
 
 /// Whether a robot that dropped out has to show that it drives, and the state of that test.

@@ -145,7 +145,8 @@ impl Run {
     }
 
     /// Releases the robots at the end of the run. Notes in the fleet table for each participant whether it may still
-    /// keep a route, and its pixel and goal. Robots that dropped out get neither pixel nor goal.
+    /// keep a route, and its pixel and goal. Robots that dropped out get neither pixel nor goal. A drive home and a
+    /// preflight leave no pixels.
     pub fn leave(&mut self, context: &mut Context) {
         for (participant, known) in self.roster.participants.iter().enumerate() {
             let step = self.pipeline.leg().and_then(|leg| leg.robots.get(participant));
@@ -174,7 +175,8 @@ impl Run {
         self.apply(io, now, next);
     }
 
-    /// The time at which [`on_tick`](Self::on_tick) has to be called next; [`Instant::FAR`] if no call is due.
+    /// The show-clock moment at which [`on_tick`](Self::on_tick) has to be called next; [`Instant::FAR`] if no call is
+    /// due.
     pub fn due(&self, io: &Context, now: Instant) -> Instant {
         let checked = self.preflight.as_ref().map_or(Instant::FAR, PreflightCheck::due);
         checked.min(self.phase_due(io, now))
@@ -233,9 +235,9 @@ impl Run {
         }
     }
 
-    /// Handles the operator's GO, which ends the wait at a cue. The caller refuses GO while the run is paused. Robots
-    /// that stand leave at once: the rest of the air time (how long the show keeps robots in a frame) is dropped. The
-    /// music goes on from the position of the show.
+    /// Handles the operator's GO, which ends the wait at a cue. Must not be called while the run is paused. Robots that
+    /// stand leave at once: the rest of the air time (how long the show keeps robots in a frame) is dropped. The music
+    /// goes on from the position of the show.
     pub fn go(&mut self, now: Instant) {
         self.playback.waits_for_go = false;
         self.playback.music.seen = None;
@@ -259,7 +261,7 @@ impl Run {
         }
     }
 
-    /// Sets whether the show starts again after its last frame.
+    /// Sets whether the show starts again after its last frame, and plans or drops the next round.
     pub fn set_looping(&mut self, io: &mut Context, now: Instant, looping: bool) {
         let is_starting = matches!(self.phase, RunPhase::Starting(_));
         requests::set_looping(&mut self.split(io, now).1, looping, is_starting);
@@ -286,7 +288,8 @@ impl Run {
         }
     }
 
-    /// Interrupts the run because the connection to the broker is lost. Robots then stop by themselves.
+    /// Interrupts the run because the connection to the broker is lost. Without messages, robots that drive stop by
+    /// themselves.
     pub fn on_disconnect(&mut self, io: &mut Context, now: Instant) {
         self.apply(io, now, Next::Interrupt(None));
     }

@@ -28,7 +28,7 @@ pub(crate) struct Hold {
 pub(crate) struct PathClock {
     /// When the drive began, show clock.
     pub began: Instant,
-    /// When the drive ends by plan, holds included.
+    /// When the drive ends by plan, show clock. Each hold puts it off once RESUME was sent.
     pub ends: Instant,
     /// The present hold, until robots are back at full speed. `None` if there is no hold.
     pub hold: Option<Hold>,
@@ -81,8 +81,8 @@ impl PathClock {
         }
     }
 
-    /// Path time at `now`: how far along their paths robots should be. In a hold its rate falls linearly from 1 to 0
-    /// within [`Route::EASE`]. After RESUME the rate rises in the same way.
+    /// Path time at `now`: how far along their paths robots should be. Negative before the drive began. In a hold its
+    /// rate falls linearly from 1 to 0 within [`Route::EASE`]. After RESUME the rate rises in the same way.
     pub fn path_time(&self, now: Instant) -> Span {
         let free = now - self.began - self.lost;
         let Some(hold) = self.hold.filter(|hold| now > hold.at) else { return free };

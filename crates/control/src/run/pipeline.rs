@@ -1,7 +1,7 @@
 //! From a plan to wheels: legs that are planned, uploaded, and driven, and changes of light beside them.
 //!
-//! A leg is the drive of all robots between two moments at which all stand. A participant is a robot's part in the run;
-//! the numbers of participants count from 0.
+//! A leg is the drive of all robots between two moments at which all stand. A participant is a robot of the run; the
+//! numbers of participants count from 0.
 
 use crate::context::Context;
 use crate::event::{EventKind, Trouble};
@@ -44,12 +44,12 @@ pub(crate) struct Planning {
     pub from: Vec<Vec2>,
     /// Number of the plan request whose result is awaited, and when it was made. `None` if none is.
     pub pending: Option<(u64, Instant)>,
-    /// Places where robots that dropped out stood when that request was made, stage metres.
+    /// Places where robots that dropped out stood, by their reports, when the last request was made; stage metres.
     pub around: Arc<[Vec2]>,
     /// Whether robots wait for the next plan, because all plans were dropped. The next plan then contains one frame
     /// only, because that is planned sooner.
     pub is_urgent: bool,
-    /// Whether some robots stand too far from where the queued legs begin, so that all has to be planned again.
+    /// Whether a robot stands too far from where the queued legs begin, so that all has to be planned again.
     pub is_outdated: bool,
     /// Whether some pixels of the last plan have no robot and stay dark.
     pub is_dark: bool,
@@ -57,7 +57,7 @@ pub(crate) struct Planning {
     pub failure: Option<String>,
 }
 
-/// What plans drive around, besides the robots of the fleet.
+/// What plans drive around besides robots of the fleet, and whether they ignore some of these.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Obstacles {
     /// Places where robots met something that no robot of the fleet explains, stage metres.
@@ -72,15 +72,16 @@ pub(crate) struct Obstacles {
 pub(crate) struct Pipeline {
     pub planning: Planning,
     pub obstacles: Obstacles,
-    /// Legs that are planned, in driving order; the first is uploaded.
+    /// Legs that are planned and not begun, in driving order. Routes of the first one are uploaded.
     pub queue: VecDeque<Leg>,
     /// Earliest time at which routes of the next leg are sent.
     pub upload_from: Instant,
-    /// The upload of the first leg of the queue.
+    /// The upload of the routes of the first leg of the queue; `None` if none was begun.
     pub upload: Option<Upload>,
     pub lights: Lights,
     pub light: LightPlayer,
-    /// When routes are sent that were left for later, because too much light is computed at once.
+    /// When routes are sent that were left for later, because too much light would be computed at once.
+    /// [`Instant::FAR`] if there are none.
     pub again_at: Instant,
     /// The leg that is driven, or that has brought robots to where they stand.
     pub driven: Option<DrivenLeg>,
@@ -148,7 +149,7 @@ impl Pipeline {
         self.driven.as_ref().map(|driven| &driven.leg)
     }
 
-    /// Whether all robots that take part in the next leg have its route.
+    /// Whether all robots that have a route in the next leg have acknowledged it.
     pub fn is_uploaded(&self) -> bool {
         match (&self.upload, self.queue.front()) {
             (Some(upload), Some(leg)) => upload.number == leg.seq && upload.is_done(),
@@ -223,7 +224,7 @@ impl Pipeline {
         Next::Stay
     }
 
-    /// Takes in a report, which names the route that its robot keeps and so acknowledges it. Returns whether routes
+    /// Takes in a report, which acknowledges the route and the stretch of light that it names. Returns whether routes
     /// that were not sent yet can be sent now.
     pub fn acknowledge(
         &mut self,
@@ -279,8 +280,8 @@ fn judge(
     Unacknowledged::LinkFails
 }
 
-/// Sends a participant its route of a leg. The first stretch of light (colours over time) goes along with the route.
-/// Without one, a change of light that the robot may not have received goes along.
+/// Sends a participant its route of a leg, if it has one. The first stretch of light (colours over time) goes along
+/// with the route. Without one, a change of light that the robot may not have received goes along.
 fn send_route(
     context: &mut Context,
     roster: &Roster,

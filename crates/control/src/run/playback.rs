@@ -10,7 +10,7 @@ use lightbots_show::{CuePlace, FrameLoop, Show, frame_loops};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Longest air time of a frame, seconds: a day. A larger value in a show would overflow the show clock.
+/// Longest air time of a frame, seconds: a day. A much larger value in a show could overflow the show clock.
 const AIR_TIME_MAX_S: f64 = 86_400.0;
 
 /// What a run is for.
@@ -73,7 +73,7 @@ pub(crate) struct PlayedShow {
     /// The loops of the show: ranges of frames that repeat until GO. Empty unless the purpose is [`RunPurpose::Play`].
     pub loops: Vec<FrameLoop>,
     /// The last frame of the present pass of a loop, if GO was given in that pass. After this frame the show goes on
-    /// behind the loop.
+    /// behind the loop. `None` without such a GO.
     pub leaves_loop: Option<FrameCursor>,
     /// Where the music is on the timeline.
     pub music: MusicTime,
@@ -98,8 +98,8 @@ impl PlayedShow {
         }
     }
 
-    /// The frame that follows `cursor` in this run, with loops and rounds of the show. `None` if `cursor` is the last
-    /// frame.
+    /// The frame that follows `cursor` in this run, with loops and rounds of the show. `None` if the run ends with
+    /// `cursor`.
     pub fn after(&self, cursor: FrameCursor) -> Option<FrameCursor> {
         let FrameCursor { frame, round, pass } = cursor;
         let repeats = self.loop_at(frame);
@@ -120,7 +120,7 @@ impl PlayedShow {
         }
     }
 
-    /// The loop that a frame is in.
+    /// The loop that a frame is in; `None` if it is in none.
     pub fn loop_at(&self, frame: usize) -> Option<FrameLoop> {
         self.loops.iter().copied().find(|repeats| repeats.has(frame))
     }
@@ -135,7 +135,8 @@ impl PlayedShow {
     }
 
     /// Makes `next` the frame that is reached next, because the operator chose it or a frame is left out. `None`: no
-    /// further frame is reached. With `leaves`, robots leave for it at once: a pause and a wait for GO end.
+    /// further frame is reached. With `leaves`, robots leave for it at once. A pause, a wait for GO, and a GO that was
+    /// given for a loop are then cancelled.
     pub fn choose(&mut self, next: Option<FrameCursor>, leaves: bool) {
         let begun = Jump {
             instead_of: self.next,

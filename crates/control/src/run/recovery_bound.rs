@@ -17,11 +17,13 @@ const LEAST: Span = Span::from_millis(10_000);
 /// Replans and time that dropouts have cost, compared with their bounds.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RecoveryBound {
-    /// Number of dropouts. `last` is the robot that dropped out last, and why.
+    /// Number of dropouts.
     dropouts: usize,
+    /// The robot that dropped out last, and why. `None` before the first dropout.
     last: Option<(RobotId, Trouble)>,
     /// Whether the next plan is made because of a dropout.
     replanning: bool,
+    /// Number of new plans that were made because of dropouts.
     replans: usize,
     /// `[frame]`: planned duration of the drive to the frame, plus its air time (stay of robots in it), by the first
     /// plan.
@@ -30,6 +32,7 @@ pub(crate) struct RecoveryBound {
     due: Option<Instant>,
     /// Time by which recovery delayed earlier frames, in all.
     lost: Span,
+    /// Since when the run waits for the operator. `None` if it does not.
     paused: Option<Instant>,
 }
 
@@ -59,7 +62,7 @@ impl RecoveryBound {
         self.replans += usize::from(std::mem::take(&mut self.replanning));
     }
 
-    /// Adds the delay of the frame that robots have reached to the time lost by recovery.
+    /// Adds the delay of the frame that robots have reached, if recovery delayed it, to the time lost by recovery.
     pub fn reached(&mut self, now: Instant) {
         if let Some(due) = self.due.take() {
             self.lost += (now - due).max(Span::ZERO);
@@ -87,7 +90,7 @@ impl RecoveryBound {
     }
 
     /// The reason to end the run if recovery has cost too much, or will have by `until`; a text for people, without a
-    /// full stop. `None` if it has not, and during a pause.
+    /// full stop. `None` if it has not, before the first dropout, and while the run waits for the operator.
     pub fn exceeded(&self, until: Instant) -> Option<String> {
         let (robot, why) = self.last.filter(|_| self.paused.is_none())?;
         let advice = "take it off the floor, then play on from this frame";

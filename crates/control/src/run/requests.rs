@@ -1,7 +1,7 @@
 //! Plan requests, and what the run does with their results.
 //!
-//! A leg is the drive of all robots between two moments at which all stand. A jump is the operator's choice of the next
-//! frame.
+//! A leg is the drive of all robots between two moments at which all stand. A jump is a choice of another next frame:
+//! by the operator, or for the music.
 
 use crate::event::EventKind;
 use crate::frame_cursor::FrameCursor;
@@ -23,7 +23,8 @@ const FRAMES_AHEAD: usize = 3;
 /// Largest number of dark pixels that an event lists.
 const LISTED: usize = 16;
 
-/// Makes the next plan request, if the queue is short, no request is pending and a frame is left to plan.
+/// Makes the next plan request, if the queue holds fewer than `FRAMES_AHEAD` frames, no request is pending and a frame
+/// is left to plan.
 pub(crate) fn plan_ahead(cx: &mut RunContext) {
     let ahead = cx.pipeline.queue.iter().filter(|leg| leg.reaches_frame).count();
     let planning = &cx.pipeline.planning;
@@ -181,8 +182,7 @@ fn on_failure(
     ControlFlow::Continue(Next::Stay)
 }
 
-/// Undoes the operator's jump, because no path leads to `frame`. The frame that was next before the jump is planned
-/// again.
+/// Undoes a jump, because no path leads to `frame`. The frame that was next before the jump is planned again.
 fn give_up(cx: &mut RunContext, jump: Jump, frame: usize) {
     cx.playback.give_up(jump);
     cx.io.log.record(cx.now, EventKind::JumpGivenUp { frame });

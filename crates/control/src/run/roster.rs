@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// reported last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Whereabouts {
-    /// All possible places.
+    /// The possible places.
     pub possible: Vec<Vec2>,
     /// The likely ones of them.
     pub likely: Vec<Vec2>,
@@ -45,12 +45,13 @@ pub(crate) struct Participant {
     pub bystander: Bystander,
 }
 
-/// All robots that take part in a run. Their numbers count from 0 in the order in which they joined.
+/// The robots that take part or took part in a run. Their numbers count from 0 in the order in which they joined.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Roster {
     /// All robots that take part or took part. They are never removed, so that their numbers stay valid.
     pub participants: Vec<Participant>,
-    /// Robots (indices into the fleet) that join the run when all robots stand next, if they are ready then.
+    /// Robots (indices into the fleet) that join the run when all robots stand next, if they are ready then. Some have
+    /// to wait for a later frame.
     pub candidates: Vec<usize>,
     /// When the run began.
     pub begun: Instant,
@@ -129,7 +130,8 @@ impl Roster {
         robot.participant.is_none() && robot.contact.found > self.begun
     }
 
-    /// Clears the possible places of a robot that dropped out, once the robot reports where it stands.
+    /// Clears the possible places of a participant, once its robot reports where it stands, does not drive and does not
+    /// share its name.
     pub fn locate(&mut self, robot: &KnownRobot) {
         let Some(participant) = robot.participant else { return };
         let known = &mut self.participants[participant as usize];

@@ -25,8 +25,8 @@ impl ShowTimes {
     }
 
     /// Show time, seconds, at which the air time of `frame` begins if all frames before it are played. It counts from
-    /// the last frame, up to `frame`, to which a drive was begun. Drives after that count with their planned durations,
-    /// or else with the durations that the show asks for, or with 0.
+    /// the last frame, up to `frame`, to which a drive was begun; without one, from the first frame at 0. Drives after
+    /// that count with their planned durations, or else with the durations that the show asks for, or with 0.
     pub fn begin_s(&self, playback: &PlayedShow, frame: usize) -> f64 {
         let begun = self.begun.range(..=frame).rev().find(|(_, times)| times.air_s.is_finite());
         self.count_s(playback, begun.map_or((0, 0.0), |(&first, times)| (first, times.air_s)), frame)

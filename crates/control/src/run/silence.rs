@@ -20,7 +20,8 @@ use lightbots_wire::RobotState;
 const UNREPORTED: Span = Span::from_millis(600);
 
 /// How long a robot drives on after its link broke, counted from its last report. By R43 of docs/protocol.md it slows
-/// down from 1.9 s after the last message that it received. It comes to rest where it would have been after 2 s.
+/// down from 1.9 s after the last message that it received. It comes to rest where its path would have led it after 2
+/// s.
 pub(crate) struct LinkLoss {
     /// Least time that the robot drives on after its last report.
     pub drives_on: Span,
@@ -65,7 +66,7 @@ const SAME_PLACE_M: f64 = 0.002;
 /// silent one.
 ///
 /// Empty if the robot has reported since the drive began that it stands: it is where it reported. A robot without a
-/// path may stand on the part of its straight drive that it was allowed to drive.
+/// path may stand on the part of its straight drive that it was allowed to drive and has not surely passed.
 pub(crate) fn whereabouts(
     (leg, targets): (&Leg, &TargetProgress),
     clock: &PathClock,

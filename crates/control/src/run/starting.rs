@@ -1,6 +1,6 @@
 //! The phase of START, the message that names the moment at which all robots begin their routes. START is sent ahead of
-//! that moment to all robots at once, repeated, and confirmed by their reports. It is postponed while some robots do
-//! not confirm it.
+//! that moment to all robots at once, repeated, and confirmed by their reports. It is postponed a bounded number of
+//! times while some robots do not confirm it.
 
 use crate::event::Trouble;
 use crate::run::link::{ASK_AGAIN, REPEAT};
@@ -20,18 +20,19 @@ use lightbots_wire::{Command, Details, RobotState, Topic};
 /// individually. The lead is the time from sending START to its moment. By the time of asking, the confirmations of the
 /// broadcast have arrived.
 const ASK_FIRST_PERCENT: i64 = 27;
-/// If at most this many robots did not confirm, each is asked individually; one in `MANY` of the robots that start, if
-/// that is more. If more did not confirm, only the repeated broadcast asks them.
+/// If at most this number of robots did not confirm, each is asked individually. In large fleets the bound is one in
+/// `MANY` of the robots that start. If more did not confirm, only the repeated broadcast asks them.
 const ASKED_MAX: usize = 64;
-/// If at most this many robots did not confirm, messages count as lost; one in `MANY` of the robots that start, if that
-/// is more. If more did not confirm, the link counts as slow.
+/// If at most this number of robots did not confirm, messages count as lost. In large fleets the bound is one in `MANY`
+/// of the robots that start. If more did not confirm, the link counts as slow.
 const LOST_MAX: usize = 2;
-/// Share that replaces `ASKED_MAX` and `LOST_MAX` in large fleets: one robot in this many of those that start.
+/// Share that replaces `ASKED_MAX` and `LOST_MAX` where it gives a larger number: one robot in this many of those that
+/// start.
 const MANY: usize = 8;
 /// Time between two copies of a START that was postponed. It is short, because a robot that does not receive the new
 /// moment starts alone at the old one.
 const REPEAT_POSTPONED: Span = Span::from_millis(15);
-/// How often a START is postponed. After that, robots that did not confirm it drop out.
+/// How often a START is postponed at most. After that, robots that did not confirm it drop out.
 const POSTPONED_MAX: u32 = 12;
 /// After this many postponements of a START, an event names the robots that did not confirm it.
 const POSTPONED_NAMED: u32 = 4;
@@ -92,7 +93,9 @@ impl Starting {
         Command::Start { seq: self.seq, at: self.at }
     }
 
-    /// Handles a status report of a participant that is to start.
+    /// Handles a status report of a participant before the moment of START. Notes its confirmation, and sends a
+    /// restarted robot its route again. Returns a change of phase if the robot is unfit, began alone, or stands
+    /// elsewhere.
     pub fn on_report(
         &mut self,
         cx: &mut RunContext,
@@ -218,7 +221,7 @@ impl Starting {
     /// Empty while the broker may still be restoring subscriptions.
     fn silent(&self, cx: &RunContext, unconfirmed: &[usize]) -> Vec<usize> {
         let (first, round_trip) = self.first;
-        // A robot whose link broke after it received START has stopped by itself when this bound is over.
+        // If its link broke after it received START, a robot has stopped by itself when this bound is over.
         let bound = cx.io.config.silence + LINK_LOSS.stands_after() + round_trip * 2;
         if cx.link.patience(first) > cx.now - first {
             return Vec::new();

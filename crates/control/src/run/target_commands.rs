@@ -68,7 +68,7 @@ pub(crate) fn send_target(cx: &mut RunContext, place: usize) {
 }
 
 /// The target for a robot that stops `short_m` metres before its targets, so that it stands where its straight drive
-/// ends. The target is inside the stage.
+/// ends. The target is inside the stage, or at most as far out as the end of the drive.
 pub(crate) fn beyond(cx: &RunContext, drive: &StraightDrive, short_m: f64) -> Vec2 {
     let stage = &cx.playback.show.stage;
     let inset = Vec2::new(stage.limits.radius_m, stage.limits.radius_m);

@@ -1,5 +1,5 @@
-//! Messages on their way to participants: at most `window` of them are open at once. Reports acknowledge them, and a
-//! message is sent again until it is acknowledged.
+//! Messages on their way to participants. At most a given number of them (`window`) are open at once: sent and not
+//! acknowledged. Reports acknowledge them, and a message is sent again until it is acknowledged.
 //!
 //! MQTT's quality of service 1 would do this between each client and the broker. It does not show whether the robot
 //! took the message, and a broker that restarts forgets the message. The acknowledgement here therefore comes from the
@@ -24,7 +24,7 @@ pub(crate) struct Upload {
     /// participants.
     unserved: usize,
     /// Messages that were sent and may not be acknowledged yet: when each is to be sent again, and its participant. In
-    /// order of time.
+    /// the order of sending; a message that its robot lost comes first.
     sent: VecDeque<(Instant, usize)>,
     /// Number of messages that were sent and not yet acknowledged.
     open: usize,
@@ -90,8 +90,8 @@ impl Upload {
         self.deliveries[participant].tries
     }
 
-    /// Takes the next overdue message from the list of sent ones and returns its participant. Messages that need no
-    /// repeat are removed on the way. `None` if none is overdue.
+    /// Takes the next overdue message from the list of sent ones and returns its participant. The search ends at the
+    /// first message that is not due. Messages that need no repeat are removed on the way. `None` if none is overdue.
     pub fn next_overdue(&mut self, now: Instant, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
         while let Some(&(due, participant)) = self.sent.front() {
             let settled = needs_none(participant) || self.deliveries[participant].acknowledged;
@@ -106,8 +106,8 @@ impl Upload {
         None
     }
 
-    /// Returns the next participant to which nothing was sent yet, and counts its message as open. `None` if `window`
-    /// messages are open or no participant is left.
+    /// Returns the next participant that needs a message and was sent none yet, and counts its message as open. `None`
+    /// if `window` messages are open or no participant is left.
     pub fn next_unserved(&mut self, window: usize, needs_none: impl Fn(usize) -> bool) -> Option<usize> {
         while self.has_unserved() && self.open < window {
             let participant = self.unserved;
@@ -175,6 +175,7 @@ impl Upload {
 mod tests {
     use super::*;
 
+    /// Time after which a message is sent again.
     const AFTER: Span = Span(100);
 
     /// Serves all that may be served at `now`.

@@ -61,7 +61,7 @@ pub struct World {
     pub frozen: bool,
     /// Numbers of the robots that receive nothing.
     pub deaf: Vec<usize>,
-    /// Robots whose link is broken: they neither send nor receive.
+    /// Numbers of the robots with a broken link: nothing that they send arrives, and they receive nothing.
     pub cut: Vec<usize>,
     /// Share of messages lost, percent.
     pub loss: u64,

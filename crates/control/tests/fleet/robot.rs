@@ -1,4 +1,4 @@
-//! A small simulated robot without errors: it is always exactly where it should be.
+//! A small simulated robot. Unless a test gives it an error, it is exactly where it should be.
 
 use lightbots_base::{Instant, PathRef, Rgb, RobotId, Span, Vec2};
 use lightbots_wire::{
@@ -9,7 +9,8 @@ use lightbots_wire::{
 /// A message that a robot sends: its topic and payload.
 pub type Said = (Topic, Vec<u8>);
 
-/// A robot that STOP finds driving farther than this in a step of 10 ms stops dead, metres: at 0.03 m/s.
+/// If a robot drove farther than this in its last step of 10 ms when STOP comes, that counts as a dead stop, metres. It
+/// is a speed of 0.03 m/s.
 const DEAD_STOP_M: f64 = 0.0003;
 /// Speed towards a TARGET, m/s.
 const SPEED_MPS: f64 = 0.25;

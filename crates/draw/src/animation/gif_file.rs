@@ -1,4 +1,4 @@
-//! Reads GIF files and composes their pictures at reduced size. In a GIF, each picture changes only a part of the
+//! Reads GIF files and composes their pictures at reduced size. In a GIF, a picture may change only a part of the
 //! picture before.
 
 use std::num::NonZeroU64;

@@ -31,7 +31,7 @@ pub struct AnimationFrame {
 /// An animation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
-    /// The frames in order of time; at least one.
+    /// The frames in order of time. An animation that was read has at least one.
     pub frames: Vec<AnimationFrame>,
     /// Notes about pictures that are missing from the animation.
     pub notes: Vec<Note>,
@@ -54,8 +54,11 @@ impl Animation {
     }
 }
 
-/// Reads the only picture of a PNG, JPEG or WebP file, or all pictures of a GIF or animated WebP file. Returns at least
-/// one picture.
+/// Reads the only picture of a PNG, JPEG or WebP file, or the pictures of a GIF or animated WebP file, at most 300.
+/// Returns at least one picture; an only picture lasts 1 s.
+///
+/// # Errors
+/// Other kinds of files, and damaged or too large files.
 pub fn stills(bytes: &[u8]) -> Result<Vec<Still>, DrawError> {
     let alone = |bitmap| vec![Still { bitmap, lasts_s: 1.0 }];
     match sniff(bytes) {
@@ -94,6 +97,9 @@ pub fn read(bytes: &[u8], settings: &PictureSettings) -> Result<Animation, DrawE
 
 /// Makes an animation of the first 300 pictures in `files`, without those that show nothing; notes say what is left
 /// out. Each picture is shown for `lasts_s` seconds, and all are scaled to the reduced size of the first.
+///
+/// # Errors
+/// A file that is not a picture, a `lasts_s` that is not above 0, and pictures that all show nothing.
 pub fn of_pictures(
     files: &[&[u8]],
     lasts_s: f64,
@@ -124,7 +130,8 @@ fn resized(bitmap: &Bitmap, columns: usize, rows: usize) -> Bitmap {
     Bitmap { columns, rows, pixels: (0..columns * rows).map(pixel).collect() }
 }
 
-/// Draws all pictures in the same way. Each silhouette is smoothed over three successive pictures.
+/// Draws all pictures in the same way, with their masks smoothed by [`smoothed`]. Pictures that show nothing are left
+/// out. Fails if no picture shows anything.
 fn drawn(stills: Stills, settings: &PictureSettings) -> Result<Animation, DrawError> {
     let separations: Vec<Separation> =
         stills.stills.iter().map(|still| picture::separated(&still.bitmap, settings)).collect();

@@ -1,8 +1,8 @@
 //! Chooses the pictures of an animation that robots show (key frames), so that robots have enough time to move between
 //! them.
 
-/// Cost of a move between two pictures, in units of change. Because of it, few long moves are better than many short
-/// moves, which look less calm.
+/// Price of a move between two pictures, in units of change (0 to 1). Because of it, few long moves are better than
+/// many short moves, which look less calm.
 const MOVE_PRICE: f64 = 0.01;
 /// An animation is shown faithfully if robots show at least this share of its change.
 const FAITHFUL: f64 = 0.8;
@@ -17,7 +17,8 @@ pub struct KeyMoments {
     /// Factor by which the animation must be slowed down so that robots have time for the moves; 1 if it need not be
     /// slowed down.
     pub slowdown: f64,
-    /// Share of the animation's change that robots show if it is slowed down by `slowdown`, 0 to 1.
+    /// Change that robots show at `slowdown`, from 0 to 1: a share of the change that they would show with unlimited
+    /// time.
     pub kept: f64,
     /// Smallest of the tried factors, at least `slowdown`, at which robots show 80 % of the change. `None` if no tried
     /// factor (up to 16) is enough.
@@ -34,12 +35,13 @@ struct Step {
 }
 
 /// Chooses key frames. First it finds the least slowdown at which robots can get from the first to the last picture.
-/// Then, of all sequences in which they have enough time for each move at this slowdown, it takes the one that shows
-/// most change.
+/// Then it looks at all sequences in which robots have enough time for each move at this slowdown. It takes the one
+/// with the most change, less a small price for each move.
 ///
 /// `times_s`: time at which each picture begins, ascending, seconds. `change` returns how much two pictures differ, 0
 /// to 1. `cost_s` returns how long robots take from one picture to another, seconds. Both are called once for each pair
-/// of pictures whose indices differ by at most `reach`. `None` if there are no pictures or the times do not ascend.
+/// of pictures whose indices differ by at most `reach` (at least 1), the earlier picture first. `None` if there are no
+/// pictures or the times do not ascend.
 pub fn key_moments(
     times_s: &[f64],
     reach: usize,

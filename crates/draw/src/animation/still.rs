@@ -28,7 +28,7 @@ pub struct Stills {
     pub cut: bool,
 }
 
-/// Returns the number of columns and rows of the reduced picture. The longer side is at most [`SIDE_MAX`].
+/// Returns the number of columns and rows of the reduced picture: at least 1 each, and at most [`SIDE_MAX`].
 pub fn small(width: usize, height: usize) -> (usize, usize) {
     let longer = width.max(height).max(1);
     if longer <= SIDE_MAX {
@@ -48,7 +48,7 @@ pub fn lasts_s(milliseconds: u32) -> f64 {
     if milliseconds <= 10 { 0.1 } else { f64::from(milliseconds) / 1000.0 }
 }
 
-/// The error for an animation without pictures, or an animation cut off before its first picture ends.
+/// The error for an animation from which nothing can be drawn. `reason` becomes part of the message.
 pub fn damaged(reason: &str) -> DrawError {
     let message = format!("The animation is damaged or cut off: {reason}. Copy or download the file again.");
     DrawError::new("animation-cut-off", message)

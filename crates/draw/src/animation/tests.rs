@@ -20,7 +20,8 @@ fn gif(canvas: u16, frames: &[Frame<'static>]) -> Vec<u8> {
     bytes
 }
 
-/// A frame with a square of colour `index` from `from` to `to`, on white.
+/// A frame of `side` by `side` pixels, with a square of colour `index` of the palette on white. The square has the
+/// columns and rows from `from` to before `to`.
 fn square(side: u16, from: u16, to: u16, index: u8) -> Frame<'static> {
     let inside = |n: u16| (from..to).contains(&(n % side)) && (from..to).contains(&(n / side));
     let buffer: Vec<u8> = (0..side * side).map(|n| if inside(n) { index } else { 1 }).collect();

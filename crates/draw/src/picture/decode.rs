@@ -16,7 +16,8 @@ const FILE_SIDE_MAX: u32 = 8192;
 /// Largest memory of the decoded picture, bytes: 44 million pixels with three channels.
 const MEMORY_MAX: u64 = 128 << 20;
 
-/// Decodes the picture in a PNG, JPEG or WebP file and reduces it to at most [`SIDE_MAX`].
+/// Decodes the picture in a PNG, JPEG or WebP file, turns it upright and reduces it, so that no side is longer than
+/// [`SIDE_MAX`].
 ///
 /// # Errors
 /// Other formats, pictures that are too large, damaged or cut off.

@@ -12,7 +12,7 @@ const BLACK: u8 = 40;
 /// Number of rounds in which colours from inside the thing spread outwards, by one pixel in each round. They replace
 /// the colours at the border, where pixels mix with the background.
 const CARRIES: usize = 6;
-/// The values below which these shares of all pixels lie are taken as black and as white.
+/// The brightness below which 2 % of all pixels lie is taken as black, that below which 98 % lie as white.
 const ENDS: [f64; 2] = [0.02, 0.98];
 /// Least difference of brightness between black and white, 0 to 1. Pictures with less contrast are not stretched to
 /// full contrast.
@@ -23,8 +23,8 @@ const DENSITY: f64 = 1.5;
 /// Weights (densities of robots) below this become 0: no robots stand where the picture is nearly black.
 const WEIGHT_MIN: f64 = 0.05;
 
-/// Returns the colours of the thing that `mask` marks, spread across its border. Weights are 1 inside the mask and 0
-/// outside.
+/// Returns the colours of the thing that `mask` marks, spread across its border and bright enough for lights. A thing
+/// that is mostly black gets white lights. Weights are 1 inside the mask and 0 outside.
 pub fn painted(bitmap: &Bitmap, mask: &BitMask) -> Raster {
     let mut colors: Vec<Rgb> = bitmap.colors().collect();
     let core = eroded(mask);
@@ -40,7 +40,7 @@ pub fn painted(bitmap: &Bitmap, mask: &BitMask) -> Raster {
 }
 
 /// Returns colours and weights that show the tones of a picture. Robots stand densely where the picture is light, or
-/// where it is dark if `inverted`.
+/// where it is dark if `inverted`. They stand less densely where it is transparent.
 pub fn tones(bitmap: &Bitmap, inverted: bool) -> Raster {
     let value = |[r, g, b, _]: &[u8; 4]| {
         (0.2126 * f64::from(*r) + 0.7152 * f64::from(*g) + 0.0722 * f64::from(*b)) / 255.0

@@ -21,7 +21,7 @@ pub(crate) use crate::picture::separate::Separation;
 /// What robots show of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureWay {
-    /// The silhouette if a plain background is found, else the tones.
+    /// The silhouette of the thing in the picture if a plain background is found, otherwise the tones.
     #[default]
     Auto,
     /// The area of the thing in the picture, in its colours, without the background.

@@ -4,13 +4,13 @@ use crate::picture::bitmap::{BitMask, neighbours};
 
 /// Pieces and holes smaller than this share of the largest piece are removed or filled.
 const SMALLEST: f64 = 0.004;
-/// Pieces and holes with fewer pixels than this are removed or filled in any case.
+/// Pieces and holes with fewer pixels than this are removed or filled in any case. The largest piece stays.
 const PIXELS_MIN: usize = 12;
 /// Largest number of pieces that stay. If there are more, the smallest pieces are removed.
 const PIECES_MAX: usize = 200;
 
-/// Removes small pieces of a mask and fills small holes in it. The largest piece always stays. Returns the number of
-/// removed pieces.
+/// Removes small pieces of a mask and fills small holes in it, but no holes at the edge of the picture. The largest
+/// piece always stays. Returns the number of removed pieces.
 pub fn tidy(mask: &mut BitMask) -> usize {
     let mut pieces = connected(mask, true);
     pieces.sort_by_key(|piece| std::cmp::Reverse(piece.len()));

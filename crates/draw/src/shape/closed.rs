@@ -9,7 +9,8 @@ use super::kinds::{ShapeKind, ShapeSettings};
 /// Number of points of a circle or heart. The chords of a circle are at most 0.03 % of its radius inside it.
 const ROUND: usize = 128;
 
-/// Returns the rings of a shape, about one unit high. `None` for kinds of shapes that are lines or places.
+/// Returns the rings of a shape, about one unit in size before `aspect` widens them. `None` for kinds of shapes that
+/// are lines or places.
 pub(super) fn rings(settings: &ShapeSettings) -> Option<Vec<Vec<Vec2>>> {
     let wide = |ring: Vec<Vec2>| ring.into_iter().map(|at| Vec2::new(at.x * settings.aspect, at.y)).collect();
     let ring = match settings.kind {

@@ -20,8 +20,9 @@ pub fn exact_places(settings: &ShapeSettings, count: usize, seed: u64) -> Option
     }
 }
 
-/// Returns `count` places in rows of equal length, whose width over height is about `aspect`. `height`: distance
-/// between rows. Every second row is shifted to the right by `shift`. The last row is centred.
+/// Returns `count` places in rows of equal length, from the top downwards, whose width over height is about `aspect`.
+/// `height`: distance between rows. Every second row is shifted to the right by `shift`. The last row may be shorter;
+/// it is centred.
 fn rows(count: usize, aspect: f64, height: f64, shift: f64) -> Vec<Vec2> {
     let columns = ((count as f64 * aspect * height).sqrt().round() as usize).clamp(1, count.max(1));
     let rows = count.div_ceil(columns);

@@ -13,16 +13,17 @@ use crate::error::DrawError;
 pub use exact::exact_places;
 pub use kinds::{MAX_SHAPE_POINTS, SHAPES, ShapeKind, ShapeSettings, shape_named};
 
-/// Returns the drawing of a shape. Shapes without points of their own are about one unit in size. Grids and random
-/// places have no drawing, because they depend on the number of robots: use [`exact_places`] for them.
+/// Returns the drawing of a shape. Shapes without points of their own are about one unit in size, and some are `aspect`
+/// times as wide. Grids and random places have no drawing, because they depend on the number of robots: use
+/// [`exact_places`] for them.
 ///
 /// # Errors
-/// Settings out of range, or a line of fewer than two points.
+/// Settings out of range, a line of fewer than two points, a grid, or random places.
 pub fn draw_shape(settings: &ShapeSettings) -> Result<Drawing, DrawError> {
     settings.check()?;
     let mut part = DrawingPart { name: settings.kind.name().into(), ..DrawingPart::default() };
     if let Some(rings) = closed::rings(settings) {
-        // With few robots only the edge is shown.
+        // If there are not enough robots for edge and filling, the edge can stand for the area.
         part.spine = rings.iter().map(|ring| stroke(ring.clone(), true, settings.color)).collect();
         part.areas = vec![Area { rings, rule: FillRule::EvenOdd, ink: settings.color.into(), weight: 1.0 }];
     } else {

@@ -48,7 +48,7 @@ pub fn light(canvas: &mut Canvas) -> Vec<Note> {
     notes
 }
 
-/// Makes the dark ends of gradients bright enough for lights.
+/// Makes the dark stops of gradients bright enough for lights.
 fn lift_gradients(canvas: &mut Canvas) {
     let gradients = inks_mut(canvas).filter_map(|ink| ink.gradient.as_mut());
     for (_, color) in gradients.flat_map(|gradient| &mut gradient.stops) {
@@ -82,7 +82,7 @@ fn count(canvas: &Canvas, test: impl Fn(Rgb) -> bool) -> bool {
     areas.chain(canvas.lines.iter().map(|line| line.ink.color)).any(test)
 }
 
-/// Removes all areas and lines whose colour passes the test, unless there is nothing else.
+/// Removes all areas and lines whose colour passes the test, unless nothing would be left.
 fn remove(canvas: &mut Canvas, test: impl Fn(Rgb) -> bool) {
     if count(canvas, |color| !test(color)) {
         canvas.surfaces.retain(|surface: &Surface| !test(surface.ink.color));

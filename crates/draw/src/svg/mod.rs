@@ -1,4 +1,5 @@
-//! Turns SVG files into drawings: filled areas with their colours, and strokes as lines, both without hidden parts.
+//! Turns SVG files into drawings: filled areas with their colours, and strokes as lines. Hidden parts are cut away as
+//! far as possible.
 
 mod canvas;
 mod census;

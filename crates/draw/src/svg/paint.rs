@@ -19,7 +19,7 @@ struct Tint {
 }
 
 /// Returns the ink of a paint on the page, and its opacity, 0 to 1. `transform` maps the painted element to the page.
-/// `None` for an empty pattern.
+/// `None` for a pattern without colours.
 pub fn ink(paint: &Paint, transform: Transform) -> Option<(Ink, f64)> {
     let Tint { color, opacity } = tint(paint)?;
     let gradient = match paint {
@@ -57,7 +57,7 @@ fn vec2(x: f32, y: f32) -> Vec2 {
 }
 
 /// Returns the colour of a paint: for a gradient the mean of its colours, for a pattern the mean of the areas in it.
-/// `None` for an empty pattern.
+/// `None` for a pattern without colours, or with too many levels of patterns inside.
 fn tint(paint: &Paint) -> Option<Tint> {
     at_level(paint, 0)
 }

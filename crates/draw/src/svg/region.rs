@@ -95,17 +95,19 @@ impl Region {
     }
 
     /// Returns the part of this area that is not in the other. `None` if nothing is left that is at least `thinnest`
-    /// thick.
+    /// thick. If the lines of both cross too often, returns this area unchanged.
     pub fn minus(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Difference, thinnest)
     }
 
-    /// Returns the part that is in both areas. `None` if nothing is at least `thinnest` thick.
+    /// Returns the part that is in both areas. `None` if nothing is at least `thinnest` thick. If the lines of both
+    /// cross too often, returns this area unchanged.
     pub fn common(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Intersect, thinnest)
     }
 
-    /// Returns the union of both areas.
+    /// Returns the union of both areas. `None` if nothing is at least `thinnest` thick. If the lines of both cross too
+    /// often, returns this area unchanged.
     pub fn joined(&self, other: &Self, thinnest: f64) -> Option<Self> {
         self.overlaid(other, OverlayRule::Union, thinnest)
     }

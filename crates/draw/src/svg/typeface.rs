@@ -35,7 +35,7 @@ pub fn faces() -> Arc<Database> {
         .clone()
 }
 
-/// Returns a note that names fonts of texts that are not built in. `None` if all fonts are built in.
+/// Returns a note that names at most [`NAMED`] fonts of texts that are not built in. `None` if all fonts are built in.
 pub fn missing(root: &Group) -> Option<Note> {
     let mut families = BTreeSet::new();
     collect(root, &mut families);
@@ -55,7 +55,7 @@ pub fn missing(root: &Group) -> Option<Note> {
     Some(Note::new("svg-font", message))
 }
 
-/// Collects the first font family of each text.
+/// Collects the first font family of each piece of text, if it has a name.
 fn collect(group: &Group, families: &mut BTreeSet<String>) {
     for node in group.children() {
         match node {

@@ -217,7 +217,7 @@ impl Walk {
         self.filled(&data, context, Rule::NonZero)
     }
 
-    /// Returns the parts of a line that are inside all clips.
+    /// Returns the parts of a line that are inside all clips. Clips for which there is too much work are left out.
     fn clipped(&mut self, line: FlatLine, context: &Context) -> Vec<FlatLine> {
         let shortest = self.tolerance();
         let count = |lines: &[FlatLine]| lines.iter().map(|line| line.points.len()).sum::<usize>();

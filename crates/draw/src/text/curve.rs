@@ -94,7 +94,8 @@ impl Curve {
 }
 
 /// Number of straight pieces for a curve whose second derivative is at most `bend`. With n pieces the error is at most
-/// bend / (8 n²).
+/// bend / (8 n²). At most about [`STEPS_MAX`] pieces are used, so that the error of a huge curve is larger than
+/// [`TOLERANCE`].
 fn steps(bend: f64) -> usize {
     let wanted = (bend / (8.0 * TOLERANCE)).sqrt();
     if wanted > 1.0 { wanted.min(STEPS_MAX) as usize + 1 } else { 1 }

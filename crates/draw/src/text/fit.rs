@@ -1,4 +1,5 @@
-//! Fits the strokes of a letter in a single-line font to the area of the letter in another font.
+//! Fits the strokes of a letter in a single-line font to the area of the letter in another font. The result is the
+//! letter's spine: lines that can replace its area.
 
 use lightbots_base::Vec2;
 
@@ -105,8 +106,8 @@ fn moved_to(dot: StrokeLine, centre: Vec2) -> StrokeLine {
     dot.into_iter().map(|point| point + by).collect()
 }
 
-/// Stretches lines so that they fill the rectangle from `low` to `high`. Along an axis on which the lines or the
-/// rectangle have no extent, lines are centred.
+/// Stretches lines so that they fill the rectangle from `low` to `high`. Along an axis on which the lines have less
+/// extent than [`STEP`], or the rectangle has none, lines are centred.
 pub(super) fn stretched(mut lines: Vec<StrokeLine>, low: Vec2, high: Vec2) -> Vec<StrokeLine> {
     let Some((from, to)) = bounds(lines.iter().flatten()) else { return lines };
     let axis = |value: f64, from: f64, to: f64, low: f64, high: f64| {

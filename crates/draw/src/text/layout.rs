@@ -128,8 +128,8 @@ fn stacked(lines: Vec<Shaped>, settings: &TextSettings) -> Vec<Letter> {
     letters
 }
 
-/// Returns the distance between baselines at which the closest two successive lines touch; at least 1. `boxes`: the box
-/// around each line, with its baseline at 0; `None` for a blank line.
+/// Returns the distance between baselines at which the closest two successive lines touch; at least 1 cap height.
+/// `boxes`: the box around each line, with its baseline at y = 0; `None` for a blank line.
 pub(super) fn pitch(boxes: &[Option<(Vec2, Vec2)>]) -> f64 {
     let touching = boxes.windows(2).filter_map(|pair| match pair {
         [Some((upper, _)), Some((_, lower))] => Some(lower.y - upper.y),

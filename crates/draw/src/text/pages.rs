@@ -11,7 +11,8 @@ use crate::drawing::{Drawing, DrawingPart};
 use crate::error::{DrawError, Made, Note};
 use crate::geometry::bounds;
 
-/// Largest number of steps of a scrolling text: five minutes at ten steps per second, more than any show plays.
+/// Largest number of steps of a scrolling text: five minutes at ten steps per second. Bounds the time and memory that
+/// the drawings take.
 pub const STEPS_MAX: usize = 3_000;
 
 /// Largest number of points of all steps together. This number takes about 100 MB of memory.
@@ -20,7 +21,7 @@ const POINTS_MAX: usize = 4_000_000;
 /// One of several drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Page {
-    /// The word that the drawing shows, or the number of its step.
+    /// The word that the drawing shows, or its step, such as "step 3".
     pub title: String,
     /// The drawing, and what is missing from it.
     pub made: Made,

@@ -40,8 +40,8 @@ pub(super) struct Gathered {
     pub(super) missing: BTreeMap<char, usize>,
     /// Number of points of the outlines used.
     points: usize,
-    /// For each letter, its area and its spine. They are kept because finding a spine takes longer than everything
-    /// else.
+    /// For each letter, its area and its spine: lines that can replace the area. They are kept because finding a spine
+    /// takes longer than everything else.
     spines: BTreeMap<String, (Rings, Vec<StrokeLine>)>,
 }
 

@@ -21,7 +21,7 @@ pub fn gradient(stops: &[Rgb], share: f64) -> Rgb {
     stops[first].mixed(stops[first + 1], along - first as f64)
 }
 
-/// The colour on a circle of vivid colours. `share` is in turns, so 0 and 1 are the same.
+/// The colour on a circle of vivid colours. `share` is in turns, so that 0 and 1 give the same colour.
 pub fn rainbow(share: f64) -> Rgb {
     gradient(&[RED, ORANGE, GOLD, GREEN, CYAN, BLUE, VIOLET, ROSE, RED], share - share.floor())
 }

@@ -8,7 +8,9 @@ use super::draw::{frame_by_x, lit, show as on_floor};
 use super::glyph::letter;
 use super::stroke::{ring, row, trace};
 
+/// Number of robots of the show.
 const ROBOTS: usize = 30;
+/// Number of robots in the ring around a digit.
 const RING: usize = 15;
 
 pub fn show() -> Show {
@@ -25,7 +27,7 @@ fn clock() -> Frame {
     frame_by_x("Clock", 0.5, dots)
 }
 
-/// A digit in a ring, of which a fifth goes out with every count.
+/// A digit in a ring. Of the ring, `count` fifths are bright.
 fn digit(count: usize) -> Frame {
     let left = gradient(&[RED, ORANGE, GOLD, GREEN], (count as f64 - 1.0) / 4.0);
     let around = ring(Vec2::ZERO, 1.3, RING, 0.25).into_iter().enumerate();

@@ -29,8 +29,8 @@ pub fn show() -> Show {
     Show { identity: Identity::Fixed, ..on_floor("Dancers", 3.0, frames) }
 }
 
-/// A frame with one row per group, the first at `y`. The second is opposite and half a step aside, so that they can
-/// pass.
+/// A frame with one row per group: the first at `y`, stage metres, the second at `-y`. The second is half a step aside,
+/// so that the groups can pass.
 fn rows(name: &str, y: f64) -> Frame {
     let place = |dancer: usize| {
         let (group, nth) = (dancer % 2, dancer / 2);
@@ -40,7 +40,8 @@ fn rows(name: &str, y: f64) -> Frame {
     frame(name, 0.5, (0..2 * GROUP).map(|dancer| (place(dancer), costume(dancer))))
 }
 
-/// A frame with all dancers in a circle. Their groups alternate, each at its own radius.
+/// A frame with all dancers in a circle, turned by `turned` of a turn. Dancers of both groups alternate; `first_m` and
+/// `second_m` are the radii of the groups, metres.
 fn circle(name: &str, first_m: f64, second_m: f64, turned: f64) -> Frame {
     let (outer, inner) =
         (ring(Vec2::ZERO, first_m, 2 * GROUP, turned), ring(Vec2::ZERO, second_m, 2 * GROUP, turned));

@@ -8,7 +8,9 @@ use super::draw::{frame, shaded, show as on_floor};
 use super::stroke::along;
 use super::timeline::{turned, with_layers};
 
+/// Number of robots of the show.
 const ROBOTS: usize = 60;
+/// Radius of the galaxy, metres.
 const RADIUS_M: f64 = 1.4;
 
 /// Layers: stars that twinkle, and light that turns with the arms.
@@ -42,7 +44,8 @@ fn spiral(name: &str, arms: usize, turned: f64) -> Frame {
     frame(name, 0.3, shaded(places, glow))
 }
 
-/// A spiral arm from near the centre outwards, through `turns` of a turn.
+/// A spiral arm from near the centre outwards to `radius_m`. It begins at `from_turns` of a turn counter-clockwise from
+/// +x, and turns by `turns` turns.
 pub fn arm(from_turns: f64, radius_m: f64, turns: f64) -> Vec<Vec2> {
     let at = |part: i32| {
         let share = f64::from(part) / 200.0;
@@ -54,6 +57,7 @@ pub fn arm(from_turns: f64, radius_m: f64, turns: f64) -> Vec<Vec2> {
 
 /// Places like the seeds of a sunflower: evenly spread, and not in lines.
 pub fn sunflower(count: usize, radius_m: f64) -> Vec<Vec2> {
+    /// Angle between successive seeds, radians: a full turn divided by the square of the golden ratio.
     const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
     let at = |nth: usize| {
         let radius = radius_m * ((nth as f64 + 0.5) / count as f64).sqrt();

@@ -89,6 +89,7 @@ fn bow(before: &[(f64, f64)], arc: Stroke, after: &[(f64, f64)]) -> Stroke {
 
 /// A part of an ellipse. Angles are in degrees, counter-clockwise from +x.
 fn arc(x: f64, y: f64, radius_x: f64, radius_y: f64, from_deg: f64, to_deg: f64) -> Stroke {
+    /// Number of straight segments of the arc.
     const PARTS: usize = 48;
     let at = |part: usize| {
         let direction =

@@ -7,6 +7,7 @@ use super::color::{GOLD, ORANGE, RED, ROSE, VIOLET, gradient};
 use super::draw::{frame, shaded, show as on_floor};
 use super::stroke::{around, row};
 
+/// Number of robots of the show.
 const ROBOTS: usize = 30;
 
 pub fn show() -> Show {
@@ -42,6 +43,7 @@ fn two() -> Frame {
 /// The heart curve x = 16 sin³t, y = 13 cos t − 5 cos 2t − 2 cos 3t − cos 4t, which extends about `size_m` to each
 /// side.
 pub fn outline(centre: Vec2, size_m: f64) -> Vec<Vec2> {
+    /// Number of straight segments of the outline.
     const PARTS: usize = 720;
     let at = |part: usize| {
         let angle = std::f64::consts::TAU * part as f64 / PARTS as f64;

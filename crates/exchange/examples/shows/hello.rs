@@ -8,6 +8,7 @@ use super::draw::{Dot, frame_by_x, lit, shaded, show as on_floor};
 use super::glyph::letter;
 use super::stroke::{along, ring, row, trace};
 
+/// Number of robots of the show.
 const ROBOTS: usize = 30;
 
 pub fn show() -> Show {

@@ -13,6 +13,7 @@ use super::heart::outline;
 use super::stroke::{along, around, ring, row};
 use super::timeline::{moved, turned, with_layers};
 
+/// Number of robots of the show.
 const ROBOTS: usize = 100;
 /// The music, made by `cargo run --release -p lightbots-music --example beats`, cut and packed by ffmpeg.
 const MUSIC: &[u8] = include_bytes!("march.ogg");
@@ -23,6 +24,7 @@ const PICTURE_S: f64 = 8.0;
 /// Duration of the drive to a picture, seconds. The picture is shown for the rest of its bars.
 const DRIVE_S: f64 = 6.0;
 
+/// Layers: light that follows the beats.
 const LIGHT: &str = r##"
 {"name": "Beat", "kind": "pulse", "settings": {"palette": ["#909090", "#ffffff"], "speed_hz": 2, "width": 0.15,
     "blend": "multiply", "runs_freely": true}},

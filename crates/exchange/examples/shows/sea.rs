@@ -9,10 +9,14 @@ use super::galaxy::sunflower;
 use super::stroke::row;
 use super::timeline::{moved, with_layers};
 
+/// Number of lights in a row of the sea.
 const COLUMNS: usize = 20;
+/// Number of rows of the sea.
 const ROWS: usize = 15;
+/// Distance between neighbouring lights in a row, and between rows, metres.
 const STEP_M: f64 = 0.27;
 
+/// Layers: light of the sea, foam and embers.
 const LIGHT: &str = r##"
 {"name": "Sea", "kind": "noise", "frames": ["1", "4"], "settings": {"palette": ["#001a4d", "#005bbb", "#00b7d8", "#b6fff2"],
     "size_m": 1.6, "speed_hz": 0.3, "octaves": 2}},

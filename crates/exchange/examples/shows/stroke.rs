@@ -31,7 +31,8 @@ pub fn around(line: &[Vec2], count: usize) -> Vec<Vec2> {
     (0..count).map(|nth| at_length(line, length * nth as f64 / count as f64)).collect()
 }
 
-/// As many places as possible, `count` at most, spread evenly over all strokes. Each end and corner has one.
+/// At most `count` places, as many as are found, spread evenly over all strokes. Each end and sharp corner has one, or
+/// one nearby.
 pub fn trace(strokes: &[Stroke], count: usize) -> Vec<Vec2> {
     let parts: Vec<Stroke> = strokes.iter().flat_map(|stroke| straightened(stroke)).collect();
     let total: f64 = parts.iter().map(|part| length(part)).sum();
@@ -51,7 +52,8 @@ pub fn trace(strokes: &[Stroke], count: usize) -> Vec<Vec2> {
     best
 }
 
-/// Places about `step_m` apart. Where strokes meet, only one place is kept.
+/// Places about `step_m` apart along the parts. A place closer than 0.7 steps to an earlier one is left out, so that
+/// parts that meet share a place.
 fn spaced(parts: &[Stroke], step_m: f64) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     for part in parts {

@@ -10,7 +10,9 @@ use super::heart::outline;
 use super::stroke::{along, ring};
 use super::timeline::with_layers;
 
+/// Number of robots of the show.
 const ROBOTS: usize = 1_000;
+/// Radius of the pictures, metres.
 const RADIUS_M: f64 = 5.6;
 
 /// Layers over each picture.
@@ -66,7 +68,8 @@ fn filled_heart() -> Frame {
     frame("Heart", 3.0, shaded(places, blood))
 }
 
-/// Places of a triangular lattice inside the line, from the top row to the bottom row.
+/// Places of a triangular lattice inside the closed line, from the top row to the bottom row. `step_m`: distance
+/// between neighbours.
 fn lattice(step_m: f64, line: &[Vec2]) -> Vec<Vec2> {
     let (row_m, rows) = (step_m * 0.866, (2.0 * RADIUS_M / (step_m * 0.866)) as i32);
     let columns = (2.0 * RADIUS_M / step_m) as i32 / 2;

@@ -8,6 +8,7 @@ use super::draw::{frame, lit, shaded, show as on_floor};
 use super::stroke::{Stroke, along, trace};
 use super::timeline::with_layers;
 
+/// Number of robots of the show.
 const ROBOTS: usize = 200;
 /// Height of the sea's first row, y in metres.
 const SEA_M: f64 = -1.75;
@@ -20,6 +21,7 @@ const GAP_M: f64 = 0.084;
 /// Fewest robots that draw the sea.
 const SEA_LEAST: usize = 40;
 
+/// Layers: the beam of the lighthouse, water, and glitter on the anchor.
 const LIGHT: &str = r##"
 {"name": "Lighthouse", "kind": "chase", "frames": ["1", "1"], "settings": {"along": "angle", "place": [0.6, 0.98],
     "palette": ["#303030", "#ffffff"], "speed_hz": 0.35, "width": 0.4, "blend": "multiply"}},
@@ -49,7 +51,8 @@ pub fn show() -> Show {
     with_layers(on_floor("Voyage", 5.0, frames), LIGHT)
 }
 
-/// A frame of a drawing above the sea. The sea takes the robots that the drawing does not need.
+/// A frame of a drawing above the sea. As many robots draw it as fit at least `GAP_M` apart, and the others show the
+/// sea.
 fn picture(name: &str, strokes: &[Stroke], shade: impl Fn(Vec2) -> Rgb) -> Frame {
     let mut counts = (SEA_LEAST..ROBOTS).map(|sea| trace(strokes, ROBOTS - sea));
     let drawn = counts.find(|places| close_pairs(places, GAP_M, 1).is_empty());
@@ -58,7 +61,7 @@ fn picture(name: &str, strokes: &[Stroke], shade: impl Fn(Vec2) -> Rgb) -> Frame
     frame(name, 3.0, dots)
 }
 
-/// Waves in rows of equal length with at most fifty lights.
+/// `count` places on waves in rows of equal length, with at most [`SEA_ROW`] places each.
 fn sea(count: usize) -> Vec<Vec2> {
     let lines = count.div_ceil(SEA_ROW);
     let place = |line: usize, column: usize, columns: usize| {

@@ -8,6 +8,7 @@ use super::draw::{frame, lit, shaded, show as on_floor};
 use super::glyph::word;
 use super::stroke::{Stroke, ring, row, trace};
 
+/// Number of robots of the show.
 const ROBOTS: usize = 100;
 
 pub fn show() -> Show {

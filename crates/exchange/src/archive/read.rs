@@ -60,8 +60,9 @@ fn take(files: &mut Files, name: String, content: Vec<u8>) -> Result<(), ReadErr
     Ok(())
 }
 
-/// Adds the archive's files to the show's assets, and issues about missing and unknown files to the result. Unknown
-/// files also count as unread. Fails if the length of a file differs from the length that the show states.
+/// Adds the archive's files to the show's assets, and issues about missing and unknown files to the result. Files that
+/// the show does not name are unknown, and count as unread. Fails if the length of a file differs from the length that
+/// the show states.
 fn with_files(mut loaded: Loaded, mut files: Files) -> Result<Loaded, ReadError> {
     for (hash, asset) in &mut loaded.show.assets {
         asset.content = files.assets.remove(hash);

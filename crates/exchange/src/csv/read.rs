@@ -42,7 +42,7 @@ fn stem(file: &str) -> &str {
     &name[..name.len().saturating_sub(".csv".len())]
 }
 
-/// Sort key of a file's name. Numbers in names count as numbers, so that "Robot 10" comes after "Robot 9".
+/// Sort key of a file's name without its folders. Numbers in names count as numbers: "Robot 10" comes after "Robot 9".
 fn natural(name: &str) -> Vec<(u64, String)> {
     let mut parts = Vec::new();
     let mut rest = stem(name);
@@ -88,7 +88,8 @@ fn table(name: &str, content: &[u8], room: &mut (usize, usize)) -> Result<TimedR
     Ok(TimedRobot { name: name.to_owned(), path, light })
 }
 
-/// Reads a row: time in seconds, place in metres, and codes of red, green and blue. A row without codes is white.
+/// Reads a row: time in seconds, place in metres, and codes of red, green and blue, 0 to 255. A row without codes is
+/// white.
 fn row(line: &str) -> Result<(f64, [f64; 3], [u8; 3]), String> {
     let wrong = |what: &str| format!("\"{}\": {what}; a row is {HEAD}", excerpt(line));
     let fields: Vec<&str> = line.trim_end().split(',').map(str::trim).collect();

@@ -45,8 +45,8 @@ fn archive(exported: &ExportedShow) -> Result<(Vec<u8>, Issues), Issue> {
     Ok((bytes, vec![note]))
 }
 
-/// A file name for the table of the robot `name`. Every file system accepts it. It differs from all of `names`, to which
-/// it is added.
+/// A file name for the table of the robot `name`, with ASCII letters, digits, spaces, `-` and `_` only. Underscores are
+/// added until the name, in lower case and without its ending, is new in `names`. It is then added to `names`.
 fn file_name(name: &str, names: &mut BTreeSet<String>) -> String {
     let plain = |char: char| if char.is_ascii_alphanumeric() || " -_".contains(char) { char } else { '_' };
     let mut stem: String = name.chars().map(plain).collect();
@@ -113,7 +113,7 @@ fn moments(path: &Path) -> BTreeSet<Span> {
     moments
 }
 
-/// Evaluates a path at times that increase.
+/// Gives the places of a path, stage metres, at times that do not decrease from call to call.
 struct Places<'a> {
     path: &'a Path,
     next: usize,

@@ -5,8 +5,8 @@ use lightbots_show::{Issue, Issues, MAX_FRAMES, MAX_PIXELS, Pixel, excerpt};
 use super::{Json, Scalar, text};
 use crate::error::{PixelName, ReadError};
 
-/// Reads a whole file with `content`. Returns the result of `content`, and the notes that it took. Fails if more text
-/// follows.
+/// Reads a whole file with `content`. Returns the result of `content`, and the notes that `content` made. Fails if more
+/// text follows.
 pub(crate) fn document<T>(
     bytes: &[u8],
     content: impl FnOnce(&mut Json<'_>, &mut Notes) -> Result<T, ReadError>,
@@ -43,7 +43,7 @@ impl Notes {
     const NAMED_MAX: usize = 4;
 
     /// Skips the value of the unknown field `key`. `level` is the kind of object that has the field, such as "pixel".
-    /// Reports each field once per level.
+    /// Reports each field once per level, up to [`Self::UNKNOWN_MAX`].
     pub fn unknown(&mut self, json: &mut Json<'_>, level: &'static str, key: &str) -> Result<(), ReadError> {
         let known = self.unknown.iter().any(|(at, name)| *at == level && name == key);
         if !known && self.unknown.len() < Self::UNKNOWN_MAX {
@@ -72,7 +72,8 @@ impl Notes {
         self.newer_version = Some(version);
     }
 
-    /// Why the file holds more than was read: words that follow "because". `None`: everything was read.
+    /// Why the file holds more than was read: words that follow "because". `None`: the file has no unknown fields and
+    /// no newer version.
     pub fn unread(&self) -> Option<String> {
         let version = self.newer_version.map(|version| format!("it has format version {version}"));
         let name = |(level, name): &(&str, String)| format!("\"{}\" of the {level}", excerpt(name));
@@ -86,7 +87,8 @@ impl Notes {
     }
 }
 
-/// Reads the list of frames, each with `frame`, which gets the frame's index, counted from 0. Errors name the frame.
+/// Reads the list of frames, at most [`MAX_FRAMES`]. `frame` reads each of them, and gets its index, counted from 0.
+/// Errors name the frame.
 pub(crate) fn frames<T>(
     json: &mut Json<'_>,
     mut frame: impl FnMut(&mut Json<'_>, usize) -> Result<T, ReadError>,
@@ -110,8 +112,8 @@ pub(crate) fn frames<T>(
     Ok(frames)
 }
 
-/// Reads the list of pixels of a frame, each with `pixel`, and sorts it by id. Errors name the pixel by the value of the
-/// field `id_key`, or by its place in the list if that is no whole number.
+/// Reads the list of pixels of a frame, at most [`MAX_PIXELS`], each with `pixel`, and sorts it by id. Errors name the
+/// pixel by the value of the field `id_key`. If that is no whole number, they name it by its position in the list.
 pub(crate) fn pixels(
     json: &mut Json<'_>,
     id_key: &str,

@@ -2,8 +2,8 @@
 
 use lightbots_base::Vec2;
 
-/// Factor that rounds numbers to four decimals: metres to tenths of a millimetre, as in the original's files. With fewer
-/// decimals, pixels would be displaced by more than robots' sensors resolve. More decimals would only lengthen files.
+/// Factor that rounds numbers to four decimals: metres to tenths of a millimetre, as in the original's files. With a
+/// smaller factor, places would be less exact. With a larger one, files would be longer.
 const DECIMALS_SCALE: f64 = 1e4;
 /// Magnitude from which numbers are not rounded, because a double cannot hold four decimals there: 2^53 /
 /// `DECIMALS_SCALE`, rounded down.
@@ -25,8 +25,8 @@ const IN_FULL_FROM: f64 = 1e-7;
 /// Magnitude from which a number is written with an exponent. JavaScript has this limit and that of `IN_FULL_FROM`.
 const IN_FULL_BELOW: f64 = 1e21;
 
-/// A number as text with all its digits, so that reading the text gives the same number. Infinities and NaN become
-/// `null`, which readers refuse.
+/// A number as text with all its digits, so that reading the text gives the same number; only −0 becomes 0. Infinities
+/// and NaN become `null`, which readers refuse.
 pub(crate) fn exact(value: f64) -> String {
     // Adding 0 turns -0 into 0.
     let value = value + 0.0;

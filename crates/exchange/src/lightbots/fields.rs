@@ -40,7 +40,8 @@ pub(super) fn one_of<T: Copy>(json: &mut Json<'_>, name: &str, words: &[(&str, T
     })
 }
 
-/// Reads a text of at most [`MAX_LABEL_CHARS`] characters: a name, an id or a word.
+/// Reads a text: a name, an id or a word. More than [`MAX_LABEL_CHARS`] characters are an error. `name` names the field
+/// in messages.
 pub(super) fn label(json: &mut Json<'_>, name: &str) -> Result<String, ReadError> {
     json.peek()?;
     let before = json.clone();

@@ -9,7 +9,7 @@ use crate::json::Json;
 use crate::json::frames::{Notes, missing};
 use crate::json::text::{exact, place_text, quoted};
 
-/// The fields that motions of any kind have in files; `None` for a field that this motion lacks.
+/// The fields that the motions of all kinds have in files; `None` for a field that is not in the file.
 #[derive(Default)]
 struct Fields {
     kind: Option<usize>,
@@ -25,7 +25,7 @@ struct Fields {
     delay_s: Option<f64>,
 }
 
-/// Reads a motion. An unknown kind is an error, as for sources: without its motion, the drive would be a different one.
+/// Reads a motion. An unknown kind is an error: without its motion, the drive would be a different one.
 pub(super) fn read(json: &mut Json<'_>, notes: &mut Notes) -> Result<PictureMotion, ReadError> {
     let mut fields = Fields::default();
     let kinds: Vec<(&str, usize)> = PictureMotion::NAMES.into_iter().zip(0..).collect();

@@ -31,7 +31,7 @@ pub fn read_layer(bytes: &[u8]) -> Result<Layer, ReadError> {
 }
 
 /// Reads the show. Returns it, and whether the file has a stage. An error in a file of a newer version also names that
-/// version, because the file may be valid in it.
+/// version, because the file may be valid in it. A file that is cut off gets no such addition.
 fn show(json: &mut Json<'_>, notes: &mut Notes) -> Result<(Show, bool), ReadError> {
     let start = json.clone();
     let read = known_parts(json, notes);

@@ -35,8 +35,8 @@ fn object(json: &mut Json<'_>, room: &mut usize, depth: usize) -> Result<NamedSe
     Ok(settings)
 }
 
-/// Reads the value of the setting `name`, or a value within it. `room` is the number of values that may still follow in
-/// this group of settings. `depth` is the number of levels by which lists and objects may still nest.
+/// Reads the value of the setting `name`, or a value within it. `room` is the number of values that may still be read
+/// in this group of settings. `depth` is the number of levels by which lists and objects may still nest.
 fn value(json: &mut Json<'_>, name: &str, room: &mut usize, depth: usize) -> Result<Setting, ReadError> {
     *room = room.checked_sub(1).ok_or_else(|| {
         let what = format!(

@@ -1,6 +1,6 @@
-//! From a show to a file of our format: one field per line, one pixel per line. Fields with default values are left out.
-//! A show without parts of version 2 is written as version 1, so that older programs read it.
-//! The stage is always there, because places of pixels mean nothing without their floor.
+//! From a show to a file of our format: one field per line, one pixel per line. Most fields with default values are
+//! left out. A show without parts of version 2 is written as version 1, so that older programs read it. The stage is
+//! always there, because places of pixels mean nothing without their floor.
 
 use std::fmt::Write;
 
@@ -38,7 +38,7 @@ fn text(show: &Show) -> String {
     format!("{{\n  {}\n}}\n", fields.join(",\n  "))
 }
 
-/// The fields at the top of a show file that version 2 of the format added, without those of default value.
+/// The fields at the top of a show file that version 2 of the format added, without those with default values.
 fn extras(show: &Show) -> Vec<String> {
     let mut fields = Vec::new();
     if show.spares > 0 {
@@ -86,8 +86,8 @@ fn obstacle(obstacle: &Obstacle) -> String {
     }
 }
 
-/// The limits of robots that differ from the default, with all digits. Rounding to four decimals would change a wheel
-/// radius of 0.00451 m.
+/// The limits of robots that differ from the default and are finite, with all digits. Rounding to four decimals would
+/// change a wheel radius of 0.00451 m.
 fn limits(limits: &Limits) -> String {
     let usual = Limits::default();
     let all = [

@@ -65,8 +65,8 @@ fn location(at: Vec2) -> String {
     format!("{{\"X\":{},\"Y\":{}}}", real(at.x), real(at.y))
 }
 
-/// A colour as JSON. Its components are 0 to 1 with the precision of 32-bit numbers, as in the original's files. A file
-/// of the original is thus written as it was read.
+/// A colour as JSON. Its components are 0 to 1 with the precision of 32-bit numbers, as in the original's files. A
+/// colour of such a file is thus written as it was read.
 fn color(color: Rgb) -> String {
     let share = |byte: u8| match f64::from(f32::from(byte) / 255.0) {
         whole if whole.fract() == 0.0 => format!("{whole:.1}"),

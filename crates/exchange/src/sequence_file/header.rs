@@ -11,9 +11,11 @@ pub(crate) const MAGIC: &[u8] = b"PSEQ";
 pub(super) const HEADER: usize = 32;
 /// Length of a range of channels in the header, bytes: first channel and number of channels, three bytes each.
 const RANGE: usize = 6;
-/// Largest number of channels in a file: a frame, with one byte per channel, is held in memory.
+/// Largest number of channels in a file: a frame, with one byte per channel, is held in memory. A larger value takes
+/// more memory.
 const CHANNELS_MAX: usize = 8 << 20;
-/// Largest number of bytes of a file's frames when unpacked: unpacking 1 GiB takes three seconds.
+/// Largest number of bytes of a file's frames when unpacked. Unpacking 1 GiB takes three seconds; with a larger value,
+/// a hostile file takes longer.
 const UNPACKED_MAX: u64 = 1 << 30;
 /// Code in the header for no compression.
 pub(super) const PLAIN: u8 = 0;
@@ -44,7 +46,7 @@ pub(super) struct FrameBlock<'a> {
     pub frames: usize,
 }
 
-/// A range of successive channels.
+/// A range of successive channels, `count` of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ChannelRange {
     /// Index of the first channel, counted from 0.
@@ -88,7 +90,8 @@ impl Header {
         Ok(header)
     }
 
-    /// Which channels the bytes of a frame stand for, in their order. A sparse file leaves channels out.
+    /// The ranges of channels for which the bytes of a frame stand, in the order of these bytes. A sparse file leaves
+    /// channels out.
     pub fn ranges(&self, bytes: &[u8]) -> Result<Vec<ChannelRange>, BadSequence> {
         if self.ranges == 0 {
             return Ok(vec![ChannelRange { first: 0, count: self.channels }]);

@@ -7,20 +7,26 @@ use crate::limits::LONGEST_S;
 use crate::timed::fit::FittedStretch;
 use crate::timed::light::{CodeStretch, TimedLight};
 
-/// Latest tick at which a stretch of light may end: one day.
+/// Latest tick at which a stretch of light may end: one day. A longer program is an error.
 const TICKS_MAX: u64 = (LONGEST_S * TICKS_PER_S) as u64;
-/// Deepest nesting of loops.
+/// Deepest nesting of loops. A program with more is an error.
 const LOOPS_MAX: usize = 32;
 
+/// Ends the program.
 const END: u8 = 0x00;
+/// Does nothing and takes no time.
 const NOTHING: u8 = 0x01;
+/// Keeps the colour for a number of ticks.
 const SLEEP: u8 = 0x02;
+/// Keeps the colour until a tick, counted from the start of the program.
 const WAIT_UNTIL: u8 = 0x03;
 /// The first of four operations with successive codes. They set a colour, a grey, black and white.
 const SET: u8 = 0x04;
 /// The first of four operations with successive codes. They fade to a colour, a grey, black and white.
 const FADE: u8 = 0x08;
+/// Begins a loop. A byte follows that says how often the loop is run; 0: for ever.
 const LOOP: u8 = 0x0c;
+/// Ends the innermost loop.
 const LOOP_END: u8 = 0x0d;
 /// The two operations for pyrotechnics. They are skipped with the one byte that follows each of them, and take no time.
 const PYRO: [u8; 2] = [0x14, 0x15];
@@ -64,13 +70,14 @@ struct Program<'a> {
     /// Sum of the durations of the operations that were run, ticks.
     tick: u64,
     light: TimedLight,
-    /// For each open loop, the outermost first: index of the first byte of its body, and the number of repetitions
-    /// left. `None`: it repeats for ever.
+    /// For each open loop, the outermost first: index of the first byte of its body, and how often the body is still to
+    /// be repeated. `None`: for ever.
     loops: Vec<(usize, Option<u32>)>,
 }
 
-/// Runs a light program and returns its light. `room` is the number of operations and stretches that may still follow in
-/// the whole file. An endless loop ends once it has lasted until `end_s`, seconds from the start of the show.
+/// Runs a light program and returns its light. `room` is the number of operations and stretches that may still follow
+/// in the whole file. An endless loop stops after the first repetition that ends at or after `end_s`, seconds from the
+/// start of the show.
 pub(super) fn read(bytes: &[u8], end_s: f64, room: &mut usize) -> Result<TimedLight, String> {
     let light = TimedLight { is_linear: true, ..TimedLight::default() };
     let mut program = Program { bytes, at: 0, tick: 0, light, loops: Vec::new() };

@@ -13,7 +13,7 @@ use crate::json::{Json, Scalar};
 use crate::limits::LONGEST_S;
 use crate::timed::music::TimedMusic;
 
-/// The media type that Skybrush's programs write for every sound.
+/// The media type of a sound whose own type is missing or unusable. It is the only one that Skybrush's source names.
 const MPEG: &str = "audio/mpeg";
 /// Name that music gets if the file does not name it.
 const NAME: &str = "music.mp3";
@@ -108,8 +108,8 @@ fn start(json: &mut Json<'_>) -> Result<f64, ReadError> {
     Err(begin.fail("bad-time", format!("the music starts at {start_s} s; it must start within a day")))
 }
 
-/// Music for an archive. `file` is its name in the archive, `content` its sound. `words` is the JSON of the field `media`,
-/// which the document has after `"version":1,`.
+/// Music for an archive. `file` is its name in the archive, `content` its sound. `words` is the JSON of the field
+/// `media`, with a comma at its end, for the document.
 pub(super) struct WrittenMusic {
     pub file: String,
     pub content: Arc<[u8]>,

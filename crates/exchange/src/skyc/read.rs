@@ -61,7 +61,7 @@ struct Reader {
     stretches: usize,
     /// Number of bytes in files to which drones may still refer; [`REFERRED_MAX`] at first.
     referred: usize,
-    /// Names of parts that are left out, because robots on a floor have no use for them.
+    /// Names of parts that are left out, such as `pyro`.
     unused: Vec<&'static str>,
 }
 
@@ -180,7 +180,7 @@ impl Reader {
     }
 }
 
-/// Reads the version of a part of the file. Returns `true` if it is 1, else an error that names `part`.
+/// Reads the version of a part of the file. Returns `true` if it is 1. Otherwise fails with an error that names `part`.
 fn version(json: &mut Json<'_>, part: &str) -> Result<bool, ReadError> {
     json.peek()?;
     let before = json.clone();
@@ -270,8 +270,8 @@ fn points(json: &mut Json<'_>, shift_s: f64, pieces: &mut usize) -> Result<Timed
     reader.end().map_err(|what| json.fail("bad-path", what))
 }
 
-/// Returns the two control points of a cubic Bézier curve between the given places. `controls` has none for a line, which
-/// gives `None`, one for a quadratic curve, or two for a cubic curve.
+/// Returns the two control points of a cubic Bézier curve between the given places. `controls` has none for a line, one
+/// for a quadratic curve, or two for a cubic curve. `None` for a line; more than two are an error.
 fn cubic(controls: &[[f64; 3]], from: [f64; 3], to: [f64; 3]) -> Result<Option<[[f64; 3]; 2]>, String> {
     // A quadratic curve is a cubic one whose control points are two thirds of the way to its own.
     let towards = |end: [f64; 3], via: [f64; 3]| {

@@ -15,7 +15,7 @@ use crate::timed::export::{ExportedRobot, ExportedShow, linear, sampled_note, wr
 use crate::timed::fit::fitted;
 use crate::zip_files::pack;
 
-/// Upper bound on the bytes of the document without its drones: the names of show and music, and fixed text.
+/// Bytes reserved for the document without its drones: the names of show and music, and fixed text.
 const HEAD_MAX: usize = 8 << 10;
 /// Largest distance of a piece's control points from those of a straight line at which it is written as a line, metres.
 const STRAIGHT_M: f64 = 1e-9;

@@ -21,7 +21,7 @@ const CHORDS_MAX: usize = 1_000;
 /// A show, converted for a file.
 #[derive(Debug)]
 pub(crate) struct ExportedShow {
-    /// Index of the sample at which the music and the air time of the first frame begin.
+    /// Index of the sample nearest to the moment at which the music and the air time of the first frame begin.
     pub first_sample: usize,
     /// When the air time of the first frame begins, seconds from the start of the drive to that frame.
     pub first_s: f64,
@@ -31,7 +31,8 @@ pub(crate) struct ExportedShow {
 /// A robot, converted for a file.
 #[derive(Debug)]
 pub(crate) struct ExportedRobot {
-    /// Unique name. Robots without a name are called "Robot 1" and so on; names of real robots cannot look like that.
+    /// Unique name. Robots that no pixel asks for by name are called "Robot 1" and so on, with leading zeros. Names of
+    /// real robots have no space.
     pub name: String,
     /// The robot's path with all its rests. It lasts as long as the show.
     pub path: Path,
@@ -135,8 +136,8 @@ fn colours(planned: &PlannedShow<'_>, robots: usize, duration: Span) -> Result<V
     Ok(colours)
 }
 
-/// Returns `[robot]`: a unique name. It is the name by which pixels ask for the robot, or else "Robot" and the robot's
-/// number, counted from 1.
+/// Returns `[robot]`: a unique name. It is the name by which pixels ask for the robot, unless an earlier robot has it
+/// in upper or lower case. Otherwise it is "Robot" and the robot's number, counted from 1, with leading zeros.
 fn names(plan: &ShowPlan, numbers: &[u32]) -> Vec<String> {
     let digits = numbers.len().to_string().len();
     let numbered = numbers.iter().map(|number| format!("Robot {:0digits$}", number + 1));

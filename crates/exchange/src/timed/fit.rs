@@ -7,7 +7,7 @@ const TOLERANCE: f64 = 1.0;
 const TOLERANCE_DARK: f64 = 0.5;
 /// Linear-light codes below this value are dark: [`TOLERANCE_DARK`] applies to them.
 const DARK: u8 = 8;
-/// Longest fade, and longest step of the fit, in samples. Bounds the time that a fit takes.
+/// Longest fade, and longest step of the fit, in samples. Bounds the time that a fit takes; a longer fade is split.
 const LONGEST: usize = 3_000;
 
 /// A hold or a fade, as in a light program.
@@ -22,8 +22,9 @@ pub(crate) struct FittedStretch {
     pub fades: bool,
 }
 
-/// Fits holds and fades to the samples of a light. At each sample, the result differs by at most [`TOLERANCE`], at a
-/// dark sample by at most [`TOLERANCE_DARK`]. Each fade is as long as possible. A sudden change happens at a sample.
+/// Fits holds and fades to the samples of a light; without samples the list is empty. At each sample, the result
+/// differs by at most [`TOLERANCE`], at a dark sample by at most [`TOLERANCE_DARK`]. Each fade is as long as these
+/// bounds and [`LONGEST`] allow. A sudden change happens at a sample.
 pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     let mut stretches: Vec<FittedStretch> = Vec::new();
     let hold = |stretches: &mut Vec<FittedStretch>, end: usize, to: [u8; 3]| match stretches.last_mut() {
@@ -54,8 +55,8 @@ pub(crate) fn fitted(samples: &[[u8; 3]]) -> Vec<FittedStretch> {
     stretches
 }
 
-/// Index of the last sample for which a straight line from sample `begin` stays within the tolerance of every sample in
-/// between. `begin + 1` at least, `begin + LONGEST` at most.
+/// Index of the last sample to which a straight line from sample `begin` stays within the tolerance of every sample in
+/// between. At least `begin + 1`, at most `begin + LONGEST`.
 fn farthest(samples: &[[u8; 3]], begin: usize) -> usize {
     let mut best = begin + 1;
     let mut slopes = [(f64::NEG_INFINITY, f64::INFINITY); 3];

@@ -1,5 +1,5 @@
-//! A timed show -> frames and trajectories. Each time all robots stand is a frame. Drives between frames are
-//! prescribed.
+//! A timed show -> frames and trajectories. Each time for which all robots stand long enough is a frame. Drives between
+//! frames are prescribed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
@@ -23,8 +23,8 @@ use crate::format::Loaded;
 const PIXELS_MAX: usize = 1_000_000;
 /// Least distance from the places of robots to the edge of the floor that is made for them, metres.
 const MARGIN_M: f64 = 0.5;
-/// Time in which robots stand that always counts as the frame's air time, seconds. Of the rest of that stand, up to the
-/// time of a quarter turn belongs to the next drive, because robots turn in it.
+/// Shortest air time that a drive leaves to the frame before it, seconds, unless robots stand even shorter. Of the rest
+/// of that stand, up to the time of a quarter turn belongs to the drive, because robots turn in it.
 const AIR_LEAST_S: f64 = 0.05;
 /// Largest number of pieces of a path that a robot can store (docs/protocol.md, R31).
 const PIECES_OF_DRIVE_MAX: usize = 128;
@@ -62,8 +62,8 @@ pub(crate) fn loaded(file: &TimedShow) -> Result<Loaded, ReadError> {
 }
 
 /// How long all robots must be dark so that no frame is needed before the first picture, seconds from the start of the
-/// file. This is the time until the first picture. If the music begins with that picture, lights may fade in earlier.
-/// The reason: a further frame would move the music, which matters more than an exact fade.
+/// file. This is the time until the first picture. If the music begins with that picture, lights may fade in earlier: a
+/// further frame would move the music, which matters more than an exact fade.
 fn dark_s(file: &TimedShow, first: &FrameTimes) -> f64 {
     let is_in_step = file.music.as_ref().is_some_and(|music| music.late_s(first.air_s) == 0.0);
     let fade_s = fade_of(Span::from_secs(first.air_s - first.drive_s)).as_secs();
@@ -105,8 +105,8 @@ fn framed(
     Ok(show)
 }
 
-/// Removes the trajectories of a show, so that its drives will be planned. The wanted duration of each drive becomes that
-/// of the frame's longest trajectory.
+/// Removes the trajectories of a show, so that its drives will be planned. If a frame had trajectories, the wanted
+/// duration of its transition becomes the time at which the last of them ends. Other frames keep theirs.
 pub fn replanned(show: &mut Show) {
     let mut longest: BTreeMap<String, f64> = BTreeMap::new();
     for trajectory in std::mem::take(&mut show.trajectories) {
@@ -169,8 +169,8 @@ fn frame_number(id: Option<&str>) -> usize {
     id.and_then(|id| id.strip_prefix('f')?.parse().ok()).unwrap_or(0)
 }
 
-/// Adds the pixels and trajectories of a robot to all frames. `number` becomes the id of its pixels. If it has a `name`,
-/// the pixels ask for the robot of that name.
+/// Adds the pixels and trajectories of a robot to all frames. `number`, counted from 0, becomes the id of its pixels.
+/// If it has a `name`, the pixels ask for the robot of that name.
 fn perform(show: &mut Show, (number, name): (u32, Option<String>), robot: &TimedRobot, times: &[FrameTimes]) {
     let mut light = robot.light.player();
     let mut first = 0;
@@ -192,8 +192,8 @@ fn perform(show: &mut Show, (number, name): (u32, Option<String>), robot: &Timed
     }
 }
 
-/// The path of a robot to the frame with these `times`, and the index of the first piece after it. The path begins with
-/// piece `first` of the robot's whole path. `None` if the robot stays at its place.
+/// The path of a robot to the frame with these `times`, and the index of the first piece after it. The search begins
+/// with piece `first` of the robot's whole path, counted from 0. The path is `None` if the robot only rests.
 fn drive(robot: &TimedRobot, first: usize, times: &FrameTimes) -> (Option<Trajectory>, usize) {
     let mut next = first;
     let mut way: Option<Trajectory> = None;

@@ -13,7 +13,7 @@ pub(crate) const STRETCHES_MAX: usize = 4_000_000;
 pub(crate) struct TimedLight {
     /// Whether codes, 0 to 255, are linear light. Otherwise, codes are sRGB.
     pub is_linear: bool,
-    /// Codes of red, green and blue before the first stretch.
+    /// Codes of red, green and blue at the start of the show, from which a first fade starts.
     pub start: [u8; 3],
     /// Stretches in order. After the last stretch, the codes at its end are kept.
     pub stretches: Vec<CodeStretch>,
@@ -42,7 +42,7 @@ impl TimedLight {
         self.stretches.last().map_or(0.0, |stretch| stretch.end_s)
     }
 
-    /// Whether the light is black from the start of the show until `at_s` seconds later.
+    /// Whether the light is black from the start of the show until `at_s`, seconds from the start of the show.
     pub fn is_dark_until(&self, at_s: f64) -> bool {
         let (mut begin_s, mut from) = (0.0, self.start);
         for stretch in &self.stretches {
@@ -63,8 +63,9 @@ impl TimedLight {
         self.stretches.last().map_or(self.start, |stretch| stretch.to)
     }
 
-    /// Adds a stretch. A hold after a hold of the same codes only prolongs it. `room` is the number of stretches that may
-    /// still follow in the whole file. Fails if it is 0, and for a stretch that ends more than a day after the start.
+    /// Adds a stretch. A hold after a hold of the same codes only prolongs it. `room` is the number of stretches that
+    /// may still follow in the whole file; it is reduced by 1 if the stretch is added. Fails if it is 0, and for a
+    /// stretch that ends before the start of the show or more than a day after it.
     pub fn push(&mut self, stretch: CodeStretch, room: &mut usize) -> Result<(), String> {
         if !(0.0..=LONGEST_S).contains(&stretch.end_s) {
             return Err("its light lasts longer than a day; shorten it".into());

@@ -17,8 +17,9 @@ const STEP_S: f64 = 0.02;
 /// Largest number of comparisons for all robots together. If a show needs more, the time between two is longer.
 const COMPARISONS_MAX: f64 = 20e6;
 
-/// Whether the light of a robot in the file ever differs from the light that `show` gives it without layers. In `show`,
-/// a robot has the colour of its pixel, and changes to the next colour at the end of a drive.
+/// Whether the light of a robot in the file differs from the light that `show` gives it without layers. Small
+/// differences do not count, and moments between two comparisons are not seen. In `show`, a robot has the colour of its
+/// pixel, and changes to the next colour at the end of a drive.
 pub(super) fn differs(file: &TimedShow, show: &Show, times: &[FrameTimes]) -> bool {
     let end_s = times.last().map_or(0.0, |times| times.end_s);
     let step_s = STEP_S.max(end_s * file.robots.len() as f64 / COMPARISONS_MAX);

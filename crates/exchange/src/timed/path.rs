@@ -5,8 +5,8 @@ use lightbots_show::{MAX_TRAJECTORY_PIECES, TrajectoryPiece};
 
 use crate::limits::LONGEST_S;
 
-/// A robot whose points within a piece are at most this far from the piece's first place stands, metres. Files round
-/// places to a tenth of a millimetre.
+/// A robot stands during a piece if no point of the piece is farther than this from the piece's start, metres. Files
+/// round places to a tenth of a millimetre.
 const STILL_M: f64 = 1e-4;
 /// Largest magnitude of a coordinate in a file, metres. No floor is as large, and squares of coordinates stay precise.
 const FARTHEST_M: f64 = 100_000.0;
@@ -59,7 +59,8 @@ impl TimedPath {
     }
 }
 
-/// Whether a robot stands during a piece that starts at the place `from`: no point of it is farther than [`STILL_M`].
+/// Whether a robot stands during a piece that starts at the place `from`: its control points and its end are at most
+/// [`STILL_M`] away.
 pub(crate) fn is_still(from: Vec2, piece: &TrajectoryPiece) -> bool {
     let points = piece.controls.iter().flatten().chain([&piece.end]);
     points.into_iter().all(|point| point.distance(from) <= STILL_M)
@@ -83,7 +84,8 @@ impl<'a> PathReader<'a> {
 
     /// Adds the next place of the robot, `[x, y, z]` in metres with z up. The robot reaches it `at_s` seconds after the
     /// start of the show. `controls` are the control points of a cubic Bézier curve to that place; `None`: a straight
-    /// line. Until the time of the first point, the robot stands at the first place.
+    /// line. Until the time of the first point, the robot stands at the first place. Fails if times decrease, for a
+    /// jump, for numbers out of bounds, and for too many pieces.
     pub fn point(
         &mut self,
         at_s: f64,

@@ -11,8 +11,8 @@ use super::TimedShow;
 use crate::archive::asset_of;
 use crate::sequence_file::SequenceFile;
 
-/// Times between two samples, milliseconds, tried in this order. The first with which all samples fit into a picture of
-/// [`PICTURE_PIXELS_MAX`] pixels is taken.
+/// Times between two samples, milliseconds. The first with which all samples fit into a picture of
+/// [`PICTURE_PIXELS_MAX`] pixels is used.
 const STEPS_MS: [u8; 6] = [20, 25, 40, 50, 100, 200];
 /// Media type of sequences among the files of a show.
 const MEDIA_TYPE: &str = "application/x-fseq";
@@ -44,8 +44,8 @@ pub(super) fn add(show: &mut Show, file: &TimedShow, times: &[FrameTimes]) -> Op
     None
 }
 
-/// Adds a layer and its file, a sequence of colours, to `show`. The first sample is shown at the show time `start_s`,
-/// seconds; later ones follow every `step_ms` milliseconds.
+/// Adds a layer and its file, a sequence of colours, to `show`. The first sample is shown at `start_s`, seconds from
+/// the start of the first frame's air time. Later ones follow every `step_ms` milliseconds.
 pub(crate) fn add_file(show: &mut Show, name: &str, content: Arc<[u8]>, step_ms: u8, start_s: f64) {
     let (hash, asset) = asset_of(&format!("{name}.fseq"), MEDIA_TYPE, content);
     show.assets.insert(hash, asset);

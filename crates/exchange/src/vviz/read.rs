@@ -11,7 +11,7 @@ use crate::timed::light::{CodeStretch, STRETCHES_MAX, TimedLight};
 use crate::timed::path::{PIECES_MAX, PathReader, TimedPath};
 use crate::timed::{TimedRobot, TimedShow, import};
 
-/// Allowed numbers of frames a second.
+/// Allowed numbers of steps of places, and of frames of colours, in a second.
 const RATES: std::ops::RangeInclusive<f64> = 0.01..=1_000.0;
 /// Codes of a robot without a light.
 const WHITE: [u8; 3] = [255; 3];
@@ -44,7 +44,8 @@ struct Reader {
 }
 
 impl Reader {
-    /// Reads rates, offset and coordinate frame, which may follow the performances in the file. Does not move `json`.
+    /// Reads rates, offset and coordinate frame, which may follow the performances in the file. Moves `json` only past
+    /// white space.
     fn new(json: &mut Json<'_>) -> Result<Self, ReadError> {
         json.peek()?;
         let number = |name: &str, usual: f64| match json.ahead(name) {

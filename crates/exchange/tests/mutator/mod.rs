@@ -39,7 +39,8 @@ pub fn corpus_files(corpus: &Path) -> Vec<Vec<u8>> {
     files.into_iter().map(|file| std::fs::read(file).unwrap()).collect()
 }
 
-/// Changes the bytes in one place. They are not empty afterwards.
+/// Changes the bytes in one place, or leaves them if it finds no digit to change. `bytes` must not be empty, and is not
+/// empty afterwards.
 pub fn mutate(bytes: &mut Vec<u8>, numbers: &mut Numbers) {
     const WORDS: [&[u8]; 14] = [
         b"NaN",

@@ -65,15 +65,16 @@ pub fn lit_show() -> Show {
     Show { layers, ..small_show() }
 }
 
-/// Places and colours of a show's robots at each of `moments_s`, seconds, by its plan.
+/// Places and colours of a show's robots at each of `moments_s` by its plan. Moments are seconds from the start of the
+/// drive to the first frame.
 pub fn seen(show: &Show, plan: &ShowPlan, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let (light, faults) = ShowLight::new(show);
     assert!(faults.is_empty(), "{faults:?}");
     scenes(&PlannedShow::new(show, plan, &light), moments_s)
 }
 
-/// Places and colours of a show's robots at each of `moments_s`, seconds, by its trajectories alone. They need not be
-/// drivable. Pixel n is robot n.
+/// Places and colours of a show's robots at each of `moments_s` by its trajectories alone, which robots need not be
+/// able to drive. Moments are seconds from the start of the drive to the first frame. Pixel n is robot n.
 pub fn prescribed(show: &mut Show, moments_s: &[f64]) -> Vec<Vec<SeenRobot>> {
     let dark = attach_pictures(show, |_, asset| {
         sequence_picture(asset.content.as_ref().expect("it is there")).map(Arc::new)
@@ -135,8 +136,8 @@ pub struct Apart {
     /// Largest distance of a channel from the range of the other performance's channels within [`Self::time_ms`],
     /// codes.
     pub codes: u8,
-    /// Largest shift in time of colours: the least time, in steps of 5 ms, within which all differ by `codes_max` at
-    /// most.
+    /// Largest shift in time of colours, milliseconds: the least time, in steps of 5 ms, within which all differ by
+    /// `codes_max` at most.
     pub time_ms: usize,
 }
 
@@ -179,7 +180,7 @@ fn outside(colour: Rgb, others: impl Iterator<Item = Rgb>) -> u8 {
         .unwrap_or(0)
 }
 
-/// Moments every 5 ms until the end of a plan, seconds.
+/// Moments every 5 ms until the end of a plan, seconds from the start of the drive to the first frame.
 pub fn moments(plan: &ShowPlan) -> Vec<f64> {
     (0..(plan.duration_s * 200.0) as usize).map(|nth| nth as f64 * 0.005).collect()
 }

@@ -7,9 +7,11 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
 
-/// Kinds of compression in the header.
+/// Code in the header for no compression.
 pub const PLAIN: u8 = 0;
+/// Code in the header for zstd.
 pub const ZSTD: u8 = 1;
+/// Code in the header for zlib.
 pub const ZLIB: u8 = 2;
 
 /// Offset of the first frame in a file, bytes.
@@ -17,8 +19,8 @@ pub fn data_at(file: &[u8]) -> usize {
     usize::from(u16::from_le_bytes([file[4], file[5]]))
 }
 
-/// Makes a file with one block of frames from a plain file. It keeps the channels of `ranges` (first channel, number),
-/// or all channels if there are no ranges.
+/// Makes a compressed or sparse file from a plain file. Each frame keeps its first bytes, and `ranges` (first channel,
+/// number of channels) says for which channels they stand. Without ranges, all bytes are kept.
 pub fn packed(plain: &[u8], compression: u8, ranges: &[(u32, u32)]) -> Vec<u8> {
     let begin = data_at(plain);
     let channels = u32::from_le_bytes(plain[10..14].try_into().unwrap());

@@ -17,6 +17,7 @@ use lightbots_show::{Frame, Show, Stage};
 
 use crate::sources::Source;
 
+/// Numbers of robots with which each source is drawn.
 const COUNTS: [usize; 5] = [12, 30, 100, 500, 2_000];
 
 /// Numbers of robots for which shows are written.

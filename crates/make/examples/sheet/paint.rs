@@ -27,7 +27,7 @@ impl Sheet {
         Self { image: RgbImage::new(width as u32 * CELL as u32, height as u32 * CELL as u32), columns }
     }
 
-    /// Draws a frame into its cell. Each light is a disc as wide as a robot, but wide enough to be seen.
+    /// Draws a frame into its cell. Each light is a disc nearly as wide as a robot, but 0.7 to 3.5 pixels in radius.
     pub fn draw(&mut self, source: usize, column: usize, made: &MadeFrame) {
         let scale = FILLED * CELL / made.size_m;
         let radius = (0.022 * scale).clamp(0.7, 3.5);

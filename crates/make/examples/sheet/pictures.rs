@@ -8,6 +8,7 @@ use lightbots_base::random::split_mix;
 
 type Bytes = Result<Vec<u8>, Box<dyn Error>>;
 
+/// Width and height of a generated photograph, pixels.
 const SIDE: u32 = 320;
 
 /// A lit ball on a dark ground, as JPEG.
@@ -68,7 +69,9 @@ pub fn leaf() -> Bytes {
 
 /// A heart that makes a quarter turn in two seconds, as GIF.
 pub fn turning_heart() -> Bytes {
+    /// Number of pictures of the animation.
     const PICTURES: u16 = 20;
+    /// Width and height of each picture, pixels.
     const WIDE: u16 = 96;
     let mut bytes = Vec::new();
     let mut encoder = gif::Encoder::new(&mut bytes, WIDE, WIDE, &[0, 0, 0, 255, 60, 90])?;
@@ -93,7 +96,8 @@ fn in_heart(x: f64, y: f64) -> bool {
     (x * x + y * y - 0.8).powi(3) - x * x * y * y * y <= 0.0
 }
 
-/// A picture of the colours that `shade` returns for x and y from -1 to 1, y up, with the noise of a sensor.
+/// A picture of the colours that `shade` returns for x and y from -1 to 1, y up, with the noise of a sensor. Colours
+/// are red, green and blue, 0 to 255.
 fn photograph(format: ImageFormat, shade: impl Fn(f64, f64) -> [f64; 3]) -> Bytes {
     let mut state = 7;
     let mut grain = || (split_mix(&mut state) % 13) as f64 - 6.0;

@@ -14,6 +14,7 @@ pub struct Source {
     pub asset: Option<Vec<u8>>,
 }
 
+/// Words: name, text and font.
 const WORDS: [(&str, &str, &str); 7] = [
     ("HI", "HI", "lato"),
     ("LOVE", "LOVE", "lato"),
@@ -30,6 +31,7 @@ macro_rules! drawing {
     };
 }
 
+/// Drawings: name and SVG file.
 const DRAWINGS: [(&str, &[u8]); 14] = [
     drawing!("cat"),
     drawing!("house"),

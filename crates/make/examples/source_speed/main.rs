@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Median duration over some rounds, decoding included, milliseconds.
+/// Median duration of `rounds` rounds, decoding included, milliseconds.
 fn median_ms(source: &Source, robots: usize, quality: Quality, rounds: usize) -> Result<f64, String> {
     let frame = Frame { sources: vec![source.recipe.source()], ..Frame::default() };
     let side_m = (robots as f64).sqrt().mul_add(0.4, 1.0);

@@ -88,7 +88,7 @@ fn random_apart(robots: usize, density: f64, apart_m: f64) -> TransitionProblem 
     problem(places(), places())
 }
 
-/// Random places in pairs whose partners are at the least distance.
+/// Random places in pairs. The two places of a pair are at the least distance.
 fn pairs(robots: usize, density: f64) -> TransitionProblem {
     let mut dice = Dice::new(0, 4);
     let mut places = || {
@@ -111,7 +111,7 @@ fn fixed(problem: TransitionProblem) -> TransitionProblem {
 }
 
 /// The same problem planned anew, as in a run: one robot died in the middle of the drive, and all stand where they
-/// were.
+/// were. The pixel of the dead robot and pixels on which it stands are left out.
 fn midway(problem: &TransitionProblem) -> TransitionProblem {
     let plan = transition(problem).expect("legal scenes are solved");
     let places: Vec<Vec2> =
@@ -221,7 +221,8 @@ fn mirrored(robots: usize) -> TransitionProblem {
     problem(starts.clone(), starts.iter().map(|at| Vec2::new(-at.x, at.y)).collect())
 }
 
-/// Robots that drive from rows along the front edge, as every show begins, to random places.
+/// Robots that drive from rows along the edge where y is largest to random places. A show without starts of its own
+/// begins like this.
 fn rows_to_random(robots: usize) -> TransitionProblem {
     let goals = scatter(&mut Dice::new(0, 3), robots, 100.0 / 9.0, APART_M);
     let half = (robots as f64 * 0.09).sqrt() / 2.0;
@@ -235,8 +236,8 @@ fn rows_to_random(robots: usize) -> TransitionProblem {
     problem(starts.collect(), goals)
 }
 
-/// Robots that drive from rows along the front edge to random places in a square in the middle. The floor is three
-/// times as wide as the square, as in a hall.
+/// Robots that drive from rows along the edge where y is smallest to random places in a square in the middle. The floor
+/// is three times as wide as the square, as in a hall.
 fn rows_to_middle(robots: usize) -> TransitionProblem {
     /// Robots per m² in the square: 1,000 in 4 m × 4 m.
     const DENSITY: f64 = 62.5;

@@ -28,7 +28,8 @@ impl Watch {
     }
 }
 
-/// Median duration of `work`, which is called `times` times (odd), milliseconds.
+/// Median duration of `work`, which is called `times` times (odd), milliseconds: processor time if a call takes more
+/// than 8 ms, else real time.
 pub fn median_ms(times: usize, mut work: impl FnMut()) -> f64 {
     let mut taken: Vec<f64> = (0..times)
         .map(|_| {

@@ -21,8 +21,8 @@ pub fn problem(starts: Vec<Vec2>, goals: Vec<Vec2>, half: Vec2, bound: Bound) ->
     TransitionProblem { starts, goals, pinned, ..TransitionProblem::on_floor(half, Limits::ELISA_3) }
 }
 
-/// Up to `count` random places at least `apart_m` apart where `clear` holds. Half of the attempts are exactly `apart_m`
-/// from another place.
+/// Up to `count` random places at least `apart_m` metres apart where `clear` holds. About half of the attempts are just
+/// `apart_m` from another place.
 pub fn scattered(
     dice: &mut Dice,
     count: usize,

@@ -27,7 +27,7 @@ pub const ALL: [(&str, Build); 14] = [
     ("dead", dead),
 ];
 
-/// Least distance between pixels, metres.
+/// Least distance between random places, metres.
 const APART_M: f64 = 0.0774;
 
 /// Random places on a square floor that are clear and at least `APART_M` apart.
@@ -133,7 +133,7 @@ fn shuffled_on(starts: Vec<Vec2>, half: f64, seed: u64) -> TransitionProblem {
     problem(starts, goals, half)
 }
 
-/// Robots that drive from rows along the front edge to random places.
+/// Robots that drive from rows along the edge where y is largest to random places.
 fn rows(robots: usize, seed: u64) -> TransitionProblem {
     let half = half_floor(robots, 300.0);
     let a_row = ((2.0 * half - 0.06) / 0.1) as usize + 1;

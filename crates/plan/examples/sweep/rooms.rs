@@ -99,8 +99,8 @@ fn standing(case: u64, bound: Bound) -> TransitionProblem {
     TransitionProblem { standing: standing.clone(), ..problem(starts, goals, half, bound) }
 }
 
-/// A goal in a ring of dead robots with one gap, which is one robot wide or slightly wider. In half of the cases a
-/// robot inside has to leave.
+/// One or two goals in a ring of dead robots with one gap, which is 62 to 106 mm wide between rims. In half of the
+/// cases robots inside have to leave.
 fn behind_standing(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(24, case);
     let apart_m = dice.between(0.06, 0.1);
@@ -130,7 +130,7 @@ fn behind_standing(case: u64) -> TransitionProblem {
     TransitionProblem { standing, ..problem(starts, goals, half, Bound::Yes) }
 }
 
-/// Few robots have a goal, and many spare robots block their paths.
+/// Some robots have a goal, and the spare robots block their paths.
 fn spares(case: u64) -> TransitionProblem {
     let mut dice = Dice::new(25, case);
     let (count, apart_m) = (dice.count(3, 200), dice.between(0.06, 0.076));

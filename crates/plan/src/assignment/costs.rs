@@ -103,7 +103,7 @@ impl<'a> Costs<'a> {
     }
 
     /// Completes an assignment. Then adds edges for which `allowed(row, column)` holds, until no edge would lower the
-    /// sum of costs.
+    /// sum of costs or [`ROUNDS`] are over.
     pub fn improve(&self, search: &mut Search, allowed: impl Fn(usize, u32) -> bool) {
         search.complete(self.cancel);
         for _ in 0..ROUNDS {

@@ -1,9 +1,9 @@
 //! Assignment of goals to starts by the straight lines between them. It minimises the longest line first, then the sum
 //! of squared lengths among assignments with no longer line.
 //!
-//! Both steps are exact and sparse. With ten thousand robots there are a hundred million edges (pairs of a goal and a
-//! start). Of these edges, a few for each robot are examined. The same places give the same assignment, bit for bit. Of
-//! equally good edges, the first in the k-d tree wins.
+//! Both steps are sparse, and exact but for rounding and the bound on rounds in `costs`. With ten thousand robots there
+//! are a hundred million edges (pairs of a goal and a start). Of these edges, a few for each robot are examined. The
+//! same places give the same assignment, bit for bit.
 
 mod bottleneck;
 mod costs;
@@ -79,7 +79,7 @@ impl<'a> Choice<'a> {
     }
 
     /// As [`Choice::new`], but the reach is the longest line of a known assignment `start_of[goal]`, instead of the
-    /// bottleneck distance.
+    /// bottleneck distance. The known assignment must keep the pins. `None` also if cancelled.
     pub(crate) fn containing(
         cancel: Cancel<'a>,
         starts: &[Vec2],

@@ -6,9 +6,10 @@ use crate::cancel::Cancel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A partial assignment that is optimal for its matched rows. A row without a column is open. No listed edge has a
-/// reduced cost (cost − row dual − column dual) below zero. Matched edges have a reduced cost of zero, and columns
-/// never used have a dual of zero.
+/// A partial assignment that is optimal for its matched rows. A row without a column is open. The reduced cost of an
+/// edge is cost − row dual − column dual. But for rounding, it is zero for matched edges, and not below zero for any
+/// listed edge. If there are more columns than rows, columns never used have a dual of zero. After edges were added or
+/// removed, this holds again once rows are reopened.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
     /// `edges[row]`: the listed edges of that row.
@@ -170,7 +171,8 @@ impl Search {
         }
     }
 
-    /// Sets a row's dual to the greatest value at which no edge of the row has a reduced cost below zero.
+    /// Sets a row's dual to the greatest value at which no edge of the row has a reduced cost below zero. The dual of a
+    /// row without edges becomes infinite.
     fn lift(&mut self, row: usize) {
         let duals = &self.column_duals;
         let least = self.edges[row].list.iter().map(|&(column, cost)| cost - duals[column as usize]);
@@ -221,8 +223,9 @@ impl Search {
         left
     }
 
-    /// Makes one bid of an open row. Returns the row that lost its column, if any. Takes nothing if the cheapest column
-    /// is not free, and the second cheapest is equally cheap or missing.
+    /// Makes one bid of an open row. Returns the row that lost its column, if any. Takes nothing if the row has no
+    /// edges. Takes nothing either if the cheapest column is not free, and the second cheapest is equally cheap or
+    /// missing.
     fn take_cheapest(&mut self, row: u32) -> Option<u32> {
         let (mut first, mut second, mut column) = (f64::INFINITY, f64::INFINITY, NONE);
         for &(candidate, cost) in &self.edges[row as usize].list {
@@ -256,7 +259,7 @@ impl Search {
     }
 
     /// Finds the shortest augmenting path from the open row `root`, and matches `root` by exchanging matched and
-    /// unmatched edges on that path.
+    /// unmatched edges on that path. Without such a path, `root` stays open.
     fn augment(&mut self, root: u32) {
         let Some((last, length)) = self.shortest(root) else {
             self.clear();

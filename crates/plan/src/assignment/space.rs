@@ -15,8 +15,8 @@ const THIN_M: f64 = 1e-6;
 /// Largest factor by which a set is stretched along an axis.
 const MOST: f64 = 1e3;
 
-/// Returns rows and columns moved and scaled to the same centre and the same spread along each axis. If their numbers
-/// differ, both are returned unchanged.
+/// Returns rows and columns moved and scaled to the same centre and, as far as [`MOST`] allows, to the same spread
+/// along each axis. If their numbers differ, both are returned unchanged.
 pub(super) fn common(rows: &[Vec2], columns: &[Vec2]) -> (Vec<Vec2>, Vec<Vec2>) {
     if rows.len() != columns.len() || rows.is_empty() {
         return (rows.to_vec(), columns.to_vec());

@@ -82,7 +82,8 @@ impl<'a> Within<'a> {
     }
 
     /// Returns the squared distance from a row to the nearest column that is not taken, or `bound` if no column is
-    /// nearer.
+    /// nearer. Lists only contain columns within the reach of the search, so `bound` may be returned for columns beyond
+    /// it.
     pub fn nearest_squared(&self, row: u32, bound: f64) -> f64 {
         match self {
             Self::Listed(listed) => {

@@ -1,6 +1,6 @@
 //! The conflict rule of the hexagonal lattice. In a step, a robot may enter the node that another robot leaves only if
-//! the directions of both differ by at most 60°. Then their centres stay 0.86 pitches apart on the way; in other cases
-//! only half a pitch.
+//! the directions of both differ by at most 60°. Then their centres stay 0.86 pitches apart on the way, where a pitch
+//! is the distance between neighbouring nodes. In other cases, only half a pitch is sure.
 
 use crate::cancel::Cancel;
 use crate::mapf::pibt::{ConflictRule, Moves, Pibt, PibtBounds};

@@ -6,8 +6,8 @@ use crate::cancel::Cancel;
 use crate::instance::Instance;
 use crate::roads::lattice::Lattice;
 
-/// Attempts in order: the search radius around a place, in pitches, and the most nodes that are considered within it. A
-/// wider attempt follows if the one before failed, because places are too dense.
+/// Attempts in order: the search radius around a place, in pitches (distances between neighbouring nodes), and the most
+/// nodes that are considered within it. A wider attempt follows if the one before failed, because places are too dense.
 const REACHES: [(f64, usize); 3] = [(1.7, 8), (3.5, 40), (9.0, 250)];
 /// Least increment of a bid, square metres. The sum of costs exceeds the least possible sum by at most this for each
 /// place.
@@ -16,7 +16,7 @@ const LEAST_BID: f64 = 2e-5;
 const MOST_BIDS: usize = 400;
 
 /// Returns a different node for each place, with a small sum of squared distances. `None` if there are not enough nodes
-/// near the places, or the search is cancelled.
+/// near the places, the auctions need too many bids, or the search is cancelled.
 pub(crate) fn assign_nodes(instance: &Instance, lattice: &Lattice, places: &[Vec2]) -> Option<Vec<u32>> {
     REACHES.iter().find_map(|&(reach, most)| {
         let choices: Option<Vec<Vec<(u32, f64)>>> = places

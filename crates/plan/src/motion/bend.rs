@@ -1,9 +1,9 @@
-//! Displaces a timed path for some time. The progress along the path stays the same.
+//! Displaces a timed path sideways or lengthwise for some time. The progress along the path stays the same.
 
 use crate::Path;
 use lightbots_base::{Piece, Span, Vec2};
 
-/// Least time between two knots, and between a knot and the begin or end of the drive, microseconds.
+/// Least time between two knots, and between a knot and the beginning or the end of the drive, microseconds.
 const APART_US: i64 = 200_000;
 
 /// Displacements of a path at some moments (knots), with a smooth transition between them.
@@ -32,7 +32,7 @@ impl Displacements {
     }
 
     /// Returns `path` with these displacements. Its first rest, its start, its end and its duration stay the same.
-    /// Knots nearer than 0.2 s to the begin or end of the drive are left out.
+    /// Knots nearer than 0.2 s to the end of the first rest or to the end of the path are left out.
     pub(crate) fn applied_to(&self, path: &Path) -> Path {
         let rest = path
             .pieces

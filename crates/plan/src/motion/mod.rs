@@ -1,5 +1,5 @@
-//! Timed paths along straight lines. At each moment, all robots have driven the same share of their lines (the
-//! progress), so all leave and arrive together.
+//! Timed paths along straight lines, and their displacements and delays. At each moment of a drive without delays, all
+//! robots have driven the same share of their lines (the progress). So all leave and arrive together.
 
 mod bend;
 mod delayed;
@@ -13,13 +13,13 @@ pub(crate) use profile::Profile;
 
 use lightbots_base::{Limits, Span};
 
-/// Time that a robot needs to turn by `angle` radians on the spot, in whole milliseconds, rounded up. Before a drive, a
-/// quarter turn is always enough, because a robot may drive backwards.
+/// Time that a robot needs to turn by `angle` radians on the spot, in whole milliseconds, rounded up. The turn rate
+/// counts as at least 0.01 rad/s. Before a drive, a quarter turn is always enough, because a robot may drive backwards.
 pub fn turn_time(angle: f64, limits: &Limits) -> Span {
     whole_millis(angle.abs() / limits.turn_radps.max(0.01))
 }
 
-/// Time of a quarter turn on the spot. Paths begin with a rest of this duration.
+/// Time of a quarter turn on the spot. A rest of this duration suffices before a drive in any direction.
 pub(crate) fn quarter_turn(limits: &Limits) -> Span {
     turn_time(core::f64::consts::FRAC_PI_2, limits)
 }

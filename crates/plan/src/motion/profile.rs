@@ -14,7 +14,8 @@ pub(crate) struct Profile {
     beats: Vec<Beat>,
 }
 
-/// A part of the progress: a cubic Bézier function of time. It begins where the part before ends, at 0 for the first.
+/// A part of the progress: a cubic Bézier function of time. It begins at the `end` of the part before it, the first
+/// part at 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Beat {
     duration: Span,
@@ -24,7 +25,8 @@ struct Beat {
 }
 
 impl Profile {
-    /// The fastest legal profile if the longest line has a length of `length_m` metres.
+    /// The fastest legal profile with this easing, in whole milliseconds, if the longest line has a length of
+    /// `length_m` metres. Without any rest or motion if that length is below 1e-9 m. Limits below 0.001 count as 0.001.
     pub(crate) fn quickest(length_m: f64, easing: Easing, limits: &Limits) -> Self {
         if length_m < 1e-9 {
             return Self { rest: Span::ZERO, beats: Vec::new() };
@@ -49,7 +51,7 @@ impl Profile {
     }
 
     /// The same profile, slowed down so that it lasts `total`; unchanged if it lasts that long already. The rest keeps
-    /// its duration.
+    /// its duration, except in a profile without motion, which becomes one rest.
     pub(crate) fn stretched(&self, total: Span) -> Self {
         let before = self.duration();
         if total <= before {

@@ -11,8 +11,8 @@ pub(crate) struct ProgressLaw {
 }
 
 impl ProgressLaw {
-    /// The fastest legal progress if the longest path has a length of `longest_m` metres. It lasts at least 0.4 s. Then
-    /// its duration is multiplied by `stretch`.
+    /// The fastest legal progress with this easing if the longest path has a length of `longest_m` metres. Its
+    /// duration, but at least 0.4 s, is multiplied by `stretch`.
     pub fn new(longest_m: f64, limits: &Limits, easing: Easing, stretch: f64) -> Self {
         let (speed, accel) = (limits.speed_mps, limits.accel_mps2);
         let halves = 2.0 * (longest_m / accel).sqrt();

@@ -18,8 +18,8 @@ const SETTLING_RAD: f64 = 0.2;
 /// time, a robot would be 7 mm off its line.
 const SETTLING_S: f64 = 0.18;
 
-/// The paths through `waypoints[step][robot]`, stage metres, which last `wished` or longer; `None` if a path has more
-/// than [`Path::MOST_PIECES`].
+/// The paths through `waypoints[step][robot]`, stage metres. They last `wished` or longer. `None` if a path has more
+/// than [`Path::MOST_PIECES`] with either easing.
 pub(crate) fn timed_paths(
     instance: &Instance,
     waypoints: &[Vec<Vec2>],

@@ -89,7 +89,7 @@ impl Cells {
             *end -= 1;
             self.sorted[*end as usize] = *disc;
         }
-        // Each entry is now the begin of the cell before it.
+        // Each entry is now the beginning of the cell before it.
         self.begins.remove(0);
         self.begins.push(discs.len() as u32);
         columns

@@ -274,7 +274,7 @@ impl ContactDetector {
         let weights = basis(u);
         let nearest = blend(apart, &weights);
         let length = nearest.length();
-        // Robots whose centres meet pass each other on the right.
+        // If the centres meet, the two robots pass each other on the right.
         let aside = || (apart[0] - apart[3]).left().normalized().unwrap_or(Vec2::new(1.0, 0.0));
         let away = if length > 1e-6 { nearest / length } else { aside() };
         Approach { apart: length, away, weights }

@@ -7,6 +7,7 @@ use crate::seeded::Seeded;
 use lightbots_base::Limits;
 
 const WISH: Clearances = Clearances { robots_m: 0.06, walls_m: 0.006, edge_m: 0.0, slack_m: 0.002 };
+/// Number of robots.
 const ROBOTS: usize = 60;
 
 /// Contacts of every pair and span closer than the wanted distance minus `less_m`.

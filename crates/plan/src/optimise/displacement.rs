@@ -96,6 +96,7 @@ mod tests {
     use crate::spline::weights::{basis, blend};
     use lightbots_base::Limits;
 
+    /// Number of spans of each spline.
     const SPANS: usize = 9;
 
     fn splines() -> SplineSet {

@@ -13,8 +13,8 @@ use crate::optimise::contacts::{Contact, Other};
 pub(crate) struct LeftOver {
     /// Pairs of robots that are too close, each once, and their places.
     pub meetings: Vec<Meeting>,
-    /// Number of pairs that are too close: two robots, or a robot and a wall. 0 if the proof rejects the splines. `None` if
-    /// no detection has found a contact, because the work ended before.
+    /// Number of pairs that are too close: two robots, or a robot and a wall. 0 if the proof rejects the splines.
+    /// `None` if no regular detection found a contact, for example because the work ended before.
     contacts: Option<usize>,
 }
 
@@ -61,7 +61,7 @@ mod tests {
     use lightbots_base::Limits;
     use lightbots_show::Obstacle;
 
-    /// The outcome for a robot whose path leads through a wall, after one sweep with this work.
+    /// The outcome for a robot on a path through a wall, after one sweep with this work.
     fn through_a_wall(mut work: usize) -> RowOutcome {
         let (start, goal) = (Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0));
         let problem = TransitionProblem {

@@ -1,5 +1,5 @@
 //! Trajectory optimisation: robots that come too close to each other or to walls are displaced. Then limits of their
-//! motion are restored. Both steps are repeated until neither is needed.
+//! motion are restored. Both steps are repeated until neither is needed, or the work is used up.
 
 pub(crate) mod cells;
 pub(crate) mod contacts;

@@ -1,5 +1,5 @@
-//! Near pairs of robots on a span, if at least one of the two has moved since the last detection. Pairs of robots that
-//! have not moved are not compared again.
+//! Near pairs of robots on a span (a piece of their splines), if at least one of the two has moved since the last
+//! detection. Pairs of robots that have not moved are not compared again.
 
 use lightbots_base::Vec2;
 
@@ -8,7 +8,7 @@ use crate::optimise::displacement::Displacement;
 
 /// Number of straight stretches by which a span is approximated.
 pub(crate) const STRETCHES: usize = 4;
-/// A robot whose control points moved at most this far since the last detection counts as still, metres.
+/// A robot counts as still if its control points moved at most this far since the last detection, metres.
 /// [`SKIN_M`](super::contacts) includes this distance.
 pub(crate) const MOVED_M: f64 = 0.002;
 /// If at most one robot in this many has moved, each moved robot is compared with all others directly, without cells.
@@ -77,9 +77,11 @@ pub(crate) fn reach(places: &Places) -> f64 {
     first.length_squared().max(last.length_squared()).sqrt()
 }
 
-/// Whether the straight stretches between places come nearer to the origin than `near` metres.
+/// Whether the straight stretches between places come nearer to the origin than `near` metres. `places`: places of one
+/// robot relative to another.
 pub(crate) fn come_near(places: &Places, near: f64) -> bool {
-    // Two robots with similar motion hardly come nearer to each other than they are in the middle of the span.
+    // Skips a pair if its distance in the middle of the span rules out that it is near at the ends. In between, robots
+    // with similar motion hardly come nearer.
     let far = near + reach(places);
     let square = near * near;
     let comes_near = |pair: &[Vec2]| {

@@ -1,5 +1,6 @@
-//! The deformation of first guesses in space and time. Each sweep displaces robots that are too close (contacts), then
-//! projects splines onto their limits.
+//! The deformation of first guesses in space and time. A first guess is a set of splines on which robots may touch.
+//! Each sweep displaces robots that are too close (contacts), then projects splines onto the limits of motion. A span
+//! is one piece of a spline; all spans last equally long.
 
 use lightbots_base::Vec2;
 
@@ -40,7 +41,7 @@ const LEAST_INFLUENCE: f64 = 0.18;
 const OVERSHOOT: f64 = 1.15;
 /// Speed below which differences of speed hardly change which of two robots is displaced farther, m/s.
 const CLUMSY_MPS: f64 = 0.1;
-/// Number of passes that smooth fast turns in a sweep with at most one contact per robot.
+/// Most passes that smooth fast turns, in a sweep with at most one contact per robot. Other sweeps make one pass.
 const SMOOTHING_PASSES: usize = 8;
 /// Time scale below which a solution without contacts needs no further sweeps.
 const GOOD_TIME_SCALE: f64 = 1.03;
@@ -61,8 +62,8 @@ pub(crate) struct Effort {
     pub clearances: Clearances,
 }
 
-/// Deforms splines until they have no contacts; `Err` with what the detection found that found the fewest. The result
-/// may be too fast: its duration must be multiplied by [`SplineSet::greatest_time_scale`].
+/// Deforms splines until they have no contacts. `Err` has what the detection found that found the fewest contacts. The
+/// result may be too fast: its duration must be multiplied by [`SplineSet::greatest_time_scale`].
 pub(crate) fn relax(
     instance: &Instance,
     splines: SplineSet,
@@ -130,7 +131,7 @@ impl<'a> Relaxation<'a> {
         self.resolved
     }
 
-    /// Returns the fastest splines without contacts, or what the detection found that found the fewest.
+    /// Returns the fastest splines without contacts. `Err` has what the detection found that found the fewest contacts.
     pub fn outcome(self) -> Result<SplineSet, LeftOver> {
         self.best.map(|(_, splines)| splines).ok_or(self.left_over)
     }
@@ -213,7 +214,8 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Multiplies the duration by a factor. Additional time goes to and beside spans with contacts, if any.
+    /// Multiplies the duration by `factor`, or by less if [`MOST_TIME_SCALED`] limits the spans with most contacts.
+    /// Additional time goes to and beside spans with contacts, if any.
     fn give_time(&mut self, factor: f64) {
         let mut congestion = vec![0.0; self.splines.spans];
         for contact in self.contacts.iter().filter(|contact| contact.is_close) {
@@ -241,7 +243,8 @@ impl<'a> State<'a> {
         self.detected_at = None;
     }
 
-    /// Displaces one robot of each pair in contact. With each `number`, the robot alternates and the direction changes.
+    /// Displaces one robot of each pair in contact, each robot at most once. From one `number` to the next, the
+    /// direction changes, and pairs of robots alternate between their two robots.
     fn perturb(&mut self, number: usize) {
         let aside = Vec2::unit(number as f64 * PERTURBATION_TURN) * PERTURBATION_M;
         let mut perturbed = vec![false; self.splines.robots()];

@@ -1,7 +1,7 @@
 //! When a deformation makes the drive longer, and by how much. Sweeps of the deformation are counted in stages. A stage
 //! is in vain if too many contacts are left at its end.
 
-/// Number of sweeps of a stage, and the share of contacts at its begin that may be left at its end.
+/// Number of sweeps of a stage, and the share of the contacts at its beginning that may be left at its end.
 const STAGE: (usize, f64) = (12, 0.5);
 /// As [`STAGE`], for deformations with `hurry`, which add time sooner.
 const HURRIED_STAGE: (usize, f64) = (10, 0.7);
@@ -11,7 +11,7 @@ const LAST_SWEEPS: usize = 24;
 const GROWTH: f64 = 1.03;
 /// Factor on the duration of the drive after a stage in vain, if few contacts are left.
 const LAST_GROWTH: f64 = 1.02;
-/// Addition to that factor for each contact per robot, with `hurry`.
+/// Addition to [`GROWTH`] or [`LAST_GROWTH`] for each contact per robot, with `hurry`.
 const GROWTH_A_CONTACT: f64 = 0.014;
 /// Most contacts per robot that count for [`GROWTH_A_CONTACT`].
 const MOST_CONTACTS: f64 = 12.0;

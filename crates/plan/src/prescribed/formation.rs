@@ -1,4 +1,4 @@
-//! Ways (the whole paths) of robots whose picture moves as a whole.
+//! Ways of robots in a picture that moves as a whole. A way is the whole path of one robot.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,6 +22,7 @@ const MOST_LATE: f64 = 0.75;
 
 /// Returns the places of the pixels of `frame` after `motion`, by pixel id, stage metres. For staggered starts and
 /// drives through pictures, the places are returned unchanged, because their goals are the pixels of the next frame.
+/// They are unchanged too for a line of robots without a curve.
 pub fn moved(motion: &PictureMotion, frame: &Frame) -> PlacesById {
     let before = picture(frame);
     let ways = ways(motion, &before);

@@ -3,8 +3,9 @@
 //! In reading order: [`shape`] is the curve of a robot without times. A [`way`] is the whole path of a robot: shapes in
 //! sequence, or a timed path. [`formation`] makes ways from a [`PictureMotion`] and a picture, [`morph`] makes ways
 //! through several pictures. [`timing`] finds the least legal duration and makes timed paths. [`given`] takes the
-//! trajectories of a show unchanged. [`drive`] gives each robot its way and checks the drive with the proof. Except for
-//! staggered starts, a prescribed drive applies only if robots stand on the picture before the frame. From other
+//! trajectories of a show unchanged. [`drive`] gives each robot its way and checks the drive with the proof.
+//!
+//! Except for staggered starts, a prescribed drive applies only if robots stand where its ways begin. From other
 //! places, the ordinary planner plans the drive.
 
 mod drive;

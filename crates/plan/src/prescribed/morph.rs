@@ -19,8 +19,8 @@ pub(super) fn ways(
     let starts: Vec<Vec2> = before.values().copied().collect();
     let goals: Vec<Vec2> = after.values().copied().collect();
     let mut lines: Vec<Vec<Vec2>> = starts.iter().map(|&at| vec![at]).collect();
-    // Sum of the longest lines up to each picture, metres. All robots reach a picture together. These sums decide at
-    // which share of their way.
+    // Sum of the longest lines up to each picture, metres. All robots reach a picture together, at the share of their
+    // ways that this sum has in the sum of all longest lines.
     let mut longest_m = vec![0.0];
     for picture in through.iter().map(Vec::as_slice).chain([&goals[..]]) {
         let here: Vec<Vec2> = lines.iter().map(|line| line[line.len() - 1]).collect();

@@ -1,4 +1,4 @@
-//! The curve of a robot without times: a place for each share of the curve, from 0 at its begin to 1 at its end.
+//! The curve of a robot without times: a place for each share of the curve, from 0 at its beginning to 1 at its end.
 
 use std::sync::Arc;
 
@@ -15,7 +15,8 @@ const LENGTH_STEPS: u32 = 64;
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     curve: ShapeCurve,
-    /// Displacements of the curve at its begin and at its end, metres. Between them the displacement changes smoothly.
+    /// Displacements of the curve at its beginning and at its end, metres. Between them, the displacement changes
+    /// smoothly.
     offsets: (Vec2, Vec2),
 }
 

@@ -157,9 +157,9 @@ fn add_part(path: &mut Path, part: &WayPart, lasts: Span, limits: &Limits, easin
     }
 }
 
-/// Returns the moments at which pieces of a part end, counted from the begin of the part. These are the ends of both
-/// ramps of speed, and further moments within and between the ramps, as many as the shape needs. They are increasing
-/// whole milliseconds.
+/// Returns the moments at which pieces of a part end, counted from the beginning of the part. These are the ends of
+/// both ramps of speed, and further moments within and between the ramps, as many as the shape needs. They are
+/// increasing whole milliseconds.
 fn moments(law: &ProgressLaw, pieces: usize) -> Vec<Span> {
     let (ramp_s, drive_s) = (law.ramp_s(), law.drive_s);
     let ramp_pieces = ((pieces as f64 * law.share(ramp_s)).ceil() as usize).max(1);

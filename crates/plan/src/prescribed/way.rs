@@ -14,7 +14,7 @@ pub(crate) enum PrescribedWay {
     Timed(Path),
 }
 
-/// A part of a way. The robot is at rest at the begin and at the end of the part.
+/// A part of a way. The robot is at rest at the beginning and at the end of the part.
 #[derive(Clone, Debug)]
 pub(crate) struct WayPart {
     /// Begin and end of the part, as shares of the duration of the whole drive.

@@ -5,7 +5,7 @@ use lightbots_base::Vec2;
 /// The four control points of a cubic Bézier curve.
 pub(super) type Cubic = [Vec2; 4];
 
-/// Largest error of distances, metres.
+/// Largest error of distances, metres, unless the search for them is cut short.
 const TOLERANCE_M: f64 = 1e-7;
 /// Most parts that are divided; curves on a floor need some dozens. All further parts count with the distance of their
 /// hulls, which is a lower bound.
@@ -15,8 +15,9 @@ const DEEPEST: usize = 62;
 /// Parts whose range of the parameter is shorter than this are not divided any more.
 const SHORTEST: f64 = 1e-7;
 
-/// Returns the curve's least distance from the origin, to [`TOLERANCE_M`], and the parameter there. `None` if the curve
-/// is nowhere nearer than `enough`.
+/// Returns the curve's least distance from the origin, metres, to [`TOLERANCE_M`], and the parameter there. `None` if
+/// the curve is nowhere nearer than `enough`, or nearer by less than the tolerance. If the search is cut short, the
+/// distance is a lower bound.
 pub(super) fn nearest(curve: &Cubic, enough: f64) -> Option<(f64, f64)> {
     let mut search = Search { best: enough, at: None, parts: 0 };
     search.offer(curve[0].length(), 0.0);

@@ -18,7 +18,7 @@ const FARTHEST_M: f64 = 1e6;
 /// or more. An undecided speed gets twice as many bisections, and then counts as too fast.
 const HALVINGS: u32 = 8;
 
-/// Calls `fault` once for each kind of illegal motion in a path, with the begin of the first piece that has it.
+/// Calls `fault` once for each kind of illegal motion in a path, with the beginning of the first piece that has it.
 /// `fault` gets `horizon` instead if only the end of the path is not at rest. `horizon`: time at which the path must
 /// end. A malformed path gets only [`FaultKind::Malformed`].
 pub(super) fn judge(path: &Path, horizon: Span, limits: &Limits, mut fault: impl FnMut(FaultKind, Span)) {
@@ -77,7 +77,8 @@ fn exceeds_speed(course: &Course, limit: f64, halvings: u32) -> bool {
     exceeds_speed(&left, limit, halvings - 1) || exceeds_speed(&right, limit, halvings - 1)
 }
 
-/// Reports a fault if a robot turns too fast on a piece, or one of its wheels is too fast.
+/// Reports a fault if a robot turns too fast on a piece, or one of its wheels is too fast. Parts that are straight, or
+/// nowhere faster than [`CREEP_MPS`], are not checked.
 fn judge_turning(course: &Course, limits: &Limits, halvings: u32, report: &mut dyn FnMut(FaultKind)) {
     let (swing, top) = (course.swing_bound(), course.speed_bound());
     if swing <= STRAIGHT || top < CREEP_MPS {

@@ -31,8 +31,8 @@ impl<'a> Facing<'a> {
         Self { limits, heading: None, slow_s: 0.0, behind_s: 0.0 }
     }
 
-    /// Follows the next piece of the path, which lasts `seconds`. Returns whether the robot had enough time for each
-    /// turn before it moves fast on this piece.
+    /// Follows the next piece of the path, which lasts `seconds`. Returns whether the robot had enough time, but for
+    /// [`GRACE_S`], for each turn before it moves fast on this piece. `false` also if the piece needs too many parts.
     pub fn follow(&mut self, course: &Course, seconds: f64) -> bool {
         let mut left = MOST_STRETCHES;
         self.go_on(course, seconds, &mut left) && left > 0
@@ -62,7 +62,8 @@ impl<'a> Facing<'a> {
         self.go_on(&second, seconds / 2.0, left) && in_time
     }
 
-    /// Begins fast motion with this velocity. Returns whether there was time to turn to its direction.
+    /// Begins fast motion with this velocity. Returns whether there was time to turn to its direction, but for
+    /// [`GRACE_S`].
     fn turn(&mut self, velocity: Vec2) -> bool {
         let Some(line) = velocity.normalized() else { return true };
         self.behind_s = (self.behind_s + self.needed_s(line) - self.slow_s).max(0.0);
@@ -70,8 +71,8 @@ impl<'a> Facing<'a> {
         self.behind_s <= GRACE_S
     }
 
-    /// Time to turn towards the unit vector `towards`, seconds. The robot may then drive forwards or backwards,
-    /// whichever needs the smaller turn.
+    /// Time to turn towards the unit vector `towards`, seconds; that of a quarter turn before the robot's first fast
+    /// motion. The robot may then drive forwards or backwards, whichever needs the smaller turn.
     fn needed_s(&self, towards: Vec2) -> f64 {
         let angle = match self.heading {
             Some(heading) => Vec2::new(heading.dot(towards).abs(), heading.cross(towards).abs()).angle(),

@@ -21,9 +21,9 @@ pub struct ProofInput<'a> {
     /// Limits of the robots.
     pub limits: &'a Limits,
     /// Least distance that two centres must keep, metres. A pair that begins or ends closer must only keep the smaller
-    /// of its distances at the begin and the end.
+    /// of its distances at the beginning and the end.
     pub gap_m: f64,
-    /// Least distance between a robot's rim and a no-go area, metres. A robot that begins or ends closer must only keep
-    /// the smaller of its distances there.
+    /// Least distance between a robot's rim and a no-go area, metres. A robot that begins or ends closer to the area
+    /// must only keep the smaller of its distances at the beginning and the end.
     pub obstacle_gap_m: f64,
 }

@@ -1,8 +1,9 @@
 //! The proof: whether timed paths keep all robots apart and within their limits, at every moment of continuous time.
 //!
-//! **Invariant:** the proof shares nothing with the planner but the path type, because a mistake of the planner must
-//! not repeat in its proof. The proof reads only the pieces of paths. Distances and speeds are bounded by convex hulls
-//! of Bézier control points. Pieces are divided until the bounds decide; only [`stop_safe`] uses samples.
+//! **Invariant:** the proof shares nothing with the planner but the path type and the cancellation. Otherwise a mistake
+//! of the planner could repeat in its proof. The proof reads only the pieces of paths. Distances and speeds are bounded
+//! by convex hulls of Bézier control points. Pieces are divided until the bounds decide, or until a bound on divisions
+//! is reached. Only [`stop_safe`] uses samples.
 
 mod course;
 mod curve;
@@ -29,8 +30,8 @@ use crate::Path;
 use crate::cancel::Cancel;
 use lightbots_base::Span;
 
-/// Checks paths. Returns all conflicts (pairs that come too close), all faults (illegal motion), and the closest pair.
-/// If a path is malformed, pairs are not checked.
+/// Checks paths. Returns all conflicts (pairs that come too close), the faults (illegal motion) of each robot, and the
+/// closest pair. A robot has at most one fault of each kind. If a path is malformed, pairs are not checked.
 pub fn prove(input: &ProofInput<'_>) -> Proof {
     prove_unless(input, Cancel::NEVER)
 }
@@ -44,7 +45,7 @@ pub(crate) fn prove_unless(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Proof 
     proof
 }
 
-/// Checks each path alone, without pairs of robots, and returns the faults.
+/// Checks each path alone, without pairs of robots, and returns the faults, at most one of each kind for each robot.
 pub(crate) fn faults(input: &ProofInput<'_>, cancel: Cancel<'_>) -> Vec<Fault> {
     let (horizon, mut faults) = (horizon(input), Vec::<Fault>::new());
     for (robot, path) in input.paths.iter().enumerate() {

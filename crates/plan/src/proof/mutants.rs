@@ -1,5 +1,5 @@
-//! Legal plans that are spoilt in many ways. The proof must reject each with the right kind of fault, and no other
-//! robot.
+//! Legal plans that are spoilt in many ways. The proof must reject each of them with the right kind of fault. Faults of
+//! other robots must not be reported.
 
 use super::tests::{LIMITS, input};
 use super::*;
@@ -8,7 +8,9 @@ use crate::{TransitionProblem, transition};
 use lightbots_base::{Piece, Vec2};
 use lightbots_show::Obstacle;
 
+/// A no-go area in the middle of the floor, metres.
 const NO_GO: [Obstacle; 1] = [Obstacle::Disc { at: Vec2::new(0.0, 0.0), radius_m: 0.12 }];
+/// Number of robots in each plan.
 const ROBOTS: usize = 16;
 
 /// Paths that the proof accepts on a floor with a no-go area in its middle, and their number generator.

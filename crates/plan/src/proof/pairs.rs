@@ -1,4 +1,4 @@
-//! Least distance of every pair of discs, which are robots and standing discs.
+//! Finds the pairs of discs that come too close, and the closest pair. Discs are robots and standing discs.
 
 use super::grid::{Bounds, near_pairs};
 use super::input::{ProofInput, SLACK_M};
@@ -13,7 +13,8 @@ const POLLED: usize = 4096;
 /// Most slices of time into which the drive is divided.
 const MOST_SLICES: f64 = 2000.0;
 
-/// Returns all pairs that come closer than allowed, and the closest pair of all. `horizon`: duration of the drive.
+/// Returns all pairs that come closer than allowed, and the closest pair of all. At least one of a pair is a robot.
+/// `horizon`: duration of the drive.
 pub(super) fn judge(
     input: &ProofInput<'_>,
     horizon: Span,

@@ -1,9 +1,9 @@
 //! Stop-safety: the moments at which a robot may stop dead (suddenly and for good, as if it had failed) without any
 //! contact.
 //!
-//! Assumptions of the measurement: the dead robot stays where it is. A robot that would touch it before the fleet rests
-//! brakes at the grip limit after the reaction time. As soon as the first robot brakes, one HOLD is sent. All other
-//! robots drive on until this HOLD has eased them to rest.
+//! Assumptions of the measurement: the dead robot stays where it is. A robot that would come near it before the fleet
+//! rests brakes at the grip limit after the reaction time. As soon as the first robot brakes, one HOLD is sent. All
+//! other robots drive on until this HOLD has eased them to rest.
 //!
 //! A braking robot becomes an obstacle too. It may begin to brake at any moment from the first when it may see the dead
 //! robot to the last when it must brake. The robots behind it must be able to stop at each of these moments. Moments
@@ -124,8 +124,8 @@ pub fn stop_safety(paths: &[Path], limits: &Limits) -> StopSafety {
     measured(paths, limits, &StopAssumptions::default(), Cancel::NEVER)
 }
 
-/// [`stop_safety`] under other assumptions, cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called at
-/// least once for every eight sampled moments.
+/// [`stop_safety`] under other assumptions, cancelled once `is_wanted` returns `true`. `is_wanted` is called at least
+/// once for every eight sampled moments.
 pub fn stop_safety_unless(
     paths: &[Path],
     limits: &Limits,
@@ -281,7 +281,8 @@ pub(crate) struct Braking {
     pub first: u8,
     /// Last step in which the robot may begin to brake; 0 if it cannot stop in time.
     pub last: u8,
-    /// The step in which the robot would come nearer than [`Law::wary_m`] if it did not brake.
+    /// The step in which the robot would come nearer than [`Law::wary_m`] if it did not brake. If it is nearer already
+    /// at the dead stop, that smaller distance counts.
     pub touched: u8,
     /// Distance that the robot lacks to stop in time, metres; 0 if it can stop.
     pub missing_m: f32,
@@ -364,7 +365,7 @@ impl Law {
     }
 
     /// Least distance of a robot from `place` if its wheels begin to brake `delay_s` after the dead stop, metres.
-    /// Counted only from the begin of the step in which they begin to brake.
+    /// Counted only from the beginning of the step in which they begin to brake.
     fn rolling_m(&self, place: Vec2, at: &impl Fn(usize) -> Vec2, delay_s: f64) -> f64 {
         let (step, step_s) = (self.step_of(delay_s), STEP.as_secs());
         let (from, to) = (at(step), at(step + 1));

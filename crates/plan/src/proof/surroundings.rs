@@ -11,8 +11,8 @@ use lightbots_show::Obstacle;
 /// Number of bisections after which an undecided curve counts as a fault.
 const HALVINGS: u32 = 24;
 
-/// Calls `fault` with the begin of the first piece that leaves the floor. Also calls it with the begin of the first
-/// piece that comes too near to an obstacle: to the first such obstacle of the list.
+/// Calls `fault` with the beginning of the first piece that leaves the floor. Also calls it with the beginning of the
+/// first piece that comes too near to an obstacle. Only the first such obstacle of the list is reported.
 pub(super) fn judge(path: &Path, input: &ProofInput<'_>, mut fault: impl FnMut(FaultKind, Span)) {
     let (start, end) = (path.start, path.as_ref().end());
     // A robot that starts or ends off the floor may be as far off as that start or end.
@@ -51,7 +51,8 @@ fn distance(thing: &Obstacle, place: Vec2) -> f64 {
     }
 }
 
-/// Whether a curve comes nearer to an obstacle's rim than `need` metres.
+/// Whether a curve comes nearer to an obstacle's rim than `need` metres; always `false` if `need` is not positive. An
+/// undecided curve counts as too near.
 fn touches(thing: &Obstacle, curve: &Cubic, need: f64) -> bool {
     match *thing {
         Obstacle::Disc { at, radius_m } => {

@@ -4,6 +4,7 @@ use lightbots_base::{Limits, Piece, Vec2};
 use lightbots_show::Obstacle;
 
 pub(super) const LIMITS: Limits = Limits::ELISA_3;
+/// Rest before a drive, in which a robot turns, microseconds: 0.35 s, enough for a quarter turn at 4.5 rad/s.
 pub(super) const REST: Span = Span(350_000);
 
 pub(super) fn input<'a>(

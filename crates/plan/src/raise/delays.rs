@@ -17,13 +17,14 @@ use std::collections::BTreeMap;
 
 /// Longest delay of a robot. Pairs that could come near each other only with longer delays are not checked.
 const MOST: Span = Span::from_millis(400);
-/// Most checks of a pair at a moment, for each robot of the transition.
+/// Most checks of a pair at a moment, for each robot of the transition. When the checks are used up, the search ends
+/// with the delays found until then.
 const MOST_LOOKS: usize = 1_500;
 /// Most checks of a pair at a moment, in all.
 const MOST_LOOKS_IN_ALL: usize = 3_000_000;
-/// Number of moments from one to the next at which robots are searched for near robots.
+/// Robots that are near each other are searched at each `STRIDE`-th moment only.
 const STRIDE: usize = 4;
-/// Most robots that one chain of delays may contain.
+/// Most delays in one chain; a robot that is delayed twice counts twice.
 const MOST_CHAIN: usize = 64;
 
 /// Returns `[robot]`: the delay of its start. `before`: the stop-safety without delays. `most`: how much later than
@@ -56,7 +57,8 @@ pub(super) fn delays(
     search.levels.iter().map(|level| LEVEL * i64::from(*level)).collect()
 }
 
-/// A robot that may come near another robot, and the first and the last moment at which it may, in steps of 50 ms.
+/// A robot that may come near another robot. `first` and `last` are the first and the last moment at which it may, in
+/// steps of 50 ms.
 #[derive(Clone, Copy)]
 struct Near {
     other: usize,
@@ -100,7 +102,8 @@ impl<'a> Search<'a> {
     }
 
     /// Delays robot `later` until it would not touch robot `sooner` after `sooner` stopped dead, and the reverse.
-    /// Delays other robots as far as that requires. `None`, without any change, if that is impossible.
+    /// Delays other robots as far as that requires. `None`, with all delays as before, if that is impossible or too few
+    /// checks are left.
     fn put_behind(&mut self, sooner: usize, later: usize) -> Option<()> {
         let pair = self.near(later).iter().find(|near| near.other == sooner).copied()?;
         if self.cost(later, &pair)? == 0 {
@@ -138,8 +141,8 @@ impl<'a> Search<'a> {
         Some(())
     }
 
-    /// Raises a robot's delay to the least delay at which the cost of the pair is at most `allowed`; `None` if no delay
-    /// suffices.
+    /// Raises a robot's delay to the least greater delay at which the cost of the pair is at most `allowed`. `None` if
+    /// no delay suffices, or too few checks are left.
     fn delay(&mut self, robot: usize, pair: &Near, allowed: u32) -> Option<()> {
         for level in self.levels[robot] + 1..=self.most[robot] {
             if self.cost_at(robot, pair, (level, self.levels[pair.other]))? <= allowed {
@@ -162,7 +165,7 @@ impl<'a> Search<'a> {
         Some(self.law.cost(tracks, levels, (pair.first, pair.last)))
     }
 
-    /// Returns all robots that may come near `robot`, with any delays up to [`MOST`].
+    /// Returns all robots that may come near `robot` if robots are delayed by up to [`MOST`].
     fn near(&mut self, robot: usize) -> Vec<Near> {
         if let Some(known) = self.near.get(&robot) {
             return known.clone();

@@ -27,8 +27,8 @@ pub(crate) trait Graph {
     }
 }
 
-/// Returns `[node]`: the least number of lines from the node to `goal`; `u16::MAX` if there is no path (breadth-first
-/// search).
+/// Returns `[node]`: the least number of lines from the node to `goal` (breadth-first search). It is `u16::MAX` if
+/// there is no path, or none with fewer lines than that.
 pub(crate) fn steps_to(graph: &impl Graph, goal: u32) -> Vec<u16> {
     let mut steps = vec![u16::MAX; graph.places().len()];
     let mut queue = VecDeque::from([goal]);
@@ -109,8 +109,7 @@ impl Ord for Reached {
 mod tests {
     use super::*;
 
-    /// A square with sides of 1 m, one corner of which has a line only to its left neighbour, and a fifth node without
-    /// lines.
+    /// A square with sides of 1 m and no line along its upper side, and a fifth node without lines.
     struct Square([Vec2; 5]);
 
     impl Graph for Square {

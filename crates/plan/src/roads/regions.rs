@@ -120,7 +120,8 @@ pub(crate) fn enough_m(problem: &TransitionProblem, (_, other): (Thing, Thing)) 
 }
 
 impl Regions {
-    /// Regions of a problem's floor; `None` if it has no obstacles, or if it needs more than [`MOST_SQUARES`].
+    /// Regions of a problem's floor; `None` if it has no obstacles or no area, or if it needs more than
+    /// [`MOST_SQUARES`].
     pub fn new(problem: &TransitionProblem, cancel: Cancel<'_>) -> Option<Self> {
         let half = problem.half_floor;
         let square_m = problem.limits.radius_m / SQUARES_A_RADIUS;
@@ -285,7 +286,8 @@ impl Regions {
         out.copied().max_by(|a, b| a.wide_m.total_cmp(&b.wide_m))
     }
 
-    /// Returns the obstacles and standing robots that bound region `part`.
+    /// Returns the obstacles and standing robots next to region `part`: a rectangle slightly larger than the thing
+    /// contains a square of the region.
     pub fn around(&self, part: u32) -> Vec<Thing> {
         let is_of = |&(_, shape): &&(Thing, Shape)| {
             let reach = shape.round_m + self.square_m * (SQUARES_A_RADIUS * WALL_SHARE + 2.0);

@@ -1,5 +1,6 @@
 //! The graph for stop-and-go trajectories. Its nodes are all starts and ends, places beside corners and in gaps, and a
-//! lattice. Its edges are all lines between nodes that are short enough and free.
+//! lattice. Its edges are all lines between nodes that are short enough and free. The pitch is the distance between
+//! neighbouring nodes of the lattice.
 
 use lightbots_base::Vec2;
 use lightbots_base::shape::{nearest_in_rect, point_to_segment};

@@ -11,7 +11,8 @@ use crate::roads::graph::{Graph, steps_to};
 use crate::roads::lattice::Lattice;
 use crate::roads::visibility::VisibilityGraph;
 
-/// Radius around a start or end, in pitches, within which its path must enter or leave the lattice.
+/// Radius around a start or end within which its path must enter or leave the lattice. In pitches, which are distances
+/// between neighbouring lattice nodes.
 const REACH: f64 = 3.0;
 
 /// Returns `[robot]`: the corners of its path, from its start to its end. A spare robot stays at its start. `None` if

@@ -1,5 +1,6 @@
 //! Shortest paths through gaps that a lattice does not fit through. They lead from corner to corner of walls along free
-//! lines (a visibility graph; Lozano-Pérez and Wesley 1979).
+//! lines (a visibility graph; Lozano-Pérez and Wesley 1979). The pitch of a lattice is the distance between
+//! neighbouring nodes in its rows.
 
 use lightbots_base::Vec2;
 use lightbots_show::Obstacle;

@@ -39,7 +39,7 @@ pub struct ShowPlan {
     pub transitions: Vec<Transition>,
     /// `mapping[k][robot]`: id of the pixel that the robot shows in frame k; `None` if the robot shows none.
     pub mapping: Vec<Vec<Option<u32>>>,
-    /// Names of robots; each value is the index of the robot.
+    /// Names of robots, given by the options or chosen by the planner; each value is the index of the robot.
     pub names: BTreeMap<String, usize>,
     /// Problems of the show and its plan. If one of them is an error, the plan must not be played.
     pub issues: Issues,
@@ -93,8 +93,8 @@ pub fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     planned(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
-/// [`show`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called at least about every tenth of a
-/// second, mostly far more often, on the calling thread. It must be cheap.
+/// [`show`], cancelled once `is_wanted` returns `true`. `is_wanted` is called at least about every tenth of a second,
+/// mostly far more often, on the calling thread. It must be cheap.
 pub fn show_unless(
     show: &Show,
     starts: &[Vec2],
@@ -104,7 +104,9 @@ pub fn show_unless(
     show_with(&OneThread, show, starts, options, is_wanted)
 }
 
-/// [`show_unless`] on several threads, by `workers`. The plan is the same, bit for bit, for any number of threads.
+/// [`show_unless`] with `workers`, which may measure and raise the stop-safety of several drives at the same time. The
+/// drives are planned one after the other on the calling thread. The plan is the same, bit for bit, for any number of
+/// threads.
 pub fn show_with(
     workers: &dyn Workers,
     show: &Show,

@@ -38,6 +38,7 @@ fn show(show: &Show, starts: &[Vec2], options: &ShowOptions) -> ShowPlan {
     whole(show, starts, options, &OneThread, Cancel::NEVER)
 }
 
+/// Starts of three robots, stage metres.
 const STARTS: [Vec2; 3] = [Vec2::new(-0.5, 1.3), Vec2::new(0.0, 1.3), Vec2::new(0.5, 1.3)];
 
 fn codes(plan: &ShowPlan) -> Vec<&str> {

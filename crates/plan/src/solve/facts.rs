@@ -18,8 +18,8 @@ pub(super) struct Facts {
     pub promises_little: bool,
     /// Whether there are walls, and few enough of them for a visibility graph.
     pub has_walls: bool,
-    /// Whether there is no solution, and even the best row left more contacts than additional time is expected to
-    /// resolve.
+    /// Whether there is no solution, and even the best row left more pairs of robots in contact than additional time is
+    /// expected to resolve.
     pub is_hopeless: bool,
     pub is_solved: bool,
     /// Whether the best solution was found between walls with less than the usual clearance of robots.

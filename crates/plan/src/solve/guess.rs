@@ -46,7 +46,8 @@ pub(crate) struct Manner {
     pub level: bool,
     /// Whether a dense fleet spreads after the start and gathers before the end, while robots drive along their paths.
     pub spread: bool,
-    /// Whether the fleet spreads before any robot drives along its path, and gathers only after all have arrived.
+    /// With `spread`: whether the fleet spreads before any robot drives along its path, and gathers only after all have
+    /// arrived.
     pub staged: bool,
 }
 
@@ -90,15 +91,15 @@ impl<'a> Guess<'a> {
         guess
     }
 
-    /// Whether another guess has the same trajectories: its manner differs at most in `early`, and its badness without
-    /// penalty is equal.
+    /// Whether another guess counts as having the same trajectories: its manner differs at most in `early`, and its
+    /// badness without penalty is equal.
     pub fn is_like(&self, other: &Self) -> bool {
         let timed = |guess: &Self| Manner { early: true, ..guess.manner };
         timed(self) == timed(other) && (self.plain_badness - other.plain_badness).abs() < 1e-6
     }
 
-    /// Returns the guess as splines with spans of about `span_s` seconds. They last `stretch` times as long as at full
-    /// speed. Moments with congestion get more of the additional time.
+    /// Returns the guess as splines with spans of about `span_s` seconds, but with 6 to [`MOST_SPANS`] spans. They last
+    /// `stretch` times as long as at full speed. Moments with congestion get more of the additional time.
     pub fn splines(&self, stretch: f64, span_s: f64) -> SplineSet {
         let parts = SAMPLES * PARTS;
         let congestion = (0..parts).map(|part| {
@@ -111,7 +112,8 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// Returns the guess as splines that last `drive_s` seconds, with spans of about `span_s` seconds.
+    /// Returns the guess as splines that last `drive_s` seconds, with spans of about `span_s` seconds, but with 6 to
+    /// [`MOST_SPANS`] spans.
     pub fn splines_lasting(&self, drive_s: f64, span_s: f64) -> SplineSet {
         let evenly = |spans: usize| (0..=spans).map(|step| step as f64 / spans as f64).collect();
         self.splines_through(drive_s, span_s, evenly)
@@ -128,7 +130,8 @@ impl<'a> Guess<'a> {
         })
     }
 
-    /// Returns the factor on the least duration that a guess of this badness is expected to need.
+    /// Returns the factor on the least duration that a guess of this badness is expected to need, at most 1 +
+    /// [`MOST_STRETCH`].
     pub fn stretch(&self) -> f64 {
         1.0 + ((self.badness - EASY) * STRETCH).clamp(0.0, MOST_STRETCH)
     }
@@ -165,7 +168,8 @@ impl<'a> Guess<'a> {
         places
     }
 
-    /// Returns [`Self::places`], but puts a robot that would be in a wall on its shortest path.
+    /// Returns [`Self::places`]. On a floor with walls, a robot that would be in a wall or off the floor is put on its
+    /// shortest path instead.
     fn free_places(&self, moment: f64) -> Vec<Vec2> {
         let mut places = self.places(moment);
         if !self.path_set.instance.walls.is_empty() {

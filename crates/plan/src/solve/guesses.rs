@@ -16,7 +16,7 @@ const ALIKE: f64 = 0.06;
 /// Shortest paths and first guesses of one problem. Every robot has a path.
 pub(super) struct Guesses<'a> {
     pub path_set: &'a PathSet<'a>,
-    /// First guesses, the least badness first.
+    /// First guesses, the least badness first; not all if the planner was cancelled.
     pub ranked: Vec<Guess<'a>>,
     /// Duration of the longest path at full speed, seconds.
     pub least_s: f64,

@@ -7,8 +7,9 @@
 //! over a lattice ([`from_lattice`]). The last resort is stop-and-go over a roadmap ([`stop_and_go`]): it is slow, but
 //! complete on its nodes and needs no deformation.
 //!
-//! All distances are those of the Elisa-3; problems with robots of other sizes are scaled to it first ([`scale`]).
-//! Every loop is bounded, nothing is random, and the proof decides whether paths are accepted ([`verify`]).
+//! Distances in this module are tuned for the Elisa-3. Problems with robots of other sizes are first scaled to its size
+//! ([`scale`]), and solved without scaling only if that fails. Every loop is bounded, nothing is random, and the proof
+//! decides whether paths are accepted ([`verify`]).
 
 mod facts;
 mod from_lattice;
@@ -32,12 +33,12 @@ use crate::{Meeting, Repaired, TransitionProblem};
 pub(crate) use run::Solution;
 use scale::Scale;
 
-/// Finds collision-free timed paths for a given assignment. `goal_of[start]` is the index of the goal of that robot, or
-/// `None` for a spare robot, which may step aside.
+/// Finds timed paths that the proof accepts, for a given assignment. `goal_of[robot]` is the index of the robot's goal,
+/// or `None` for a spare robot, which may step aside.
 ///
 /// If no solver finds paths, returns the pairs of robots that still touch in the row of the schedule that left the
 /// fewest pairs. Rows that left no pair, because they failed for another reason, do not count. The list is empty if no
-/// row left a pair.
+/// row left a pair, or the assignment does not fit the problem.
 pub fn repair(problem: &TransitionProblem, goal_of: &[Option<usize>]) -> Result<Repaired, Vec<Meeting>> {
     solve(problem, goal_of, Cancel::NEVER).result
 }

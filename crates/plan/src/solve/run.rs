@@ -1,4 +1,5 @@
-//! Runs the schedule of solvers for one problem, and chooses among the solutions.
+//! Runs the schedule of solvers for one problem, and chooses among the solutions. Most solvers make a first guess, a
+//! set of splines on which robots may touch. A deformation then separates the robots in sweeps over all contacts.
 
 use std::cell::OnceCell;
 
@@ -26,12 +27,14 @@ use crate::roads::visibility::{MOST_WALLS, VisibilityGraph};
 use crate::spline::set::SplineSet;
 use crate::{Meeting, Path, Repaired, TransitionProblem};
 
-/// Length of a span that first guesses aim at, seconds: the time that the smallest curve takes at full speed.
+/// Length of a span (a piece of a spline) that first guesses aim at, seconds: the time that the smallest curve takes at
+/// full speed. Longer spans are less work, but follow curves less closely.
 const SPAN_S: f64 = 0.25;
 /// Length of a span in first guesses of successive halving, seconds: longer than [`SPAN_S`], because fewer spans are
 /// less work.
 const LONG_SPAN_S: f64 = 0.33;
-/// Number of meetings per robot above which slack does not help. A meeting is a pair of robots that still touch.
+/// Number of meetings per robot above which additional time does not help. A meeting is a pair of robots that still
+/// touch.
 const HOPELESS: usize = 3;
 /// Most robots for which several solutions are compared. With more robots, the groups for small fleets are skipped, so
 /// that the schedule mostly ends with the first acceptable solution.
@@ -43,19 +46,19 @@ const MANY: usize = 350;
 const LITTLE_PROMISED: f64 = 1.16;
 /// Number of guesses in the first round of successive halving.
 const RACERS: usize = 2;
-/// Number of sweeps of each guess in the first round.
+/// Most sweeps of each guess in the first round.
 const FIRST_SWEEPS: usize = 7;
-/// If a guess leaves fewer contacts per robot than this, the first round ends: no further guess takes part in it.
+/// If a guess of the first round leaves fewer contacts per robot than this, no further guess takes part in that round.
 const PROMISING: usize = 6;
-/// Factor on the number of contacts of the highest-ranked guess when guesses are compared after the first round. It
-/// favours this guess.
+/// Factor on the number of contacts of the first guess, when the guesses of the first round are compared. Below 1, it
+/// favours this guess, which has the least badness.
 const HEAD_START: f64 = 0.9;
-/// Number of rounds in which splines with illegal motion are smoothed, and contacts that follow are resolved.
+/// Most rounds in which splines with illegal motion are smoothed, and contacts that follow are resolved.
 const AMENDMENTS: usize = 4;
 /// Most sweeps of each of those rounds.
 const AMENDING_SWEEPS: usize = 72;
-/// Ranking penalty: between walls, a solution that aims at less distance between centres than [`WIDE`] counts as 25 %
-/// longer, because one braking robot blocks others.
+/// Ranking penalty on a floor with walls, because one braking robot blocks others there. A solution that aims at less
+/// distance between centres than [`WIDE`] counts as 25 % longer.
 const CLOSE: f64 = 1.25;
 
 /// A solution that the proof accepts.
@@ -63,7 +66,7 @@ struct Candidate {
     /// Index of its row in `Run::rows`.
     row: usize,
     solution: Trajectories,
-    /// Duration multiplied by its penalty, seconds.
+    /// Duration at full speed, multiplied by the penalty [`CLOSE`] if the solution `is_close`, seconds.
     lasts_s: f64,
     is_close: bool,
 }
@@ -188,8 +191,8 @@ impl Run<'_> {
         }
     }
 
-    /// Runs a row. `tries`: number of rows of the group that ran before. Returns `false`, and reports nothing, if there
-    /// is no guess of the rank that the row takes.
+    /// Runs a row. `tries`: number of rows of the group that ran before it. Returns `false`, and reports nothing, if
+    /// there is no guess for the row.
     fn row(&mut self, row: &SolverRow, tries: usize) -> bool {
         let (wide, is_large) = (WIDE.robots_m, self.is_large());
         let SolverRow { solver, clearances, stretch, sweeps } = *row;
@@ -234,8 +237,9 @@ impl Run<'_> {
         }
     }
 
-    /// Deforms some guesses by a few sweeps each. Then finishes the deformation of the guess with the fewest contacts,
-    /// and of the other guesses in turn, until a solution is acceptable.
+    /// Deforms one or two guesses by a few sweeps each. Then finishes the deformation of the guess with the fewest
+    /// contacts, and of further guesses in turn. Ends once a solution is acceptable or [`MOST_TRIES`] guesses were
+    /// tried.
     fn successive_halving(&mut self, guesses: &Guesses<'_>, row: &SolverRow) {
         let (instance, clearances) = (self.instance, row.clearances);
         let diverse = guesses.diverse();
@@ -265,7 +269,8 @@ impl Run<'_> {
             .map(|(manner, splines, effort)| (manner, Relaxation::new(instance, splines, effort), effort));
         for (manner, racer, effort) in racers.chain(late) {
             self.finish(format!("successive halving, {}", named(manner, clearances)), racer, effort);
-            // Making a guess of a large fleet takes long, even if no work is left to deform it.
+            // Cancellation is polled here, because making a guess of a large fleet takes long, even if no work is left
+            // to deform it.
             if self.facts().is_acceptable() || self.is_cancelled() {
                 break;
             }
@@ -312,8 +317,8 @@ impl Run<'_> {
     }
 
     /// Returns the splines as soon as the proof accepts them. Splines with illegal motion are smoothed, and contacts
-    /// that follow are resolved. `Err` if the proof rejects the last splines too, or slower driving and smoothing
-    /// cannot help; with the contacts that are left, if known.
+    /// that follow are resolved. `Err` if the proof rejects the last splines too, contacts cannot be resolved, or
+    /// slower driving and smoothing cannot help. It has the contacts that are left, if these are known.
     fn amended(&mut self, mut splines: SplineSet, effort: Effort) -> Result<SplineSet, LeftOver> {
         let effort = Effort { sweeps: AMENDING_SWEEPS, stretch: 1.2, ..effort };
         for _ in 0..AMENDMENTS {

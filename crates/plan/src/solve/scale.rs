@@ -15,9 +15,9 @@ const ALIKE: f64 = 1e-9;
 pub(crate) struct Scale(f64);
 
 impl Scale {
-    /// Scales to try for robots of these limits; none for robots of the Elisa-3's size. Gaps between rims do not scale
-    /// with the robots. In the first scale, robots with a gap of [`ROOMY_M`] or [`MARGIN_M`] in the scaled problem have
-    /// at least that gap in the original problem. In the second scale, this holds for [`MARGIN_M`] only.
+    /// Scales to try for robots of these limits, in order; none for robots of the Elisa-3's size. Gaps between rims do
+    /// not scale with the robots. In the first scale, robots with a gap of [`ROOMY_M`] or [`MARGIN_M`] in the scaled
+    /// problem have at least that gap in the original problem. In the second scale, this holds for [`MARGIN_M`] only.
     pub fn of(limits: &Limits) -> Vec<Self> {
         let usual = Limits::ELISA_3;
         let pairs = |margin_m: f64| (usual.contact_m() + margin_m) / (limits.contact_m() + margin_m);

@@ -17,8 +17,8 @@ use crate::optimise::contacts::Clearances;
 pub(super) enum Solver {
     /// Shortest paths in minimum time, in one [`Manner`].
     MinimumTime(Pick),
-    /// Shortest paths of a large fleet in several manners. Each guess gets a few sweeps of the deformation, then the
-    /// guess with the fewest contacts is deformed further.
+    /// Shortest paths of a large fleet in several manners. The first one or two guesses get a few sweeps of the
+    /// deformation. Then guesses are deformed to the end in turn, the guess with the fewest contacts first.
     SuccessiveHalving,
     /// Shortest paths with slack. The duration is `times` × the least duration of the guess, or `times` × `least_s`
     /// seconds if that is longer.
@@ -165,15 +165,17 @@ impl Until {
     }
 }
 
-/// Number of rows of a group after which a solution need not be good, only acceptable.
+/// Number of rows of a group after which a solution need not be good, only acceptable. With more, planning takes
+/// longer.
 const ENOUGH_TRIES: usize = 4;
-/// Work left below which a solution need not be good, only acceptable.
+/// Work left, in units of [`Budget`], below which a solution need not be good, only acceptable.
 const WORK_TO_SPARE: usize = 14_000_000;
-/// Work that is left before the first group: some seconds on one core. Groups with their own budgets do not keep to it.
+/// Work that is left before the first group, in units of [`Budget`]: some seconds on one core. Groups with budgets of
+/// their own may exceed it.
 pub(super) const MOST_WORK: usize = 22_000_000;
-/// Most work for the group "with slack".
+/// Most work for the group "with slack", in units of [`Budget`].
 const SLACK_WORK: usize = 8_000_000;
-/// Work for each group "from lattice". Each group through gaps gets at least half of it.
+/// Work for each group "from lattice", in units of [`Budget`]. Each group through gaps gets at least half of it.
 const LATTICE_WORK: usize = 18_000_000;
 /// A solution is good if its [`Facts::lasts_s`] is less than this many times the least duration.
 const GOOD: f64 = 1.15;

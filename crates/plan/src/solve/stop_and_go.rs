@@ -47,7 +47,7 @@ mod tests {
     use crate::seeded::Seeded;
     use lightbots_base::Limits;
 
-    /// `side` × `side` robots on a square grid, whose goals are the same places in random order. The floor is 1.5 times
+    /// `side` × `side` robots on a square grid. Their goals are the same places in random order. The floor is 1.5 times
     /// as wide as the grid.
     fn shuffled(side: usize, apart_m: f64) -> TransitionProblem {
         let at = |i: usize| (i as f64 - (side as f64 - 1.0) / 2.0) * apart_m;

@@ -15,12 +15,13 @@ const SLOWDOWNS: [f64; 3] = [1.0, 1.02, 1.05];
 /// Splines that the proof rejects.
 pub(super) struct Rejected {
     pub splines: SplineSet,
-    /// Indices of robots and of their spans whose motion is illegal; empty if slower driving cannot help.
+    /// Pairs of a robot and one of its spans with illegal motion; empty if slower driving cannot help.
     pub faulty_spans: Vec<(usize, usize)>,
 }
 
-/// Returns the splines, slowed down by the least of [`SLOWDOWNS`] with which the proof holds. It must hold both at full
-/// speed and in the asked duration. `Err` if it holds with none.
+/// Returns the splines, slowed down by the least of [`SLOWDOWNS`] with which the proof holds. It must hold at full
+/// speed and, if that is longer, in the asked duration. `Err` if it holds with none, or the fault is one that slower
+/// driving cannot mend.
 pub(super) fn verified(
     problem: &TransitionProblem,
     instance: &Instance,

@@ -1,6 +1,6 @@
-//! Bernstein coefficients of a span's squared speed and of its turn. A polynomial stays between its least and its
-//! greatest coefficient. The unit of time is the duration of the span. A span is given by the three steps from each of
-//! its control points to the next.
+//! Bernstein coefficients of a span's squared speed and of its turn. Within the span, a polynomial stays between its
+//! least and its greatest coefficient. The unit of time is the duration of the span. A span is given by the three steps
+//! from each of its control points to the next.
 
 use lightbots_base::Vec2;
 

@@ -1,5 +1,5 @@
 //! Moves control points of splines so that speed, acceleration and turn rate keep their limits: a projection onto one
-//! limit after the other.
+//! limit after the other. A span is one piece of a spline, determined by four successive control points.
 
 use lightbots_base::Vec2;
 

@@ -1,7 +1,8 @@
 //! Retiming: the speed along paths changes so that moments with congestion get more time.
 
-/// Divides a drive into equal parts, and returns the factor on the duration of each part. On average it is `times`, but
-/// at most `most` for a part. The additional time is proportional to the part's congestion.
+/// Returns `[part]`: the factor on the duration of each part of a drive that is divided into equal parts. The
+/// additional time of a part is proportional to `congestion[part]`; without any congestion, all parts get the same. The
+/// mean factor is `times`, or less if `most`, the largest allowed factor, limits some parts.
 pub(crate) fn time_scaled(congestion: &[f64], times: f64, most: f64) -> Vec<f64> {
     let mean = congestion.iter().sum::<f64>() / congestion.len().max(1) as f64;
     let share = |congestion: f64| if mean > 0.0 { congestion / mean } else { 1.0 };
@@ -25,7 +26,8 @@ pub(crate) fn moments(lasts: &[f64], steps: usize) -> Vec<f64> {
     [0.0].into_iter().chain(inner).chain([lasts.len() as f64]).collect()
 }
 
-/// Smooths congestion over time: each pass replaces every part by half of it and a quarter of each neighbour.
+/// Smooths congestion over time: each pass replaces every part by half of it and a quarter of each neighbour. The first
+/// and the last part count as their own missing neighbours.
 pub(crate) fn smoothed(mut congestion: Vec<f64>, passes: usize) -> Vec<f64> {
     let last = congestion.len().saturating_sub(1);
     for _ in 0..passes {

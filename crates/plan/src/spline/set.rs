@@ -62,9 +62,9 @@ fn through(places: impl ExactSizeIterator<Item = Vec2>, start: Vec2, end: Option
 }
 
 impl SplineSet {
-    /// Makes splines whose free control points are `place(robot, step)` for steps 1 to `spans - 1`, so that corners of
-    /// a path become round. Step 0 is the start and step `spans` the end. The outer points follow from each robot's
-    /// start and end. Panics if there are more than [`MOST_SPANS`] spans.
+    /// Makes splines with the free control points `place(robot, step)` for steps 1 to `spans - 1`, so that corners of a
+    /// path become round. Step 0 is the start and step `spans` the end. The outer points follow from each robot's start
+    /// and end. Makes at least 4 spans. Panics if there are more than [`MOST_SPANS`].
     pub fn new(instance: &Instance, spans: usize, span_s: f64, place: impl Fn(usize, usize) -> Vec2) -> Self {
         let spans = spans.max(4);
         assert!(spans <= MOST_SPANS, "a path holds at most {MOST_SPANS} spans, not {spans}");
@@ -228,7 +228,8 @@ impl SplineSet {
         self.span_s * self.greatest_time_scale(limits) * 1.002 * self.slowdown
     }
 
-    /// The splines as timed paths: a rest that lasts `turn`, then the spans, which last `span` each.
+    /// The splines as timed paths: a rest that lasts `turn`, then the spans, which last `span` each. Successive rests
+    /// become one piece.
     pub fn paths(&self, turn: Span, span: Span) -> Vec<Path> {
         (0..self.robots()).map(|robot| self.path(robot, turn, span)).collect()
     }

@@ -1,5 +1,6 @@
 //! The turn rate of a differential drive: a slow robot must not change its direction fast. Driving back along the same
-//! line is not a turn, so a near reversal becomes an exact reversal.
+//! line is not a turn, so a near reversal becomes an exact reversal. A span is one piece of a spline, determined by
+//! four successive control points; all spans last equally long.
 
 use lightbots_base::{Limits, Vec2};
 
@@ -168,8 +169,8 @@ impl TurnRate {
         again
     }
 
-    /// Returns displacements of a span's four control points that lower its turn rate; `None` if none are needed.
-    /// `fastest`: moment of the fastest turn, as a share of the span. `folded`: applies [`fold`] to weights.
+    /// Returns displacements of a span's four control points that lower its turn rate; `None` if none are needed or
+    /// none help. `fastest`: moment of the fastest turn, as a share of the span. `folded`: applies [`fold`] to weights.
     fn corrected(
         &self,
         four: &[Vec2],
@@ -190,7 +191,8 @@ impl TurnRate {
         })
     }
 
-    /// Returns the greatest turn rate of a spline as a multiple of the limit. At 1, the turn rate is just legal.
+    /// Returns the greatest turn rate of a spline as a multiple of the limit. At 1, the turn rate is just legal. It may
+    /// be too low, even 0, for splines that surely keep the limit.
     pub fn time_scale(&self, spline: &[Vec2]) -> f64 {
         let fastest = spline.windows(4).fold(0.0_f64, |most, four| {
             let faster = if self.stays_within(four, most) { None } else { self.fastest(four) };
@@ -242,8 +244,8 @@ impl TurnRate {
         worst
     }
 
-    /// Returns the greatest turn of a span, radians per span, and its moment as a share of the span. `None` if the span
-    /// cannot exceed the limit.
+    /// Returns the greatest turn of a span, radians per span, and its moment as a share of the span. Moments at which
+    /// the robot is slower than [`CREEP_MPS`] hardly count. `None` if the span cannot exceed the limit.
     fn fastest(&self, four: &[Vec2]) -> Option<(f64, f64)> {
         if self.is_easy(four) {
             return None;

@@ -60,7 +60,7 @@ impl Candidate {
 
     /// Makes a candidate of paths of equal duration, which are driven `slower` times as slowly as the limits allow.
     /// Following distances are checked as at full speed, so that the least duration does not depend on the asked
-    /// duration.
+    /// duration. If cancelled, the verdict means nothing.
     pub fn of_paths(
         problem: &TransitionProblem,
         paths: Vec<Path>,
@@ -135,8 +135,8 @@ impl Candidate {
     }
 }
 
-/// Factor by which a drive that lasts `duration` is slower than a drive that lasts `least`. The rest at the begin, in
-/// which robots turn, does not count.
+/// Factor by which a drive that lasts `duration` is slower than a drive that lasts `least`. The rest at the beginning,
+/// in which robots turn, does not count.
 pub(super) fn slower_than(least: Span, duration: Span, limits: &Limits) -> f64 {
     let rest = turn_time(core::f64::consts::FRAC_PI_2, limits);
     (duration - rest).as_secs() / (least - rest).as_secs().max(1e-6)

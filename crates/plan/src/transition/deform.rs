@@ -16,7 +16,8 @@ const POLLED: usize = 1024;
 const ROUNDS: usize = 6;
 /// Number of successive rounds without a better result after which the deformation ends.
 const MOST_IN_VAIN: usize = 2;
-/// Bound on the number of robots × rounds, for rounds that aim at the following distance.
+/// Bound on the number of robots × rounds, for rounds that aim at the following distance. With that distance, a robot
+/// can stop behind a robot ahead that stops dead.
 const ROOM_WORK: usize = 2_000;
 /// Largest factor on the duration that a deformation with this aim may need.
 const fn slowest(aim: Aim) -> f64 {

@@ -9,8 +9,8 @@ const FARTHEST_M: f64 = 10_000.0;
 /// Range of sensible limits of robots, in metres, seconds and radians. Values outside it are mistakes in any unit.
 const SANE: core::ops::RangeInclusive<f64> = 1e-4..=1e5;
 
-/// Checks that all numbers of a problem are finite and sensible; `Err` names one that is not. All other checks need a
-/// problem that passes this check.
+/// Checks that places, shapes, the floor, and the main limits of the robots are finite and sensible; `Err` names one
+/// that is not. All other checks need a problem that passes this check.
 pub(super) fn measurable(problem: &TransitionProblem) -> Result<(), Infeasible> {
     // Comparisons with NaN are false.
     let is_place = |at: &Vec2| at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M;
@@ -108,8 +108,8 @@ fn blocked(problem: &TransitionProblem, goal: usize, place: Vec2) -> Result<(), 
     Ok(())
 }
 
-/// Returns two of `places` that are nearer to each other than `reach_m`: the smaller index, the greater index and their
-/// distance, metres. `None` if there are no two.
+/// Returns two of `places` that are nearer to each other than `reach_m` by more than 1 µm. The result is the smaller
+/// index, the greater index and the distance in metres; `None` if there are no two.
 pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f64)> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].x.total_cmp(&places[b].x).then(a.cmp(&b)));
@@ -127,7 +127,7 @@ pub(crate) fn touching(places: &[Vec2], reach_m: f64) -> Option<(usize, usize, f
     None
 }
 
-/// Returns the message about pins that contradict each other, with all pinned goals.
+/// Returns the message about pins that contradict each other or name robots that do not exist, with all pinned goals.
 pub(super) fn pins(problem: &TransitionProblem) -> Infeasible {
     let goals =
         (0..problem.goals.len().min(problem.pinned.len())).filter(|&goal| problem.pinned[goal].is_some());

@@ -27,15 +27,15 @@ use lightbots_base::Span;
 use reachability::Walls;
 use straight::straight_lines;
 
-/// Plans a transition. Takes the drive that the show prescribes, if it applies, or else straight lines, if no robots
-/// touch on them. Otherwise runs the schedule of solvers, and the order on candidate plans (`order.rs`) chooses among
-/// its plans. Returns the proven plan, or why there is none.
+/// Plans a transition. Takes the drive that the show prescribes, if it applies, or else straight lines, slightly
+/// displaced where robots pass too close. If robots would still touch, runs the schedule of solvers, and the order on
+/// candidate plans (`order.rs`) chooses among its plans. Returns the proven plan, or why there is none.
 pub fn transition(problem: &TransitionProblem) -> Result<Transition, Infeasible> {
     attempt(problem, Cancel::NEVER).into_result()
 }
 
-/// [`transition`], cancelled as soon as `is_wanted` returns `true`. `is_wanted` is called at least about every tenth of
-/// a second, mostly far more often, on the calling thread. It must be cheap.
+/// [`transition`], cancelled once `is_wanted` returns `true`. `is_wanted` is called at least about every tenth of a
+/// second, mostly far more often, on the calling thread. It must be cheap.
 pub fn transition_unless(
     problem: &TransitionProblem,
     is_wanted: &dyn Fn() -> bool,
@@ -53,6 +53,7 @@ pub(crate) struct Attempt {
     /// The solvers that ran, and the reason for the choice.
     pub explanation: Explanation,
     /// Why the transition is not the drive that the show prescribes. `None` if it is, or if the show prescribes none.
+    /// `None` also if the reason is in `infeasible`.
     pub not_as_prescribed: Option<&'static str>,
 }
 
@@ -182,8 +183,8 @@ fn with_spares(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>)
     settle(&whole, &choice, cancel)
 }
 
-/// Returns straight lines if the proof accepts them, else the result of the schedule of solvers. Every robot must have
-/// a goal or a waiting place. `None` if there is no assignment.
+/// Returns straight lines, perhaps slightly displaced, if the proof accepts them, else the result of the schedule of
+/// solvers. Every robot must have a goal or a waiting place. `None` if there is no assignment.
 fn settle(problem: &TransitionProblem, choice: &Choice, cancel: Cancel<'_>) -> Option<Attempt> {
     let mut explanation = Explanation::default();
     let candidate = straight_lines(problem, choice, cancel, &mut explanation)?;

@@ -80,7 +80,7 @@ impl Partition<'_> {
         parts.dedup();
         let lacking =
             parts.iter().copied().find(|&part| count(&self.goals, part) > count(&self.starts, part))?;
-        // Either pixels without robots, or robots that are walled in: whichever are fewer.
+        // The message is about pixels without robots, or about robots that are walled in: about whichever are fewer.
         let walled: Vec<usize> =
             (0..self.starts.len()).filter(|&start| self.starts[start] != lacking).collect();
         let goals: Vec<usize> = (0..self.goals.len()).filter(|&goal| self.goals[goal] == lacking).collect();
@@ -184,7 +184,8 @@ fn place(at: Vec2) -> String {
     format!("({:.2}, {:.2}) m", at.x + 0.0, at.y + 0.0)
 }
 
-/// Names things in a message. No-go areas are numbered from 1, in the order of the show.
+/// Names things in a message. No-go areas are numbered from 1, in the order of the show. The floor's edge is named only
+/// if there is no other thing.
 fn named(things: &[Thing]) -> String {
     let numbers: Vec<String> = things
         .iter()
@@ -248,6 +249,7 @@ mod tests {
         transition(problem).unwrap_err().message
     }
 
+    /// Two places outside the box, stage metres.
     const OUTSIDE: [(f64, f64); 2] = [(-0.5, 1.0), (0.5, 1.0)];
 
     #[test]

@@ -10,7 +10,7 @@ const RINGS: i32 = 400;
 
 /// Adds a goal for each spare robot, after the real goals. Returns the extended problem and its assignment.
 /// `start_of[goal]` is the assignment of the real goals. A spare robot waits where it stands if it is far enough from
-/// all goals and standing discs, else at the nearest free place. If there is no free place, it waits where it stands.
+/// all goals and standing discs, else at a free place nearby. If there is no free place, it waits where it stands.
 pub(super) fn with_spares(
     problem: &TransitionProblem,
     mut start_of: Vec<usize>,
@@ -73,7 +73,7 @@ impl Taken {
     }
 }
 
-/// Returns the nearest free place on rings around `from`; `None` if there is none.
+/// Returns a free place on the nearest ring around `from` that has one; `None` if there is none, or if cancelled.
 fn free_place(problem: &TransitionProblem, taken: &Taken, from: Vec2, cancel: Cancel<'_>) -> Option<Vec2> {
     let (half, radius) = (problem.half_floor, problem.limits.radius_m);
     let step = radius.max(1e-3);

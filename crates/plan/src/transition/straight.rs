@@ -15,8 +15,9 @@ const SLACKS: [f64; 7] = [0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15];
 /// is improved.
 const COMFORT_WORK: usize = 30_000;
 
-/// Returns the first candidate without contacts, else the candidate that the order on candidate plans prefers. `None`
-/// if there is no assignment, or the planner is cancelled.
+/// Returns the first candidate without contacts and faults, else the candidate that the order on candidate plans
+/// prefers. If every goal is pinned, only one candidate is tried. `None` if there is no assignment, or the planner is
+/// cancelled.
 pub(super) fn straight_lines(
     problem: &TransitionProblem,
     choice: &Choice,

@@ -61,13 +61,14 @@ impl<'a> FreeSpace<'a> {
         })
     }
 
-    /// Whether the line `a`–`b` keeps clear of all `discs`, as [`Self::clears_disc`], and of the obstacles.
+    /// Whether the line `a`–`b` keeps clear of all `discs`, as [`Self::clears_disc`], and of the obstacles. The floor's
+    /// edge is not checked.
     pub fn is_clear(&self, a: Vec2, b: Vec2, discs: &[Vec2]) -> bool {
         discs.iter().all(|&disc| self.clears_disc(a, b, disc)) && self.clears_obstacles(a, b)
     }
 
-    /// Returns waypoints of a path from `from` to `to` around all discs and obstacles, without `from`; `None` if there
-    /// is no path.
+    /// Returns waypoints of a path from `from` to `to` around all discs and obstacles, without `from`. `None` if the
+    /// search over the grid finds no path.
     pub fn path(&self, from: Vec2, to: Vec2, discs: &[Vec2]) -> Option<Vec<Vec2>> {
         let came_from = self.search(from, discs, |place| self.is_clear(place, to, discs))?;
         let mut places = vec![to];
@@ -87,8 +88,9 @@ impl<'a> FreeSpace<'a> {
         Some(path)
     }
 
-    /// Returns waypoints of a path from `from` to the nearest free place, without `from`. A free place is at least
-    /// `room_m` metres from all `discs`, from all places of `keep_free`, and from `from`. `None` if there is no path.
+    /// Returns waypoints of a path from `from` to a free place nearby, without `from`. A free place is at least
+    /// `room_m` metres from all `discs`, from all places of `keep_free`, and from `from`. `None` if the search over the
+    /// grid finds no path.
     pub fn path_aside(
         &self,
         from: Vec2,
@@ -104,9 +106,9 @@ impl<'a> FreeSpace<'a> {
         self.path(from, *back.first()?, discs)
     }
 
-    /// Searches the grid breadth first from `from` for the nearest cell at whose place `wanted` holds. Returns the
-    /// places of the path to that cell in reverse order, without `from`; empty if `wanted` holds at `from`. `None` if
-    /// there is none, or the floor has more cells than [`CELLS_MAX`].
+    /// Searches the grid breadth first from `from` for a cell, few steps away, at the place of which `wanted` holds.
+    /// Returns the places of the path to that cell in reverse order, without `from`; empty if `wanted` holds at `from`.
+    /// `None` if there is none, or the floor has more cells than [`CELLS_MAX`].
     fn search(&self, from: Vec2, discs: &[Vec2], wanted: impl Fn(Vec2) -> bool) -> Option<Vec<Vec2>> {
         if wanted(from) {
             return Some(Vec::new());

@@ -2,8 +2,8 @@
 //! routes, and their speed is unknown.
 //!
 //! They drive straight lines, in an order in which no two robots can meet at any speed. [`stages`] finds the order.
-//! [`StraightDrive::yields`] lets drives overlap in time: a drive yields to earlier drives that it would meet. The
-//! controller lets a robot drive only as far as the progress of those earlier drives allows.
+//! [`StraightDrive::yields`] lets drives overlap in time: a drive yields to earlier drives that it would meet. Its
+//! robot may drive only as far as the progress of those earlier drives allows ([`StraightDrive::clear_share`]).
 
 mod free_space;
 mod order;

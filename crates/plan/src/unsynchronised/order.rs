@@ -28,7 +28,7 @@ pub(super) struct Order<'a, 'b> {
     /// `[robot]`: number of robots, discs and obstacles on its straight line to its goal. Obstacles count as one. Up to
     /// date only while the robot waits.
     blockers: Vec<usize>,
-    /// `[robot]`: number of waiting robots whose straight lines the robot would block if it stood at its own goal.
+    /// `[robot]`: number of waiting robots with a straight line that the robot would block if it stood at its own goal.
     blocked: Vec<usize>,
     /// Drives of the current stage, in order.
     drives: Vec<StraightDrive>,
@@ -89,8 +89,8 @@ impl<'a, 'b> Order<'a, 'b> {
         other != robot && !self.problem.space.clears_disc(self.places[other], goals[other], goals[robot])
     }
 
-    /// Returns the robot that drives next, straight to its goal; `None` if there is none. Of all robots whose line is
-    /// clear and whose goal blocks no other line, it has the longest line.
+    /// Returns the robot that drives next, straight to its goal; `None` if there is none. Its line must be clear, and
+    /// its goal must block no other line. Of all such robots, it has the longest line.
     pub fn next(&self) -> Option<usize> {
         let is_free = |&robot: &usize| self.waiting[robot] && self.blockers[robot] + self.blocked[robot] == 0;
         let way_m = |robot: usize| self.places[robot].distance(self.problem.goals[robot]);

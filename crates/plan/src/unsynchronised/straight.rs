@@ -72,7 +72,8 @@ impl StraightDrive {
     }
 
     /// Share of this drive, 0 to 1, up to which its line stays at least `gap_m` metres from the remaining line of
-    /// `other`. The share `passed` of `other` is done. The result holds at any speed of both robots.
+    /// `other`. It is 0 if the line is closer from its beginning. The share `passed` of `other` is done. The result
+    /// holds at any speed of both robots.
     pub fn clear_share(&self, other: &Self, passed: f64, gap_m: f64) -> f64 {
         let left = (other.at(passed.clamp(0.0, 1.0)), other.to);
         let clear = |share: f64| segment_to_segment((self.from, self.at(share)), left) >= gap_m - ROUNDING_M;

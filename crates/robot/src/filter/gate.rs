@@ -1,13 +1,14 @@
-//! Outlier gate: a fix far from the prediction is rejected as an outlier. Once [`OUTLIERS`] outliers agree with each other,
-//! the estimate jumps to them.
+//! Outlier gate: a fix far from the prediction is rejected as an outlier. Once [`OUTLIERS`] outliers agree with each
+//! other, the estimate jumps to them.
 
 use lightbots_base::{Instant, Span, Vec2, wrap};
 
-/// Largest innovation of an inlier, in standard deviations of the innovation. With a smaller value, good fixes of a robot
-/// that was pushed are rejected. With a larger value, outliers near the robot pull it off its place.
+/// Largest innovation of an inlier, in standard deviations of the innovation; below [`GATE_FLOOR_M`] and
+/// [`GATE_FLOOR_RAD`] every fix is an inlier. With a smaller value, good fixes of a robot that was pushed are rejected.
+/// With a larger value, outliers near the robot pull it off its place.
 const GATE: f64 = 5.0;
-/// A position fix whose innovation is less than this is an inlier whatever the covariance says, metres: three sigma of the
-/// default noise.
+/// A position fix whose innovation is less than this is an inlier whatever the covariance says, metres: three sigma of
+/// the default noise.
 const GATE_FLOOR_M: f64 = 0.006;
 /// A heading fix whose innovation is less than this is an inlier whatever the covariance says, radians.
 const GATE_FLOOR_RAD: f64 = 0.1;
@@ -32,8 +33,8 @@ pub(super) enum GateResult {
 /// Recent outliers, and the times of the last inliers.
 #[derive(Debug, Default)]
 pub(super) struct OutlierGate {
-    /// Innovation of the latest position fix among the agreeing outliers, metres. The next outlier agrees if its innovation
-    /// is close to this one.
+    /// Innovation of the latest position fix among the agreeing outliers, metres. The next outlier agrees if its
+    /// innovation is close to this one.
     odd_off: Vec2,
     last_jump: Option<Instant>,
     /// When the last position fix arrived that was no outlier; `None` if there was none.
@@ -51,8 +52,8 @@ pub(super) struct OutlierGate {
 }
 
 impl OutlierGate {
-    /// Tests the innovation `off` of a position fix, metres, against the variances of the estimate (`believed`) and of the
-    /// fix (`noise`). The first fix is always a jump.
+    /// Tests the innovation `off` of a position fix, metres, against the variances of the estimate (`believed`) and of
+    /// the fix (`noise`), square metres. The first fix is always a jump.
     #[inline]
     pub(super) fn place(&mut self, now: Instant, off: Vec2, believed: f64, noise: f64) -> GateResult {
         let square = off.length_squared();
@@ -75,8 +76,8 @@ impl OutlierGate {
         if odd || first { GateResult::Jump } else { GateResult::Inlier }
     }
 
-    /// Tests the innovation `off` of a heading fix, radians, against the variances of the estimate (`believed`) and of the
-    /// fix (`noise`). With `first`, the fix is always a jump.
+    /// Tests the innovation `off` of a heading fix, radians, against the variances of the estimate (`believed`) and of
+    /// the fix (`noise`). With `first`, the fix is always a jump.
     #[inline]
     pub(super) fn heading(
         &mut self,
@@ -139,6 +140,7 @@ mod tests {
     use super::*;
     use core::f64::consts::PI;
 
+    /// Variance of a fix: square metres for the place, radians squared for the heading.
     const NOISE: f64 = 1e-6;
 
     #[test]

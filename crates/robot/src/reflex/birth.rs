@@ -8,14 +8,14 @@ use super::sensors::BESIDE_M;
 use super::track::Track;
 use crate::config::SENSORS;
 
-/// Uncertainty, across the line of sight, of a place that one sensor sees, 1 sigma, as a share of its distance. It stands
-/// for directions that are evenly spread over ±19°: there a disc 10 mm away is in the cone of one sensor only.
+/// Uncertainty, across the line of sight, of a place that one sensor sees, 1 sigma, as a share of its distance. It
+/// stands for directions that are evenly spread over ±19°: there a disc 10 mm away is in the cone of one sensor only.
 pub(super) const BEARING_SIGMA: f32 = 0.19;
-/// Readings of two adjacent sensors may be of one disc if they differ by less than this, metres. For a disc 20 mm away at
-/// the edge of a sensor's cone, the readings differ by this much.
+/// Readings of two adjacent sensors may be of one disc if they differ by less than this, metres. For a disc 20 mm away
+/// at the edge of a sensor's cone, the readings differ by this much.
 const SHARED_M: f32 = 0.015;
-/// How much nearer a disc midway between two sensors is than either sensor reads, metres. It is also added to the noise of a
-/// reading along the line of sight.
+/// How much nearer a disc midway between two sensors is than either sensor reads, metres. It is also added to the noise
+/// of a reading along the line of sight.
 const BETWEEN_M: f32 = 0.002;
 /// Largest innovation at which a planned neighbour explains a reading, in standard deviations of the innovation.
 const EXPLAINS_SIGMAS: f32 = 4.5;
@@ -46,8 +46,9 @@ pub(super) fn explained_off_m(one: &Expectation, sensor: usize, read_m: f32, sca
     (explains && expected.inside_m > -BESIDE_M).then_some(off_m)
 }
 
-/// Begins a track of an unplanned disc from the reading of a sensor. The disc is assumed straight ahead of the sensor, or
-/// midway between two adjacent sensors with similar readings. `is_free`: whether a sensor's reading belongs to no track yet.
+/// Begins a track of an unplanned disc from the reading of a sensor. The disc is assumed straight ahead of the sensor,
+/// or midway between two adjacent sensors with similar readings. `is_free`: whether a sensor's reading belongs to no
+/// track yet.
 pub(super) fn unknown(sensor: usize, is_free: &dyn Fn(usize) -> bool, scan: &Scan<'_>) -> Track {
     let read_m = scan.gaps_m[sensor];
     let shares = |beside: &usize| {

@@ -8,14 +8,18 @@ use crate::config::Config;
 use lightbots_base::RobotId;
 use lightbots_base::braking::stopping_m;
 
+/// Duration of a step, seconds.
 const DT: f32 = 0.016;
+/// Speed of both robots, m/s.
 const SPEED_MPS: f32 = 0.27;
+/// Number of runs for each gap and offset of the two paths.
 const RUNS: usize = 2000;
 /// How far each of the two is off its route, 1 sigma in each axis, metres. Along the line of sight, 0.5 to 0.9 mm were
 /// measured in rehearsals with standard conditions on 2026-11-24.
 const OFF_M: f32 = 0.001;
-/// Number of steps before the other robot stops dead. `AFTER`: number of steps after that.
+/// Number of steps before the other robot stops dead.
 const BEFORE: usize = 45;
+/// Number of steps after the other robot stopped.
 const AFTER: usize = 40;
 
 /// Results of many runs.

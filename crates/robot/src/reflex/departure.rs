@@ -11,8 +11,8 @@ use super::motion::OwnMotion;
 use super::point::Point;
 use super::scan::{Expectation, Scan};
 
-/// Largest number of stop hypotheses: places at which the neighbour may have stopped. With fewer, readings cannot tell
-/// that a slow neighbour stopped before all these places are too old.
+/// Largest number of stop hypotheses: places at which the neighbour may have stopped. With fewer, new places replace
+/// old ones before the readings can tell that a slow neighbour stopped.
 const STOPS: usize = 6;
 /// Distance on the neighbour's path between the places of two stop hypotheses, metres. With more, the place of a stop
 /// is known less well. With less, the hypotheses cover fewer steps.
@@ -93,7 +93,8 @@ impl Departure {
     }
 
     /// Tests the neighbour by the readings of the sensors that see it. `one`: its planned motion. Returns how the
-    /// neighbour has left its plan; `None` if it keeps to the plan.
+    /// neighbour has left its plan; `None` while it still agrees with the plan. Without readings, no likelihood
+    /// changes.
     pub fn test(
         &mut self,
         one: &Expectation,

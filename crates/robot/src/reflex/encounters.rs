@@ -1,11 +1,10 @@
-//! Statistics of encounters with other robots for reports (R53): how often the safety layer braked the robot, and the
-//! least gap to another rim.
+//! Statistics of encounters with other robots for reports (R53 of docs/protocol.md): how often the safety layer braked
+//! the robot, and the least gap to another rim.
 
 use lightbots_base::{Instant, Span};
 
-/// Time without braking after which braking counts as a new brake. With a smaller value, braking by a noisy sensor
-/// counts several times. With a larger value, brakes for different robots count as one. Rehearsals count with the same
-/// 10 steps of 16 ms.
+/// Time without braking after which braking counts as a new brake: ten steps of 16 ms. With a smaller value, braking by
+/// a noisy sensor counts several times. With a larger value, brakes for different robots count as one.
 const FREE: Span = Span::from_millis(160);
 
 /// Number of brakes, and least gap to another rim.

@@ -17,7 +17,9 @@ use super::track::Track;
 use super::tracks::Tracks;
 use crate::config::{NeighbourModel, ProximitySensors, SENSORS};
 
+/// Duration of a step, seconds.
 pub(super) const DT: f32 = 0.016;
+/// Radius of a robot, metres.
 pub(super) const RADIUS_M: f32 = 0.027;
 /// Accelerations of neighbours, 1 sigma in each axis: ramps of robots have 1 m/s².
 const RAMP_MPS2: f32 = 0.7;

@@ -7,7 +7,7 @@ use super::point::Point;
 pub(crate) struct OwnMotion {
     /// Distance driven, metres, forwards positive.
     pub way_m: f32,
-    /// Counter-clockwise, radians.
+    /// Rotation, radians, counter-clockwise positive.
     pub turn_rad: f32,
     /// Length of the step, seconds.
     pub dt: f32,

@@ -67,7 +67,8 @@ pub(crate) struct Readings<'a> {
     /// Sensors that see no planned neighbour and none that has left its plan, one bit each. Sensors without a reading
     /// are included.
     pub open: u8,
-    /// For each sensor, the natural logarithm of the density of its reading, if the reading is of a moving neighbour.
+    /// For each sensor, the natural logarithm of the density that its reading has if the sensor sees a moving
+    /// neighbour.
     pub logs: &'a [f32; SENSORS],
 }
 
@@ -285,7 +286,7 @@ impl Hypothesis {
     }
 }
 
-/// Returns the indices of the sensors in the set `of`, which has one bit for each sensor.
+/// Returns the indices of the sensors in the set `of`, ascending. The set has one bit for each sensor.
 pub(super) fn bits(of: u8) -> impl Iterator<Item = usize> + Clone {
     (0..SENSORS).filter(move |sensor| of >> sensor & 1 == 1)
 }

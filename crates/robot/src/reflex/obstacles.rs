@@ -36,7 +36,8 @@ impl StandingObjects {
         self.faces.iter()
     }
 
-    /// Updates all objects by the readings of a step.
+    /// Updates all objects by the readings of a step. Drops objects that are unlikely or gone, begins a new one with a
+    /// reading that is left, and makes the discs of the likely ones.
     pub fn step(&mut self, readings: &Readings<'_>, scan: &Scan<'_>) {
         let mut open = readings.open;
         for one in &mut self.list {

@@ -21,7 +21,7 @@ impl Point {
         Self { x, y }
     }
 
-    /// The unit vector of an angle below 0.3 rad, by a third-order series (error below 4e-4).
+    /// The unit vector at an angle within ±0.3 rad, by a third-order series (error below 4e-4).
     pub fn of_small_angle(angle_rad: f32) -> Self {
         let square = angle_rad * angle_rad;
         Self { x: 1.0 - 0.5 * square, y: angle_rad * (1.0 - square * (1.0 / 6.0)) }

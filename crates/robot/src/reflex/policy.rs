@@ -26,7 +26,8 @@ pub(crate) struct Wish {
 }
 
 impl Wish {
-    /// Direction of driving: 1 forwards, −1 backwards.
+    /// Direction of driving: 1 forwards, −1 backwards. It is that of the wanted speed, or of the last command if the
+    /// wanted speed is nearly 0.
     fn sense(&self) -> f32 {
         let decides = if self.speed_mps.abs() > 1e-3 { self.speed_mps } else { self.told_mps };
         1f32.copysign(decides)
@@ -63,7 +64,7 @@ pub(crate) fn allowed_mps(
     if at_wanted >= least_m {
         return None;
     }
-    // If the discs come nearer than that even when the robot stops at once, it must not make that worse.
+    // If the discs come nearer than `least_m` even when the robot stops at once, the robot must not make that worse.
     let (at_rest, ..) = stop.nearest(0.0);
     let tolerance_m = if clearance_m.is_some() { of.tolerance_m } else { 0.0 };
     // Each step may use the tolerance again: it must not add up to a contact.

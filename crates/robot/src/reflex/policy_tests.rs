@@ -8,8 +8,10 @@ use super::sensors::Sensors;
 use super::track::Track;
 use crate::config::{ProximitySensors, SafetyPolicy};
 
-/// The speed allowed for a robot that comes the other way and will pass 55 mm from centre to centre. Its place is known to
-/// `sigma_m`; the plan leaves the two `clearance_m`.
+/// The speed allowed for a robot at 0.24 m/s that meets another one, m/s; `None` if it is not limited. The other robot
+/// comes the other way and will pass 55 mm away from centre to centre. Its place is known to `sigma_m` metres.
+/// `clearance_m`: the clearance that the plan leaves between the two, metres; `None` if the plan does not know the
+/// other robot.
 fn allowed(sigma_m: f32, clearance_m: Option<f32>) -> Option<f32> {
     let of = SafetyPolicy::DEFAULT;
     let covariance = Covariance::new(Point::new(1.0, 0.0), sigma_m * sigma_m, sigma_m * sigma_m, 1e-6);

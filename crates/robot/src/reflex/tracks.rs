@@ -12,7 +12,8 @@ use super::sensors::{BESIDE_M, Sensors};
 use super::track::Track;
 use crate::config::SENSORS;
 
-/// Largest number of neighbours that are tracked at once: the number of robots that fit around a robot of equal size.
+/// Largest number of moving neighbours that are tracked at once: the number of robots that fit around a robot of equal
+/// size. Further neighbours are not tracked.
 pub(super) const TRACKS: usize = 6;
 /// Largest innovation at which a reading belongs to a neighbour's track, metres. With a larger value, readings of
 /// another neighbour are assigned to the track. With less than 13 mm, a robot that stops dead is lost. The filter
@@ -46,8 +47,8 @@ impl Tracks {
         self.list.is_empty() && self.obstacles.is_empty()
     }
 
-    /// The tracks for which the robot brakes: standing objects that are surely straight edges, and all other neighbours
-    /// as moving ones. Any other standing object may be a robot, which may drive off at any moment.
+    /// The tracks that can make the robot brake: standing objects that are surely straight edges, and all other
+    /// neighbours as moving ones. Any other standing object may be a robot, which may drive off at any moment.
     pub fn iter<'a>(&'a self, sensors: &Sensors) -> impl Iterator<Item = &'a Track> + use<'a> {
         self.explained_by(sensors, |face| face.is_flat)
     }
@@ -83,7 +84,8 @@ impl Tracks {
         self.obstacles.clear();
     }
 
-    /// Updates all tracks by the readings of a step.
+    /// Updates the tracks of moving neighbours and the standing objects by the readings of a step. Begins and removes
+    /// tracks.
     pub fn step(&mut self, scan: &Scan<'_>) {
         for track in &mut self.list {
             track.predict(scan.own, scan.of);
@@ -142,8 +144,8 @@ impl Tracks {
         (!expected_there(sensor, &self.list, scan).is_some_and(explains_better)).then_some(index)
     }
 
-    /// Begins tracks for readings that belong to no track yet, the nearest reading first. `logs`: see
-    /// [`Readings::logs`].
+    /// Begins tracks for readings that belong to no track yet, the nearest reading first, until there are [`TRACKS`]
+    /// tracks. `logs`: see [`Readings::logs`].
     fn welcome(&mut self, mut owners: Owners, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
         // Each round assigns at least one sensor.
         for _ in 0..SENSORS {
@@ -251,9 +253,9 @@ fn keeps_to(track: &Track, one: &Expectation, scan: &Scan<'_>) -> bool {
     track.keeps_to(one.at, one.velocity, scan.planned_sigma_m, scan.of) && track.sensors().all(explains)
 }
 
-/// Corrects a track by the readings that belong to it, and by the fact that other sensors do not see it. Before, tests
-/// whether it has left its plan. `seen_by`: the sensors with its readings, one bit each; `logs`: see
-/// [`Readings::logs`].
+/// First tests whether the track's neighbour has left its plan. Then corrects the track by the readings that belong to
+/// it, and by the fact that other sensors do not see the neighbour. `seen_by`: the sensors with its readings, one bit
+/// each; `logs`: see [`Readings::logs`].
 fn correct(track: &mut Track, seen_by: u8, scan: &Scan<'_>, logs: &mut [f32; SENSORS]) {
     track.age = track.age.saturating_add(1);
     track.seen_by = seen_by;

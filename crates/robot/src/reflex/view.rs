@@ -22,7 +22,8 @@ pub(crate) struct View {
     pub bend: f32,
 }
 
-/// A sensor and an outline, in the axes of the outline: x along its normal, y to the left of the normal.
+/// A sensor and an outline, in the axes of the outline. Their x points along the normal (from the robot to the edge),
+/// their y to the left of it.
 struct Sight<'a> {
     of: &'a Outline,
     radius_m: f32,

@@ -10,8 +10,11 @@ use super::{Point, Reflex, Wish};
 use crate::config::{Config, SENSORS};
 use lightbots_base::RobotId;
 
+/// Speed that the robot wants, m/s.
 const SPEED_MPS: f32 = 0.27;
+/// Number of drives for each kind of wall.
 const RUNS: usize = 500;
+/// Number of steps of a drive that does not touch the wall.
 const STEPS: usize = 60;
 
 /// Results of many drives.

@@ -9,13 +9,14 @@ use crate::drive::{BodyPose, Setpoint};
 use crate::reflex::Wish;
 use crate::storage::RouteStorage;
 
-/// A robot whose fixes are overdue does not report its arrival if the error of its place is larger than this, metres, 1
-/// sigma. With a smaller value, a robot that loses its fixes at the end of a route never arrives. With a larger value,
-/// the robot reports arrivals at places where it does not stand.
+/// While fixes are overdue, a robot does not report its arrival if the error of its place is larger than this, metres,
+/// 1 sigma. With a smaller value, a robot that loses its fixes at the end of a route arrives only once fixes come
+/// again. With a larger value, the robot reports arrivals at places where it does not stand.
 const SURE_M: f64 = 0.003;
-/// A robot whose fixes are overdue stops and waits for fixes once the predicted error of its place is larger than this,
-/// metres, 1 sigma. It is less than the error that makes the robot lost (20 mm). With a smaller value, the robot pauses
-/// in short outages. With a larger value, the robot becomes lost and abandons its route.
+/// While fixes are overdue, a robot stops and waits for fixes once its predicted error is larger than this, metres, 1
+/// sigma. That is the error of its place after braking. It is less than the error that makes the robot lost (20 mm).
+/// With a smaller value, the robot pauses in short outages. With a larger value, the robot becomes lost and abandons
+/// its route.
 const PAUSE_M: f64 = 0.016;
 /// Speed at which a robot with unknown heading drives straight on to learn its heading from its motion, m/s. With a
 /// smaller value, noise of the fixes hides the direction for longer. With a larger value, the robot drives too far
@@ -23,7 +24,8 @@ const PAUSE_M: f64 = 0.016;
 const CREEP_MPS: f64 = 0.08;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Returns the wheel rates until the next step, left and right, rad/s. Also queues the report of an arrival.
+    /// Returns the wheel rates until the next step, left and right, rad/s. If the robot has arrived, also queues the
+    /// report of the arrival. A faulty robot stands and does not arrive.
     pub(super) fn act(&mut self, now: Instant, route_time: Option<Instant>, took: Span) -> [f64; 2] {
         if self.hot.supervisor.faulty(now) {
             return self.hot.drive.halt();
@@ -78,8 +80,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Decides whether the robot stands still until fixes come again, because it might be lost if it drove on. Stores
-    /// the result in `Hot::pauses`.
+    /// Returns whether the robot stands still until fixes come again, because it might be lost if it drove on. See
+    /// [`PAUSE_M`]. Stores the result in `Hot::pauses`.
     fn pauses(&mut self) -> bool {
         let hot = &mut self.hot;
         hot.pauses = hot.quality.blind
@@ -88,8 +90,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// The setpoint before the safety layer limits it: along the route under way, else to the target, else a turn
-    /// towards the kept route. A robot with unknown heading drives straight on slowly instead of along a route or to a
-    /// target. `None` if the robot has nothing to do.
+    /// towards the first direction of the kept route. A robot with unknown heading drives straight on slowly instead of
+    /// along a route or to a target. `None` if there is nothing to drive or to turn to. A kept route alone also gives
+    /// `None` during a silence, or while the heading is unknown.
     fn want(&mut self, route_time: Option<Instant>, took: Span) -> Option<Setpoint> {
         let hot = &mut self.hot;
         if !hot.routes.under_way() && hot.seek.is_none() && !hot.routes.keeps_one() {
@@ -121,8 +124,9 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// Queues the report of an arrival once the robot stands at the end of its route or at its target, and ends that
-    /// drive.
+    /// Once the robot stands at the end of its route or at its target, queues the report of the arrival and ends that
+    /// drive. A lost robot does not arrive. While fixes are overdue, a robot does not arrive if the error of its place
+    /// exceeds [`SURE_M`].
     fn arrive(&mut self, route_time: Option<Instant>) {
         let is_lost = self.is_lost_now();
         let hot = &mut self.hot;

@@ -9,10 +9,12 @@ use super::state::Robot;
 use crate::seek::Seek;
 use crate::storage::RouteStorage;
 
-/// If a `STOP at` command would bring the robot to rest later than this, the robot stops at once instead. With a
-/// smaller value, that happens on slow links too. With a larger value, a wrong moment lets robots drive on for longer.
+/// A `STOP at` command stops the robot at once if it would bring the robot to rest only this long after it was
+/// received, or later. With a smaller value, that happens on slow links too. With a larger value, a wrong moment lets
+/// robots drive on for longer.
 const LATEST_STOP: Span = Span::from_millis(2000);
-/// Largest valid absolute coordinate of a target, metres. It only has to exclude numbers that no floor reaches.
+/// Largest valid absolute coordinate of a target, metres. It only has to exclude numbers that no floor reaches. With a
+/// larger value, a robot drives off after a target that was garbled.
 const FAR_M: f64 = 1000.0;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
@@ -97,8 +99,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.light.tracks.note(at, hold);
     }
 
-    /// Discards all routes and drives to a target. A target with a coordinate beyond [`FAR_M`] is invalid: it counts as
-    /// an unknown command, and the robot stops.
+    /// Discards all routes and drives to a target, stage metres. A target with a coordinate beyond [`FAR_M`], or that
+    /// is NaN, is invalid: it counts as an unknown command, and the robot stops.
     fn take_target(&mut self, goal: Vec2) {
         self.hot.stops_at = None;
         self.hot.routes.clear();

@@ -14,8 +14,8 @@ use crate::storage::RouteStorage;
 pub type Message = heapless::String<376>;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
-    /// Takes the next outgoing message: writes its payload to `out` and returns its topic. `None`, with an empty `out`,
-    /// if no message waits.
+    /// Takes the next outgoing message: writes its payload to `out` and returns its topic. `None` if no message is to
+    /// be sent.
     #[inline]
     pub fn outgoing(&mut self, out: &mut Message) -> Option<Topic> {
         out.clear();
@@ -35,7 +35,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
             }
         };
         let speaks_ours = self.config.abilities != Default::default();
-        // No report got out while the robot was cut off: the first one over the new link says that it was.
+        // No report got out while the robot was cut off. So the introduction over the new link says that it was.
         let was_cut = kind == MessageKind::Introduction && self.hot.supervisor.take_untold();
         let state = if was_cut { RobotState::Cut } else { self.hot.state };
         let details = speaks_ours.then(|| Details { route, state, ..self.details() });
@@ -69,7 +69,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         let rests = matches!(self.hot.state, RobotState::Idle | RobotState::Ready) && self.hot.drive.stands();
         let error_m = if rests { self.hot.estimate.error_m() } else { 0.0 };
         let at = knows_place.then(|| (self.hot.estimate.at(), error_m));
-        // In a silence the report would be lost, and the robot says where it is once it hears a message.
+        // In a silence a report would be lost. The robot says where it is once messages come again.
         if rests && !self.hot.supervisor.is_silent(now) {
             self.hot.outbox.notice_place(now, at.map(|(at, _)| at));
         }

@@ -10,9 +10,9 @@ use crate::drive::BodyPose;
 use crate::routes::InSight;
 use crate::storage::RouteStorage;
 
-/// A robot that was moved by more than this does not drive the route that it has, metres: about a robot's size. With a
-/// smaller value, a robot that was pushed aside does not go back on its route. With a larger value, a robot that was
-/// lifted drives through others.
+/// A robot abandons its route if its estimated place jumps by more than this, metres: about a robot's size. It also
+/// abandons a route that begins farther than this from its place. With a smaller value, a robot that was pushed aside
+/// does not go back on its route. With a larger value, a robot that was lifted drives through others.
 pub(super) const AWAY_M: f64 = 0.05;
 /// Largest length of a step; longer gaps between steps are cut to it. With a larger value, a pause of the simulation
 /// would move a robot along its route without its wheels. With a smaller value, a board that skips a few steps would
@@ -22,8 +22,8 @@ pub(super) const LONGEST_STEP: Span = Span::from_millis(100);
 /// from their planned places. With a smaller value, the safety layer takes a planned neighbour for a stranger. With a
 /// larger value, the safety layer compares more neighbours than necessary.
 const OFF_PLAN_M: f64 = 0.025;
-/// Largest valid wheel turn, as a multiple of what the motors can turn in the longest step. A larger reading means that
-/// the sensor is broken.
+/// Largest valid wheel turn in a step, as a multiple of what the motors can turn in the longest step. A larger reading
+/// means that the sensor is broken, and counts as a fault. With a larger value, more wrong readings reach the estimate.
 const WHEEL_TURN_RESERVE: f64 = 2.0;
 
 impl<S: BorrowMut<RouteStorage>> Robot<S> {
@@ -72,8 +72,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 }
 
-/// Whether any reading is less than `range_m`. Compares all readings, because that is quicker than to stop at the first
-/// that is.
+/// Whether any reading is less than `range_m`, metres. Compares all readings, because that is quicker than to stop at
+/// the first that is less.
 #[inline]
 fn is_any_within(gaps_m: &[f32; SENSORS], range_m: f32) -> bool {
     gaps_m.iter().fold(false, |any, &gap_m| any | (gap_m < range_m))

@@ -12,7 +12,7 @@ use crate::light::Light;
 use crate::reflex::Reflex;
 use crate::storage::RouteStorage;
 
-/// How far ahead a robot whose fixes are overdue predicts the error of its place for reports. It is the time that a
+/// While fixes are overdue, reports give the error of the place predicted for this time ahead: about the time that a
 /// HOLD takes to reach all robots. With a smaller value, the other robots cannot stop before this robot is lost. With a
 /// larger value, all robots wait for short outages.
 const FORESIGHT: Span = Span::from_millis(500);
@@ -56,7 +56,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         }
     }
 
-    /// The state that every step reads and writes. A simulator of thousands of robots may prefetch it into the cache.
+    /// The state that an ordinary step reads and writes. A simulator of thousands of robots may prefetch it into the
+    /// cache.
     #[inline]
     pub fn hot(&self) -> &Hot {
         &self.hot
@@ -67,7 +68,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         &self.config
     }
 
-    /// The estimated pose; `None` while the place or the heading is unknown.
+    /// The estimated pose; `None` while the robot is lost (its place is too uncertain to drive) or its heading is
+    /// unknown.
     pub fn pose(&self) -> Option<Pose> {
         self.place().and_then(|_| self.hot.estimate.pose())
     }
@@ -76,13 +78,13 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         (!self.is_lost(self.hot.now - self.hot.lag)).then(|| self.hot.estimate.at())
     }
 
-    /// Direction of the neighbour that slows or blocks the robot in this step, radians counter-clockwise from the
-    /// robot's front. `None` if the safety layer does neither.
+    /// Direction of the neighbour that slows or blocks the robot, or did so in one of the last steps, radians
+    /// counter-clockwise from the robot's front. `None` if there is none.
     pub fn braking_towards(&self) -> Option<f64> {
         if self.hot.is_wary { self.reflex.braking_towards() } else { None }
     }
 
-    /// What the robot is doing.
+    /// What the robot was doing in the latest step.
     pub fn state(&self) -> RobotState {
         self.hot.state
     }
@@ -108,13 +110,13 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         self.hot.routes.due()
     }
 
-    /// Expected error of the estimated place, 1 sigma in each coordinate, metres.
+    /// Expected error of the estimated place, 1 sigma, metres: that of x or of y, whichever is larger.
     pub fn place_error_m(&self) -> f64 {
         self.hot.estimate.error_m()
     }
 
     /// Expected error of the place for reports, 1 sigma, metres, rounded to 0.1 mm. If fixes are overdue: the error at
-    /// [`FORESIGHT`] from now.
+    /// [`FORESIGHT`] from now if the route goes on without fixes.
     pub(super) fn err_m(&self) -> f64 {
         let way_m =
             if self.is_blind() { self.hot.routes.way_ahead_m(FORESIGHT, self.storage.borrow()) } else { 0.0 };
@@ -123,7 +125,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// Whether the robot is lost: its pose is too uncertain to drive. A robot at rest on a held route is lost only if
-    /// its last fix is too old, and not because of a large error.
+    /// its last fix is too old or none ever came, however large its error is.
     pub(super) fn is_lost(&self, now: Instant) -> bool {
         if self.hot.routes.rests_held() {
             self.hot.estimate.lost_for_good(now)
@@ -137,7 +139,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
         if self.hot.routes.rests_held() { self.hot.quality.lost_for_good } else { self.hot.quality.lost }
     }
 
-    /// Whether position fixes are overdue.
+    /// Whether position fixes are overdue, or none ever came.
     pub(super) fn is_blind(&self) -> bool {
         self.hot.estimate.is_blind(self.hot.now - self.hot.lag, self.hot.blind_after)
     }
@@ -148,7 +150,7 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
     }
 
     /// Number of unknown and invalid commands since power-on. Commands for which the robot lacks the ability count as
-    /// unknown.
+    /// unknown, and so do targets beyond 1 km.
     pub fn unknown(&self) -> u32 {
         self.unknown
     }

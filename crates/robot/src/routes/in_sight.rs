@@ -7,16 +7,17 @@ use crate::drive::BodyPose;
 use crate::reflex::{Expectation, Point};
 use crate::storage::RouteStorage;
 
-/// Largest number of neighbours that are expected in sight at once. No more robots fit with their centres within 0.11 m. But
-/// a route can name dozens of places at which a silent robot may stand.
+/// Largest number of neighbours that are expected in sight at once. With a smaller value, the safety layer takes
+/// planned neighbours in a dense picture for strangers. A larger value costs time in each step. A route can name more:
+/// it may list dozens of places at which a silent robot may stand.
 pub(crate) const MAX_IN_SIGHT: usize = 12;
 /// The neighbours expected in sight.
 pub(crate) type InSight = heapless::Vec<Expectation, MAX_IN_SIGHT>;
 
 impl Routes {
-    /// Appends to `expected` the planned neighbours whose centres are within `sight_m` metres of the robot's centre, at the
-    /// path time of the latest step. If there are more than [`MAX_IN_SIGHT`], the farthest of the standing neighbours are
-    /// left out.
+    /// Appends to `expected` the planned neighbours with a centre within `sight_m` metres of the robot's centre, at the
+    /// path time of the latest step. Appends nothing if no route is under way. If there are more than [`MAX_IN_SIGHT`],
+    /// standing neighbours that are far away are left out first.
     pub(crate) fn expect(
         &self,
         body: BodyPose,
@@ -49,8 +50,8 @@ impl Routes {
         }
     }
 
-    /// Whether the route under way names all neighbours that may come within `range_m` metres: it lists neighbours, or its
-    /// planned clearance is larger than `range_m`.
+    /// Whether the route under way names all neighbours that may come within `range_m` metres: it lists neighbours, or
+    /// its planned clearance is larger than `range_m`. `false` if no route is under way.
     pub(crate) fn tells_neighbours(&self, range_m: f32, storage: &RouteStorage) -> bool {
         self.running.as_ref().is_some_and(|running| {
             let is_alone = running.room_mm.is_some_and(|room_mm| f32::from(room_mm) > 1e3 * range_m);
@@ -59,9 +60,10 @@ impl Routes {
     }
 }
 
-/// Puts the neighbour `one` into the full list `expected`. If `one` moves or is nearer than the farthest standing
-/// neighbour of the list, `one` replaces that neighbour; otherwise `one` is left out. Standing neighbours can also be
-/// places where a silent robot may stand, and there may be dozens of these beside a path.
+/// Puts the neighbour `one` into the full list `expected`, in place of the farthest standing neighbour of the list. If
+/// `one` stands and is not nearer than that neighbour, or if no neighbour of the list stands, `one` is left out.
+/// Standing neighbours can also be places where a silent robot may stand, and there may be dozens of these beside a
+/// path.
 fn take_in(one: Expectation, expected: &mut InSight) {
     let moves = |one: &Expectation| one.velocity != Point::ZERO;
     let far_m = |one: &Expectation| one.at.length();

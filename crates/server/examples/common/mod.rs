@@ -46,7 +46,7 @@ pub fn program() -> Outcome<PathBuf> {
     Ok(program)
 }
 
-/// Starts the embedded broker: `lightbots broker`, as `run` starts it.
+/// Starts the embedded broker alone: `lightbots broker`.
 pub fn embedded() -> Outcome<Broker> {
     let program = program()?;
     start("embedded", |port, _| {
@@ -56,7 +56,7 @@ pub fn embedded() -> Outcome<Broker> {
     })
 }
 
-/// Starts Mosquitto without its limits.
+/// Starts Mosquitto without its limits on queued and unacknowledged messages.
 pub fn mosquitto() -> Outcome<Broker> {
     let program = std::env::var("LIGHTBOTS_MOSQUITTO").unwrap_or_else(|_| "mosquitto".into());
     start("mosquitto", |port, folder| {

@@ -8,7 +8,9 @@ use std::time::Duration;
 use crate::Target;
 use crate::packets::{connect, packet, publish, subscribe, text};
 
+/// Pause between two attacks of a frequent kind.
 const SHORT: Duration = Duration::from_millis(5);
+/// Pause between two attacks of a rare kind.
 const LONG: Duration = Duration::from_secs(1);
 /// How long an attacker waits for an answer.
 const ANSWER: Duration = Duration::from_millis(500);

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::common::{self, Outcome};
 
-/// Time between two measurements of its memory.
+/// Time between two measurements of the memory of the attacked program.
 const LOOK: Duration = Duration::from_millis(200);
 
 pub struct Program {

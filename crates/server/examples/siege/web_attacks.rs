@@ -7,7 +7,9 @@ use std::time::Duration;
 
 use crate::Target;
 
+/// Pause between two attacks of the same kind.
 const PAUSE: Duration = Duration::from_secs(1);
+/// Longest wait of an attacker for sending or for an answer.
 const ANSWER: Duration = Duration::from_secs(30);
 
 /// Starts all attacks.
@@ -28,7 +30,8 @@ pub fn begin(target: &Arc<Target>) {
         .repeat(PAUSE / 20, |target| upload(target, "POST", "/api/convert?to=original", "{\"lightbots\":1}"));
 }
 
-/// Keeps `count` connections open that have sent only `head`.
+/// Keeps `count` connections open that have sent only `head`, and replaces those that the server has closed or
+/// answered.
 fn keep(open: &mut Vec<TcpStream>, count: usize, target: &Target, head: &str) -> Result<()> {
     open.retain(|stream| {
         let _ = stream.set_nonblocking(true);

@@ -21,6 +21,7 @@ pub use tries::{SignInTries, TriesLeft};
 
 use crate::disk::{self, Readers};
 
+/// Name of the file in the data folder.
 const FILE: &str = "accounts.json";
 /// Name of the file that is locked while the accounts are changed, so that no change of another process is lost.
 const LOCK: &str = ".accounts-lock";

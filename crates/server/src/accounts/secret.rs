@@ -20,7 +20,7 @@ impl Secret {
         Self(hex(&Sha256::digest(token.as_bytes())))
     }
 
-    /// Makes a random token. Returns the token and its hash.
+    /// Makes a random token. Returns the token and its hash. Error if the system gives no random numbers.
     pub fn fresh() -> Result<(String, Self), String> {
         let mut bytes = [0; TOKEN_BYTES];
         random(&mut bytes)?;
@@ -40,7 +40,7 @@ pub fn hash_password(password: &str) -> Result<String, String> {
     hash.map(|hash| hash.to_string()).map_err(|error| error.to_string())
 }
 
-/// Whether the password has this hash.
+/// Whether the password has this hash, a text in PHC string format. `false` if the text is invalid.
 pub fn is_password(password: &str, hash: &str) -> bool {
     let Ok(hash) = PasswordHash::new(hash) else { return false };
     Argon2::default().verify_password(password.as_bytes(), &hash).is_ok()

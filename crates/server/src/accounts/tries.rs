@@ -20,9 +20,9 @@ const PAUSE_MAX: Duration = Duration::from_secs(3600);
 /// Time after a pair's latest wrong password, or after the end of its latest pause, at which its count is forgotten. The
 /// next pause then has the length [`PAUSE`] again.
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(2 * 3600);
-/// Token bucket for the wrong passwords of one name from all addresses together.
+/// Token bucket for the wrong passwords of one name from all addresses that are not exempt.
 const OF_NAME: Bucket = Bucket { most: 20, refill: Duration::from_secs(60) };
-/// Token bucket for the wrong passwords of all names from all addresses.
+/// Token bucket for the wrong passwords of all names together, from all addresses that are not exempt.
 const IN_WHOLE: Bucket = Bucket { most: 60, refill: Duration::from_secs(10) };
 /// Most pairs of name and address whose wrong passwords are counted. Bounds the memory, because the buckets do not limit
 /// attempts from this machine. Beyond it, the pair with the earliest end of its pause is forgotten. An attacker needs about
@@ -139,8 +139,9 @@ fn key(name: &str, address: IpAddr) -> (String, IpAddr) {
     (name.chars().take(LETTERS_MAX).collect(), network(address))
 }
 
-/// Returns the address by which a client is counted. For an IPv6 address, this is the /64 network, because one machine can
-/// use every address of its network. Loopback and IPv4 addresses stay as they are.
+/// Returns the address by which a client is counted. For an IPv6 address, this is the /64 network, because one machine
+/// can use every address of its network. Loopback and IPv4 addresses stay as they are. An IPv4 address in IPv6 form
+/// becomes IPv4.
 fn network(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
         IpAddr::V6(address) if !address.is_loopback() => {

@@ -19,7 +19,8 @@ use crate::failure::{Failure, Outcome};
 use crate::say;
 use crate::tls::{self, OWN_NAMES};
 
-/// Validity of the authority, days: ten years, so that it outlives the certificates that it signs.
+/// Validity of the authority, days: ten years, the longest validity that `--days` allows for certificates. A shorter
+/// one would end certificates before their time.
 const AUTHORITY_DAYS: u32 = 3650;
 
 /// A certificate authority with its key, which signs certificates.

@@ -58,7 +58,7 @@ fn loaded(arguments: &ConvertArguments) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// Writes a show in a format, and plans it first if the format needs a plan.
+/// Writes a show in a format. If the format needs a plan and the show's file brought none, plans the show first.
 fn written(format: &Format, loaded: &mut Loaded) -> Written {
     if !format.needs_plan || loaded.plan.is_some() {
         return format.write(&loaded.show, loaded.plan.as_ref());

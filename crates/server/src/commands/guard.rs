@@ -1,5 +1,5 @@
-//! Reads untrusted files in a child process with limits on memory and time, because a file of a few bytes can need
-//! gigabytes.
+//! Reads untrusted files in a child process with a limit on memory and, where [`ReadingTime`] is used, on time. A file
+//! of a few bytes can need gigabytes.
 
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Arc;
@@ -13,10 +13,11 @@ use crate::say;
 /// Name of the environment variable that marks a child process, so that the child does not start a further child.
 const CHILD: &str = "LIGHTBOTS_READING_CHILD";
 
-/// Most memory of the child, bytes.
+/// Most memory for data of the child, bytes. A child that needs more is ended.
 const MEMORY_MAX: u64 = 400 << 20;
 
-/// Longest time for reading untrusted files. A child that takes longer exits with [`TOO_LONG`].
+/// Longest time for reading untrusted files, where [`ReadingTime`] is used. A child that takes longer exits with
+/// [`TOO_LONG`].
 const READING_MAX: Duration = Duration::from_secs(10);
 
 /// Exit code of a child that took too long. No command uses this code.

@@ -1,4 +1,4 @@
-//! Commands of the program, one file each.
+//! Commands of the program, with one file or folder for most of them.
 
 pub mod backup;
 pub mod broker;

@@ -234,7 +234,8 @@ async fn follow(
     }
 }
 
-/// Waits for the next event and returns it. Warnings before the event go into the report.
+/// Waits for the next event and returns it. Warnings before the event go into the report. Error if the conductor has
+/// ended, or after `NOTHING` without news, unless the run waits for GO.
 async fn next_event(
     report: &mut RunReport,
     handle: &Handle,

@@ -293,9 +293,9 @@ async fn relay(mut lines: mpsc::Receiver<String>, log: ScreenLog, stop: Stop) {
     }
 }
 
-/// Returns the settings for the screen's form, and the broker for the controller. The broker is that of the command line,
-/// else the one that was chosen on the screen, else the embedded one. `--broker embedded`, or a disconnection on the screen,
-/// rules out the one from the screen.
+/// Returns the settings for the screen's form, and the broker for the controller. The broker is that of the command
+/// line, else the one that was chosen on the screen, else the embedded one (`own`). The one from the screen is not used
+/// with `--broker embedded`, after a disconnection on the screen, or if its settings are wrong.
 fn chosen(
     arguments: &RunArguments,
     other: Option<BrokerUrl>,
@@ -359,7 +359,7 @@ async fn open(shared: &Arc<Shared>, name: Option<String>) {
     }
 }
 
-/// Returns the address of the web app for this machine: loopback if the app listens on all addresses.
+/// Returns the address of the web app for this machine: 127.0.0.1 if the app listens on all addresses.
 fn own_address(address: SocketAddr) -> SocketAddr {
     if address.ip().is_unspecified() {
         return SocketAddr::new(Ipv4Addr::LOCALHOST.into(), address.port());

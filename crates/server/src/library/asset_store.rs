@@ -10,8 +10,8 @@ use lightbots_show::{Asset, AssetHash, Show};
 
 use crate::disk::{self, Readers};
 
-/// Age from which an asset that no show names is deleted, at the next start of the program. Until then, a show that names
-/// the asset can come back: after an undone deletion, or from a draft in a browser.
+/// Time since an asset was written after which it is deleted at the next start of the program, if no show names it.
+/// Until then, a show that names the asset can come back: after an undone deletion, or from a draft in a browser.
 const UNUSED_FOR: Duration = Duration::from_secs(30 * 24 * 3600);
 
 /// Files by hash. Clones share them.

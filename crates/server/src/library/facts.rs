@@ -1,4 +1,4 @@
-//! Facts about shows that lists display. A file is read once, and again after it has changed.
+//! Facts about shows that lists display. They are remembered by file, and read again after the file has changed.
 
 use std::collections::BTreeMap;
 use std::fs::Metadata;
@@ -13,8 +13,8 @@ use super::lock::lock;
 use super::show_files;
 use super::version::etag;
 
-/// The most files whose facts are remembered: all shows that a library lists, and the states of 400 shows. Beyond it, all
-/// facts are forgotten.
+/// Most files whose facts are remembered: 10,000 shows with room for many of their states. When a further file comes,
+/// all facts are forgotten.
 const FILES_MAX: usize = 30_000;
 /// Age from which the facts of a file are remembered. A file that was written more recently is read each time, because a
 /// second change may not alter its time of change. Some file systems count that time in steps of two seconds.
@@ -42,7 +42,7 @@ impl ListFacts {
         Ok(Self { etag: etag(bytes), ..Self::of_show(&loaded.show, loaded.unread) })
     }
 
-    /// Returns the facts of a show without a file. The version of the file stays empty.
+    /// Returns the facts of a show without a file; `etag` stays empty.
     pub fn of_show(show: &Show, unread: Option<String>) -> Self {
         let (frames, pixels) = (show.frames.len(), most_pixels(show));
         Self { title: show.name.clone(), frames, pixels, etag: String::new(), unread }
@@ -81,7 +81,8 @@ impl Stamp {
 pub struct FileFacts(Arc<Mutex<BTreeMap<PathBuf, (Stamp, ListFacts)>>>);
 
 impl FileFacts {
-    /// Returns the facts of a file, from memory if the file has not changed. The error says why the file is no show.
+    /// Returns the facts of a file, from memory if they are remembered and the file has not changed. The error says why
+    /// the file cannot be read or is no show.
     pub fn get(&self, file: &Path) -> Result<ListFacts, String> {
         let before = std::fs::metadata(file).ok().and_then(|about| Stamp::of(&about));
         if let Some((stamp, facts)) = lock(&self.0).get(file)

@@ -14,7 +14,7 @@ use super::version::etag;
 /// A built-in show, which is read-only and in no folder.
 #[derive(Clone, Debug)]
 pub struct Given {
-    /// Name under which the show is listed while no other show has that name. Names of its copies begin with it.
+    /// Name under which the show is listed if it is free. Names of its copies begin with it.
     pub base: String,
     /// Origin of the show: an example, or the file of the command line.
     pub origin: ShowOrigin,
@@ -49,9 +49,9 @@ impl GivenShows {
         lock(&self.0).get(name).cloned()
     }
 
-    /// Adds a show and returns the name under which it is listed. If an example has the same name as the file of the command
-    /// line, the file keeps the name. The example is then listed under another name. `saved` has the names of the shows in
-    /// the folder.
+    /// Adds a show and returns the name under which it is listed: its base name if that is free, else a variant of it.
+    /// If `show` is the file of the command line and an example has its name, the file gets the name, and the example a
+    /// variant. `saved` has the names of the shows in the folder.
     pub fn add(&self, show: Given, saved: &BTreeSet<String>) -> String {
         let (base, origin) = (show.base.clone(), show.origin);
         let mut given = lock(&self.0);
@@ -64,14 +64,14 @@ impl GivenShows {
         listed
     }
 
-    /// Returns the first free name of `base 2`, `base 3` and so on.
+    /// Returns the first free name of `base 2`, `base 3` and so on. `saved` has the names of the shows in the folder.
     pub fn copy_name(&self, base: &str, saved: &BTreeSet<String>) -> String {
         first_free((2..).map(|number| format!("{base} {number}")), &lock(&self.0), saved)
     }
 }
 
-/// Returns `base` if no show has that name. Otherwise returns the first free name of `base (example)`, `base (example 2)`
-/// and so on. For the file of the command line, `file` replaces `example`.
+/// Returns `base` if no show has that name. Otherwise returns the first free name of `base (example)`, `base (example
+/// 2)` and so on. For the file of the command line, the word is `file` instead of `example`.
 fn listed_name(
     base: &str,
     origin: ShowOrigin,

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use lightbots_exchange::stem;
 
-/// The longest name, in characters. In bytes, a name may have 200.
+/// The longest name, in characters. It may also have at most 200 bytes in UTF-8.
 const NAME_MAX: usize = 80;
 
 fn may_hold(letter: char) -> bool {
     letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | ',' | '(' | ')' | '!' | '\'' | '+')
 }
 
-/// Returns the name if the library allows it: only characters that file names may have on all systems. The error says which
-/// names are allowed.
+/// Returns the name if the library allows it: 1 to `NAME_MAX` characters that file names may have on all systems. The
+/// error says which characters are allowed.
 pub(super) fn checked(name: &str) -> Result<&str, String> {
     let fits = (1..=NAME_MAX).contains(&name.chars().count())
         && name.len() <= 200

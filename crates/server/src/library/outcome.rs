@@ -11,8 +11,8 @@ pub struct Kept {
     pub show: Show,
     /// Version of the show, in quotes.
     pub etag: String,
-    /// Why the show cannot be replaced, for people: its file holds more than the document. `None` if it can be
-    /// replaced.
+    /// A line for people that says why the show cannot be replaced: its file holds more than the document. `None`: it
+    /// can be replaced.
     pub read_only: Option<String>,
     /// Issues of the pictures of the show's layers; empty until these pictures are decoded.
     pub issues: Issues,
@@ -23,13 +23,13 @@ pub struct Kept {
 pub enum LibraryError {
     /// The name is not allowed.
     BadName(String),
-    /// There is no show, state or file of this name.
+    /// There is no such show, state or asset.
     Missing(String),
-    /// Another client saved the show first, or the name is taken.
+    /// The show does not have the version that the client expects, or the name is taken.
     Conflict(String),
-    /// The show is built-in or only partly understood, and cannot be changed.
+    /// The show cannot be replaced or deleted, because it is built-in or only partly understood.
     ReadOnly(String),
-    /// The bytes are no show, or a file does not have the stated hash.
+    /// The bytes are no show, or an asset does not have the stated hash.
     NoShow(String),
     /// The disk cannot be read or written.
     Disk(String),
@@ -43,7 +43,7 @@ pub enum Condition {
     Any,
     /// The show has this version.
     Is(String),
-    /// There is no show of this name yet.
+    /// There is no show of this name.
     IsNew,
 }
 

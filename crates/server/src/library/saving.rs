@@ -7,10 +7,12 @@ use super::lock::lock;
 use super::{Condition, Kept, Library, LibraryError, checked};
 
 impl Library {
-    /// Saves a show of any format. The library writes it in our format; only a file that is partly understood is kept byte
-    /// for byte. Error if the present file of the show is partly understood. A built-in show is not changed: a copy is saved
-    /// under a free name, which the entry states together with `copy_of`. With [`Condition::IsNew`], the name of a built-in
-    /// show is a conflict.
+    /// Saves a show, given as the bytes of a file of any format. It is written in our format; a file that is only
+    /// partly understood is kept byte for byte.
+    ///
+    /// Error if the present file of the show is only partly understood, or if `condition` does not hold. A built-in
+    /// show is not changed: a copy is saved under a free name, which the entry states together with `copy_of`. With
+    /// [`Condition::IsNew`], the name of a built-in show is a conflict.
     pub fn put(&self, name: &str, bytes: &[u8], condition: &Condition) -> Result<ShowEntry, LibraryError> {
         let name = checked(name)?;
         let loaded = read(bytes, None).map_err(|error| LibraryError::NoShow(error.to_string()))?;
@@ -62,8 +64,8 @@ impl Library {
         }
     }
 
-    /// Deletes a show of the folder. A built-in show cannot be deleted. If the show was renamed, `renamed_to` is its new
-    /// name, under which its earlier states are kept.
+    /// Deletes a show of the folder. A built-in show cannot be deleted. Its last file becomes an earlier state. If the
+    /// show was renamed, `renamed_to` is its new name, and gets the earlier states.
     pub fn delete(
         &self,
         name: &str,

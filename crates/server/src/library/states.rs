@@ -1,9 +1,10 @@
-//! Earlier saved states of shows: `history/NAME/NUMBER.lightbots.json` in the library's folder, counted up.
+//! Earlier saved states of shows: `history/NAME/NUMBER.lightbots.json` or `.lightbots.zip` in the library's folder.
+//! Numbers count up.
 //!
-//! When a show's file is replaced or deleted, a hard link to the old file is made there. No byte is copied, and a crash in
-//! between leaves one state twice at most. The last [`STATES`] states are kept. Of older ones, the last of each day is kept
-//! if it is at most [`DAYS`] days older than the newest state. A screen saves after every change, so the last states alone
-//! may span only a minute.
+//! Before a show's file is replaced or deleted, a hard link to it is made there. Where hard links fail, the file is
+//! copied. A crash in between may leave one state twice. The last [`STATES`] states are kept. Of older ones, the last
+//! of each day is kept if it is less than [`DAYS`] days older than the newest state. A screen saves after every change,
+//! so the last states alone may span only a minute.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -17,8 +18,8 @@ use crate::disk;
 
 /// Number of the latest states of a show that are kept whatever their age.
 pub const STATES: usize = 20;
-/// Number of days before the newest state in which the last state of each day is kept. The states of a deleted show are kept
-/// for this time after the deletion.
+/// Number of days before the newest state in which the last state of each day is kept. The states of a deleted show are
+/// kept for at least this number of days after the deletion.
 const DAYS: u64 = 30;
 /// Length of a day, milliseconds. Days are those of UTC.
 const DAY_MS: u64 = 24 * 3600 * 1000;
@@ -51,8 +52,8 @@ impl States {
         self.of(show).into_iter().find_map(|(other, file)| (other == number).then_some(file))
     }
 
-    /// Keeps a show's file as a further state, and removes surplus states. The file itself stays in its place. Does nothing
-    /// if there is no file.
+    /// Keeps a show's file as a further state, and removes surplus states. The file itself stays in its place. Does
+    /// nothing if there is no file.
     pub fn keep(&self, show: &str, file: &Path) -> io::Result<()> {
         if !file.is_file() {
             return Ok(());
@@ -102,8 +103,8 @@ impl States {
         disk::remove_drafts(&self.0.join(show));
     }
 
-    /// Removes the states of shows that were deleted more than [`DAYS`] days ago. `there` has the names of all shows
-    /// that exist.
+    /// Removes the states of shows that do not exist and whose states have not changed for more than [`DAYS`] days.
+    /// `there` has the names of all shows that exist.
     pub fn sweep(&self, there: &BTreeSet<String>) {
         let longest = Duration::from_millis(DAYS * DAY_MS);
         for show in self.shows().into_iter().filter(|show| !there.contains(show)) {
@@ -119,8 +120,8 @@ impl States {
     }
 }
 
-/// Returns the files among `states` that are not to be kept. `states` begins with the newest. `saved_ms` returns when a file
-/// was saved, milliseconds since the start of 1970 (UTC).
+/// Returns the files among `states` that are to be removed. `states` begins with the newest. `saved_ms` returns when a
+/// file was saved, milliseconds since the start of 1970 (UTC).
 fn too_many(states: &[(u32, PathBuf)], saved_ms: impl Fn(&Path) -> u64) -> Vec<PathBuf> {
     let newest = states.first().map_or(0, |(_, file)| saved_ms(file));
     let mut days = BTreeSet::new();

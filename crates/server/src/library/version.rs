@@ -1,4 +1,4 @@
-//! Version and age of a kept document.
+//! Version of a document, and time of the last change of its file.
 
 use std::path::Path;
 use std::time::UNIX_EPOCH;

@@ -1,4 +1,5 @@
-//! The simulated robots of the command `run`. They are replaced when the open show needs another stage or more robots.
+//! The simulated robots of the command `run`. They are replaced when the open show needs another stage or more robots
+//! and nothing is being played.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,9 +16,9 @@ use super::crowd::{Crowd, TOGETHER};
 use crate::stop::Stop;
 use crate::web::Shown;
 
-/// Number of robots if the command line states none and the show needs no more.
+/// Smallest number of robots that are simulated if the command line states no number.
 const USUAL: usize = 30;
-/// Most robots that are simulated because a show needs them.
+/// Largest number of robots that are simulated if the command line states no number.
 const MOST: usize = 5_000;
 /// Time without an edit of the show after which the robots are replaced by robots that fit the show.
 const SETTLED: Duration = Duration::from_millis(500);
@@ -27,24 +28,25 @@ const SETTLED: Duration = Duration::from_millis(500);
 pub struct Cast {
     /// The broker of the robots.
     pub broker: BrokerUrl,
-    /// Number of robots; `None` for as many as the open show needs.
+    /// Number of robots; `None`: see [`Cast::robots`].
     pub count: Option<usize>,
     /// Seed of the simulation. Robots that are replaced by robots with the same seed keep their names.
     pub seed: u64,
     /// Simulated disturbances.
     pub conditions: Conditions,
-    /// Number of robots that are simulated at present.
+    /// Number of robots that are simulated at present, for readers in other tasks.
     pub simulated: Arc<AtomicUsize>,
 }
 
 impl Cast {
-    /// Returns the number of robots to simulate for a show.
+    /// Returns the number of robots to simulate for a show: `count`, or as many as the show needs, between `USUAL` and
+    /// `MOST`.
     pub fn robots(count: Option<usize>, show: &Show) -> usize {
         count.unwrap_or_else(|| robots_needed(show).clamp(USUAL, MOST))
     }
 
-    /// Keeps simulated robots on the broker until `stop` is wanted. Replaces them when they do not fit the open show.
-    /// Returns at once if there are 0 robots to simulate.
+    /// Keeps simulated robots on the broker until `stop` is wanted. Replaces them when they do not fit the open show
+    /// and nothing is being played. Returns at once if there are 0 robots to simulate.
     pub async fn run(self, handle: Handle, mut shown: watch::Receiver<Arc<Shown>>, stop: Stop) {
         while !stop.is_wanted() {
             let show = shown.borrow_and_update().show.clone();
@@ -89,7 +91,8 @@ impl Cast {
         FleetConfig { stage: show.stage.clone(), starts, seed: self.seed, conditions }
     }
 
-    /// Returns once the open show needs another stage or more robots, and nothing is being played.
+    /// Returns once the open show needs another stage or more robots, has not changed for `SETTLED`, and nothing is
+    /// being played.
     async fn wait_for_misfit(
         &self,
         handle: &Handle,

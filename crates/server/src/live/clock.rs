@@ -7,9 +7,9 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use lightbots_base::Instant;
 use lightbots_control::{ComputerTime, Uptime};
 
-/// The show clock. A new clock begins with the microseconds since 1970, or continues the clock of a run that was cut off. It
-/// never goes back, and runs while the computer sleeps, as robots' clocks do. The clock of a restarted controller thus
-/// continues close to that of its predecessor. The clock can be held for a while, together with all its clones.
+/// The show clock, in microseconds. A new clock begins with the microseconds since 1970, or continues the clock of a
+/// run that was cut off. It never goes back, and runs while the computer sleeps, as robots' clocks do. It can be held
+/// for a while, together with all its clones.
 #[derive(Clone, Debug)]
 pub struct Clock {
     began: Duration,
@@ -17,10 +17,10 @@ pub struct Clock {
     shared: Arc<Shared>,
 }
 
-/// State that all clones of a clock share. Its times count in microseconds from `began`.
+/// State that all clones of a clock share. Its times are microseconds that the clock shows more than at its start.
 #[derive(Debug)]
 struct Shared {
-    /// How long the clock has been held from its start to the last [`Clock::grant`].
+    /// How long the clock had been held in total at the last [`Clock::grant`].
     withheld_us: AtomicU64,
     /// Latest time that the clock may show; it is held there.
     limit_us: AtomicU64,
@@ -50,7 +50,7 @@ impl Clock {
         Instant(self.offset_us + self.shared.shown_us.fetch_max(us, Ordering::Relaxed).max(us))
     }
 
-    /// Lets the clock run until it shows `until`, where it is held. [`Instant::FAR`] lets it run for good. Only one
+    /// Lets the clock run until it shows `until`, where it is held. With [`Instant::FAR`], it is not held. Only one
     /// task may call this.
     pub fn grant(&self, until: Instant) {
         let over_us = self.free_us().saturating_sub(self.shared.limit_us.load(Ordering::Relaxed));
@@ -112,8 +112,9 @@ fn boot() -> Option<u128> {
     *BOOT.get_or_init(read)
 }
 
-/// Returns the number for a controller's first route: eight times the seconds since 1970, modulo 2³². A controller that
-/// started earlier on this machine has not reached that number, unless it used more than eight numbers a second.
+/// Returns the number for a controller's first route: eight times the seconds since 1970, modulo 2³², but at least 1. A
+/// controller that started earlier on this machine is below that number, unless it used more than eight numbers a
+/// second.
 pub fn seq_base() -> u32 {
     ((unix_us() / 1_000_000 * 8) as u32).max(1)
 }

@@ -1,5 +1,5 @@
-//! The task that owns the controller core. It alone connects the inputs and outputs of the core to the clock and the
-//! broker.
+//! The conductor: the task that owns the controller core. It passes clock times and broker messages to the core, and
+//! the outputs of the core to the broker and to listeners.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -191,7 +191,8 @@ impl Conductor {
         }
     }
 
-    /// Makes the controller carry out an operation. If the operation begins a run, begins the log of the run first.
+    /// Makes the controller carry out an operation. If each run has its own log and the operation begins a run, first
+    /// begins the log of the run.
     fn operate(&mut self, now: lightbots_base::Instant, operation: Operation) -> Result<(), Refusal> {
         self.recorder.before(&mut self.controller, now, &operation);
         self.controller.operate(now, operation)
@@ -246,8 +247,8 @@ impl Conductor {
         }
     }
 
-    /// Passes on the outputs of the controller: messages, events, plan requests, log and journal. Publishes the
-    /// controller's name when it is due.
+    /// Passes on the outputs of the controller: messages, events, plan requests, log and journal. While connected,
+    /// publishes the controller's name when it is due, and renews the link if the broker no longer passes messages on.
     fn drain(&mut self) {
         if let Some(link) = &self.link {
             let (sender, now) = (link.sender(), self.clock.now());
@@ -287,8 +288,8 @@ impl Conductor {
         self.pace.commands.say(u64::from(sent && topic != Topic::Broadcast));
     }
 
-    /// Cancels the plan that is being made if there is a newer request. Starts to make the newest plan once no plan is being
-    /// made.
+    /// Takes the controller's plan requests and keeps only the newest. A new request cancels the plan that is being
+    /// made. If no plan is being made, starts the newest one on a blocking thread.
     fn plan(&mut self) {
         while let Some(job) = self.controller.next_plan_request() {
             self.next_job = Some(job);
@@ -334,8 +335,9 @@ impl Conductor {
         link.close().await;
     }
 
-    /// Stops the robots of a run and ends. Waits until the robots have reported that they stand, or until the controller
-    /// gives up waiting for them.
+    /// Stops the robots of a run, if one is under way, leaves the broker and closes the log. Waits until the robots
+    /// have reported that they stand, or until the controller gives up waiting for them. Aborts the run if the
+    /// controller refuses to stop the robots.
     async fn end(mut self) {
         let state = self.controller.state();
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
@@ -381,7 +383,7 @@ async fn sleep_until(alarm: Option<tokio::time::Instant>) {
     }
 }
 
-/// Returns the operation that opens a show.
+/// Returns the operation by which the controller opens a show.
 pub fn open(show: lightbots_show::Show) -> Operation {
     Operation::Open(Arc::new(show))
 }

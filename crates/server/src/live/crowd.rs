@@ -14,14 +14,14 @@ use super::clock::Clock;
 use super::pace::Pace;
 use crate::stop::Stop;
 
-/// Usual number of robots that share a connection.
+/// Number of simulated robots that share a connection in the command `run`.
 pub const TOGETHER: usize = 50;
-/// Most events of connections that are handled before the robots get their next step.
+/// Most events of connections that are handled before the robots are simulated further.
 const BATCH: usize = 4096;
-/// Length of a simulation step.
+/// Length of a simulation step: 16 ms.
 const STEP: Span = Span::from_millis(16);
-/// Number of steps that the robots may lag behind the show clock. At this lag, the clock is held if it may wait for the
-/// robots.
+/// If the show clock may wait for the robots: the number of steps by which it may pass the time at which the robots'
+/// next step is due. There the clock is held.
 const BEHIND: i64 = 2;
 /// Time between two checks whether messages that the clock waits for have arrived.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
@@ -38,8 +38,8 @@ pub struct Crowd {
     pace: Arc<Pace>,
     /// Start of the simulation, time of the show clock.
     began: Instant,
-    /// When the last message was noticed, and the number of messages received by then. `None` unless the clock waits for
-    /// messages.
+    /// Set while the clock waits for messages: when the number of received messages last changed (machine time), and
+    /// that number. `None` otherwise.
     clogged: Option<(std::time::Instant, u64)>,
     robots: usize,
     /// Number of robots that share a connection.
@@ -50,9 +50,9 @@ pub struct Crowd {
 }
 
 impl Crowd {
-    /// Creates robots and begins to connect them to `broker`, `together` robots on each connection. Each further connection
-    /// tries the next of the broker's addresses first. The connections last until `stop` is wanted. The robots run by
-    /// `clock`, which waits for them if `pace` allows it.
+    /// Creates robots and begins to connect them to `broker`, `together` robots on each connection (at least 1; the
+    /// last connection may have fewer). Each further connection tries the next of the broker's addresses first. The
+    /// connections last until `stop` is wanted. The robots run by `clock`, which waits for them if `pace` allows it.
     pub fn start(
         config: &FleetConfig,
         broker: &BrokerUrl,
@@ -124,8 +124,9 @@ impl Crowd {
         Instant((self.clock.now() - self.began).0.max(0) as u64)
     }
 
-    /// Simulates the robots up to the present. If the clock may wait for them, simulates at most `BEHIND` steps, holds the
-    /// clock, and leaves no step out.
+    /// Simulates the robots up to the present. If the clock may wait for them, lets it run only until `BEHIND` steps
+    /// after their next step is due, and leaves no step out. While the clock waits for messages under way, simulates
+    /// nothing.
     fn advance(&mut self) {
         if !self.pace.may_slow() {
             self.clogged = None;
@@ -142,7 +143,8 @@ impl Crowd {
         self.clock.grant(self.began + Span(until.0 as i64));
     }
 
-    /// Whether the clock waits for messages under way. Counts these messages as lost if none of them arrives for `LOST`.
+    /// Whether too many messages are under way, so that the clock waits for them. Counts these messages as lost if none
+    /// of them arrives for `LOST`.
     fn is_clogged(&mut self) -> bool {
         if !self.pace.is_clogged() {
             self.clogged = None;
@@ -215,7 +217,7 @@ impl fmt::Display for Losses {
     }
 }
 
-/// Logs that the machine is too slow, at most once in `EVERY`.
+/// Logs that the machine is too slow for the robots. Checks at most once in `EVERY`.
 struct LeftOut {
     steps: u64,
     withheld: Duration,
@@ -225,15 +227,15 @@ struct LeftOut {
 impl LeftOut {
     /// Shortest time between two checks whether there is something to log.
     const EVERY: Duration = Duration::from_secs(5);
-    /// Smallest slowing of the show clock that is logged: time held, as a share of real time.
+    /// Share of real time, 0 to 1. If the show clock was held for a larger share since the last check, that is logged.
     const WORTH: f64 = 0.1;
 
     fn new(withheld: Duration) -> Self {
         Self { steps: 0, withheld, said: std::time::Instant::now() }
     }
 
-    /// Logs what was lost since the last line. `steps`: simulation steps left out since the start. `withheld`: how long the
-    /// clock has been held since the start.
+    /// Logs what was lost since the last check, unless that check was less than `EVERY` ago. `steps`: simulation steps
+    /// left out since the start. `withheld`: how long the clock has been held since its start.
     fn notice(&mut self, steps: u64, withheld: Duration) {
         let since = self.said.elapsed();
         if since < Self::EVERY {

@@ -17,7 +17,7 @@ use crate::say;
 #[derive(Debug)]
 pub struct CutOffRun {
     pub unfinished: UnfinishedRun,
-    /// What happens to the run.
+    /// Whether the run goes on by itself, waits for a person, or is over.
     pub on_return: OnReturn,
 }
 
@@ -37,9 +37,9 @@ impl CutOffRun {
         Clock::starting_at(self.unfinished.show_clock_at(&computer_time()).0)
     }
 
-    /// Returns the run's show, for screens, with its name in the library. `first` is the name and the show that would be
-    /// opened otherwise. If `first` has the run's show, `first` is returned. Otherwise the run's show is added to the
-    /// library, because the show of that name there may have changed.
+    /// Returns the run's show, for screens, with its name in the library. `first` is the name and the show that would
+    /// be opened otherwise. It is returned if it has a name and its show equals the run's, names apart. Otherwise the
+    /// run's show is added to the library, because the show of that name there may have changed.
     pub fn show_on_screen(&self, library: &Library, first: (Option<String>, Show)) -> (Option<String>, Show) {
         let (show, (name, other)) = (self.unfinished.show(), first);
         // Names are not compared, because a show without a name has its name in the library as its name in the

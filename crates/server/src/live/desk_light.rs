@@ -1,4 +1,5 @@
-//! The task between lighting desks and robots: gives packets and reports to the receiver, and publishes its live light.
+//! The task between lighting desks and robots. It gives packets of desks and reports of robots to the receiver, and
+//! publishes the live light that the receiver makes of them.
 
 use std::path::Path;
 
@@ -17,7 +18,7 @@ use crate::failure::Failure;
 use crate::stop::Stop;
 use crate::web::ScreenLog;
 
-/// Longest patch table, bytes: 20,000 robots with long names and comments.
+/// Longest patch table, bytes: room for 20,000 robots with long names and comments.
 const PATCH_MAX: u64 = 4 << 20;
 /// Most reports that are handled before other inputs get a turn.
 const BATCH: usize = 256;

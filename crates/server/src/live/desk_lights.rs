@@ -16,8 +16,8 @@ impl DeskLights {
         *self.lock() = lights.collect();
     }
 
-    /// Replaces the controller's colours in a snapshot by those of the desk. Robots without a colour of the desk keep the
-    /// colour of the controller.
+    /// Replaces the controller's colours in a snapshot by those of the lighting desk. Robots for which the desk has no
+    /// colour keep the colour of the controller.
     pub fn cover(&self, snapshot: &mut Snapshot) {
         let lights = self.lock();
         if lights.is_empty() {

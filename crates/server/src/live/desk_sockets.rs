@@ -12,13 +12,13 @@ use super::desk_socket::{listen, receive};
 use crate::cli::DeskArguments;
 use crate::failure::Failure;
 
-/// Longest packet that is read, bytes: those of Art-Net and sACN have at most 638. Longer ones are cut and then
-/// refused.
+/// Longest packet that is read, bytes: those of Art-Net and sACN have at most 638. Of a longer packet, the rest is
+/// lost.
 const PACKET_MAX: usize = 1_024;
 /// Time over which packets are counted.
 const WINDOW: Duration = Duration::from_millis(10);
 /// Most packets that are read in a `WINDOW`: one for each of the 118 universes of 20,000 robots, and a reserve. Further
-/// packets wait in the operating system's bounded queue.
+/// packets wait in the operating system's queue, which drops what does not fit.
 const PACKETS: u32 = 200;
 /// What packets of any sender can do, for a note to people.
 const LIGHTS: &str = "drive the lights of robots";
@@ -30,7 +30,7 @@ const AFTER_ERROR: Duration = Duration::from_millis(100);
 pub struct DeskSockets {
     artnet: Option<UdpSocket>,
     sacn: Option<UdpSocket>,
-    /// Universes whose multicast groups this program has joined or failed to join. A failure is not tried again.
+    /// sACN universes whose multicast groups this program has joined or failed to join. A failure is not tried again.
     joined: BTreeSet<u16>,
     window_ends: Instant,
     left: u32,
@@ -79,8 +79,8 @@ impl DeskSockets {
         }
     }
 
-    /// Joins the multicast groups of universes if sACN is received on all IPv4 addresses. Returns a warning for the
-    /// first universe that fails.
+    /// Joins the multicast groups of universes if sACN is received on all IPv4 addresses. Groups that were tried before
+    /// are left out. Returns a warning for the first universe that fails.
     pub fn join(&mut self, universes: impl Iterator<Item = u16>) -> Option<String> {
         let socket = self.sacn.as_ref()?;
         let is_open = socket.local_addr().is_ok_and(|address| address.ip() == Ipv4Addr::UNSPECIFIED);

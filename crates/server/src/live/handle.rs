@@ -52,7 +52,8 @@ impl Handle {
         answered.await.unwrap_or(Err(Refusal::NotConnected))
     }
 
-    /// Returns a snapshot of the controller, with the colours of lighting desks; `None` once the conductor has ended.
+    /// Returns a snapshot of the controller, with the colours that a lighting desk gives to robots; `None` once the
+    /// conductor has ended.
     pub async fn look(&self) -> Option<Snapshot> {
         let (answer, answered) = oneshot::channel();
         self.orders.send(ConductorOrder::Look(answer)).await.ok()?;
@@ -84,7 +85,7 @@ impl Handle {
         let _ = self.orders.send(ConductorOrder::TakeUp(Box::new(run), on_return)).await;
     }
 
-    /// Makes the conductor use this broker from now on.
+    /// Makes the conductor leave its broker, if it has one, and connect to this one. Does not wait for the connection.
     pub async fn connect(&self, broker: BrokerUrl) {
         let _ = self.orders.send(ConductorOrder::Connect(broker)).await;
     }

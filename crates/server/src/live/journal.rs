@@ -78,7 +78,8 @@ impl JournalFile {
         Self { pieces, shared, thread, tried: None, is_told: false }
     }
 
-    /// Passes new pieces of the journal to the thread. Returns a line for people at the first failure, later `None`.
+    /// Passes new pieces of the journal to the thread. Returns a line for people at the first failure to write,
+    /// otherwise `None`.
     pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
         let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
         if failure.is_some() || self.tried.is_some_and(|tried| tried.elapsed() > TRY_AGAIN) {

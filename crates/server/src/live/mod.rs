@@ -1,4 +1,5 @@
-//! What a running fleet needs: a broker, the task that owns the controller core, simulated robots.
+//! Tasks and files of a live fleet: the embedded broker, the controller, simulated robots, desks, sound, and records of
+//! runs.
 
 pub mod broker;
 pub mod cast;
@@ -27,7 +28,7 @@ pub mod run_reports;
 
 use lightbots_link::{BrokerUrl, LinkConfig, controller_client_id};
 
-/// Returns the settings of a controller's link, which receives all reports of robots.
+/// Returns the settings of a controller's link to a broker, with subscriptions to the topics on which robots report.
 pub fn controller_link(broker: BrokerUrl) -> LinkConfig {
     let filters = ["UUID", "Arrival", "Status", "Time"].map(|name| format!("T/LightBot/{name}"));
     LinkConfig { broker, client_id: controller_client_id(), filters: filters.into(), queue: 65_536 }

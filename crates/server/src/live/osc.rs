@@ -1,5 +1,5 @@
-//! Open Sound Control 1.0 from and to sound desks: GO and Stop in, frames and cues out. docs/sound-desk.md has the
-//! messages.
+//! Open Sound Control 1.0 from and to sound desks: GO and Stop in; drives, frames, cues and controller states out.
+//! docs/sound-desk.md has the messages.
 
 use std::collections::BTreeMap;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -20,9 +20,9 @@ use crate::say;
 use crate::stop::Stop;
 use crate::web::ScreenLog;
 
-/// Longest packet that is read, bytes. Longer ones are cut and then refused.
+/// Longest packet that is read, bytes. Longer ones are cut and then ignored, as they do not decode.
 const PACKET_MAX: usize = 1_024;
-/// Time within which equal messages count as one press, because pedals bounce and senders repeat packets.
+/// Time after a request during which equal requests are ignored, because pedals bounce and senders repeat packets.
 const ONE_PRESS: Duration = Duration::from_millis(250);
 /// Pause after a failed reception, so that a broken socket does not keep a processor busy.
 const AFTER_ERROR: Duration = Duration::from_millis(100);
@@ -56,7 +56,8 @@ impl OscLink {
         Ok(is_wanted.then(|| Self { input, output, pressed: BTreeMap::new() }))
     }
 
-    /// Receives and sends until `stop` is wanted. `name_of` returns the name of a frame of the open show by its index.
+    /// Receives and sends until `stop` is wanted or the conductor ends. `name_of` returns the name of a frame of the
+    /// open show by its index, from 0.
     pub async fn run(
         mut self,
         handle: Handle,
@@ -172,7 +173,8 @@ fn wish_of(message: &OscMessage) -> Option<DeskWish> {
     }
 }
 
-/// The OSC message about an event; `None` for events that are not sent to desks.
+/// The OSC message about an event; `None` for events that are not sent to desks. Frame numbers in messages count from
+/// 1, durations are in seconds.
 fn message_of(event: &EventKind, name_of: &impl Fn(usize) -> String) -> Option<OscMessage> {
     let number = |frame: usize| OscType::Int(i32::try_from(frame + 1).unwrap_or(i32::MAX));
     let (address, args) = match event {

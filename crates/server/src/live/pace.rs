@@ -26,7 +26,7 @@ pub struct Pace {
     pub commands: Flow,
 }
 
-/// The broker that each party uses.
+/// The brokers of the simulated robots and of the controller; `None` for one that uses none.
 #[derive(Debug, Default)]
 struct Parties {
     /// Broker of the simulated robots.

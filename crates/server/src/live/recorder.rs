@@ -1,4 +1,5 @@
-//! Files of the controller's input log. A thread of its own writes them, so that a slow disk never delays a show.
+//! Writes the controller's input log and the facts of its runs to files. A thread for each log does this, so that a
+//! slow disk does not delay a show.
 
 use std::fs::File;
 use std::io::Write;
@@ -17,7 +18,7 @@ use super::run_facts::{RunFacts, RunNotes};
 use super::run_files::{RUN_BYTES_MAX, facts_file, next_run, report_file};
 use super::run_reports::{ReportsUnderWay, RunReporter};
 
-/// Most pieces of a log, about a second each, that wait for the disk.
+/// Most pieces of a log, about a second each, that wait for the disk. If a further piece comes, the log ends.
 const WAITING_MAX: usize = 256;
 
 /// What is recorded.
@@ -54,7 +55,7 @@ pub struct Recorder {
     /// Threads of logs that have ended. They may still be writing.
     closing: Vec<JoinHandle<()>>,
     journal: Option<JournalFile>,
-    /// Notes on the present run. They stay if the log ends before the run does.
+    /// Notes on the present run, if each run has a log of its own. They stay if the log ends before the run does.
     run: Option<RunNotes>,
     reports: ReportsUnderWay,
     /// Most bytes of the log of a run.
@@ -79,7 +80,8 @@ impl Recorder {
         self.reports.clone()
     }
 
-    /// Begins the log of a run, if `operation` begins a run and each run has its own log. Call this before the operation.
+    /// Begins the log of a run, if `operation` begins a run, each run has its own log, and no log is being recorded.
+    /// Call this before the operation.
     pub fn before(&mut self, controller: &mut RecordedController, now: Instant, operation: &Operation) {
         let Some(kind) = RunNotes::kind(operation) else { return };
         if self.recording.is_by_run() && !controller.is_recording() && controller.begin_log(now, notes("run"))
@@ -155,7 +157,7 @@ impl Recorder {
         self.closing.extend(self.writer.take().map(|writer| writer.thread));
     }
 
-    /// Ends log and journal when the program ends. Waits until everything is written.
+    /// Ends log and journal when the program ends. Waits for the threads that write files and make reports.
     pub fn finish(mut self, controller: &mut RecordedController) {
         let _ = self.write(controller.end_log());
         self.write_facts();
@@ -204,7 +206,7 @@ enum Piece {
     Facts(RunFacts),
 }
 
-/// A thread that writes one log.
+/// A thread that writes one log, and the sending side of its queue.
 #[derive(Debug)]
 struct LogWriter {
     pieces: SyncSender<Piece>,

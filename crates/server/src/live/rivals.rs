@@ -61,7 +61,7 @@ impl Rivals {
         }
     }
 
-    /// When [`Self::name_due`] returns the name next.
+    /// Time of the show clock from which [`Self::name_due`] returns the name again.
     pub fn speak_at(&self) -> Instant {
         self.speak_at
     }
@@ -76,8 +76,9 @@ impl Rivals {
         Some(&self.name)
     }
 
-    /// Whether the broker has stopped passing on this controller's messages. If so, `unanswered` restarts at 0 and its bound
-    /// doubles, to give a new connection a chance. `robots` is the number of robots on the broker.
+    /// Whether the broker has stopped passing on this controller's messages. If so, `unanswered` restarts at 0. Its
+    /// bound doubles, up to `MUTE_MOST`, to give a new connection a chance. `robots` is the number of robots on the
+    /// broker.
     pub fn is_mute(&mut self, robots: usize) -> bool {
         let crowd = u32::try_from(robots / MUTE_PER).unwrap_or(u32::MAX);
         let is_patient = |after: &u32| self.unanswered <= after.saturating_add(crowd);

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::clock::unix_ms;
 use crate::disk::{self, Readers};
 
-/// Longest file that is read, bytes. Names of shows are shorter.
+/// Longest file that is read, bytes. A longer one counts as missing.
 const BYTES_MAX: u64 = 64 << 10;
 
 /// Facts of a run: the content of the file.
@@ -122,7 +122,7 @@ impl RunNotes {
     }
 
     fn end(&mut self, outcome: &RunOutcome, frames_played: usize) {
-        // A frame that was reached several times counts once.
+        // If the order was changed, a frame that was reached several times counts once.
         let frames_played = if self.is_order_changed { self.shown.len() } else { frames_played };
         self.report.frames_played = frames_played;
         self.report.losses = self.lost.values().cloned().collect();

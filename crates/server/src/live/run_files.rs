@@ -10,7 +10,7 @@ use crate::disk;
 const FOLDER: &str = "runs";
 /// File name ending of a recorded run.
 const ENDING: &str = ".lblog";
-/// Most recorded runs that are kept.
+/// Most recorded runs that are kept, the next one included.
 const RUNS_MAX: usize = 20;
 /// Most bytes of all recorded runs together, including [`RUN_BYTES_MAX`] for the next run. The oldest runs are deleted to
 /// stay below this bound.

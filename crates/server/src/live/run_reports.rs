@@ -35,7 +35,7 @@ impl ReportsUnderWay {
     }
 }
 
-/// Marks the report of a log as being made until the value is dropped.
+/// Marks the report of a log as being made, until this value is dropped.
 struct UnderWay(ReportsUnderWay, PathBuf);
 
 impl Drop for UnderWay {

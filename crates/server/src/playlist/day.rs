@@ -1,10 +1,11 @@
 //! Decides what a playlist does next, as a function of its entries, of local time, and of what has happened. No clock,
 //! no IO.
 //!
-//! An entry with a time of day and the entries that follow it are a **chain**. A chain is played on a **day**, the
-//! local day of its first entry's time, and may continue after midnight. A **turn** is an entry on a day. A turn is due
-//! at its time, or a pause after the turn before it was over, in whatever way that one ended. It begins within
-//! [`LATE_S`] seconds of that moment, or is skipped.
+//! A **chain** is an entry with a time of day and the entries without one that follow it. A chain is played on a
+//! **day**, the local day of its first entry's time, and may continue after midnight. A **turn** is an entry on a day.
+//! The first turn of a chain is due at its time of day. Each later turn is due when its pause is over, which begins
+//! when the preceding turn was played, failed or skipped. A turn that has not begun [`LATE_S`] seconds after it was due
+//! is not played.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +29,7 @@ pub struct DayLog {
     /// Why the playlist is held, one sentence: nothing starts until a person resumes it. `None` if it is not held.
     #[serde(default)]
     pub held: Option<String>,
-    /// Latest turn of each entry, by the entry's number.
+    /// Latest turn of each entry that had one, by the entry's number.
     #[serde(default)]
     pub turns: BTreeMap<u32, TurnRecord>,
 }
@@ -40,7 +41,8 @@ pub struct TurnRecord {
     /// Day of the entry's chain.
     pub date: NaiveDate,
     pub stage: TurnStage,
-    /// Time at which the stage began, seconds since 1970.
+    /// Time at which the stage began, seconds since 1970. For a skipped turn: the last moment at which it could have
+    /// begun.
     pub at_s: i64,
     /// Why the turn failed or was skipped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -82,9 +84,9 @@ pub enum PlaylistAct {
     Nothing,
     /// Drive robots to their starting places, because the pause before this turn has begun.
     Home(TurnKey),
-    /// Begin the show. If that fails, try again until this moment, seconds since 1970.
+    /// Begin the show. The number is the last moment at which it may begin, seconds since 1970.
     Play(TurnKey, i64),
-    /// Skip the turn, because this last moment for its start, seconds since 1970, is over.
+    /// Skip the turn. The number is the last moment at which it could have begun, seconds since 1970.
     Skip(TurnKey, i64),
 }
 
@@ -98,7 +100,8 @@ pub enum TurnPlace<'a> {
     Due { at_s: i64, is_home_asked: bool },
     /// The start is unknown, because the preceding turn is not over.
     Unknown,
-    /// The time of the chain was over when the playlist was switched on.
+    /// The first turn of the chain has not begun, and was due more than [`LATE_S`] seconds before the playlist was
+    /// switched on.
     Past,
 }
 
@@ -121,7 +124,8 @@ impl DayLog {
     }
 }
 
-/// Returns what to do at `now_s`, seconds since 1970. `is_free`: robots do nothing at present, so that a show could begin.
+/// Returns what to do at `now_s`, seconds since 1970, for the chains of today and yesterday. `is_free`: robots do
+/// nothing at present, so that a show could begin.
 pub fn next_act<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,
@@ -156,6 +160,7 @@ pub fn next_act<Z: TimeZone>(
 }
 
 /// Returns the turns of the day `date` with their states. Chains that are not played on that day are left out.
+/// `on_since_s`: when the playlist was switched on, seconds since 1970.
 pub fn places<'a, Z: TimeZone>(
     list: &'a [PlaylistTurn],
     log: &'a DayLog,

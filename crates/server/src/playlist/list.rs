@@ -6,11 +6,12 @@ use lightbots_show::SPEED_MIN_PERCENT;
 
 /// The most entries: a show every quarter of an hour, all day.
 pub const ENTRIES_MAX: usize = 96;
-/// Longest pause, minutes: half a day. The playlist looks only at the chains of today and yesterday. With this pause, a show
-/// after yesterday's last one still begins today.
+/// Longest pause, minutes: half a day. Only the chains of today and yesterday are looked at. With longer pauses,
+/// entries would not be played, because their chain began earlier.
 const PAUSE_MAX_MIN: u32 = 720;
 /// The longest name of a show, bytes: as in the library.
 const NAME_MAX: usize = 200;
+/// Days of the week, Monday first.
 const DAYS: [PlaylistDay; 7] = [
     PlaylistDay::Mon,
     PlaylistDay::Tue,
@@ -24,7 +25,7 @@ const DAYS: [PlaylistDay; 7] = [
 /// A checked entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlaylistTurn {
-    /// Number of the entry.
+    /// Number by which records refer to the entry; 0 before it got one.
     pub id: u32,
     /// Name of the show in the library.
     pub show: String,

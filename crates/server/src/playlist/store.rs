@@ -19,9 +19,11 @@ use super::view;
 use crate::disk::{self, Readers};
 use crate::live::clock::unix_ms;
 
+/// Name of the file with the entries.
 const FILE: &str = "playlist.json";
+/// Name of the file with what happened to the entries.
 const DAY_FILE: &str = "playlist-day.json";
-/// Longest file, bytes: an entry has at most 500.
+/// Longest of either file that is read, bytes: an entry has at most 500. A longer file is an error.
 const FILE_MAX: u64 = 256 << 10;
 
 /// The playlist of a data folder. Clones share it.
@@ -38,7 +40,7 @@ pub enum ChangeRefused {
     Wrong(String),
     /// Another client changed the playlist first.
     Stale(String),
-    /// The file of the playlist cannot be read.
+    /// One of the two files cannot be read.
     Fault(String),
     /// The playlist cannot be saved.
     Disk(String),
@@ -92,8 +94,8 @@ impl PlaylistStore {
         }
     }
 
-    /// Replaces the entries, and switches the playlist on or off. Switching it off also ends a hold. An entry whose show or
-    /// start has changed loses the record of its latest turn.
+    /// Replaces the entries, and switches the playlist on or off. Switching it off also ends a hold. An entry whose
+    /// show or start has changed loses the record of its latest turn, unless it is playing.
     pub fn change(&self, change: PlaylistChange) -> Result<(), ChangeRefused> {
         let mut kept = self.refreshed();
         if let Some(fault) = &kept.fault {

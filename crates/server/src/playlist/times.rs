@@ -5,8 +5,9 @@ use chrono::{NaiveDate, NaiveTime, TimeDelta, TimeZone};
 /// Longest gap in local time that is searched, minutes: no clock was ever put forward by more than a day.
 const GAP_MAX_MIN: usize = 26 * 60;
 
-/// Returns the moment of a local time on a day, seconds since 1970. If the clock is put back and the time occurs twice, the
-/// first occurrence counts. If the clock is put forward past the time, the end of that gap counts.
+/// Returns the moment of a local time on a day, seconds since 1970. If the clock is put back and the time occurs twice,
+/// the first occurrence counts. If the clock is put forward past the time, the end of that gap counts. A zone with a
+/// longer gap than `GAP_MAX_MIN` gets the time that many minutes later, taken as UTC.
 pub fn moment<Z: TimeZone>(zone: &Z, date: NaiveDate, time: NaiveTime) -> i64 {
     let mut local = date.and_time(time);
     for _ in 0..GAP_MAX_MIN {

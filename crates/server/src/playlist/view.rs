@@ -78,8 +78,8 @@ fn said<Z: TimeZone>(place: TurnPlace<'_>, zone: &Z) -> PlaylistToday {
     }
 }
 
-/// Returns the entry that starts next; `None` if none starts within [`AHEAD`] days. If the playlist is off, returns the
-/// entry that would start next after switching the playlist on at `now_s`.
+/// Returns the entry that starts next, or is late by at most `LATE_S` seconds; `None` if none starts within [`AHEAD`]
+/// days. If the playlist is off, returns the entry that would start next after switching the playlist on at `now_s`.
 pub fn next<Z: TimeZone>(
     list: &[PlaylistTurn],
     log: &DayLog,

@@ -4,7 +4,7 @@ use std::time::{Duration, SystemTime};
 
 use rcgen::{CertificateParams, DnType, Error, ExtendedKeyUsagePurpose, KeyPair, KeyUsagePurpose};
 
-/// Names of this machine, which every server certificate has.
+/// Names by which a machine calls itself, for server certificates.
 pub const OWN_NAMES: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
 /// One day, the unit of a certificate's validity.
 const DAY: Duration = Duration::from_secs(86_400);

@@ -19,7 +19,7 @@ pub fn of_route(route: &str, method: &Method) -> Need {
     match route {
         "/api/session" if *method == Method::POST => Need::Nothing,
         "/api/first" if *method == Method::POST => Need::Nothing,
-        // The operation in the message or body decides which role it needs.
+        // Over `/ws` and `/api/operate`, an operation needs the role of `of_operation` as well.
         "/ws" | "/api/operate" | "/api/session" => Need::Role(AccountRole::Viewer),
         "/api/playlist" if is_read => Need::Role(AccountRole::Viewer),
         "/api/check" | "/api/convert" => Need::Role(AccountRole::Editor),

@@ -90,7 +90,8 @@ impl Admission {
         Ok((Self { is_required, accounts, sessions, tries, first, unknown_hash, hashing }, token))
     }
 
-    /// Returns the person or program of a ticket, by the present accounts. `None` if the session or the token is not valid.
+    /// Returns the person or program of a ticket, by the present accounts. `None` if the session or the token is not
+    /// valid, if the accounts cannot be read, or for a `Loopback` ticket where sign-in is required.
     pub fn caller(&self, ticket: &Ticket) -> Option<Caller> {
         match ticket {
             Ticket::Loopback => {
@@ -138,7 +139,7 @@ impl Admission {
         token.map(|token| Ticket::Session(Secret::of(token)))
     }
 
-    /// Signs a person in. Returns the token of the session.
+    /// Signs a person in from the network address `address`. Returns the token of the session.
     pub async fn sign_in(&self, name: &str, password: &str, address: IpAddr) -> Result<String, SignInError> {
         let failed = |line: String| SignInError::Failed(line);
         // One try at a time, so that parallel tries cannot pass the bound before they are counted.
@@ -158,8 +159,9 @@ impl Admission {
         }
     }
 
-    /// Makes the first operator and signs that person in. `token` must be the one that [`Self::new`] returned. Refused once
-    /// any person has an account. Returns the token of the session.
+    /// Makes the first operator and signs that person in. `token` must be the one that [`Self::new`] returned. Returns
+    /// the token of the session. `Err`: status and line of the refusal, for example if any person has an account
+    /// already.
     pub async fn begin_first(
         &self,
         token: &str,

@@ -23,7 +23,7 @@ use crate::show_plan;
 /// The answer to a request, or its refusal.
 type Answer<T> = Result<T, Refused>;
 
-/// Largest body that is read, bytes. The longest show file fits.
+/// Largest body that is read, bytes, on routes without a smaller bound. The longest show file fits.
 pub const BODY_MAX: usize = lightbots_exchange::MAX_BYTES;
 
 /// Runs work that blocks on the disk or the processor on a separate thread, so that other requests are served meanwhile.
@@ -191,8 +191,8 @@ pub async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// `POST /api/check`: plans the show of the body and returns the plan with its issues. Each client has one plan at a
-/// time: a newer request cancels the older one.
+/// `POST /api/check`: plans the show of the body and returns the plan with its issues. A body that is no show gives an
+/// empty plan with one issue. Each client address has one plan at a time: a newer request cancels the older one.
 pub async fn check(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,
@@ -230,8 +230,9 @@ pub struct To {
     to: String,
 }
 
-/// `POST /api/convert?to=FORMAT`: returns the show of the body as a file of a format of [`FORMATS`]. Assets that the show
-/// names are added if the library has them. For a format that needs a plan, the show is planned as for `POST /api/check`.
+/// `POST /api/convert?to=FORMAT`: returns the show of the body as a file of a format of [`FORMATS`]. Assets that the
+/// show names are added if the library has them. If the format needs a plan and the body brings none, the show is
+/// planned as for `POST /api/check`.
 pub async fn convert(
     State(shared): State<Arc<Shared>>,
     ConnectInfo(ends): ConnectInfo<Ends>,

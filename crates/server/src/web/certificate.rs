@@ -29,7 +29,7 @@ pub struct WebCertificate {
     pub file: PathBuf,
     /// Names of the server that the certificate does not hold: browsers warn people that use one of these names.
     pub missing: Vec<String>,
-    /// A line for people if other users of the machine could read the private key.
+    /// A line for people if other users of the machine had rights to the private key, or still have them.
     pub key_note: Option<String>,
 }
 
@@ -72,7 +72,8 @@ fn make(file: &Path, key: &Path, names: &[String]) -> Result<(), Failure> {
     let (certificate, secret) = made.map_err(|error| {
         Failure::problem(format!("no certificate of {} can be made: {error}", all.join(", ")))
     })?;
-    // The key is written first, because a certificate without its key would be an error at the next start.
+    // The key is written first. If the program is killed in between, the next start finds a key without a certificate,
+    // which it refuses with a remedy.
     for (path, text, readers) in [(key, secret, Readers::Owner), (file, certificate, Readers::All)] {
         disk::replace(path, text.as_bytes(), readers).map_err(|error| {
             Failure::problem(format!(

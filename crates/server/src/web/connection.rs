@@ -48,9 +48,9 @@ pub struct Connections {
 }
 
 impl Connections {
-    /// Accepts connections of the listener. At most half of the files that the system lets this program open become
-    /// connections. The rest is kept free, because the library and the link to the broker need files, too. Refusals are
-    /// written to the log. `longest_wait`: longest time that a client waits for an answer without sending.
+    /// Accepts connections of the listener: at most `MOST`, and at most half of the files that the system lets this
+    /// program open. The rest is kept free, because the library and the link to the broker need files, too. Refusals
+    /// are written to the log. `longest_wait`: longest time that a client waits for an answer without sending.
     pub fn new(
         listener: TcpListener,
         acceptor: Option<TlsAcceptor>,

@@ -1,5 +1,6 @@
-//! Bounds the number of connections to the web app. When the bound is reached, the connection that was silent for the
-//! longest time makes room. Files, broker and robots of this program need sockets, too.
+//! Bounds the number of connections to the web app, because files, broker and robots of this program need sockets, too.
+//! When the bound is reached, the connection that was silent for the longest time makes room, if it was silent for long
+//! enough.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -54,8 +55,8 @@ impl Guests {
         self.most
     }
 
-    /// Returns a place for a further connection. If all places are taken, closes the connection that has been silent for
-    /// longest. `None` if no connection has been silent for `silent`.
+    /// Returns a place for a further connection. If all places are taken, closes the connection that has been silent
+    /// for longest. If even that one was silent for less than `silent`, returns `None`.
     pub fn admit(&mut self, now: Instant) -> Option<GuestPlace> {
         if lock(&self.lines).len() >= self.most && !self.close_silent(now) {
             return None;

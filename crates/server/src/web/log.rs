@@ -14,7 +14,7 @@ use crate::live::clock::unix_ms;
 use crate::live::conductor::News;
 use crate::sentences::sentence;
 
-/// Number of lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
+/// Most lines that a new screen gets: several screens full. Older lines are dropped, which bounds the memory.
 const KEPT: usize = 300;
 /// Longest delay after which a grown line that counts robots is sent again; other news sends it earlier. Five versions a
 /// second look like one change. A shorter time could send one message for each robot of a large fleet.

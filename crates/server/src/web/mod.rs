@@ -1,4 +1,5 @@
-//! The web server of the screens: pages, library and WebSocket. A slow or hostile screen never delays the show.
+//! The web server of the screens: pages, library and WebSocket. It is separate from the task that plays a show, so that
+//! a slow or hostile screen does not delay the show.
 
 mod access;
 mod address;

@@ -18,7 +18,8 @@ use super::state::Shared;
 use crate::broker_settings::Settings;
 use crate::sentences::capitalised;
 
-/// Longest message with an operation, bytes: the certificates of `connect` fit. Bounds memory for hostile clients.
+/// Longest message with an operation, bytes: room for usual certificates in `connect`. Bounds memory for hostile
+/// clients.
 pub const LONGEST: usize = 64 << 10;
 
 /// Why an operation was refused, and another operation that the screen may offer instead.
@@ -144,7 +145,8 @@ fn live_light(name: String, layer: Option<serde_json::Value>) -> Result<Operatio
     Ok(Operation::LiveLight { name, layer })
 }
 
-/// Gives the open show to the controller, and plays or previews it. Refused if the show's plan is complete and has errors.
+/// Gives the open show to the controller, and plays or previews it. Refused if the show's plan is complete and has
+/// errors, or if the controller refuses.
 async fn play(shared: &Shared, operation: api::Operation) -> Result<(), Refused> {
     let plan = shared.desk.plan();
     let red = plan.issues.iter().find(|issue| issue.severity == api::Severity::Error);

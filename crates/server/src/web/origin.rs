@@ -46,8 +46,9 @@ pub async fn guard(
     }
 }
 
-/// Redirects a request for a page without TLS to the same address with TLS. Refuses any other request. A program that sends
-/// its token without TLS then gets an error and not an answer.
+/// Redirects a GET or HEAD request without TLS to the same address with TLS, if it names this server and has no
+/// Authorization header. Refuses any other request. A program that sends its token without TLS then gets an error and
+/// not an answer.
 fn elsewhere(names: &Names, local: IpAddr, request: &Request) -> Response {
     let host = only(request.headers(), header::HOST).flatten();
     let own = host.filter(|host| {

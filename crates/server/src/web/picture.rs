@@ -71,7 +71,9 @@ impl PaceMeter {
     /// Largest shortfall of the rate, as a share, that still counts as real time. Covers the jitter of timers.
     const LEAST: f64 = 0.03;
 
-    /// Returns the latest measured rate of the show clock as a share of real time, at most 1; also 1 before a measurement.
+    /// Returns the latest measured rate of the show clock as a share of real time, 0 to 1. Returns 1 before a
+    /// measurement, and for a rate less than `LEAST` below real time. `real` and `show` are the present moments of the
+    /// two clocks.
     fn look(&mut self, real: std::time::Instant, show: lightbots_base::Instant) -> f64 {
         let (since, shown) = *self.before.get_or_insert((real, show));
         let passed = real - since;
@@ -226,9 +228,10 @@ impl Painter {
         }
     }
 
-    /// Returns the planned time to the end of the show, seconds. This is the rest of the present drive or air time, and all
-    /// later drives and air times. `None` without a run, for a preview, a preflight, or a loop that waits for GO. On the
-    /// drive to the starting places: the rest of that drive.
+    /// Returns the planned time to the end of the show, seconds: the rest of the present drive or air time, and all
+    /// later drives and air times. `None` without a run, for a preview, a preflight, or a loop that waits for GO. On
+    /// the drive to the starting places: the rest of that drive, `None` before it begins. `is_showing`: robots show a
+    /// frame and do not drive.
     fn left_s(&self, snapshot: &Snapshot, is_showing: bool) -> Option<f64> {
         let is_of_show =
             |run: &&RunView| snapshot.state != ControllerState::Preview && run.preflight.is_none();
@@ -247,7 +250,7 @@ impl Painter {
         if run.repeats.is_some_and(|repeats| !repeats.leaves) {
             return None;
         }
-        // A show that begins again has no end.
+        // If the show begins again after this frame, the end of the present round counts as the end.
         let next = run.next.filter(|next| *next > run.frame).unwrap_or(frames.len());
         let rest = frames.iter().zip(&plan.transitions).skip(next);
         // The plan on the screen is that of the usual speed.

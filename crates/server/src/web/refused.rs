@@ -8,7 +8,8 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use lightbots_api::Problem;
 
-/// Longest text of a refusal by the web framework that is passed on, bytes.
+/// Longest text of a refusal by the web framework that is passed on, bytes. A longer one is replaced by the name of the
+/// status.
 const LINE_MAX: usize = 4 << 10;
 
 /// A refusal: HTTP status and one line for people.
@@ -26,8 +27,8 @@ pub fn refuse(status: StatusCode, line: &str) -> Refused {
     Refused(status, line.to_owned())
 }
 
-/// Gives the web framework's refusals under `/api/` the form of all other refusals. The framework refuses a body that is no
-/// JSON, or a wrong method, with plain text or nothing.
+/// Gives the web framework's refusals under `/api/` the form of all other refusals: status 4xx with a line in JSON. The
+/// framework refuses a body that is no JSON, or a wrong method, with plain text or nothing.
 pub async fn uniform(request: Request, next: Next) -> Response {
     let is_api = request.uri().path().starts_with("/api/");
     let answer = next.run(request).await;

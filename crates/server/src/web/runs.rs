@@ -1,7 +1,7 @@
 //! The recorded runs and their reports over HTTP.
 //!
 //! A report is made while its run is on, or from the recorded inputs at the first request, and is kept beside them.
-//! Reports on request are made one at a time, on a thread of its own, because each takes a processor for a while.
+//! Reports on request are made one at a time, on a separate thread, because each takes a processor for a while.
 
 use std::fs::File;
 use std::io::Read;
@@ -25,7 +25,8 @@ use crate::live::conductor::Handle;
 use crate::live::run_facts::RunFacts;
 use crate::live::run_files::{facts_file, recorded_runs, report_file, run_file};
 
-/// Longest page of a report that is read, bytes. A report bounds its samples and robots to less.
+/// Longest page of a report that is read, bytes. Pages are shorter, because a report bounds its samples and robots. A
+/// longer page is made again.
 const PAGE_MAX: u64 = 64 << 20;
 /// Longest wait of a request for a report. The report is made even if that takes longer, and a later request finds it.
 const PATIENCE: Duration = Duration::from_secs(60);

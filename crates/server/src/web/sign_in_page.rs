@@ -3,13 +3,13 @@
 use axum::http::{HeaderName, Method, StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 
-/// The page before sign-in, complete in one file, because nothing else is served then.
+/// The page before sign-in, complete in one file, because no other file is served before sign-in.
 const PAGE: &str = include_str!("sign_in.html");
 /// Content security policy of that page: its own script and style, requests to this server, and nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src 'self'; \
                       form-action 'none'; base-uri 'none'; frame-ancestors 'none'";
 
-/// Returns the sign-in page, at every address of the app.
+/// Returns the sign-in page with status 401, at every address of the app. Methods other than GET and HEAD are refused.
 pub fn page(method: &Method) -> Response {
     if !matches!(*method, Method::GET | Method::HEAD) {
         return StatusCode::METHOD_NOT_ALLOWED.into_response();

@@ -38,7 +38,7 @@ pub struct Shared {
     pub admission: Arc<Admission>,
     /// Names under which this server answers requests.
     pub names: Names,
-    /// Number of simulated robots.
+    /// Number of robots that are simulated at present.
     pub simulated: Arc<AtomicUsize>,
     pub screens: AtomicU32,
 }

@@ -12,7 +12,8 @@ use tokio_rustls::server::TlsStream;
 use super::guests::Guest;
 use crate::tls;
 
-/// Longest time from the connection to the end of the TLS handshake, or to the first byte without TLS.
+/// On a server with TLS: longest time from the connection to the end of the TLS handshake, or to the first byte of a
+/// client without TLS.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A connection that is ready for HTTP.
@@ -25,8 +26,8 @@ pub enum Stream {
 }
 
 impl Stream {
-    /// Opens a connection to a server with TLS. A client that begins without TLS becomes [`Self::Plain`], because the server
-    /// tells it the right address. `None` if the handshake failed or took too long.
+    /// Opens a connection to a server with TLS. A client that begins without TLS becomes [`Self::Plain`], because the
+    /// server tells it the right address. `None` if the connection or the handshake failed or took too long.
     pub async fn open(acceptor: TlsAcceptor, guest: Guest) -> Option<Self> {
         let opening = async {
             if guest.first_byte().await? != tls::FIRST_BYTE {

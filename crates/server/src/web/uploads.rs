@@ -17,11 +17,11 @@ use super::refused::refuse;
 /// Longest body that counts as short, bytes: a usual show (1,000 robots in 16 frames). Long bodies do not make short
 /// ones wait.
 const SHORT: usize = 1 << 20;
-/// Most bytes of short bodies at once: 32 bodies of greatest length.
+/// Most bytes of short bodies at once: 32 bodies of the length [`SHORT`].
 const SHORT_AT_ONCE: usize = 32 << 20;
 /// Most bytes of long bodies at once: one body of greatest length.
 const LONG_AT_ONCE: usize = BODY_MAX;
-/// Bytes per permit of a semaphore, which counts in 32 bits.
+/// Bytes that one permit of a semaphore stands for. A semaphore hands out its permits by a 32-bit number.
 const PERMIT_BYTES: usize = 1 << 10;
 /// Longest time that a request waits until there is room for its body. It is longer than a short body may take to arrive, so
 /// that one slow body before it does not lead to a refusal.
@@ -29,7 +29,7 @@ const TURN_WITHIN: Duration = Duration::from_secs(20);
 /// Longest time for a body to arrive. A long body also gets [`BODY_WITHIN_MORE`] for each [`SHORT`] bytes, because a
 /// poor radio link carries 1 MB/s.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
-/// Further time for each [`SHORT`] bytes of a body.
+/// Further time for each full [`SHORT`] bytes of a body.
 const BODY_WITHIN_MORE: Duration = Duration::from_secs(1);
 
 /// The bytes that further bodies may take. Clones share them.

@@ -19,7 +19,7 @@ use crate::{alone, http, shows, wait_for};
 /// Name of the file in a backup that lists its contents.
 const LIST: &str = "lightbots-backup.json";
 
-/// All files in a folder by their paths, without a program's lock files.
+/// Bytes of all files in a folder and its subfolders, by their paths in it. The lock files of a program are left out.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut open = vec![folder.to_owned()];

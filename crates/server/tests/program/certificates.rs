@@ -8,6 +8,7 @@ use rcgen::{BasicConstraints, CertificateParams, DnType, IsCa, Issuer, KeyPair};
 use crate::child::run;
 use crate::shows;
 
+/// One day.
 const DAY: Duration = Duration::from_secs(86_400);
 
 /// A folder with certificates.

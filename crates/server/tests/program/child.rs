@@ -16,7 +16,7 @@ pub struct Child {
     err: Lines,
 }
 
-/// A command for `lightbots` with an empty library.
+/// A command for `lightbots`, whose usual data folder is new and empty.
 fn lightbots(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lightbots"));
     command.args(arguments).env("XDG_DATA_HOME", crate::shows::own_folder());
@@ -81,7 +81,7 @@ impl Child {
         self.err.lock().unwrap().join("\n")
     }
 
-    /// Waits for `before` on stdout. Returns the text right after it, up to the next blank.
+    /// Waits for `before` on stdout. Returns the text right after it, up to the next blank, comma or end of line.
     pub fn said(&mut self, before: &str) -> String {
         let name = self.name.clone();
         wait_for(&format!("'{before}' from {name}"), || {

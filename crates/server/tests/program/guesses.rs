@@ -90,7 +90,7 @@ fn assert_is_pause((status, retry_after, body): &(u16, Option<u64>, String), mos
     assert!(body.contains("Too many wrong passwords. Try again in "), "{body}");
 }
 
-/// Guesses ann's password on all connections at the same time. Returns how many guesses were tried.
+/// Guesses ann's password on all connections at the same time. Returns how many guesses were tried, and not refused.
 fn guess_at_ann(site: &Site, guesses: usize) -> usize {
     let guess = |thread: usize| {
         let mut guesser = Guesser::open(site);

@@ -89,7 +89,7 @@ fn robots_of_the_live_program_show_the_picture_of_a_saved_show() {
         let colours: Vec<u64> = lights.into_iter().map(|(_, colour)| colour).collect();
         (colours == [own, 0x00_00_ff, 0xff_00_00, own]).then_some(())
     });
-    // The document refers to a file of the library that is damaged.
+    // The document refers to a picture whose file the library does not have.
     let bad = show(&GIF[..20], "moon.gif");
     let document = lightbots_exchange::LIGHTBOTS.write(&bad, None).bytes;
     let missing =

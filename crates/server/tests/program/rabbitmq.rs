@@ -61,8 +61,8 @@ impl Cluster {
         self.nodes[node].child.kill_group();
     }
 
-    /// Waits until every started node reports that, and then until each accepts a client. Before that the nodes may
-    /// still synchronise their clients.
+    /// Waits until every node that was added says that it has started, and then until each accepts a client. Before
+    /// that, the nodes may still synchronise their clients.
     fn wait(&mut self) {
         for node in &mut self.nodes {
             let child = &mut node.child;

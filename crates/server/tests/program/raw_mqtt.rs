@@ -1,4 +1,4 @@
-//! A client of MQTT 3.1.1 that writes single bytes, to send what no client library sends.
+//! A client of MQTT that writes packets byte by byte, to send what no client library sends.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -39,7 +39,7 @@ impl RawMqtt {
         bytes
     }
 
-    /// Reads the next packet: its first byte, and the bytes after its length. Panics above 127 bytes.
+    /// Reads the next packet: its first byte, and the bytes after its length. Panics if these are more than 127.
     pub fn read_packet(&mut self) -> (u8, Vec<u8>) {
         let header = self.read(2);
         assert!(header[1] < 128, "a packet of kind {:#x} is too long", header[0]);

@@ -9,8 +9,10 @@ use crate::child::{Child, run};
 use crate::screen::Screen;
 use crate::{alone, http, shows, wait_for};
 
-/// Times of the kills after the frame before was reached, milliseconds: in drives, in air times, and between them.
+/// Times of the kills, milliseconds after the screen shows that robots drive to a frame: in drives, in air times, and
+/// between them.
 const MOMENTS_MS: [u64; 7] = [900, 150, 1_700, 2_400, 500, 1_200, 2_000];
+/// Number of simulated robots.
 const ROBOTS: &str = "6";
 
 /// A broker, its robots, and the data folder and show of a controller that is killed repeatedly.

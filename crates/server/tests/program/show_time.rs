@@ -6,7 +6,8 @@ use crate::run::start;
 use crate::screen::Screen;
 use crate::{alone, shows};
 
-/// The show's time in a message to a screen: server time, milliseconds, position, seconds, and whether it runs.
+/// The show's time in a message to a screen: the server's show clock (`at_ms`, milliseconds), the position on the
+/// timeline (`show_s`, seconds), and whether the position runs.
 struct Heard {
     at_ms: f64,
     show_s: f64,

@@ -26,8 +26,8 @@ pub fn file(name: &str, bytes: impl AsRef<[u8]>) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// A show with a row of `pixels` that moves towards the viewer by 0.1 m per frame. `air_s[k]` is the air time of frame
-/// k, seconds.
+/// A show with a row of `pixels` pixels, 0.1 m apart. From frame to frame, the row moves by 0.1 m away from the front
+/// edge. `air_s[k]` is the air time of frame k, seconds.
 pub fn row(pixels: usize, air_s: &[f64]) -> String {
     let mut frames = Vec::new();
     for (index, air_s) in air_s.iter().enumerate() {

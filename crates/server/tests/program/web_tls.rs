@@ -50,7 +50,7 @@ fn the_network_is_served_over_tls_with_a_certificate_of_the_first_start() {
     screen.until("the greeting", |screen| (screen.get("hello")["plain_http"] == false).then_some(()));
     screen.wait_for_broker("connected");
     screen.must(serde_json::json!({"do": "stop_all"}));
-    // The client does not trust this certificate.
+    // A client that trusts another authority does not connect.
     let other = Certificates::make();
     assert!(Site::secure(&site.address, &other.file("ca.pem")).connect().is_err());
     // The next start uses the same certificate.

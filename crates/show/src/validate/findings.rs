@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use crate::{Issue, Issues, Show, frame_label};
 
-/// A bounded list of issues: at most `MOST` in total, and at most `MOST_OF_A_KIND` of a kind about the pixels of a frame.
+/// A bounded list of issues. It has at most `MOST` issues and one that sums up the others. The same holds for
+/// `MOST_OF_A_KIND` issues of one kind about the pixels of a frame.
 #[derive(Default)]
 pub(super) struct Findings {
     pub issues: Issues,
@@ -18,8 +19,8 @@ impl Findings {
     /// is broken everywhere.
     const MOST: usize = 1_000;
 
-    /// Adds an issue. If there are [`Self::MOST`] already, one issue says that there are more. It is an error if one of
-    /// those left out is an error.
+    /// Adds an issue. If there are [`Self::MOST`] already, one further issue says instead that there are more. That
+    /// issue is an error if any of those left out is an error.
     pub fn add(&mut self, issue: Issue) {
         if self.issues.len() < Self::MOST {
             self.issues.push(issue);

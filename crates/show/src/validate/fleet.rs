@@ -9,8 +9,8 @@ use super::limits::{MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
 use super::words::{millimetres, place};
 use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
 
-/// The search for pairs of close starting places ends at this number of pairs. Bounds the list if many starts are at one
-/// place.
+/// The search for pairs of close starting places ends once it has found this number of pairs. Bounds the list if many
+/// starts are at one place.
 const CLOSE_STARTS_MAX: usize = 100;
 
 pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) {
@@ -35,8 +35,8 @@ pub(super) fn check(show: &Show, is_stage_sound: bool, findings: &mut Findings) 
     }
 }
 
-/// The most frequent number of pixels of a frame. If several numbers are equally frequent, the number of the earliest
-/// frame counts.
+/// The most frequent number of pixels of a frame. If several numbers are equally frequent, it is the one that comes
+/// first in the show. 0 without frames.
 fn usual_count(frames: &[Frame]) -> usize {
     let mut times: BTreeMap<usize, usize> = BTreeMap::new();
     for frame in frames {
@@ -82,8 +82,8 @@ fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-/// Checks the starting places. `usual` is the number of pixels of most frames, `needed` the number of robots that must
-/// have a place, including robots that pixels name.
+/// Checks the starting places, or the rows at the front edge if the show has none. `usual` is the most frequent number
+/// of pixels of a frame. `needed` is the number of robots that must have a place, including robots that pixels name.
 fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
     let stage = &show.stage;
     let radius_m = stage.limits.radius_m;

@@ -12,8 +12,8 @@ use crate::{Frame, Show, Stage, close_pairs, excerpt};
 /// Longest air time or transition, seconds: one day. A longer time is a mistake. The sum of `MAX_FRAMES` such times in
 /// microseconds stays below 2^53, so that a double holds it exactly.
 const MOST_S: f64 = 86_400.0;
-/// The search for pairs of close pixels in a frame ends at this number of pairs. Bounds the time if many pixels are at
-/// one place.
+/// The search for pairs of close pixels in a frame ends once it has found this number of pairs. Bounds the time if many
+/// pixels are at one place.
 const MOST_PAIRS: usize = 1_000;
 
 pub(super) fn check(show: &Show, index: usize, is_stage_sound: bool, findings: &mut Findings) {
@@ -65,7 +65,8 @@ fn duplicate_ids(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     .collect()
 }
 
-/// Finds pixels that name an invalid robot, and robots that two pixels of the frame name.
+/// Finds pixels that name an invalid robot, and robots that two pixels of the frame name. Returns ids of pixels and a
+/// message for each.
 fn bad_pins(frame: &Frame) -> Vec<(Vec<u32>, String)> {
     let mut found = Vec::new();
     let mut pinned = BTreeMap::new();

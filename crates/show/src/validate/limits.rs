@@ -9,10 +9,10 @@ pub const MAX_PIXELS: usize = 20_000;
 /// Largest number of no-go areas on a stage. Bounds the time to compare each pixel with each area: at most 20 million
 /// comparisons per frame.
 pub const MAX_OBSTACLES: usize = 1_000;
-/// Largest number of characters in a name, an id or a word, in the fields that version 2 of the format added. Bounds
-/// messages and lists on screens.
+/// Largest number of characters in a name, an id or a word, in the fields that version 2 of the file format added.
+/// Bounds messages and lists on screens.
 pub const MAX_LABEL_CHARS: usize = 200;
-/// Largest number of assets in a show. With the document, they are the 1,000 files that a `.lightbots.zip` may hold.
+/// Largest number of assets in a show. With the document, these are the 1,000 files that a `.lightbots.zip` may hold.
 pub const MAX_ASSETS: usize = 999;
 /// Largest number of sources in a frame. Frames with several words and shapes have about ten.
 pub const MAX_SOURCES: usize = 100;
@@ -37,8 +37,7 @@ pub const MAX_BEATS: usize = 100_000;
 pub const MAX_TRAJECTORIES: usize = 100_000;
 /// Largest number of pieces in all trajectories. Bounds memory for hostile files: a piece takes 72 bytes.
 pub const MAX_TRAJECTORY_PIECES: usize = 1_000_000;
-/// Largest number of places of the curve of a motion. It need not be larger, because a robot stores at most 128 pieces
-/// of a path.
+/// Largest number of places of the curve of a motion. More would not help: a robot stores at most 128 pieces of a path.
 pub const MAX_MOTION_PLACES: usize = 200;
 /// Largest number of pictures of a [`PictureMotion::Morph`](crate::PictureMotion::Morph), through which robots drive
 /// without a stop.

@@ -12,7 +12,7 @@ use crate::{PictureMotion, Show};
 /// Allowed factors on the size of a formation. They leave room to shrink a formation of 10 m to 1 m, and to enlarge it
 /// again.
 const SIZES: RangeInclusive<f64> = 0.05..=20.0;
-/// Largest turn or direction in either sense, radians: 16 whole turns.
+/// Largest turn or direction in either sense, radians: a little more than 16 whole turns.
 const MOST_TURN: f64 = 101.0;
 /// Largest number of circles, or of changes of size.
 const MOST_TIMES: u32 = 50;

@@ -1,5 +1,5 @@
-//! Validation of the parts that version 2 of the format added. All issues are warnings, because none of them keeps a
-//! show from being played.
+//! Validation of the parts that version 2 of the file format added. All issues are warnings: a show with them can be
+//! played.
 
 use std::collections::BTreeSet;
 
@@ -72,7 +72,8 @@ fn frame_ids<'a>(show: &'a Show, findings: &mut Findings) -> BTreeSet<&'a str> {
     ids
 }
 
-/// All references to frames: what refers, such as "the layer", its name, and the id of the frame.
+/// All references to frames: what refers, such as "the layer", its name (empty for a trajectory), and the id of the
+/// frame.
 fn named_frames(show: &Show) -> impl Iterator<Item = (&'static str, &str, &str)> {
     let layers = show.layers.iter().flat_map(|layer| match &layer.span {
         LayerSpan::Frames { first, last, .. } => {
@@ -153,7 +154,8 @@ fn beats(show: &Show, findings: &mut Findings) {
     }
 }
 
-/// Warns about pixels and sources that refer to a missing source or file, and about boxes without an area.
+/// Warns about sources whose file is missing and boxes without an area. Also warns about one pixel of each frame that
+/// refers to a missing source.
 fn sources(show: &Show, findings: &mut Findings) {
     for (index, frame) in show.frames.iter().enumerate() {
         let label = frame_label(index, &frame.name);

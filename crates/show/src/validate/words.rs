@@ -11,7 +11,7 @@ pub(super) fn number(value: f64) -> String {
     if value == 0.0 || IN_FULL.contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// A place as text, for messages: `x, y` in metres with three decimals.
+/// A place in stage metres as text, for messages: `x, y` with three decimals. Huge numbers get an exponent.
 pub(super) fn place(at: Vec2) -> String {
     let metres = |value: f64| if value.abs() < IN_FULL.end { format!("{value:.3}") } else { number(value) };
     format!("{}, {}", metres(at.x), metres(at.y))

@@ -3,7 +3,7 @@
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Pixel, Show};
 
-/// A row of `count` pixels, 0.1 m apart.
+/// A row of `count` pixels with the ids 0, 1 and so on, 0.1 m apart.
 pub fn row(count: u32) -> Vec<Pixel> {
     let place = |id: u32| Vec2::new(f64::from(id) * 0.1 - 1.4, 0.0);
     (0..count)

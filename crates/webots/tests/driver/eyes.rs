@@ -8,8 +8,9 @@ use Controller::proximity::{RAYS, TABLE, sigma_m};
 use lightbots_base::{Pose, Vec2};
 use std::f64::consts::TAU;
 
-/// Distance from the robot's centre to a sensor, metres. `RADIUS_M` is the distance to the rim.
+/// Distance from the robot's centre to a sensor, metres.
 const SENSOR_M: f64 = 0.024;
+/// Distance from a robot's centre to its rim, metres.
 const RADIUS_M: f64 = 0.027;
 
 /// Simulates the sensors of all robots.
@@ -24,7 +25,8 @@ impl Eyes {
         Self { dice: seed.wrapping_mul(2).wrapping_add(1) }
     }
 
-    /// Readings of a robot's sensors, clockwise from the front, metres. Infinite if a ray hits nothing.
+    /// Noisy readings of the robot's sensors, clockwise from the front, metres. Infinite if a ray hits no other robot
+    /// within its range. `places`: centres of all robots, this one included.
     pub fn near_m(&mut self, robot: Pose, places: &[Vec2]) -> [f64; RAYS] {
         let reach_m = TABLE[TABLE.len() - 1][0];
         let sight_m = SENSOR_M + reach_m + RADIUS_M;

@@ -21,7 +21,7 @@ use crate::processes::PATIENCE;
 /// The results of a simulation.
 #[derive(Debug)]
 pub struct Account {
-    /// Number of pairs of robots that touched.
+    /// Number of contacts between robots. A pair that parts and touches again counts again.
     pub contacts: u64,
     /// Least distance between two centres, metres.
     pub closest_m: Option<f64>,
@@ -35,7 +35,7 @@ pub struct Account {
     pub rate: f64,
 }
 
-/// Steps between two samples of a track.
+/// Number of steps between two samples of a track.
 pub const STEPS_A_PLACE: u32 = 6;
 
 /// A floor, and the thread that steps it.

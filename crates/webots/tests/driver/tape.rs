@@ -9,7 +9,7 @@ use lightbots_base::{Instant, PathRef, RobotId, Span, Vec2};
 use lightbots_link::{BrokerUrl, Link, LinkConfig, LinkEvent};
 use lightbots_wire::{Command, Report, Route, TimeAnswer, Topic, commands};
 
-/// Most queued messages. A show of thirty robots has a few hundred per second.
+/// Largest number of queued messages: some minutes of a show of thirty robots, which has a few hundred per second.
 const QUEUE: usize = 1 << 16;
 /// Longest wait of a test, reached only on failure.
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
@@ -85,11 +85,12 @@ pub struct Score {
     routes: BTreeMap<RobotId, Vec<Given>>,
     /// Holds (`true`) and resumes, show clock.
     eases: Vec<(Instant, bool)>,
-    /// The show clock, at least, at a moment of this machine, by the fastest time answer.
+    /// A lower bound of the show clock at a moment of this machine, by the fastest time answer; `None` before the first
+    /// answer.
     show: Option<(Instant, std::time::Instant)>,
     /// STOPs that arrived, show clock, each with its robot. `None` stands for all robots.
     stops: Vec<(Instant, Option<RobotId>)>,
-    /// Reports of robots whose path was blocked.
+    /// Reports that name a blocking obstacle, as text.
     blocked: Vec<String>,
     /// Largest distance from its route that a robot reported, metres.
     off_m: f64,
@@ -165,7 +166,7 @@ impl Score {
         }
     }
 
-    /// Number of holds, and number of STOPs.
+    /// Number of holds, a `STOP at` included, and number of STOPs that came after the first time answer.
     pub fn holds(&self) -> (usize, usize) {
         (self.eases.iter().filter(|(_, hold)| *hold).count(), self.stops.len())
     }
@@ -175,7 +176,7 @@ impl Score {
         self.off_m
     }
 
-    /// Reports of robots whose path was blocked.
+    /// Reports that name a blocking obstacle, as text.
     pub fn blocked(&self) -> &[String] {
         &self.blocked
     }
@@ -205,8 +206,10 @@ impl Score {
         (beside_m, timed_m)
     }
 
-    /// Path time by R38, integrated in steps of a millisecond.
+    /// Path time by R38 of docs/protocol.md at the moment `show` (show clock) of a route that began at `starts`. It is
+    /// integrated in steps of a millisecond.
     fn path_time(&self, starts: Instant, show: Instant) -> Span {
+        /// Step of the integration, microseconds.
         const STEP_US: u64 = 1_000;
         let eases: Vec<_> = self.eases.iter().filter(|(at, _)| *at >= starts && *at <= show).collect();
         if eases.is_empty() {

@@ -278,7 +278,8 @@ fn worlds_stand_as_the_report_has_them() {
     }
 }
 
-/// Webots waits for ever if two robots have one name, and complains about solids with one name.
+/// Checks that no two nodes of a world have one name. With two robots of one name, Webots waits for ever, and with two
+/// solids it complains.
 fn unique_names(path: &Path, file: &File) {
     let mut names = BTreeSet::new();
     for name in file.nodes.iter().filter_map(|node| node.text("name")) {
@@ -286,7 +287,7 @@ fn unique_names(path: &Path, file: &File) {
     }
 }
 
-/// A PROTO that a world uses must be named in an EXTERNPROTO, and each EXTERNPROTO must be used.
+/// Checks that a world uses each of its EXTERNPROTOs, and names our own PROTOs that it uses in an EXTERNPROTO.
 fn all_known(path: &Path, file: &File) {
     let used: BTreeSet<&str> = file.nodes.iter().map(|node| node.kind.as_str()).collect();
     for address in &file.externs {

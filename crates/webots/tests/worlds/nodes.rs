@@ -75,7 +75,7 @@ const LIGHT: Fields = &[
     ("castShadows", Flag),
 ];
 
-/// The fields of a kind of node, in groups. `None` for kinds that our files do not use.
+/// The fields of a kind of node, in groups. `None` for kinds that are not listed here.
 fn fields(kind: &str) -> Option<Vec<Fields>> {
     Some(match kind {
         "Group" => vec![&POSE[2..]],
@@ -166,7 +166,7 @@ pub fn holds(kind: &str) -> Holds {
     }
 }
 
-/// Whether a value can stand in a field.
+/// Whether a value can stand in a field. `IS` fits any field.
 pub fn fits(value: &Value, holds: Holds) -> bool {
     match (value, holds) {
         (Value::Is(_), _) | (Value::Empty, Lists(_) | Texts | Nodes) => true,

@@ -46,7 +46,7 @@ struct Reader {
     at: usize,
 }
 
-/// Reads a whole file. Panics with the place if the file cannot be read.
+/// Reads a whole file. Panics if the file cannot be read.
 pub fn read(text: &str) -> File {
     let header = text.lines().next().unwrap_or("").to_owned();
     let mut reader = Reader { tokens: tokens(text), at: 0 };

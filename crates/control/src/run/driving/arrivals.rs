@@ -10,9 +10,9 @@ use lightbots_base::{Instant, Span, Vec2};
 use lightbots_show::FrameLoop;
 use lightbots_wire::RobotState;
 
-/// Largest delay of the last arrival after the planned end of a leg of routes that counts as in time. The air time (how
-/// long robots stay in a frame) then counts from the planned end. Robots beside their goals may count as arrived from
-/// this time before the planned end on.
+/// If the last arrival comes at most this long after the planned end of a leg of routes, it counts as in time. The air
+/// time (how long robots stay in a frame) then counts from the planned end. Robots beside their goals may count as
+/// arrived from this time before the planned end on.
 const IN_TIME: Span = Span::from_millis(250);
 /// Distance from its goal beyond which a robot has missed the goal, and from its straight drive beyond which it has
 /// left that drive, metres. It is more than a robot's diameter of 54 mm.
@@ -20,7 +20,8 @@ pub(crate) const MISSED_M: f64 = 0.06;
 
 impl Driving {
     /// Handles the reported arrival of a robot that follows paths. The arrival counts if the robot is at its goal. Near
-    /// the planned end it also counts up to `MISSED_M` beside the goal. Any other arrival is ignored.
+    /// the planned end, unless a hold is on, it also counts up to `MISSED_M` beside the goal. Any other arrival is
+    /// ignored.
     pub fn on_arrival(&mut self, cx: &mut RunContext, participant: usize, at: Option<Vec2>) -> Next {
         let (Some(at), Some(goal)) = (at, cx.goal(participant)) else { return Next::Stay };
         if !self.is_under_way(cx, participant) {
@@ -80,7 +81,8 @@ impl Driving {
         self.arrive(cx, participant)
     }
 
-    /// Returns the end of the leg, if its drive has begun and all robots that drive in it have arrived.
+    /// Ends the leg, if its drive has begun and all robots that drive in it have arrived: returns that robots stand.
+    /// Otherwise returns [`Next::Stay`].
     pub fn end_leg(&mut self, cx: &mut RunContext) -> Next {
         let Some(leg) = cx.pipeline.leg() else { return Next::Stay };
         let (now, clock) = (cx.now, self.clock);

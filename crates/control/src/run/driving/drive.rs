@@ -28,16 +28,17 @@ pub(crate) struct RobotProgress {
     pub is_unsure: bool,
     /// Since when the robot reports an obstacle in its path. `None` if its last report names none.
     pub obstructed_since: Option<Instant>,
-    /// When the robot last began to report an obstacle that is the reason why it is late. That is so unless it had
-    /// already been late for some time. `None` if it never did.
+    /// When the robot last began to report an obstacle while it was not late, or had become late only just before. The
+    /// obstacle then is the reason why it is late. `None` if it never did.
     pub obstructed_at: Option<Instant>,
     /// Since when a report of the robot is awaited, because a robot near it reports an obstacle. `None` if none is
     /// awaited.
     pub probed_since: Option<Instant>,
-    /// When the robot was last asked for a report, other than by a check of a hold. At first, when the drive began.
+    /// When the robot was last asked individually for a report, other than by a check of a hold. At first, when the
+    /// drive began.
     pub asked_at: Instant,
-    /// Latest moment, at most `SLOW` after the planned end of the drive, at which the robot was on its route or made
-    /// progress.
+    /// Latest moment at which the robot was on its route or made progress; not noted later than `SLOW` after the
+    /// planned end of the drive.
     pub on_route_at: Instant,
     /// Distance from the robot to its goal when it last made progress, metres, and when that was. Progress is a place
     /// that is nearer to the goal by more than `NEARER_M`. Infinite, and the beginning of the drive, until it is first

@@ -85,8 +85,8 @@ impl Driving {
         }
     }
 
-    /// Notes that all robots wait for a participant because of `why`, records an event, and begins a hold. If the
-    /// participant is silent, also asks all robots for a report.
+    /// Notes that all robots wait for a participant because of `why`, records an event, and begins a hold unless the
+    /// drive is about to end. If the participant is silent, also asks all robots for a report.
     pub fn mark_late(&mut self, cx: &mut RunContext, participant: usize, why: Trouble) {
         self.late += 1;
         self.progress[participant].late_since = Some(cx.now);

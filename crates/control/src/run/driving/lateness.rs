@@ -54,13 +54,14 @@ struct Patience {
     shortest: Span,
 }
 
-/// The wait is half as long in fleets of 80 robots, and a fifth as long from 200 on.
+/// The wait is half of `longest` in fleets of 80 robots, and a fifth of it from 200 on.
 const PATIENCE: Patience =
     Patience { longest: Span::from_millis(3_500), robots: 40.0, shortest: Span::from_millis(700) };
 
 impl Driving {
     /// Handles a driving robot's report of how far it is off its path and how unsure it is of its place. Beyond the
-    /// bounds all robots hold and wait for it. Once no robot is late, the hold ends unless the operator asked for it.
+    /// bounds all robots hold and wait for it. Once the last late robot is back on its path, the hold ends unless the
+    /// operator asked for it.
     pub fn on_progress(&mut self, cx: &mut RunContext, participant: usize, details: &Details) {
         let room_m = cx.pipeline.leg().map_or(0.0, |leg| leg.room_m);
         let late_m = cx.io.config.late.off_m.max((room_m / 2.0).min(LATE_MAX_M));

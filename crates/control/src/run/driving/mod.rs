@@ -29,7 +29,7 @@ use lightbots_wire::{Command, Details, Report, RobotState, Topic};
 /// The shorter the interval, the closer together in time they then stop.
 const HEARTBEAT: Heartbeat =
     Heartbeat { a_robot: Span::from_millis(2), least: Span::from_millis(60), most: Span::from_millis(500) };
-/// For how long after a drive began routes of the next leg are not sent. A robot whose clock is a little behind has not
+/// For how long after a drive began routes of the next leg are not sent. A robot with a clock a little behind has not
 /// begun the drive yet. A new route would replace the one that it is about to drive.
 const BEGUN: Span = drive::WATCH_EVERY;
 /// For how long after a drive began a report may still describe the time before the drive.
@@ -56,9 +56,9 @@ impl Heartbeat {
 }
 
 impl Driving {
-    /// Begins the drive of the first leg of the queue, which is under way since `began`. The returned [`Next`] ends the
-    /// leg if all robots have arrived already; it may also be a dropout or a failure from sending routes. Panics if no
-    /// leg is queued.
+    /// Begins the drive of the first leg of the queue, which is under way since `began` (show clock). The returned
+    /// [`Next`] ends the leg if all robots have arrived already; it may also be a dropout or a failure from sending
+    /// routes. Panics if no leg is queued.
     pub fn begin(cx: &mut RunContext, began: Instant) -> (Self, Next) {
         let leg = cx.pipeline.drive_next().expect("a drive begins with a planned leg");
         let clock = PathClock::new(began, leg.duration);
@@ -80,8 +80,8 @@ impl Driving {
         (drive, next)
     }
 
-    /// Sends robots their lights, and TARGET-only robots (they understand the command TARGET but no routes) also
-    /// their targets.
+    /// Begins the changes of light of the leg. In a leg of TARGETs, also sends TARGET-only robots (they understand the
+    /// command TARGET but no routes) their first targets.
     fn begin_leg(&mut self, cx: &mut RunContext) {
         let Pipeline { driven: Some(driven), queue, lights, light, .. } = &mut *cx.pipeline else { return };
         lights.forget(cx.roster.len());

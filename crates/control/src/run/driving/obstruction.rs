@@ -32,7 +32,7 @@ const SUSPECT: Span = Span::from_millis(500);
 /// Largest number of new plans for one robot because of obstacles in its path. At the next obstacle the robot itself
 /// drops out.
 const REPLANS_MAX: u8 = 3;
-/// Most obstacles that are remembered; more would leave no path.
+/// Largest number of obstacles that are remembered. More could leave no path.
 const FOUND_MAX: usize = 32;
 /// Longest time by which a braking robot becomes late before it reports the obstacle for which it brakes.
 const BRAKES: Span = Span::from_millis(150);
@@ -85,8 +85,8 @@ impl Driving {
         }
     }
 
-    /// Watches a robot whose report is awaited because a robot near it is obstructed. Returns its dropout if the report
-    /// is overdue, and `None` otherwise.
+    /// Watches a robot that owes a report because a robot near it is obstructed. Asks it again meanwhile. Returns its
+    /// dropout if the report is overdue, and `None` otherwise.
     pub fn watch_probed(&mut self, cx: &mut RunContext, participant: usize) -> Option<Next> {
         let since = self.progress[participant].probed_since?;
         if cx.robot(participant).contact.heard > since {
@@ -175,9 +175,9 @@ impl Driving {
         places
     }
 
-    /// What obstructed robots see in their paths, except robots whose places are known. The places are known of all
-    /// robots that report, also of those that take no part. The place of `silent`, a participant that fell silent, does
-    /// not count as known.
+    /// What obstructed robots see in their paths, except robots at known places. Known are the places of participants,
+    /// unless they dropped out without a known place, and of other robots that are not gone. The place of `silent`, a
+    /// participant that fell silent, does not count as known.
     fn sightings(&self, cx: &RunContext, silent: Option<usize>) -> Vec<Sighting> {
         let contact_m = cx.playback.contact_m();
         let is_placed = |robot: &&KnownRobot| match robot.participant.map(|participant| participant as usize)
@@ -202,8 +202,8 @@ impl Driving {
     }
 }
 
-/// Whether a participant dropped out and its place is unknown. Of robots that share a name, all places are known from
-/// their reports.
+/// Whether a participant dropped out and its place is only inferred. `false` for robots that share a name: their places
+/// are known from their reports.
 fn is_silent(known: &Participant, robot: &KnownRobot) -> bool {
     known.is_unplaced() && !robot.namesakes.are_there()
 }

@@ -93,10 +93,10 @@ impl Sighting {
     }
 }
 
-/// Where a robot that fell silent on its path stands, by sightings near the path. `places` are samples of the path.
-/// Sightings that are close together form a group, and each group gives one place. The place may lie beside the path,
-/// because other robots may have pushed the robot. A group may have a single sighting that is not close to the place.
-/// Then two more places are added: the sighting itself, and one halfway to it.
+/// Where a robot that fell silent on its path may stand, by sightings near the path. Empty if no sighting is near it.
+/// `places` are samples of the path. Sightings that are close together form a group, and each group gives one place.
+/// The place may lie beside the path, because other robots may have pushed the robot. A group may have a single
+/// sighting that is not close to the place. Then two more places are added: the sighting itself, and one halfway to it.
 fn located(places: &[Vec2], sightings: &[Sighting]) -> Vec<Vec2> {
     let path: Vec<Vec2> = samples(places).collect();
     let mut left: Vec<Sighting> = sightings.iter().filter(|seen| seen.is_near_any(places)).copied().collect();

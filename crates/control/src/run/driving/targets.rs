@@ -52,8 +52,8 @@ const STANDSTILL: Standstill = Standstill {
     dropped_after_bounds: 2,
 };
 
-/// A TARGET-only robot drops out after a silence of this many times the bound for other robots. It reports only when
-/// asked, so both a question and its answer must be delivered.
+/// A TARGET-only robot drops out after a silence of this many times `Config::silence`. It reports only when asked, so
+/// both a question and its answer must be delivered.
 const SILENCE_BOUNDS: i64 = 4;
 
 impl Driving {
@@ -135,7 +135,7 @@ impl Driving {
     }
 
     /// Ends a straight drive. The robot begins its next one; after the last one it counts as arrived. `off_m`: how far
-    /// from the end of the drive it stands, metres, if that is too far.
+    /// from the end of the drive it stands, metres; `None` if it is near enough.
     fn end_straight_drive(&mut self, cx: &mut RunContext, place: usize, off_m: Option<f64>) -> Next {
         let Some(DrivenLeg { leg, targets }) = &mut cx.pipeline.driven else { return Next::Stay };
         let participant = leg.drives[place].robot;
@@ -179,7 +179,7 @@ impl Driving {
         targets.stands(place, &leg.drives[place], cx.now, bound).then_some(place)
     }
 
-    /// Records an event that names a robot when it stops making progress or falls silent; once each time.
+    /// Records an event that names a robot when it has made no progress for a while or falls silent; once each time.
     fn name_stalled(&self, cx: &mut RunContext, participant: usize, silent: Span) {
         let unheard = silent > cx.io.config.silence + cx.link.round_trip;
         let is_stalled = unheard || self.standing_drive(cx, participant, STANDSTILL.named_after).is_some();
@@ -191,8 +191,8 @@ impl Driving {
         }
     }
 
-    /// Asks a robot where it is, and sends its target again if it makes no progress. Does nothing if it was asked a
-    /// short time ago.
+    /// Asks a robot where it is, and sends its target again if it makes no progress and no hold is on. Does nothing if
+    /// it was asked a short time ago.
     fn ask_target_robot(&mut self, cx: &mut RunContext, participant: usize) {
         let Some(DrivenLeg { targets, .. }) = &cx.pipeline.driven else { return };
         let place = targets.under_way(participant);

@@ -11,8 +11,8 @@ use crate::run::silence::LINK_LOSS;
 use lightbots_base::{Instant, Span};
 use lightbots_wire::{Command, RobotState, Route};
 
-/// A turn of the watch covers this many participants plus an eighth of all. A silent robot is asked for a report in
-/// each turn that covers it. With one message in ten lost and only four questions to a silent robot, live robots
+/// A turn of the watch covers this number of participants plus an eighth of all. It is large, so that a silent robot is
+/// asked for a report often. With one message in ten lost and only four questions to a silent robot, live robots
 /// dropped out in one of ten runs.
 const SLICE: usize = 512;
 
@@ -42,14 +42,14 @@ const END_M: f64 = 0.01;
 /// Least decrease of the distance to its goal that counts as a robot's progress, metres: more than the error of its
 /// position fixes.
 const NEARER_M: f64 = 0.005;
-/// Time that begins when robots should stand in a hold. If some still drive when it is over, all robots are stopped and
-/// planned again.
+/// Bound on the time after the moment at which robots should stand in a hold. If some still drive when it is over, all
+/// robots are stopped and planned again.
 const HOLD_BOUND: Span = Span::from_millis(1_200);
 /// Time until the next check of a hold in which all robots stand.
 const HOLD_CHECK_EVERY: Span = Span::from_millis(1_000);
 
 impl Driving {
-    /// Watches the next slice of participants, and checks the hold.
+    /// Watches the next slice of participants, and checks the hold, if a turn is due.
     pub fn watch(&mut self, cx: &mut RunContext) -> Next {
         if cx.now < self.watch_at {
             return Next::Stay;

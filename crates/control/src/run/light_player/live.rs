@@ -17,13 +17,13 @@ pub(crate) const NAME_MAX: usize = 64;
 const CHANGE_EVERY: Span = Span::from_millis(100);
 
 impl LightPlayer {
-    /// The layers of live light.
+    /// The layers of live light that are on.
     pub fn live(&self) -> &LiveLayers {
         &self.live
     }
 
-    /// Replaces the live light over the show; robots follow within 0.3 s. `leg` is the drive that robots are on, or
-    /// were on last.
+    /// Replaces the live light over the show. Robots that understand stretches of light follow within about 0.3 s.
+    /// `leg` is the leg that robots drive or drove last; `None` before the first one.
     pub fn set_live(
         &mut self,
         context: &mut Context,

@@ -51,18 +51,19 @@ pub(crate) struct LightPlayer {
     pub times: ShowTimes,
     /// `[participant]`: the number by which effects know its robot. It stays the same over the whole run.
     numbers: Arc<[u32]>,
-    /// Light of the leg that is driven or was driven last.
+    /// Light of the leg that is driven or was driven last; `None` before the first drive.
     current: Option<LegLight>,
-    /// Light of the leg after `current`.
+    /// Light of the leg after `current`; `None` until it is computed.
     next: Option<LegLight>,
-    /// The stretch that is being uploaded, and its deliveries.
+    /// The stretch that is being uploaded or was uploaded last in this drive, and its deliveries; `None` if there is
+    /// none.
     upload: Option<(PlannedStretch, Upload)>,
     /// Up to when robots have light that stands still in holds, as time since the drive began, without holds.
     covered: Span,
     /// Up to which show-clock moment robots have light that goes on during holds. [`Instant::FAR`]: they have one
     /// colour until the present hold ends. `None`: their light stands still in holds.
     free_until: Option<Instant>,
-    /// The hold that the newest stretch takes into account: when it began, and when it ends if that was known. `None`
+    /// The hold that the newest stretch takes into account: when it begins, and when it ends if that was known. `None`
     /// without a hold.
     known_hold: Option<(Instant, Option<Instant>)>,
     /// When stretches are sent that were put off because `AT_ONCE` were computed.
@@ -218,7 +219,7 @@ impl LightPlayer {
         }
     }
 
-    /// Light of the leg that is driven or was driven last.
+    /// Light of the leg that is driven or was driven last; `None` before the first drive.
     pub fn current(&self) -> Option<&LegLight> {
         self.current.as_ref()
     }
@@ -231,7 +232,7 @@ impl LightPlayer {
         }
     }
 
-    /// Replaces the time base of the current drive, because holds have changed it.
+    /// Replaces the time base of the current drive, because holds may have changed it.
     pub fn see(&mut self, clock: PathClock) {
         if let Some(current) = &mut self.current {
             current.clock = Some(clock);

@@ -17,15 +17,16 @@ pub(super) struct LegPlace {
     pub due_s: f64,
     /// Whether the leg leads to the same frame as the leg before it.
     pub is_same_frame: bool,
-    /// Whether the operator chose the frame of the leg, or a loop of frames goes back to it.
+    /// Whether the leg follows a jump, or a loop goes back to its frame. A jump: the frame was chosen, or the one
+    /// before it was left out.
     pub is_chosen: bool,
     /// Whether the music jumps to the leg too.
     pub leads_music: bool,
 }
 
 /// Finds where the leg after `current` is on the timeline. If `current` leads to the same frame, either several legs
-/// lead there, or the drive was planned anew and robots are late. Unless the operator chose the frame, show time then
-/// goes on, and the frame stays due when it was before. Notes in `times` when the frame is due.
+/// lead there, or the drive was planned anew and robots are late. Show time then goes on, and the frame stays due when
+/// it was before, unless the leg follows a jump. Notes in `times` when the frame is due.
 pub(super) fn place(
     times: &mut ShowTimes,
     current: Option<&LegLight>,

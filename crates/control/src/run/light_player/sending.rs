@@ -15,8 +15,8 @@ use lightbots_wire::Command;
 /// Least time from sending a stretch that goes on during holds to its beginning: a round trip. For changes of live
 /// light it is `LIVE.lead`.
 const LEAD: Span = Span::from_millis(100);
-/// For how long after a drive began the second stretch is not sent. A robot whose clock is a little behind has not
-/// begun the drive yet. It drops a waiting stretch when it begins (R56).
+/// For how long after a drive began the second stretch is not sent. A robot with a clock a little behind has not begun
+/// the drive yet. It drops a waiting stretch when it begins (R56).
 const BEGUN: Span = Span::from_millis(100);
 
 /// Parameters of a change of live light, which robots show within 0.3 s.
@@ -32,6 +32,7 @@ struct LiveChange {
     at_once: usize,
 }
 
+/// `lead` and `blend` add up to 180 ms. Of the 0.3 s, 120 ms are left for the message and the computation.
 const LIVE: LiveChange = LiveChange {
     blend: Span::from_millis(150),
     lead: Span::from_millis(30),
@@ -185,8 +186,8 @@ impl LightPlayer {
         self.again_at = now + AGAIN_AFTER;
     }
 
-    /// Sends colours to robots that do not understand stretches. Returns when to do that next; [`Instant::FAR`] if all
-    /// robots understand stretches.
+    /// Sends colours that have visibly changed to robots that do not understand stretches. Returns when to do that
+    /// next; [`Instant::FAR`] if all robots that take part understand stretches.
     fn send_colours(
         &self,
         context: &mut Context,

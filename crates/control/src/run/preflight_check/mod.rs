@@ -26,15 +26,15 @@ const STOP_LEFT_M: f64 = 0.02;
 /// If a stopped robot would rest closer to its goal than this, its stop is not tested, metres. Its place may be off by
 /// [`OFF_M`], and by as much again for noise, so stopping and driving on could not be told apart.
 const TOLD_APART_M: f64 = 2.0 * OFF_M;
-/// Time from when a robot should stand to its report that it stands; two round trips are added. R40 asks for this
-/// report at once, but on a lossy link the robot has to be asked again.
+/// Longest time from when a robot should stand to its report that it stands; two round trips are added. R40 asks for
+/// this report at once, but on a lossy link the robot has to be asked again.
 const STOPS_WITHIN: Span = Span::from_millis(1_000);
 /// Reports count from this time after robots reached a frame. While a robot drives, its estimated place follows its
 /// wheels. Only while it stands do its position fixes show, within seconds, where it really is.
 const SETTLES: Span = Span::from_millis(2_950);
 /// Time after robots reached a frame at which all are asked to report.
 const ASK_AT: Span = Span::from_millis(3_000);
-/// Time between further requests to robots whose answers are missing. Even two lost messages in a row then lead to no
+/// Time between further requests to robots that have not answered. Even two lost messages in a row then lead to no
 /// finding.
 const ASK_EVERY: Span = Span::from_millis(150);
 /// Latest time after robots reached a frame at which their answers are checked. They are checked earlier once all have

@@ -28,8 +28,8 @@ pub(super) struct RobotTest {
     pub track: DrivenTrack,
     /// Where the robot stood before the present drive, stage metres.
     stood: Option<Vec2>,
-    /// Sum of angles, radians counter-clockwise, one for each drive: from the robot's reported headings to the
-    /// direction in which it drove. Also the number of angles in the sum.
+    /// Sum of angles, radians counter-clockwise, one for each drive that was long enough: from the robot's reported
+    /// headings to the direction in which it drove. Also the number of angles in the sum.
     askew: (f64, u32),
     /// Whether the place that the robot reached on a way back was checked.
     pub is_done: bool,

@@ -4,7 +4,7 @@ use crate::seeded::Seeded;
 use lightbots_base::Piece;
 use lightbots_base::braking::stopping_m;
 
-/// Drives straight on at a steady speed from `from` for `seconds`, then rests until the others end.
+/// A path straight on at a steady speed, m/s, from `from` for `seconds`. After its end, the robot rests there.
 fn straight(from: Vec2, velocity: Vec2, seconds: f64) -> Path {
     let end = from + velocity * seconds;
     Path { start: from, pieces: vec![Piece::straight(from, end, Span::from_secs(seconds))] }

@@ -30,8 +30,10 @@ impl<'a> PairLaw<'a> {
 
     /// Returns the number of moments from `between.0` to `between.1` at which one robot would touch the other after the
     /// other stopped dead. A moment counts twice if each would touch the other. `tracks`: places of both robots without
-    /// delays at each moment. `levels`: their delays, in units of [`LEVEL`]. Returns [`CONTACT`] if the delays bring
-    /// them closer than the comfortable clearance and closer than without delays.
+    /// delays at each moment. `levels`: their delays, in units of [`LEVEL`].
+    ///
+    /// Returns [`CONTACT`] if the delays bring the robots closer than the comfortable clearance and closer than without
+    /// delays.
     pub fn cost(&self, tracks: (&[Vec2], &[Vec2]), levels: (u8, u8), between: (usize, usize)) -> u32 {
         let (one, other) = (Delayed::new(tracks.0, levels.0), Delayed::new(tracks.1, levels.1));
         let undelayed = (Delayed::new(tracks.0, 0), Delayed::new(tracks.1, 0));
@@ -63,7 +65,7 @@ impl<'a> PairLaw<'a> {
     }
 }
 
-/// The places of a delayed robot at each moment.
+/// The places of a delayed robot at each moment: `track` has its places without the delay.
 struct Delayed<'a> {
     track: &'a [Vec2],
     /// Delay of the robot, in units of [`LEVEL`].

@@ -26,8 +26,8 @@ struct Worst {
     robot: usize,
     /// Id of the pixel to which the robot drives; null: the robot has none.
     pixel: Option<u32>,
-    /// Index of the other robot, which would touch the stopped robot. If `missing_m` is 0 it can stop in time, but then
-    /// a third robot would touch it.
+    /// Index of the other robot, which would touch the stopped robot. If `missing_m` is 0, the other robot can stop in
+    /// time, but then a third robot would touch it.
     by: usize,
     /// Id of the pixel to which the other robot drives; null: that robot has none.
     by_pixel: Option<u32>,
@@ -62,7 +62,7 @@ impl StopSafe {
     }
 
     /// Returns the lines for people: the share, the worst moment, and the frames whose transitions have a share below
-    /// 1. Empty if the plan must not be played.
+    /// 1. One line if all moments are safe. Empty if the plan must not be played.
     pub fn lines(&self, show: &Show) -> Vec<String> {
         let Some(share) = self.share else { return Vec::new() };
         let Some(worst) = &self.worst else {

@@ -123,7 +123,7 @@ pub(super) struct Video<'a> {
 }
 
 impl Video<'_> {
-    /// Starts ffmpeg, which writes the file `to`.
+    /// Starts ffmpeg, which writes the file `to`. `duration_s` is the length of the film, seconds; longer music is cut.
     pub fn start(&self, to: &Path, duration_s: f64) -> Result<Encoder, Failure> {
         let mut child = Command::new("ffmpeg")
             .args(self.arguments(to, duration_s))

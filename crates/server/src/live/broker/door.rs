@@ -24,7 +24,7 @@ use super::users::{Role, Users};
 /// Decides about the logins, messages and subscriptions of all clients.
 #[derive(Clone)]
 pub struct Door {
-    /// Known users; without any, all clients may connect.
+    /// Known users. If there are none, no client needs a login.
     pub users: Arc<Users>,
     pub notices: Arc<Notices>,
     /// Connections that came through the TLS gate, and the listener to which the gate hands them over.

@@ -94,7 +94,9 @@ impl Drop for Engine {
     }
 }
 
+/// Option of the command line for the address without TLS, for error messages.
 const PLAIN_OPTION: &str = "--mqtt-listen";
+/// Option of the command line for the address with TLS, for error messages.
 const TLS_OPTION: &str = "--mqtt-tls-listen";
 
 fn bind(listen: SocketAddr, robots: usize) -> Result<Listener, Failure> {

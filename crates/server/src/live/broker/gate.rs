@@ -23,9 +23,9 @@ use crate::tls;
 
 /// Longest wait for a client's first byte, and then for the end of its TLS handshake. After that the client is dropped.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// Time for which a refused client may go on sending, so that it receives the reason.
+/// Longest time for which a refused client may go on sending, so that it receives the reason.
 const LINGER: Duration = Duration::from_secs(1);
-/// Most TLS connections at once; further ones wait.
+/// Most TLS connections at once. Further ones wait until one of these ends.
 const CONNECTIONS: usize = 20_000;
 /// First byte of MQTT without TLS.
 const MQTT: u8 = 0x10;
@@ -180,8 +180,8 @@ impl Gate {
     }
 }
 
-/// Reads what a refused client still sends, for up to `LINGER`. If the socket were closed with unread bytes, the client
-/// might not receive the reason.
+/// Reads what a refused client still sends, for up to `LINGER` and 32 KiB. If the socket were closed with unread bytes,
+/// the client might not receive the reason.
 async fn linger(mut stream: TcpStream) {
     let _ = stream.shutdown().await;
     let rest = async {

@@ -1,5 +1,5 @@
-//! Limits on what the embedded broker takes from clients. Beyond a limit the client loses a message or its connection;
-//! the broker and its other clients go on.
+//! Limits on what the embedded broker takes from clients. Beyond a limit, the client loses a message, a subscription or
+//! its connection; the broker and its other clients go on.
 // Connections without a login are found only on Linux.
 #![cfg_attr(not(target_os = "linux"), allow(dead_code))]
 
@@ -19,7 +19,7 @@ pub struct Rate {
 /// packet, so that this and [`CONNECTIONS`] together bound memory.
 pub const PACKET_BYTES: u32 = 64 << 10;
 
-/// Most levels of a topic or filter. The protocol's topics have three. The broker walks its tree of topics by
+/// Most levels of a topic or filter. The protocol's topics have at most four. The broker walks its tree of topics by
 /// recursion: some thousands of levels overflow the stack.
 pub const TOPIC_LEVELS: usize = 16;
 
@@ -46,8 +46,8 @@ const OTHER_FILES: usize = PENDING + 100;
 /// Sockets for a client behind the TLS gate: the client's, and both ends of the gate's connection to the broker.
 const TLS_SOCKETS: usize = 3;
 
-/// Returns how many clients may be logged in if the system grants `open_files` open files: at most [`CONNECTIONS`]. At least
-/// half of the files are left to clients.
+/// Returns how many clients may be logged in if the system grants `open_files` open files: at most [`CONNECTIONS`]. At
+/// least half of the files are left to clients. With `has_tls`, each client is counted with `TLS_SOCKETS` files.
 pub fn connections(open_files: usize, has_tls: bool) -> usize {
     let sockets = if has_tls { TLS_SOCKETS } else { 1 };
     let files = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);

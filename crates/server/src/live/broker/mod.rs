@@ -2,10 +2,10 @@
 //! process. `process` starts, watches and restarts this process, in which `engine` runs.
 //!
 //! `users` holds the users, `rights` decides what each may publish and subscribe to, and `door` applies both to every
-//! client. `gate` handles TLS in front of it. `limits` holds every limit. `queues` bounds the bytes that wait for
+//! client. `gate` handles TLS in front of it. `limits` holds most limits. `queues` bounds the bytes that wait for
 //! clients, and `routing` puts each message into these queues. `idle` ends connections that do not log in, `flood`
-//! those that publish too much. `sessions` keeps each session for its login, `takeovers` finds robots that share a
-//! name. `retained`, `groups` and `keep_alive` are parts of MQTT that rmqtt leaves to its embedder.
+//! those that publish too much. `sessions` keeps each session for the user that began it. `takeovers` finds robots that
+//! share a name. `retained`, `groups` and `keep_alive` are parts of MQTT that rmqtt leaves to its embedder.
 
 mod admitted;
 mod door;

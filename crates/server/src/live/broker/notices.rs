@@ -13,7 +13,7 @@ const CLIENTS: usize = 1000;
 /// Most lines that wait for the screen; further ones are only logged.
 const WAITING: usize = 64;
 
-/// Passes lines about clients to log and screen, for each client at most one line per `EVERY`.
+/// Passes lines about clients to log and screen: for each client at most one line per `EVERY`.
 #[derive(Debug)]
 pub struct Notices {
     sender: mpsc::Sender<String>,
@@ -34,7 +34,8 @@ impl Notices {
         (Self { sender, said: Mutex::default() }, lines)
     }
 
-    /// Logs and sends a line about a client, unless the last line about this client was sent less than `EVERY` ago.
+    /// Logs and sends a line about a client. Keeps it back if the last line about this client was sent less than
+    /// `EVERY` ago. Drops it if `CLIENTS` other clients had their last line less than `EVERY` ago.
     pub fn say(&self, client: &str, line: &str) {
         let Some(kept_back) = self.due(client, Instant::now()) else { return };
         let more = if kept_back > 0 { format!(" ({kept_back} more like this)") } else { String::new() };
@@ -44,7 +45,8 @@ impl Notices {
         let _ = self.sender.try_send(line);
     }
 
-    /// Returns how many earlier lines about a client were kept back. `None` if the present line is kept back as well.
+    /// Returns how many lines about a client were kept back since its last line. `None` if the present line must not be
+    /// sent.
     fn due(&self, client: &str, now: Instant) -> Option<u64> {
         let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(last) = said.get_mut(client) {

@@ -22,8 +22,8 @@ use crate::own_program::own_program;
 
 /// Longest time for the child to listen, or to report why it cannot.
 const START_WITHIN: Duration = Duration::from_secs(20);
-/// Pause before the child is started again. It doubles, up to [`LONGEST_PAUSE`], while the child keeps dying. The child's
-/// start takes about 10 ms more, so that the broker is away for less than one second.
+/// Pause before the child is started again. It doubles, up to [`LONGEST_PAUSE`], while the child keeps dying. The
+/// child's start takes about 10 ms more, so that the broker is usually away for less than one second.
 const FIRST_PAUSE: Duration = Duration::from_millis(50);
 /// Longest pause before the child is started again.
 const LONGEST_PAUSE: Duration = Duration::from_millis(800);
@@ -61,7 +61,7 @@ pub struct EmbeddedBroker {
 }
 
 impl EmbeddedBroker {
-    /// Starts the child and waits until it listens.
+    /// Starts the child and waits until it listens. The failure says why it does not.
     pub async fn start(options: BrokerOptions) -> Result<Self, Failure> {
         let (users, login) = with_this_program(options.users);
         let mut options = BrokerOptions { users, ..options };
@@ -213,7 +213,7 @@ fn ending(status: ExitStatus) -> String {
     status.code().map_or_else(|| "ended".into(), |code| format!("ended with code {code}"))
 }
 
-/// Runs the child process: reads its settings, then serves until its stdin ends.
+/// Runs the child process: reads its settings from stdin, then serves until its stdin ends or brings a further line.
 pub async fn child() -> Outcome {
     let mut orders = BufReader::new(tokio::io::stdin()).lines();
     let order = orders.next_line().await.ok().flatten().unwrap_or_default();

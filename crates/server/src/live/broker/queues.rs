@@ -47,8 +47,8 @@ impl Queues {
         Self { total: Arc::default(), clients: Mutex::default(), notices }
     }
 
-    /// Returns a copy of a message whose payload is charged to its receiver `client`. If the receiver's queue is full,
-    /// reports that and returns `None`.
+    /// Returns a copy of a message whose payload is charged to its receiver `client`. If the receiver's queue or all
+    /// queues together are full, reports that and returns `None`.
     pub fn charged(&self, publish: &Publish, client: &ClientId) -> Option<Publish> {
         let Some(charge) = self.charge(client, size(publish) + limits::MESSAGE_OVERHEAD_BYTES) else {
             self.notices.say(client, &full_queue(client));
@@ -126,7 +126,7 @@ fn full_queue(client: &ClientId) -> String {
 mod tests {
     use super::*;
 
-    /// Messages of 64 KiB in a full queue.
+    /// Number of messages of 64 KiB in a full queue.
     const FULL: usize = limits::QUEUE_BYTES / (64 << 10);
 
     fn queues() -> Queues {

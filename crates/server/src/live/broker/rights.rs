@@ -25,11 +25,12 @@ pub fn is_protocol(topic: &str) -> bool {
 pub enum Who {
     /// One robot.
     Robot(RobotId),
-    /// A controller: everything is allowed.
+    /// A controller: everything is allowed but reports that are too long.
     Controller,
     /// A pedal or a desk: it may publish on [`CUE`], the topic of GO, and nothing else.
     Cue,
-    /// A tool, or a connection that many robots share: everything but commands is allowed.
+    /// A tool, or a connection that many robots share. On topics of the protocol, it may publish reports of any robot,
+    /// and no commands. On other topics, it may publish everything. It may subscribe to everything.
     Shared,
 }
 

@@ -1,7 +1,7 @@
-//! Sessions belong to the login that began them: another login neither takes over the connection of a client id, nor
-//! goes on with its session. A session that is to end with its connection is never resumed, even if rmqtt has not yet
-//! noticed the end of the connection. Both are checked while rmqtt holds the lock of the client id, so that no other
-//! login comes in between.
+//! If the broker has users, a session belongs to the user that began it: another user neither takes over the connection
+//! of a client id, nor goes on with its session. A session that is to end with its connection is never resumed, even if
+//! rmqtt has not yet noticed the end of the connection. Both are checked while rmqtt holds the lock of the client id,
+//! so that no other login comes in between.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ async fn ends_with_connection(session: &Session) -> bool {
 pub struct GuardedEntry {
     entry: Box<dyn Entry>,
     queues: Arc<Queues>,
-    /// Whether only the login that began a session may take it over.
+    /// Whether only the user that began a session may take it over.
     is_owned: bool,
 }
 

@@ -26,9 +26,10 @@ pub enum Role {
     /// the same as [`Role::Fleet`].
     #[default]
     ByClientId,
-    /// A controller: may publish and receive everything, commands such as STOP included.
+    /// A controller: may subscribe to everything, and publish everything, commands such as STOP included.
     Controller,
-    /// May do everything but publish commands: for connections that many robots share, and for tools that watch.
+    /// May subscribe to everything, and publish everything but commands and GO: for connections that many robots share,
+    /// and for tools that watch.
     Fleet,
     /// May publish GO for frames that wait for it, and do nothing else: for a pedal or a desk.
     Cue,
@@ -38,6 +39,7 @@ pub enum Role {
     AnyRobot,
 }
 
+/// Roles by their words in the text of a user. [`Role::ByClientId`] has no word.
 const ROLES: [(&str, Role); 5] = [
     ("controller", Role::Controller),
     ("fleet", Role::Fleet),
@@ -75,7 +77,7 @@ impl Users {
         Ok(users)
     }
 
-    /// Adds a user, for this program itself.
+    /// Adds a user. A user of the same name is replaced.
     pub fn with(mut self, name: &str, password: &str, role: Role) -> Self {
         self.0.insert(name.to_owned(), User { password: password.to_owned(), role });
         self

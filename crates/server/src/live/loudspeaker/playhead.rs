@@ -19,8 +19,8 @@ const RATE_MAX: f64 = 0.005;
 const GONE_IN_S: f64 = 2.0;
 
 impl LoudMusic {
-    /// Returns the sample of a channel at a position, interpolated between two frames. Before the start and after the end of
-    /// the music, the sample is 0, silence.
+    /// Returns the sample of a channel at a position, interpolated between two frames. Before the start and after the
+    /// end of the music, the sample is 0, silence. A channel that the music lacks has the samples of its last channel.
     fn at(&self, position_s: f64, channel: usize) -> f32 {
         let frame = position_s * self.rate_hz;
         if frame < 0.0 {

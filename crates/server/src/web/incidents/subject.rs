@@ -3,8 +3,9 @@
 use lightbots_base::RobotId;
 use lightbots_control::Trouble;
 
-/// What an incident is about. Events with the same subject change the same incident until it is over. Dropouts and wishes to
-/// join also begin another incident once the operator has read theirs.
+/// What an incident is about. An event changes the incident with its subject if there is one that is not over. For
+/// dropouts and wishes to join, an incident that the operator has read is not changed any more: a new one begins. For
+/// dropouts, a new one also begins after a pause.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
     Dropouts {
