@@ -86,6 +86,9 @@ impl PlaceSettings {
         if !(0.02..=5.0).contains(&self.spacing_m) {
             return fail(format!("a spacing of {} m; use 0.02 to 5 m", self.spacing_m));
         }
+        if !(0.01..=5.0).contains(&self.least_m) {
+            return fail(format!("a least spacing of {} m; use 0.01 to 5 m", self.least_m));
+        }
         if self.size_m.is_some_and(|size| !(0.01..=1_000.0).contains(&size)) {
             return fail("the size of the picture must be from 0.01 to 1000 m".into());
         }

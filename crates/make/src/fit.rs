@@ -21,10 +21,11 @@ const SPACING_M: f64 = 0.0764;
 ///
 /// # Errors
 /// If a frame has no room for `robots` robots, or has neither pixels nor a source that can be drawn. The message names
-/// the frame. Frames before it may then be changed already.
+/// the frame. The show is then unchanged.
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
+    let mut all = Vec::new();
     let mut film = Film::None;
     for index in 0..show.frames.len() {
         let frame = &show.frames[index];
@@ -54,6 +55,9 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
             }
             None => kept()?,
         };
+        all.push((index, fitted));
+    }
+    for (index, fitted) in all {
         show.frames[index] = fitted;
     }
     if let Some(starts) = show.starts.take_if(|starts| starts.len() != robots) {
@@ -184,7 +188,9 @@ mod tests {
 
     #[test]
     fn too_many_robots_name_the_frame() {
-        let error = fit_show(&mut show(), 9_000).unwrap_err();
+        let mut changed = show();
+        let error = fit_show(&mut changed, 9_000).unwrap_err();
+        assert_eq!(changed, show(), "nothing is half done");
         assert_eq!(error.code, "too-many-robots");
         assert!(error.message.contains("Word"), "{}", error.message);
     }

@@ -98,6 +98,16 @@ impl Light {
         self.tracks.clear();
     }
 
+    /// Handles that the show clock was reset, so that moments received before are void (R30, R58 of docs/protocol.md). Waiting
+    /// fades and all stretches are cancelled. A running fade ends at once in its final colour.
+    pub(crate) fn forget_moments(&mut self) {
+        self.waiting.clear();
+        self.tracks.forget_moments();
+        if let Some((_, fade)) = self.running.take() {
+            self.shown = fade.to;
+        }
+    }
+
     /// Notes that a stretch or live light arrived. Steps then compute the light again.
     pub(crate) fn wake(&mut self) {
         self.busy = true;
@@ -212,6 +222,16 @@ mod tests {
         assert_eq!(light.step(Instant(0), Some(Instant(2000)), &NO_TRACKS), Rgb::new(64, 64, 64));
         light.set(Rgb::new(1, 2, 3));
         assert_eq!(light.step(Instant(0), Some(Instant(9000)), &NO_TRACKS), Rgb::new(1, 2, 3));
+    }
+
+    #[test]
+    fn after_a_reset_of_the_show_clock_no_fade_is_left() {
+        let mut light = Light::default();
+        light.fade(Some(Instant(1000)), fade(WHITE, 1000, 1000));
+        light.fade(Some(Instant(1000)), fade(RED, 3000, 0));
+        light.forget_moments();
+        assert_eq!(light.step(Instant(0), Some(Instant(0)), &NO_TRACKS), WHITE);
+        assert_eq!(light.step(Instant(5000), Some(Instant(5000)), &NO_TRACKS), WHITE);
     }
 
     #[test]

@@ -8,6 +8,7 @@ use lightbots_base::RobotId;
 use serde::{Deserialize, Serialize};
 
 use crate::disk::{self, Readers};
+use crate::json_file;
 
 /// Name of the file in the data folder.
 const FILE: &str = "robots.json";
@@ -44,17 +45,11 @@ struct About {
 }
 
 impl FleetBook {
-    /// Reads the file in the data folder. The result is empty if the file is missing, cannot be read or is invalid. An
-    /// invalid file is renamed to `robots.json.unreadable`.
+    /// Reads the file in the data folder. The result is empty if the file is missing or cannot be used; see
+    /// [`json_file::load`].
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
-        let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
-        let kept = kept.unwrap_or_else(|| Ok(Kept::default())).unwrap_or_else(|error| {
-            let aside = path.with_extension("json.unreadable");
-            tracing::warn!("{} is kept aside as {}: {error}", path.display(), aside.display());
-            let _ = disk::rename(&path, &aside);
-            Kept::default()
-        });
+        let kept: Kept = json_file::load(&path, FILE_MAX);
         Self { path, kept: Arc::new(Mutex::new(kept)) }
     }
 

@@ -15,6 +15,7 @@ mod examples;
 mod failure;
 mod fleet_book;
 mod growing_file;
+mod json_file;
 mod layer_pictures;
 mod library;
 mod live;

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use tokio::sync::broadcast;
 
 use crate::disk::{self, Readers};
+use crate::json_file;
 use crate::live::conductor::{Handle, News};
 use crate::web::Desk;
 
@@ -65,15 +66,11 @@ fn has_real(robots: &[RobotView]) -> bool {
 }
 
 impl PlayedShows {
-    /// Reads the file in the data folder. If the file is missing or cannot be read, the list is empty, so that all shows are
-    /// offered at half speed.
+    /// Reads the file in the data folder. If the file is missing or cannot be used, the list is empty, so that all shows are
+    /// offered at half speed; see [`json_file::load`].
     pub fn load(folder: &Path) -> Self {
         let path = folder.join(FILE);
-        let kept = disk::read_regular(&path, FILE_MAX).ok().map(|bytes| serde_json::from_slice(&bytes));
-        let kept = kept.unwrap_or_else(|| Ok(Kept::default())).unwrap_or_else(|error| {
-            tracing::warn!("{} is begun again: {error}", path.display());
-            Kept::default()
-        });
+        let kept: Kept = json_file::load(&path, FILE_MAX);
         Self { path, kept: Arc::new(Mutex::new(kept)) }
     }
 

@@ -191,7 +191,11 @@ impl Player {
             self.attempt = Some(Attempt { key, revision: None, refusal: None });
         }
         match self.start(&turn, key, snapshot, news).await {
-            Ok(()) => {}
+            Ok(()) => {
+                if let Some(attempt) = &mut self.attempt {
+                    attempt.refusal = None;
+                }
+            }
             Err(Refused::ForGood(line)) => {
                 self.attempt = None;
                 self.end(key, TurnEnd::Failed(line));

@@ -89,8 +89,8 @@ fn rows(stage: &Stage, count: usize, step_m: f64, size: f64) -> Vec<Vec2> {
         row += 1;
         comparisons_left = comparisons_left.saturating_sub(in_row * stage.obstacles.len());
         if full_rows > FULL_ROWS_MAX || comparisons_left == 0 {
-            let at = places.len();
-            places.extend((at..count).map(|nth| Vec2::new(0.0, first_y - (row + nth) as f64 * step_m)));
+            let left = count - places.len();
+            places.extend((0..left).map(|nth| Vec2::new(0.0, first_y - (row + nth) as f64 * step_m)));
         }
     }
     places
@@ -170,5 +170,15 @@ mod tests {
             let stage = Stage { width_m, depth_m, obstacles: vec![everywhere], ..Stage::default() };
             assert_eq!(front_rows(&stage, 7).len(), 7);
         }
+    }
+
+    #[test]
+    fn places_without_room_are_one_column_without_gaps() {
+        let everywhere = Obstacle::Rect { min: Vec2::new(-1e6, -1e6), max: Vec2::new(1e6, 1.25) };
+        let stage = Stage { obstacles: vec![everywhere], ..Stage::default() };
+        let places = front_rows(&stage, 80);
+        let column = &places[49..];
+        assert!(places[48].y > 1.2 && column[0].y < 1.2, "the first row is full");
+        assert!(column.windows(2).all(|pair| (pair[0].y - pair[1].y - 0.06).abs() < 1e-9), "{column:?}");
     }
 }

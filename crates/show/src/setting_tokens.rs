@@ -73,7 +73,7 @@ fn value(tokens: &mut impl Iterator<Item = Token>, deepest: u32) -> Option<Setti
     Some(match tokens.next()? {
         Token::Null => Setting::Null,
         Token::Bool(truth) => Setting::Bool(truth),
-        Token::Number(number) => Setting::Number(number),
+        Token::Number(number) => Setting::Number(Some(number).filter(|number| number.is_finite())?),
         Token::Text(text) => Setting::Text(text),
         Token::List(count) => {
             Setting::List((0..count).map(|_| value(tokens, below?)).collect::<Option<_>>()?)

@@ -62,7 +62,8 @@ impl<S: BorrowMut<RouteStorage>> Robot<S> {
                 self.clock_filter.answer(&mut self.hot.clock, now, &answer);
                 if self.clock_filter.take_reset() {
                     self.hot.routes.forget_moments();
-                    self.light.tracks.forget_moments();
+                    self.light.forget_moments();
+                    self.hot.light_changes = true;
                 }
             }
             Command::Fade(fade) => {

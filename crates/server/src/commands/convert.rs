@@ -22,10 +22,12 @@ pub fn run(arguments: &ConvertArguments) -> Outcome {
     if let Some(outcome) = guard::child_outcome(draws_files) {
         return outcome;
     }
+    let watch = draws_files.then(guard::ReadingTime::start);
     if arguments.replan {
         replanned(&mut loaded.show);
     }
     let fitted = fitted(&mut loaded.show, arguments)?;
+    watch.inspect(guard::ReadingTime::decoded);
     let read = arguments.onto.as_ref().unwrap_or(&arguments.input);
     if loaded.unread.is_some() && is_same_file(read, output) {
         let line = "it has parts that are not known, which would be lost; write to another file";

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 
 use lightbots_api::RunEntryKind;
@@ -186,8 +186,9 @@ impl Recorder {
     /// Passes the facts of the run, as they are now, to the writer.
     fn write_facts(&self) {
         if let (Some(writer), Some(run)) = (&self.writer, &self.run) {
-            // If there is no room, the disk is too slow, which writing the log reports.
-            let _ = writer.pieces.try_send(Piece::Facts(run.facts().clone()));
+            *writer.shared.facts.lock().unwrap_or_else(PoisonError::into_inner) = Some(run.facts().clone());
+            // If there is no room, the thread finds the facts when it ends.
+            let _ = writer.pieces.try_send(Piece::Facts);
         }
     }
 }
@@ -202,8 +203,29 @@ fn notes(command: &str) -> Vec<(String, String)> {
 enum Piece {
     /// The next bytes of the log.
     Log(Vec<u8>),
-    /// Facts of the run, for the file beside the log.
-    Facts(RunFacts),
+    /// There are new facts of the run, for the file beside the log.
+    Facts,
+}
+
+/// What a writing thread shares.
+#[derive(Debug, Default)]
+struct SharedWithWriter {
+    /// The newest facts of the run that are not written yet.
+    facts: Mutex<Option<RunFacts>>,
+    /// Why the thread failed first.
+    failure: OnceLock<String>,
+}
+
+impl SharedWithWriter {
+    fn write_facts(&self, log: &Path) -> std::io::Result<()> {
+        let facts = self.facts.lock().unwrap_or_else(PoisonError::into_inner).take();
+        facts.map_or(Ok(()), |facts| facts.write(&facts_file(log)))
+    }
+
+    fn fail(&self, error: &std::io::Error) {
+        // Only the first failure is reported.
+        let _ = self.failure.set(error.to_string());
+    }
 }
 
 /// A thread that writes one log, and the sending side of its queue.
@@ -212,7 +234,7 @@ struct LogWriter {
     pieces: SyncSender<Piece>,
     written: u64,
     bytes_max: u64,
-    failure: Arc<OnceLock<String>>,
+    shared: Arc<SharedWithWriter>,
     thread: JoinHandle<()>,
 }
 
@@ -224,19 +246,18 @@ impl LogWriter {
         }
         let bytes_max = if recording.is_by_run() { run_bytes_max } else { u64::MAX };
         let (pieces, inbox) = sync_channel(WAITING_MAX);
-        let failure = Arc::new(OnceLock::new());
-        let failed = failure.clone();
+        let shared = Arc::new(SharedWithWriter::default());
+        let of_thread = shared.clone();
         let thread = std::thread::spawn(move || {
-            if let Err(error) = write_log(&recording, &inbox, &reports) {
-                // `LogWriter::write` reports the failure.
-                let _ = failed.set(error.to_string());
-            }
+            // `LogWriter::write` reports the failure.
+            write_log(&recording, &inbox, &of_thread, &reports)
+                .unwrap_or_else(|error| of_thread.fail(&error));
         });
-        Some(Self { pieces, written: 0, bytes_max, failure, thread })
+        Some(Self { pieces, written: 0, bytes_max, shared, thread })
     }
 
     fn write(&mut self, bytes: Vec<u8>) -> Option<String> {
-        if let Some(line) = self.failure.get() {
+        if let Some(line) = self.shared.failure.get() {
             return Some(line.clone());
         }
         self.written += bytes.len() as u64;
@@ -251,6 +272,7 @@ impl LogWriter {
 fn write_log(
     recording: &RecordingTarget,
     inbox: &Receiver<Piece>,
+    shared: &SharedWithWriter,
     reports: &ReportsUnderWay,
 ) -> std::io::Result<()> {
     let path = match recording {
@@ -261,14 +283,19 @@ fn write_log(
     let mut file = File::create(&path)?;
     let mut reporter = recording.is_by_run().then(|| RunReporter::start(&path, report_file(&path), reports));
     for piece in inbox {
-        match piece {
+        let written = match piece {
+            // A log with a gap cannot be replayed.
+            Piece::Log(_) if shared.failure.get().is_some() => Ok(()),
             Piece::Log(bytes) => {
-                file.write_all(&bytes)?;
+                let written = file.write_all(&bytes);
                 reporter = reporter.filter(|reporter| reporter.feed(bytes));
+                written
             }
-            Piece::Facts(facts) => facts.write(&facts_file(&path))?,
-        }
+            Piece::Facts => shared.write_facts(&path),
+        };
+        written.unwrap_or_else(|error| shared.fail(&error));
     }
+    shared.write_facts(&path)?;
     file.sync_all()?;
     if let Some(reporter) = reporter {
         reporter.end();
@@ -307,6 +334,19 @@ mod tests {
         while controller.next_send().is_some() {}
         while controller.next_plan_request().is_some() {}
         recorder.keep(controller).collect()
+    }
+
+    #[test]
+    fn facts_that_found_no_room_are_written_at_the_end() {
+        let path = std::env::temp_dir().join(format!("lightbots-facts-{}.lblog", std::process::id()));
+        let (_, inbox) = sync_channel(1);
+        let shared = SharedWithWriter::default();
+        *shared.facts.lock().unwrap() = Some(RunFacts { show: "a".into(), ..RunFacts::default() });
+        let target = RecordingTarget::File(path.clone());
+        write_log(&target, &inbox, &shared, &ReportsUnderWay::default()).unwrap();
+        assert_eq!(RunFacts::read(&facts_file(&path)).unwrap().show, "a");
+        std::fs::remove_file(facts_file(&path)).unwrap();
+        std::fs::remove_file(path).unwrap();
     }
 
     #[test]

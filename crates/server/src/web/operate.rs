@@ -18,9 +18,9 @@ use super::state::Shared;
 use crate::broker_settings::Settings;
 use crate::sentences::capitalised;
 
-/// Longest message with an operation, bytes: room for usual certificates in `connect`. Bounds memory for hostile
-/// clients.
-pub const LONGEST: usize = 64 << 10;
+/// Longest message with an operation, bytes: room for the longest settings of a broker in `connect`, with line ends that
+/// take two bytes each. Bounds memory for hostile clients.
+pub const LONGEST: usize = 128 << 10;
 
 /// Why an operation was refused, and another operation that the screen may offer instead.
 type Refused = (String, Option<api::Choice>);
